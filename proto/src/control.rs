@@ -1,0 +1,131 @@
+//! Control messages: JSON text in both directions over a session's WebSocket.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::{command::Command, parameters::Parameters, problem::Problem};
+
+/// What a returning client still has (`RS1`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Resume {
+    /// The epoch of the frames it holds.
+    pub epoch: u32,
+    /// The generation of each chunk it holds, by chunk number.
+    pub generations: Vec<u32>,
+    /// How many rows it holds.
+    pub rows: u32,
+}
+
+/// From a client.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub enum ClientMessage {
+    /// The first message (`HS1`).
+    Hello {
+        /// [`crate::version::PROTOCOL_VERSION`].
+        protocol: u32,
+        /// A random key this client keeps across reconnections: 8 to 64 letters, digits, `-` or `_`.
+        client: String,
+        /// What it still holds of this session, if it returns.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        resume: Option<Resume>,
+    },
+    /// Something to do (`CM1`).
+    Command {
+        /// 1, 2, 3 … for each client key; sent again after a reconnection until acknowledged.
+        id: u32,
+        /// What to do.
+        command: Command,
+    },
+    /// The client has taken in frames up to this sequence (`FL1`).
+    Received {
+        /// The sequence of the newest frame.
+        sequence: u32,
+    },
+    /// Is the server there?
+    Ping {
+        /// Comes back in the pong.
+        nonce: u32,
+    },
+}
+
+/// Figures of the document as a whole, sent after each change.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct DocumentState {
+    /// The simulation step reached.
+    pub step: u32,
+    /// Living metamers.
+    pub metamers: u32,
+    /// Living axes with at least one metamer.
+    pub axes: u32,
+    /// Leaves.
+    pub leaves: u32,
+    /// The most metamers, dead ones included, this document may hold.
+    pub metamer_budget: u32,
+    /// Whether there is an operation to undo.
+    pub can_undo: bool,
+    /// Whether there is something to redo.
+    pub can_redo: bool,
+    /// Simulation steps still to be run for commands already accepted.
+    pub pending_steps: u32,
+    /// Clients connected, this one included.
+    pub people: u32,
+}
+
+/// From the server.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
+pub enum ServerMessage {
+    /// The answer to a hello (`HS2`).
+    Welcome {
+        /// [`crate::version::PROTOCOL_VERSION`].
+        protocol: u32,
+        /// The session's name, as in its link.
+        session: String,
+        /// The epoch of the frames that follow; generations of another epoch mean nothing.
+        epoch: u32,
+        /// Whether the client's resume was taken up; if not, it must forget its rows.
+        resumed: bool,
+        /// The highest command of this client that is durable; later ones must be sent again.
+        acknowledged: u32,
+        /// The parameters in force.
+        parameters: Box<Parameters>,
+        /// The document.
+        state: DocumentState,
+    },
+    /// Every command of this client up to `id` is durable (`CM2`).
+    Acknowledged {
+        /// The command.
+        id: u32,
+    },
+    /// A command was not done; nothing in the document changed (`CM3`).
+    Refused {
+        /// The command.
+        id: u32,
+        /// Why.
+        problem: Problem,
+    },
+    /// A message could not be read at all; nothing in the document changed.
+    Problem {
+        /// Why.
+        problem: Problem,
+    },
+    /// The document changed.
+    State {
+        /// The document.
+        state: DocumentState,
+    },
+    /// Someone changed the parameters.
+    Parameters {
+        /// The parameters in force.
+        parameters: Box<Parameters>,
+    },
+    /// The answer to a ping.
+    Pong {
+        /// The ping's.
+        nonce: u32,
+    },
+}

@@ -1,0 +1,437 @@
+//! Binary mesh deltas: rings of generalized cylinders as columns of a table with one row per metamer.
+//!
+//! A frame is a 16-byte header and a body of [`ChunkChange`]s. Rows are metamers in birth order; a chunk is
+//! [`CHUNK_ROWS`] consecutive rows with one generation. `PROTOCOL.md` gives the layout byte by byte (`FR`).
+
+use std::io::{Read, Write};
+
+use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
+
+use crate::varint;
+
+/// Rows in a full chunk.
+pub const CHUNK_ROWS: usize = 256;
+/// Steps of the position grid in one internode length.
+pub const POSITION_STEPS: f32 = 256.0;
+/// Radius of code 1, in internode lengths; code c means `MIN_RADIUS · e^((c − 1) · RADIUS_LOG_STEP)`, code 0 no ring.
+pub const MIN_RADIUS: f32 = 0.001;
+/// Ratio of neighbouring radius codes, as a natural logarithm.
+pub const RADIUS_LOG_STEP: f32 = 0.01;
+/// Bytes before the body.
+pub const HEADER_BYTES: usize = 16;
+/// The most bytes a body may unpack to (`FR2`).
+pub const MAX_BODY_BYTES: usize = 64 * 1024 * 1024;
+
+const VERSION: u8 = 1;
+const KIND_MESH_DELTA: u8 = 1;
+const CODEC_RAW: u8 = 0;
+const CODEC_DEFLATE: u8 = 1;
+const FLAG_CATCH_UP: u8 = 1;
+/// Bodies shorter than this travel raw: the compressor's overhead would eat the gain.
+const MIN_COMPRESSED_BYTES: usize = 64;
+
+/// One binary message.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// Frames of one epoch build on each other.
+    pub epoch: u32,
+    /// Number of this frame in its epoch.
+    pub sequence: u32,
+    /// Made for one client from the current state, not from the frame before.
+    pub catch_up: bool,
+    /// What to do, in this order.
+    pub changes: Vec<ChunkChange>,
+}
+
+/// A change to the table of rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ChunkChange {
+    /// Forget every row from `rows` on.
+    Truncate {
+        /// How many rows remain.
+        rows: u32,
+    },
+    /// A chunk as a whole.
+    Replace {
+        /// Which chunk.
+        chunk: u32,
+        /// Its generation from now on.
+        generation: u32,
+        /// All its rows, 1 to 256.
+        rows: Rows,
+    },
+    /// Rows behind those a chunk already has.
+    Append {
+        /// Which chunk.
+        chunk: u32,
+        /// Its generation from now on.
+        generation: u32,
+        /// How many rows it has so far.
+        start: u32,
+        /// The new rows.
+        rows: Rows,
+    },
+    /// New values in one column of some rows.
+    Patch {
+        /// Which chunk.
+        chunk: u32,
+        /// Its generation from now on.
+        generation: u32,
+        /// The rows within the chunk, ascending.
+        rows: Vec<u8>,
+        /// As many values as rows.
+        values: Values,
+    },
+}
+
+/// Names a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Column {
+    /// Which row this one grows from.
+    Parent = 0,
+    /// Where the metamer ends.
+    Position = 1,
+    /// How thick it is there.
+    Radius = 2,
+    /// Its leaves.
+    Foliage = 3,
+    /// The light it receives.
+    Light = 4,
+}
+
+/// Values of one column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// 0 for a seedling's first metamer, else `2 · (row − parent row) + (1 if lateral)`.
+    Parent(Vec<u32>),
+    /// Difference to the parent's position (to the origin without one), in steps of 1/256 internode.
+    Position(Vec<[i32; 3]>),
+    /// Radius code; 0: the metamer is dead and not drawn.
+    Radius(Vec<u16>),
+    /// Number of leaves in the low four bits, vigor from 0 (weak) to 15 in the high four.
+    Foliage(Vec<u8>),
+    /// Light exposure from 0 (dark) to 255 (full).
+    Light(Vec<u8>),
+}
+
+/// Whole rows, column by column; all columns have the same length.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Rows {
+    /// See [`Values::Parent`].
+    pub parent: Vec<u32>,
+    /// See [`Values::Position`].
+    pub position: Vec<[i32; 3]>,
+    /// See [`Values::Radius`].
+    pub radius: Vec<u16>,
+    /// See [`Values::Foliage`].
+    pub foliage: Vec<u8>,
+    /// See [`Values::Light`].
+    pub light: Vec<u8>,
+}
+
+/// Why bytes are not a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FrameError {
+    /// Fewer bytes than the header, or than a value needs.
+    #[error("the frame is cut short")]
+    Truncated,
+    /// Another version of the format.
+    #[error("frame version {0} is not 1")]
+    Version(u8),
+    /// Another kind of frame.
+    #[error("frame kind {0} is not 1, a mesh delta")]
+    Kind(u8),
+    /// A codec other than raw or deflate.
+    #[error("codec {0} is neither 0, raw, nor 1, deflate")]
+    Codec(u8),
+    /// A flag that has no meaning yet.
+    #[error("reserved flags {0:#04x} are set")]
+    Flags(u8),
+    /// The body does not unpack to the length the header states.
+    #[error("the body's length differs from the header's, or exceeds 64 MiB")]
+    Length,
+    /// An unknown change or column, or a count out of range.
+    #[error("the body is malformed")]
+    Body,
+}
+
+impl Rows {
+    /// How many rows.
+    pub fn len(&self) -> usize {
+        self.parent.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.parent.is_empty()
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        debug_assert!(self.is_consistent(), "all columns have one length");
+        varint::write(out, self.len() as u32);
+        write_column(out, &self.parent, |v| *v);
+        write_positions(out, &self.position);
+        write_column(out, &self.radius, |v| u32::from(*v));
+        out.extend_from_slice(&self.foliage);
+        out.extend_from_slice(&self.light);
+    }
+
+    fn read(bytes: &mut &[u8]) -> Result<Self, FrameError> {
+        let count = read_count(bytes)?;
+        Ok(Self {
+            parent: read_column(bytes, count, Some)?,
+            position: read_positions(bytes, count)?,
+            radius: read_column(bytes, count, |v| u16::try_from(v).ok())?,
+            foliage: read_bytes(bytes, count)?,
+            light: read_bytes(bytes, count)?,
+        })
+    }
+
+    fn is_consistent(&self) -> bool {
+        let n = self.len();
+        (self.position.len(), self.radius.len(), self.foliage.len(), self.light.len()) == (n, n, n, n)
+    }
+}
+
+impl Values {
+    /// How many values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Parent(v) => v.len(),
+            Self::Position(v) => v.len(),
+            Self::Radius(v) => v.len(),
+            Self::Foliage(v) | Self::Light(v) => v.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Which column they belong to.
+    pub fn column(&self) -> Column {
+        match self {
+            Self::Parent(_) => Column::Parent,
+            Self::Position(_) => Column::Position,
+            Self::Radius(_) => Column::Radius,
+            Self::Foliage(_) => Column::Foliage,
+            Self::Light(_) => Column::Light,
+        }
+    }
+
+    fn write(&self, out: &mut Vec<u8>) {
+        match self {
+            Self::Parent(v) => write_column(out, v, |v| *v),
+            Self::Position(v) => write_positions(out, v),
+            Self::Radius(v) => write_column(out, v, |v| u32::from(*v)),
+            Self::Foliage(v) | Self::Light(v) => out.extend_from_slice(v),
+        }
+    }
+
+    fn read(bytes: &mut &[u8], column: u8, count: usize) -> Result<Self, FrameError> {
+        Ok(match column {
+            0 => Self::Parent(read_column(bytes, count, Some)?),
+            1 => Self::Position(read_positions(bytes, count)?),
+            2 => Self::Radius(read_column(bytes, count, |v| u16::try_from(v).ok())?),
+            3 => Self::Foliage(read_bytes(bytes, count)?),
+            4 => Self::Light(read_bytes(bytes, count)?),
+            _ => return Err(FrameError::Body),
+        })
+    }
+}
+
+const TRUNCATE: u8 = 1;
+const REPLACE: u8 = 2;
+const APPEND: u8 = 3;
+const PATCH: u8 = 4;
+
+impl ChunkChange {
+    fn write(&self, out: &mut Vec<u8>) {
+        match self {
+            Self::Truncate { rows } => {
+                out.push(TRUNCATE);
+                varint::write(out, *rows);
+            }
+            Self::Replace { chunk, generation, rows } => {
+                out.push(REPLACE);
+                varint::write(out, *chunk);
+                varint::write(out, *generation);
+                rows.write(out);
+            }
+            Self::Append { chunk, generation, start, rows } => {
+                out.push(APPEND);
+                varint::write(out, *chunk);
+                varint::write(out, *generation);
+                varint::write(out, *start);
+                rows.write(out);
+            }
+            Self::Patch { chunk, generation, rows, values } => {
+                debug_assert_eq!(rows.len(), values.len(), "one value a row");
+                out.push(PATCH);
+                varint::write(out, *chunk);
+                varint::write(out, *generation);
+                out.push(values.column() as u8);
+                varint::write(out, rows.len() as u32);
+                let mut next = 0;
+                for &row in rows {
+                    varint::write(out, u32::from(row) - next);
+                    next = u32::from(row) + 1;
+                }
+                values.write(out);
+            }
+        }
+    }
+
+    fn read(bytes: &mut &[u8]) -> Result<Self, FrameError> {
+        let kind = read_byte(bytes)?;
+        let first = read_varint(bytes)?;
+        if kind == TRUNCATE {
+            return Ok(Self::Truncate { rows: first });
+        }
+        let (chunk, generation) = (first, read_varint(bytes)?);
+        match kind {
+            REPLACE => Ok(Self::Replace { chunk, generation, rows: Rows::read(bytes)? }),
+            APPEND => {
+                let start = read_varint(bytes)?;
+                let rows = Rows::read(bytes)?;
+                let fits = (start as usize).checked_add(rows.len()).is_some_and(|end| end <= CHUNK_ROWS);
+                if fits { Ok(Self::Append { chunk, generation, start, rows }) } else { Err(FrameError::Body) }
+            }
+            PATCH => {
+                let column = read_byte(bytes)?;
+                let count = read_count(bytes)?;
+                let mut rows = Vec::with_capacity(count);
+                let mut next = 0u32;
+                for _ in 0..count {
+                    let row = next.checked_add(read_varint(bytes)?).ok_or(FrameError::Body)?;
+                    rows.push(u8::try_from(row).map_err(|_| FrameError::Body)?);
+                    next = row + 1;
+                }
+                Ok(Self::Patch { chunk, generation, rows, values: Values::read(bytes, column, count)? })
+            }
+            _ => Err(FrameError::Body),
+        }
+    }
+}
+
+impl Frame {
+    /// The frame as bytes; the body is deflated where that makes it shorter.
+    pub fn encode(&self) -> Vec<u8> {
+        let mut body = Vec::new();
+        for change in &self.changes {
+            change.write(&mut body);
+        }
+        let packed = if body.len() >= MIN_COMPRESSED_BYTES { deflate(&body) } else { None };
+        let (codec, payload) = match &packed {
+            Some(packed) if packed.len() < body.len() => (CODEC_DEFLATE, packed),
+            _ => (CODEC_RAW, &body),
+        };
+        let mut out = Vec::with_capacity(HEADER_BYTES + payload.len());
+        out.extend_from_slice(&[VERSION, KIND_MESH_DELTA, codec, if self.catch_up { FLAG_CATCH_UP } else { 0 }]);
+        out.extend_from_slice(&self.epoch.to_le_bytes());
+        out.extend_from_slice(&self.sequence.to_le_bytes());
+        out.extend_from_slice(&(body.len() as u32).to_le_bytes());
+        out.extend_from_slice(payload);
+        out
+    }
+
+    /// Reads a frame; any bytes at all give a frame or an error.
+    pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
+        let (header, payload) = bytes.split_at_checked(HEADER_BYTES).ok_or(FrameError::Truncated)?;
+        let &[version, kind, codec, flags, ..] = header else { return Err(FrameError::Truncated) };
+        if version != VERSION {
+            return Err(FrameError::Version(version));
+        }
+        if kind != KIND_MESH_DELTA {
+            return Err(FrameError::Kind(kind));
+        }
+        if flags & !FLAG_CATCH_UP != 0 {
+            return Err(FrameError::Flags(flags));
+        }
+        let word = |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
+        let length = word(12) as usize;
+        if length > MAX_BODY_BYTES {
+            return Err(FrameError::Length);
+        }
+        let unpacked;
+        let mut body = match codec {
+            CODEC_RAW => payload,
+            CODEC_DEFLATE => {
+                unpacked = inflate(payload, length)?;
+                &unpacked
+            }
+            other => return Err(FrameError::Codec(other)),
+        };
+        if body.len() != length {
+            return Err(FrameError::Length);
+        }
+        let mut changes = Vec::new();
+        while !body.is_empty() {
+            changes.push(ChunkChange::read(&mut body)?);
+        }
+        Ok(Self { epoch: word(4), sequence: word(8), catch_up: flags & FLAG_CATCH_UP != 0, changes })
+    }
+}
+
+fn deflate(body: &[u8]) -> Option<Vec<u8>> {
+    let mut encoder = DeflateEncoder::new(Vec::with_capacity(body.len() / 2), Compression::new(4));
+    encoder.write_all(body).ok()?;
+    encoder.finish().ok()
+}
+
+fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
+    // One byte more than promised is enough to see that the promise was false.
+    let mut out = Vec::new();
+    DeflateDecoder::new(payload).take(length as u64 + 1).read_to_end(&mut out).map_err(|_| FrameError::Length)?;
+    Ok(out)
+}
+
+fn write_column<T>(out: &mut Vec<u8>, values: &[T], code: impl Fn(&T) -> u32) {
+    for value in values {
+        varint::write(out, code(value));
+    }
+}
+
+/// All x, then all y, then all z: like stands beside like, which packs better.
+fn write_positions(out: &mut Vec<u8>, positions: &[[i32; 3]]) {
+    for axis in 0..3 {
+        write_column(out, positions, |p| varint::zigzag(p[axis]));
+    }
+}
+
+fn read_byte(bytes: &mut &[u8]) -> Result<u8, FrameError> {
+    let (&byte, rest) = bytes.split_first().ok_or(FrameError::Truncated)?;
+    *bytes = rest;
+    Ok(byte)
+}
+
+fn read_varint(bytes: &mut &[u8]) -> Result<u32, FrameError> {
+    varint::read(bytes).ok_or(FrameError::Truncated)
+}
+
+fn read_count(bytes: &mut &[u8]) -> Result<usize, FrameError> {
+    let count = read_varint(bytes)? as usize;
+    if (1..=CHUNK_ROWS).contains(&count) { Ok(count) } else { Err(FrameError::Body) }
+}
+
+fn read_bytes(bytes: &mut &[u8], count: usize) -> Result<Vec<u8>, FrameError> {
+    let (taken, rest) = bytes.split_at_checked(count).ok_or(FrameError::Truncated)?;
+    *bytes = rest;
+    Ok(taken.to_vec())
+}
+
+fn read_column<T>(bytes: &mut &[u8], count: usize, parse: impl Fn(u32) -> Option<T>) -> Result<Vec<T>, FrameError> {
+    (0..count).map(|_| parse(read_varint(bytes)?).ok_or(FrameError::Body)).collect()
+}
+
+fn read_positions(bytes: &mut &[u8], count: usize) -> Result<Vec<[i32; 3]>, FrameError> {
+    let mut positions = vec![[0; 3]; count];
+    for axis in 0..3 {
+        for position in &mut positions {
+            position[axis] = varint::unzigzag(read_varint(bytes)?);
+        }
+    }
+    Ok(positions)
+}

@@ -1,0 +1,73 @@
+//! What went wrong, in words a person can act on.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// What kind of refusal this is; programs branch on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum ProblemCode {
+    /// The message is not JSON of a known shape.
+    Malformed,
+    /// A value lies outside its range.
+    OutOfRange,
+    /// Too many of something in one message.
+    TooMany,
+    /// The command is well formed but cannot be done to this document now.
+    Refused,
+    /// There is no such session, tree or stroke.
+    NotFound,
+    /// The server could not keep its promise (a full disk, say); nothing was changed.
+    Unavailable,
+}
+
+/// One error, as it is sent to a client and printed by the command line.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Problem {
+    /// The kind of refusal.
+    pub code: ProblemCode,
+    /// The field at fault, as a path: `samples[3].radius`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub field: Option<String>,
+    /// What is allowed there: `0 to 40`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub allowed: Option<String>,
+    /// A sentence that says what was wrong.
+    pub message: String,
+}
+
+impl Problem {
+    /// A problem without a field.
+    pub fn new(code: ProblemCode, message: impl Into<String>) -> Self {
+        Self { code, field: None, allowed: None, message: message.into() }
+    }
+
+    /// A value outside its range.
+    pub fn out_of_range(field: impl Into<String>, value: impl std::fmt::Display, allowed: impl Into<String>) -> Self {
+        let (field, allowed) = (field.into(), allowed.into());
+        let message = format!("{field} is {value}; allowed: {allowed}");
+        Self { code: ProblemCode::OutOfRange, field: Some(field), allowed: Some(allowed), message }
+    }
+
+    /// The same problem with its field inside `outer`: `radius` becomes `samples[3].radius`.
+    #[must_use]
+    pub fn within(mut self, outer: &str) -> Self {
+        if let Some(field) = &mut self.field {
+            let inner = field.clone();
+            *field = format!("{outer}.{inner}");
+            self.message = self.message.replacen(&inner, field, 1);
+        }
+        self
+    }
+}
+
+impl std::fmt::Display for Problem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Problem {}

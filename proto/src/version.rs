@@ -1,0 +1,41 @@
+//! The protocol's version, its limits, and the codes a socket closes with.
+
+/// The version of everything in this crate; a client states it in its hello (`HS1`).
+pub const PROTOCOL_VERSION: u32 = 1;
+
+/// The largest WebSocket message a client may send, in bytes (`LM1`).
+pub const MAX_MESSAGE_BYTES: usize = 256 * 1024;
+
+/// The largest number of samples in one `stroke_move` (`LM2`).
+pub const MAX_STROKE_SAMPLES: usize = 256;
+
+/// The largest number of steps in one `grow` or `ungrow` (`LM3`).
+pub const MAX_STEPS_PER_COMMAND: u32 = 1000;
+
+/// Why the server closes a socket. Standard codes below 4000 keep their meaning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u16)]
+pub enum CloseCode {
+    /// The server is stopping; reconnect with backoff.
+    GoingAway = 1001,
+    /// A message was larger than [`MAX_MESSAGE_BYTES`].
+    MessageTooBig = 1009,
+    /// The server failed to keep the session; reconnect with backoff.
+    InternalError = 1011,
+    /// The client speaks another protocol version: load the page again.
+    VersionMismatch = 4000,
+    /// The first message was not a hello, or none came in time.
+    HelloExpected = 4001,
+    /// The client does not read its control messages.
+    TooSlow = 4002,
+    /// There is no such session.
+    UnknownSession = 4003,
+    /// The same client key connected again; this older socket ends.
+    Replaced = 4004,
+}
+
+impl From<CloseCode> for u16 {
+    fn from(code: CloseCode) -> Self {
+        code as Self
+    }
+}
