@@ -103,7 +103,7 @@ pub enum Column {
 /// Values of one column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Values {
-    /// 0 for a seedling's first metamer, else `2 · (row − parent row) + (1 if lateral)`.
+    /// 0 for a seed, else `2 · (row − parent row) + (1 if it begins an axis)`.
     Parent(Vec<u32>),
     /// Difference to the parent's position (to the origin without one), in steps of 1/256 internode.
     Position(Vec<[i32; 3]>),

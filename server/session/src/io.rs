@@ -1,0 +1,84 @@
+//! What goes into a session and what comes out: the whole boundary of the state machine.
+
+use std::sync::Arc;
+
+use espalier_proto::version::CloseCode;
+
+use crate::work::Work;
+
+/// Names one connection; the shell numbers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ClientId(pub u64);
+
+/// Names one request for the document's bytes; the shell numbers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ReadId(pub u64);
+
+/// Something happened.
+#[derive(Debug)]
+pub enum Input {
+    /// A socket opened.
+    Connected(ClientId),
+    /// A text message came.
+    Text(ClientId, String),
+    /// A binary message came; there are none from clients, so it is answered with a problem.
+    Binary(ClientId),
+    /// A socket is gone.
+    Disconnected(ClientId),
+    /// Journal entries up to this number are durable.
+    Journaled(u64),
+    /// The journal could not be written; nothing after the last `Journaled` is durable.
+    JournalFailed(String),
+    /// A piece of work came back from the simulation pool.
+    Worked(Box<Work>),
+    /// Someone outside wants the document as it is (to save it, to export it).
+    Read(ReadId),
+    /// The time asked for by `WakeAt` has come.
+    Woken,
+}
+
+/// Something to do.
+#[derive(Debug)]
+pub enum Output {
+    /// Send a control message.
+    Text(ClientId, Arc<str>),
+    /// Send a mesh delta.
+    Frame(ClientId, Arc<[u8]>),
+    /// Close a socket; a sentence for people goes with the code.
+    Close(ClientId, CloseCode, String),
+    /// Write these entries; answer with `Journaled` or `JournalFailed`.
+    Journal(Vec<JournalEntry>),
+    /// Run `work.run()` away from the network, then answer with `Worked`.
+    Work(Box<Work>),
+    /// Keep this snapshot; entries up to `through` need no replay any more.
+    Snapshot {
+        /// The last journal entry it contains.
+        through: u64,
+        /// The session as bytes, for [`crate::Session::restore`].
+        bytes: Vec<u8>,
+    },
+    /// The document's bytes for a `Read`.
+    Document {
+        /// Whose answer this is.
+        read: ReadId,
+        /// For [`crate::Document::from_bytes`].
+        bytes: Vec<u8>,
+        /// Living metamers, for lists.
+        metamers: u32,
+    },
+    /// Answer with `Woken` at this time, in milliseconds of the clock handed to `handle`.
+    WakeAt(u64),
+}
+
+/// One line of the journal.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JournalEntry {
+    /// 1, 2, 3 … within the session.
+    pub number: u64,
+    /// Who did it: the client's key, or empty for the session itself.
+    pub client: String,
+    /// The client's number for it; 0 for the session itself.
+    pub id: u32,
+    /// The command as JSON.
+    pub command: String,
+}
