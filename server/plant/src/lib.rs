@@ -1,1 +1,23 @@
-//! Placeholder.
+//! What a plant is, however it came to be.
+//!
+//! A [`Plant`] is an arena of metamers in birth order: parents stand before their children, so one backward
+//! loop visits tips before bases and one forward loop bases before tips. An axis is a bud and what it has
+//! grown; a bud that has not grown yet is an axis without metamers. Every row carries the step of its birth
+//! and of its death, and the plant keeps its whole timeline: going back and forth in time only moves a cursor.
+
+pub mod axes;
+pub mod checks;
+pub mod girth;
+pub mod hash;
+pub mod id;
+pub mod metamers;
+pub mod parts;
+pub mod plant;
+pub mod timeline;
+
+pub use axes::Axes;
+pub use girth::Girth;
+pub use id::{AxisId, MetamerId};
+pub use parts::{BrokenPlant, PlantParts};
+pub use metamers::{Appearance, Metamers};
+pub use plant::{Internode, Plant};

@@ -1,0 +1,74 @@
+//! The columns of axes.
+
+use glam::Vec3;
+
+use crate::{
+    id::{AxisId, MetamerId},
+    metamers::ALIVE,
+};
+
+/// Axes as parallel columns; each is the bud at its tip and the metamers behind it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axes {
+    pub(crate) bearer: Vec<MetamerId>,
+    pub(crate) first: Vec<MetamerId>,
+    pub(crate) last: Vec<MetamerId>,
+    pub(crate) direction: Vec<Vec3>,
+    pub(crate) order: Vec<u32>,
+    pub(crate) birth: Vec<u32>,
+    pub(crate) death: Vec<u32>,
+}
+
+impl Axes {
+    pub(crate) fn push(&mut self, bearer: MetamerId, direction: Vec3, order: u32, birth: u32) -> AxisId {
+        let id = AxisId::new(self.bearer.len());
+        self.bearer.push(bearer);
+        self.first.push(MetamerId::NONE);
+        self.last.push(MetamerId::NONE);
+        self.direction.push(direction);
+        self.order.push(order);
+        self.birth.push(birth);
+        self.death.push(ALIVE);
+        id
+    }
+
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.bearer.truncate(len);
+        self.first.truncate(len);
+        self.last.truncate(len);
+        self.direction.truncate(len);
+        self.order.truncate(len);
+        self.birth.truncate(len);
+        self.death.truncate(len);
+    }
+
+    /// The metamer whose node bears this axis; none for a trunk, which begins with its seed.
+    pub fn bearer(&self, id: AxisId) -> Option<MetamerId> {
+        self.bearer[id.index()].some()
+    }
+
+    /// Its first metamer (a trunk's is its seed); none while it is a bud.
+    pub fn first(&self, id: AxisId) -> Option<MetamerId> {
+        self.first[id.index()].some()
+    }
+
+    /// The metamer at its tip; none while it is a bud.
+    pub fn last(&self, id: AxisId) -> Option<MetamerId> {
+        self.last[id.index()].some()
+    }
+
+    /// Unit direction in which the bud was laid down.
+    pub fn direction(&self, id: AxisId) -> Vec3 {
+        self.direction[id.index()]
+    }
+
+    /// Branching order: 0 for trunks.
+    pub fn order(&self, id: AxisId) -> u32 {
+        self.order[id.index()]
+    }
+
+    /// The step in which its bud was born.
+    pub fn birth(&self, id: AxisId) -> u32 {
+        self.birth[id.index()]
+    }
+}

@@ -1,0 +1,43 @@
+//! Positions are finite; headings and normals are unit vectors across each other.
+
+use glam::Vec3;
+
+use super::{Failure, require};
+use crate::{
+    id::{AxisId, MetamerId},
+    plant::Plant,
+};
+
+const TOLERANCE: f32 = 1e-3;
+
+pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
+    let is_unit = |v: Vec3| (v.length_squared() - 1.0).abs() < TOLERANCE;
+    for index in 0..plant.metamer_count() {
+        let id = MetamerId::new(index);
+        let (end, normal) = (plant.metamers().end(id), plant.metamers().normal(id));
+        require("finite_frames", end.is_finite() && is_unit(normal), || format!("metamer {index} has no frame"))?;
+        if plant.is_seed(id) {
+            continue;
+        }
+        let heading = plant.heading(id);
+        let square = is_unit(heading) && heading.dot(normal).abs() < TOLERANCE;
+        require("finite_frames", square, || format!("metamer {index}: heading {heading} and normal {normal}"))?;
+    }
+    for index in 0..plant.axis_count() {
+        let direction = plant.axes().direction(AxisId::new(index));
+        require("finite_frames", is_unit(direction), || format!("the bud of axis {index} points nowhere"))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::checks;
+
+    #[test]
+    fn skewed_normal_fails() {
+        let mut plant = checks::tests_support::sapling();
+        plant.metamers.normal[2] = glam::Vec3::Y;
+        assert_eq!(checks::all(&plant).map_err(|f| f.check), Err("finite_frames"));
+    }
+}

@@ -1,0 +1,34 @@
+//! Each metamer carries as many tips as axes with wood begin on it or above, the shed ones included.
+
+use super::{Failure, require};
+use crate::{id::MetamerId, plant::Plant};
+
+pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
+    let mut carried = vec![0u32; plant.metamer_count()];
+    for index in (0..plant.metamer_count()).rev() {
+        let id = MetamerId::new(index);
+        let m = plant.metamers();
+        if plant.axes().last(m.axis(id)) == Some(id) && !plant.is_seed(id) {
+            carried[index] += 1;
+        }
+        if let Some(parent) = m.parent(id) {
+            carried[parent.index()] += carried[index];
+        }
+        require("tips_add_up", carried[index] == m.tips(id), || {
+            format!("metamer {index} carries {} tips, not {}", carried[index], m.tips(id))
+        })?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::checks;
+
+    #[test]
+    fn forgotten_tip_fails() {
+        let mut plant = checks::tests_support::sapling();
+        plant.metamers.tips[1] += 1;
+        assert_eq!(checks::all(&plant).map_err(|f| f.check), Err("tips_add_up"));
+    }
+}

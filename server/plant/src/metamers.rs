@@ -1,0 +1,100 @@
+//! The columns of metamers.
+
+use glam::Vec3;
+
+use crate::id::{AxisId, MetamerId};
+
+/// The step of death of what is alive.
+pub(crate) const ALIVE: u32 = u32::MAX;
+
+/// How a metamer looks beyond its form: written by whatever grows the plant, read by whatever draws it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Appearance {
+    /// Light exposure, 0 dark to 255 full.
+    pub light: u8,
+    /// Vigor relative to the most vigorous bud, 0 to 255.
+    pub vigor: u8,
+}
+
+/// Metamers as parallel columns. The seed of each plant is a metamer without length.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Metamers {
+    pub(crate) parent: Vec<MetamerId>,
+    pub(crate) axis: Vec<AxisId>,
+    pub(crate) birth: Vec<u32>,
+    pub(crate) death: Vec<u32>,
+    pub(crate) end: Vec<Vec3>,
+    pub(crate) normal: Vec<Vec3>,
+    pub(crate) tips: Vec<u32>,
+    pub(crate) appearance: Vec<Appearance>,
+}
+
+/// One row of [`Metamers`], to append.
+pub(crate) struct Row {
+    pub parent: MetamerId,
+    pub axis: AxisId,
+    pub birth: u32,
+    pub end: Vec3,
+    pub normal: Vec3,
+}
+
+impl Metamers {
+    pub(crate) fn push(&mut self, row: &Row) -> MetamerId {
+        let id = MetamerId::new(self.parent.len());
+        self.parent.push(row.parent);
+        self.axis.push(row.axis);
+        self.birth.push(row.birth);
+        self.death.push(ALIVE);
+        self.end.push(row.end);
+        self.normal.push(row.normal);
+        self.tips.push(0);
+        self.appearance.push(Appearance { light: 255, vigor: 255 });
+        id
+    }
+
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.parent.truncate(len);
+        self.axis.truncate(len);
+        self.birth.truncate(len);
+        self.death.truncate(len);
+        self.end.truncate(len);
+        self.normal.truncate(len);
+        self.tips.truncate(len);
+        self.appearance.truncate(len);
+    }
+
+    /// The metamer this one grows from; none for a seed.
+    pub fn parent(&self, id: MetamerId) -> Option<MetamerId> {
+        self.parent[id.index()].some()
+    }
+
+    /// The axis this metamer belongs to.
+    pub fn axis(&self, id: MetamerId) -> AxisId {
+        self.axis[id.index()]
+    }
+
+    /// The step in which it was born.
+    pub fn birth(&self, id: MetamerId) -> u32 {
+        self.birth[id.index()]
+    }
+
+    /// Where its node is; a seed's own place.
+    pub fn end(&self, id: MetamerId) -> Vec3 {
+        self.end[id.index()]
+    }
+
+    /// Unit vector across the metamer towards its node's first lateral bud.
+    pub fn normal(&self, id: MetamerId) -> Vec3 {
+        self.normal[id.index()]
+    }
+
+    /// Twig tips this metamer has ever carried, pruned ones taken off (see [`crate::girth`]).
+    pub fn tips(&self, id: MetamerId) -> u32 {
+        self.tips[id.index()]
+    }
+
+    /// How it looks.
+    pub fn appearance(&self, id: MetamerId) -> Appearance {
+        self.appearance[id.index()]
+    }
+}

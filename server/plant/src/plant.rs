@@ -1,0 +1,426 @@
+//! The arena: plants growing, losing branches, and travelling in time.
+
+use glam::Vec3;
+
+use crate::{
+    axes::Axes,
+    hash::StableHash,
+    id::{AxisId, MetamerId},
+    metamers::{ALIVE, Appearance, Metamers, Row},
+    timeline::{StepEnd, Timeline},
+};
+
+/// One or several plants in one scene, with their whole history.
+///
+/// Rows beyond the present are the future that was gone back from; it stays until something new is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plant {
+    pub(crate) metamers: Metamers,
+    pub(crate) axes: Axes,
+    pub(crate) timeline: Timeline,
+    /// Wraps while parts from outside are tried out; the checks compare it with a count.
+    pub(crate) living: u32,
+}
+
+/// What the bud of an axis adds to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Internode<'a> {
+    /// Where the new node is.
+    pub end: Vec3,
+    /// Unit vector across the internode towards the first lateral bud.
+    pub normal: Vec3,
+    /// Unit directions of the lateral buds at the new node.
+    pub laterals: &'a [Vec3],
+}
+
+/// What a move in time did, for whoever keeps structures derived from the plant.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TimeShift {
+    /// Metamers that are alive now and were not before.
+    pub metamers_in: Vec<MetamerId>,
+    /// Metamers that were alive before and are not now.
+    pub metamers_out: Vec<MetamerId>,
+}
+
+impl Plant {
+    /// One seed at `position`, in step 0.
+    pub fn new(position: Vec3) -> Self {
+        let mut plant = Self {
+            metamers: Metamers::default(),
+            axes: Axes::default(),
+            timeline: Timeline { recording: true, ..Timeline::default() },
+            living: 0,
+        };
+        plant.sow(position);
+        plant.end_step();
+        plant
+    }
+
+    /// The columns of metamers. Rows at [`Plant::metamer_count`] and beyond are not in the present.
+    pub fn metamers(&self) -> &Metamers {
+        &self.metamers
+    }
+
+    /// The columns of axes. Rows at [`Plant::axis_count`] and beyond are not in the present.
+    pub fn axes(&self) -> &Axes {
+        &self.axes
+    }
+
+    /// Metamers ever born up to the present, seeds and the dead included.
+    pub fn metamer_count(&self) -> usize {
+        if self.timeline.recording { self.metamers.parent.len() } else { self.timeline.present().metamers as usize }
+    }
+
+    /// Axes ever born up to the present, buds and the dead included.
+    pub fn axis_count(&self) -> usize {
+        if self.timeline.recording { self.axes.bearer.len() } else { self.timeline.present().axes as usize }
+    }
+
+    /// Living metamers, seeds not counted.
+    pub fn living_count(&self) -> u32 {
+        self.living
+    }
+
+    /// The present step.
+    pub fn step(&self) -> u32 {
+        self.timeline.now
+    }
+
+    /// The last step recorded; beyond [`Plant::step`] if the plant has gone back in time.
+    pub fn last_step(&self) -> u32 {
+        self.timeline.ends.len() as u32 - 1
+    }
+
+    /// Rows of metamers the plant holds in memory, its future included.
+    pub fn row_count(&self) -> usize {
+        self.metamers.parent.len()
+    }
+
+    /// Whether a metamer of the present is alive.
+    pub fn is_alive(&self, id: MetamerId) -> bool {
+        self.metamers.death[id.index()] > self.timeline.now
+    }
+
+    /// Whether an axis of the present is alive.
+    pub fn is_axis_alive(&self, id: AxisId) -> bool {
+        self.axes.death[id.index()] > self.timeline.now
+    }
+
+    /// Whether a metamer is a seed: a point where a trunk begins.
+    pub fn is_seed(&self, id: MetamerId) -> bool {
+        self.metamers.parent[id.index()] == MetamerId::NONE
+    }
+
+    /// Unit direction of a metamer; its trunk's first direction for a seed.
+    pub fn heading(&self, id: MetamerId) -> Vec3 {
+        match self.metamers.parent(id) {
+            Some(parent) => (self.metamers.end(id) - self.metamers.end(parent)).normalize(),
+            None => self.axes.direction(self.metamers.axis(id)),
+        }
+    }
+
+    /// The metamer at whose node the bud of an axis sits.
+    pub fn bud_node(&self, id: AxisId) -> MetamerId {
+        let last = self.axes.last[id.index()];
+        if last == MetamerId::NONE { self.axes.bearer[id.index()] } else { last }
+    }
+
+    /// Where the bud of an axis is.
+    pub fn bud_position(&self, id: AxisId) -> Vec3 {
+        self.metamers.end(self.bud_node(id))
+    }
+
+    /// Unit direction in which the bud of an axis points.
+    pub fn bud_direction(&self, id: AxisId) -> Vec3 {
+        match self.axes.last(id) {
+            Some(last) => self.heading(last),
+            None => self.axes.direction(id),
+        }
+    }
+
+    /// Whether an axis has grown at least one metamer (a seed is none).
+    pub fn has_grown(&self, id: AxisId) -> bool {
+        self.axes.last(id).is_some_and(|last| !self.is_seed(last))
+    }
+
+    /// Starts a new step; whatever future there was is forgotten.
+    ///
+    /// # Panics
+    /// If a step is being recorded already.
+    pub fn begin_step(&mut self) {
+        assert!(!self.timeline.recording, "steps do not nest");
+        let present = self.timeline.present();
+        self.metamers.truncate(present.metamers as usize);
+        self.axes.truncate(present.axes as usize);
+        if self.timeline.losses.len() > present.losses as usize {
+            // Rows of the present that would have died in the forgotten future live on.
+            forget_deaths(&mut self.metamers.death, self.timeline.now);
+            forget_deaths(&mut self.axes.death, self.timeline.now);
+        }
+        self.timeline.losses.truncate(present.losses as usize);
+        self.timeline.ends.truncate(self.timeline.now as usize + 1);
+        self.timeline.now += 1;
+        self.timeline.recording = true;
+    }
+
+    /// Ends the step.
+    pub fn end_step(&mut self) {
+        debug_assert!(self.timeline.recording, "end_step follows begin_step");
+        self.timeline.ends.push(StepEnd {
+            metamers: self.metamers.parent.len() as u32,
+            axes: self.axes.bearer.len() as u32,
+            losses: self.timeline.losses.len() as u32,
+        });
+        self.timeline.recording = false;
+    }
+
+    /// Plants a seed, within a step.
+    pub fn sow(&mut self, position: Vec3) -> AxisId {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        let axis = self.axes.push(MetamerId::NONE, Vec3::Y, 0, self.timeline.now);
+        let seed = self.metamers.push(&Row {
+            parent: MetamerId::NONE,
+            axis,
+            birth: self.timeline.now,
+            end: position,
+            normal: Vec3::X,
+        });
+        self.axes.first[axis.index()] = seed;
+        self.axes.last[axis.index()] = seed;
+        axis
+    }
+
+    /// Lets the bud of an axis add one internode, within a step.
+    pub fn extend(&mut self, axis: AxisId, internode: &Internode<'_>) -> MetamerId {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        debug_assert!(self.is_axis_alive(axis), "a dead bud does not grow");
+        let step = self.timeline.now;
+        let parent = self.bud_node(axis);
+        let id = self.metamers.push(&Row {
+            parent,
+            axis,
+            birth: step,
+            end: internode.end,
+            normal: internode.normal,
+        });
+        self.link(id);
+        self.living = self.living.wrapping_add(1);
+        let order = self.axes.order(axis) + 1;
+        for &direction in internode.laterals {
+            self.axes.push(id, direction, order, step);
+        }
+        id
+    }
+
+    /// Sheds the branch that begins with `axis`, within a step; its girth stays in the wood below.
+    pub fn shed(&mut self, axis: AxisId) -> Vec<MetamerId> {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        let now = self.timeline.now;
+        let (metamers, axes) = self.branch(axis);
+        self.timeline.losses.push(axis);
+        for id in axes {
+            self.axes.death[id.index()] = now;
+        }
+        for &id in &metamers {
+            self.metamers.death[id.index()] = now;
+        }
+        self.living = self.living.wrapping_sub(metamers.len() as u32);
+        metamers
+    }
+
+    /// Everything alive that a branch consists of: its metamers and its axes, buds included, in birth order.
+    pub fn branch(&self, root: AxisId) -> (Vec<MetamerId>, Vec<AxisId>) {
+        let mut axes = vec![root];
+        let mut metamers = Vec::new();
+        let Some(first) = self.axes.first(root) else { return (metamers, axes) };
+        let mut inside = vec![false; self.metamer_count() - first.index()];
+        for index in first.index()..self.metamer_count() {
+            let id = MetamerId::new(index);
+            let parent = self.metamers.parent[index];
+            let within = id == first
+                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
+            if within && self.is_alive(id) {
+                inside[index - first.index()] = true;
+                metamers.push(id);
+            }
+        }
+        for index in root.index() + 1..self.axis_count() {
+            let bearer = self.axes.bearer[index];
+            if bearer != MetamerId::NONE
+                && bearer >= first
+                && inside[bearer.index() - first.index()]
+                && self.is_axis_alive(AxisId::new(index))
+            {
+                axes.push(AxisId::new(index));
+            }
+        }
+        (metamers, axes)
+    }
+
+    /// Goes to a step that is recorded: back, or forth again.
+    ///
+    /// # Panics
+    /// If the step was never recorded, or one is being recorded.
+    pub fn go_to(&mut self, step: u32) -> TimeShift {
+        assert!(step <= self.last_step(), "step {step} lies beyond the last recorded one");
+        assert!(!self.timeline.recording, "time stands still within a step");
+        let mut shift = TimeShift::default();
+        while self.timeline.now > step {
+            self.step_back(&mut shift);
+        }
+        while self.timeline.now < step {
+            self.step_forth(&mut shift);
+        }
+        shift
+    }
+
+    /// Lives through the recorded steps from a plant whose rows are filled but not linked yet.
+    pub(crate) fn replay(&mut self, now: u32) {
+        for index in 0..self.timeline.present().metamers {
+            let id = MetamerId::new(index as usize);
+            self.link(id);
+            self.living += u32::from(!self.is_seed(id));
+        }
+        self.go_to(now);
+    }
+
+    fn step_back(&mut self, shift: &mut TimeShift) {
+        let now = self.timeline.now;
+        let (before, end) = (self.timeline.before(now), self.timeline.present());
+        for index in (before.metamers..end.metamers).rev() {
+            let id = MetamerId::new(index as usize);
+            if !self.is_seed(id) {
+                shift.metamers_out.push(id);
+                self.living = self.living.wrapping_sub(1);
+            }
+            self.unlink(id);
+        }
+        self.timeline.now = now - 1;
+        for index in (before.losses..end.losses).rev() {
+            for id in self.lost_with(self.timeline.losses[index as usize], now) {
+                shift.metamers_in.push(id);
+                self.living = self.living.wrapping_add(1);
+            }
+        }
+    }
+
+    fn step_forth(&mut self, shift: &mut TimeShift) {
+        let before = self.timeline.present();
+        self.timeline.now += 1;
+        let end = self.timeline.present();
+        for index in before.losses..end.losses {
+            for id in self.lost_with(self.timeline.losses[index as usize], self.timeline.now) {
+                shift.metamers_out.push(id);
+                self.living = self.living.wrapping_sub(1);
+            }
+        }
+        for index in before.metamers..end.metamers {
+            let id = MetamerId::new(index as usize);
+            self.link(id);
+            if !self.is_seed(id) {
+                shift.metamers_in.push(id);
+                self.living = self.living.wrapping_add(1);
+            }
+        }
+    }
+
+    /// The metamers that died with a branch in a step.
+    fn lost_with(&self, root: AxisId, step: u32) -> Vec<MetamerId> {
+        // A dead axis keeps its links, so its rows can be found again from its first metamer on.
+        let Some(first) = self.axes.first(root) else { return Vec::new() };
+        let end = self.timeline.before(step).metamers as usize;
+        let mut inside = vec![false; end.saturating_sub(first.index())];
+        let mut lost = Vec::new();
+        for index in first.index()..end {
+            let parent = self.metamers.parent[index];
+            let within = index == first.index()
+                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
+            if within && self.metamers.death[index] == step {
+                inside[index - first.index()] = true;
+                lost.push(MetamerId::new(index));
+            }
+        }
+        lost
+    }
+
+    /// Enters a metamer into its axis and into the girth of those below it.
+    fn link(&mut self, id: MetamerId) {
+        let axis = self.metamers.axis[id.index()];
+        let parent = self.metamers.parent[id.index()];
+        if self.axes.first[axis.index()] == MetamerId::NONE || parent == MetamerId::NONE {
+            self.axes.first[axis.index()] = id;
+        }
+        self.axes.last[axis.index()] = id;
+        if parent == MetamerId::NONE {
+            return;
+        }
+        self.metamers.tips[id.index()] = 1;
+        if self.begins_wood(id) {
+            self.add_tips(parent, 1);
+        }
+    }
+
+    fn unlink(&mut self, id: MetamerId) {
+        let axis = self.metamers.axis[id.index()];
+        let parent = self.metamers.parent[id.index()];
+        if parent != MetamerId::NONE && self.begins_wood(id) {
+            self.add_tips(parent, -1);
+        }
+        self.metamers.tips[id.index()] = 0;
+        if self.axes.first[axis.index()] == id {
+            self.axes.first[axis.index()] = MetamerId::NONE;
+            self.axes.last[axis.index()] = MetamerId::NONE;
+        } else {
+            self.axes.last[axis.index()] = parent;
+        }
+    }
+
+    /// Whether a metamer is the first wood of its axis, so that a new tip came with it.
+    fn begins_wood(&self, id: MetamerId) -> bool {
+        let parent = self.metamers.parent[id.index()];
+        self.metamers.axis[parent.index()] != self.metamers.axis[id.index()] || self.is_seed(parent)
+    }
+
+    fn add_tips(&mut self, from: MetamerId, change: i32) {
+        let mut id = from;
+        while id != MetamerId::NONE {
+            let tips = &mut self.metamers.tips[id.index()];
+            *tips = tips.wrapping_add_signed(change);
+            id = self.metamers.parent[id.index()];
+        }
+    }
+
+    /// Writes how a metamer looks.
+    pub fn set_appearance(&mut self, id: MetamerId, appearance: Appearance) {
+        self.metamers.appearance[id.index()] = appearance;
+    }
+
+    /// A hash of the present: equal plants, equal hash, on every machine. Appearance is not part of it.
+    pub fn hash(&self) -> u64 {
+        let mut hash = StableHash::default();
+        hash.word(u64::from(self.timeline.now));
+        for index in 0..self.metamer_count() {
+            let id = MetamerId::new(index);
+            let m = &self.metamers;
+            hash.word(u64::from(m.parent[index].raw()) | u64::from(m.axis[index].raw()) << 32);
+            let death = if self.is_alive(id) { ALIVE } else { m.death[index] };
+            hash.word(u64::from(m.birth[index]) | u64::from(death) << 32);
+            hash.vector(m.end[index]);
+            hash.vector(m.normal[index]);
+            hash.word(u64::from(m.tips[index]));
+        }
+        for index in 0..self.axis_count() {
+            let a = &self.axes;
+            hash.word(u64::from(a.bearer[index].raw()) | u64::from(a.last[index].raw()) << 32);
+            hash.vector(a.direction[index]);
+            hash.word(u64::from(self.is_axis_alive(AxisId::new(index))));
+        }
+        hash.finish()
+    }
+}
+
+fn forget_deaths(deaths: &mut [u32], now: u32) {
+    for death in deaths.iter_mut().filter(|death| **death > now) {
+        *death = ALIVE;
+    }
+}

@@ -1,0 +1,36 @@
+//! The steps of a plant's life, and the cursor among them.
+
+use crate::id::AxisId;
+
+/// Lengths of the plant's columns at the end of one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct StepEnd {
+    pub metamers: u32,
+    pub axes: u32,
+    pub losses: u32,
+}
+
+/// Every step recorded, and how many of them are in the present.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Timeline {
+    /// Ends of steps 0, 1, 2 …
+    pub ends: Vec<StepEnd>,
+    /// Roots of branches lost, in the order of their loss.
+    pub losses: Vec<AxisId>,
+    /// The step being recorded now, or the last one recorded.
+    pub now: u32,
+    /// Whether a step is being recorded.
+    pub recording: bool,
+}
+
+impl Timeline {
+    /// The lengths in the present.
+    pub fn present(&self) -> StepEnd {
+        self.ends.get(self.now as usize).copied().unwrap_or_default()
+    }
+
+    /// The lengths one step earlier.
+    pub fn before(&self, step: u32) -> StepEnd {
+        step.checked_sub(1).and_then(|s| self.ends.get(s as usize)).copied().unwrap_or_default()
+    }
+}
