@@ -1,1 +1,37 @@
-//! Placeholder.
+//! The self-organising simulation of TreeSketch: buds that compete for light and space.
+//!
+//! A [`Simulation`] owns a plant and grows it step by step. What guides a step comes in as [`StepInput`]:
+//! the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
+//! so the same inputs give the same plant bit for bit, on any number of threads.
+
+mod autonomous;
+mod brush;
+mod direction;
+mod gravimorphism;
+mod guide;
+mod light;
+mod markers;
+mod observer;
+mod parameter_table;
+mod parameters;
+pub mod random;
+mod shedding;
+mod shoot;
+mod simulation;
+mod space;
+mod vigor;
+mod voxel_grid;
+
+pub use brush::{BrushPiece, BrushSample, StrokeId};
+pub use gravimorphism::propensity;
+pub use guide::{Guide, Waypoint};
+pub use light::ShadowGrid;
+pub use markers::{Marker, Markers};
+pub use observer::{NoObserver, Observer, Phase};
+pub use parameter_table::ParameterTable;
+pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES};
+pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, StepInput, WORLD_EXTENT};
+pub use space::BudGrid;
+
+/// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
+pub const SIMULATION_VERSION: u32 = 1;

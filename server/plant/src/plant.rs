@@ -40,6 +40,8 @@ pub struct TimeShift {
     pub metamers_in: Vec<MetamerId>,
     /// Metamers that were alive before and are not now.
     pub metamers_out: Vec<MetamerId>,
+    /// Axes whose bud moved, appeared or vanished; some more than once, some beyond the present.
+    pub axes: Vec<AxisId>,
 }
 
 impl Plant {
@@ -79,6 +81,12 @@ impl Plant {
     /// Living metamers, seeds not counted.
     pub fn living_count(&self) -> u32 {
         self.living
+    }
+
+    /// Living axes with wood; buds are not counted.
+    pub fn living_axes_count(&self) -> u32 {
+        let grown = |axis: &AxisId| self.is_axis_alive(*axis) && self.has_grown(*axis);
+        (0..self.axis_count()).map(AxisId::new).filter(grown).count() as u32
     }
 
     /// The present step.
@@ -163,9 +171,13 @@ impl Plant {
         self.timeline.recording = true;
     }
 
-    /// Ends the step.
+    /// Ends the step: girth follows from what has grown.
     pub fn end_step(&mut self) {
         debug_assert!(self.timeline.recording, "end_step follows begin_step");
+        let born = self.timeline.before(self.timeline.now).metamers as usize;
+        for index in born..self.metamers.parent.len() {
+            self.carry(MetamerId::new(index));
+        }
         self.timeline.ends.push(StepEnd {
             metamers: self.metamers.parent.len() as u32,
             axes: self.axes.bearer.len() as u32,
@@ -279,6 +291,7 @@ impl Plant {
         for index in 0..self.timeline.present().metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
+            self.carry(id);
             self.living += u32::from(!self.is_seed(id));
         }
         self.go_to(now);
@@ -294,7 +307,9 @@ impl Plant {
                 self.living = self.living.wrapping_sub(1);
             }
             self.unlink(id);
+            shift.axes.push(self.metamers.axis(id));
         }
+        self.shift_axes(before, end, now, shift);
         self.timeline.now = now - 1;
         for index in (before.losses..end.losses).rev() {
             for id in self.lost_with(self.timeline.losses[index as usize], now) {
@@ -308,6 +323,7 @@ impl Plant {
         let before = self.timeline.present();
         self.timeline.now += 1;
         let end = self.timeline.present();
+        self.shift_axes(before, end, self.timeline.now, shift);
         for index in before.losses..end.losses {
             for id in self.lost_with(self.timeline.losses[index as usize], self.timeline.now) {
                 shift.metamers_out.push(id);
@@ -317,10 +333,21 @@ impl Plant {
         for index in before.metamers..end.metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
+            self.carry(id);
+            shift.axes.push(self.metamers.axis(id));
             if !self.is_seed(id) {
                 shift.metamers_in.push(id);
                 self.living = self.living.wrapping_add(1);
             }
+        }
+    }
+
+    /// Notes the axes that were born or died in a step.
+    fn shift_axes(&self, before: StepEnd, end: StepEnd, step: u32, shift: &mut TimeShift) {
+        shift.axes.extend((before.axes..end.axes).map(|index| AxisId::new(index as usize)));
+        if end.losses > before.losses {
+            let died = (0..before.axes as usize).filter(|&index| self.axes.death[index] == step);
+            shift.axes.extend(died.map(AxisId::new));
         }
     }
 
@@ -343,7 +370,7 @@ impl Plant {
         lost
     }
 
-    /// Enters a metamer into its axis and into the girth of those below it.
+    /// Enters a metamer into its axis.
     fn link(&mut self, id: MetamerId) {
         let axis = self.metamers.axis[id.index()];
         let parent = self.metamers.parent[id.index()];
@@ -351,12 +378,17 @@ impl Plant {
             self.axes.first[axis.index()] = id;
         }
         self.axes.last[axis.index()] = id;
-        if parent == MetamerId::NONE {
+    }
+
+    /// Enters a metamer into the girth of those below it.
+    fn carry(&mut self, id: MetamerId) {
+        if self.is_seed(id) {
             return;
         }
+        // A continuing metamer takes over the tip its parent carried until now.
         self.metamers.tips[id.index()] = 1;
         if self.begins_wood(id) {
-            self.add_tips(parent, 1);
+            self.add_tips(self.metamers.parent[id.index()], 1);
         }
     }
 

@@ -1,0 +1,97 @@
+//! The direction of each new internode (TreeSketch §3.2, Figure 11): H′ = αH + βT + γE.
+
+use glam::Vec3;
+
+use crate::parameters::Parameters;
+
+/// The tropic direction T of an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Tropism {
+    /// Keep the set-point angle to the vertical; `azimuth` says where to bend from the vertical itself.
+    SetPoint { azimuth: Vec3 },
+    /// Go this way: upwards for a forced trunk, or along a stroke.
+    Towards(Vec3),
+}
+
+impl Tropism {
+    /// T for an internode with this heading.
+    fn vector(self, heading: Vec3, parameters: &Parameters) -> Vec3 {
+        match self {
+            Self::Towards(direction) => direction,
+            Self::SetPoint { azimuth } => {
+                let (sin, cos) = parameters.setpoint;
+                let level = Vec3::new(heading.x, 0.0, heading.z);
+                // Near the vertical the plane of bending is a matter of chance, but of one chance per axis.
+                let outward = if level.length_squared() < 1e-4 { azimuth } else { level.normalize() };
+                Vec3::Y * cos + outward * sin
+            }
+        }
+    }
+}
+
+/// H′ from the heading H, tropism, and the direction E to free space where there is one.
+pub(crate) fn next_heading(heading: Vec3, tropism: Tropism, space: Option<Vec3>, parameters: &Parameters) -> Vec3 {
+    let sum = parameters.heading_weight * heading
+        + parameters.tropism_weight * tropism.vector(heading, parameters)
+        + parameters.space_weight * space.unwrap_or(Vec3::ZERO);
+    // Forces that cancel leave the axis as it goes.
+    if sum.length_squared() < 1e-6 { heading } else { sum.normalize() }
+}
+
+/// Turns `vector` the way that turns the unit vector `from` into the unit vector `to`, by the shorter arc.
+pub(crate) fn transport(vector: Vec3, from: Vec3, to: Vec3) -> Vec3 {
+    let cos = from.dot(to);
+    if cos < -0.9999 {
+        // A reversal has no shorter arc; what lay across still lies across.
+        return vector;
+    }
+    let axis = from.cross(to);
+    vector + axis.cross(vector) + axis.cross(axis.cross(vector)) / (1.0 + cos)
+}
+
+/// Turns `vector`, which lies across the unit vector `around`, by an angle given by sine and cosine.
+pub(crate) fn turn(vector: Vec3, around: Vec3, (sin, cos): (f32, f32)) -> Vec3 {
+    vector * cos + around.cross(vector) * sin
+}
+
+/// The unit vector across `heading` that is nearest to `vector`.
+pub(crate) fn across(vector: Vec3, heading: Vec3) -> Vec3 {
+    (vector - heading * vector.dot(heading)).try_normalize().unwrap_or_else(|| heading.any_orthonormal_vector())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::ParameterValues;
+
+    fn settled(theta: f32) -> f32 {
+        let values = ParameterValues {
+            setpoint_angle: theta,
+            heading_weight: 0.7,
+            tropism_weight: 0.3,
+            space_weight: 0.0,
+            ..ParameterValues::default()
+        };
+        let parameters = Parameters::new(values).expect("in range");
+        let mut heading = Vec3::new(0.6, 0.8, 0.0);
+        for _ in 0..60 {
+            heading = next_heading(heading, Tropism::SetPoint { azimuth: Vec3::X }, None, &parameters);
+        }
+        heading.y
+    }
+
+    #[test]
+    fn axes_settle_at_their_set_point_angle() {
+        assert!((settled(0.0) - 1.0).abs() < 1e-3);
+        assert!(settled(90.0).abs() < 1e-3);
+        assert!((settled(120.0) + 0.5).abs() < 1e-3);
+    }
+
+    #[test]
+    fn transport_keeps_angles() {
+        let (from, to) = (Vec3::Y, Vec3::new(0.6, 0.0, 0.8));
+        let moved = transport(Vec3::X, from, to);
+        assert!(moved.dot(to).abs() < 1e-6 && (moved.length() - 1.0).abs() < 1e-6);
+        assert!((transport(from, from, to) - to).length() < 1e-6);
+    }
+}

@@ -1,0 +1,30 @@
+//! Where growth looks its parameters up: once for the scene, and for each axis.
+
+use espalier_plant::AxisId;
+
+use crate::parameters::Parameters;
+
+/// The parameters in force.
+///
+/// All axes share one set today. Growth asks per axis nevertheless, so that branches can have their own.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ParameterTable {
+    shared: Parameters,
+}
+
+impl ParameterTable {
+    /// The same parameters for every axis.
+    pub fn new(shared: Parameters) -> Self {
+        Self { shared }
+    }
+
+    /// Those of the scene: light, markers, girth.
+    pub fn scene(&self) -> &Parameters {
+        &self.shared
+    }
+
+    /// Those of one axis: everything about its buds and shoots.
+    pub fn of(&self, _axis: AxisId) -> &Parameters {
+        &self.shared
+    }
+}

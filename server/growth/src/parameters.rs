@@ -1,0 +1,219 @@
+//! The parameters of growth: their ranges, their defaults, and what follows from them.
+
+use std::ops::Deref;
+
+/// Declares a plain set of values, their ranges and their defaults in one table.
+macro_rules! values {
+    ($($(#[doc = $doc:expr])+ $name:ident : $type:ty = $default:expr, in $low:expr, $high:expr;)+) => {
+        /// Values of all parameters, in range or not; angles in degrees, lengths in internodes.
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct ParameterValues {
+            $($(#[doc = $doc])+ pub $name: $type,)+
+            /// The trunk tends upwards whatever the set-point angle is (TreeSketch §3.4).
+            pub trunk_upward: bool,
+            /// A stroke's direction takes the place of the set-point angle (TreeSketch §3.4).
+            pub tropism_from_stroke: bool,
+        }
+
+        impl Default for ParameterValues {
+            fn default() -> Self {
+                Self { $($name: $default,)+ trunk_upward: true, tropism_from_stroke: false }
+            }
+        }
+
+        impl ParameterValues {
+            fn check_ranges(&self) -> Result<(), ParameterError> {
+                $(
+                    if !($low..=$high).contains(&self.$name) {
+                        return Err(ParameterError {
+                            name: stringify!($name),
+                            value: self.$name.to_string(),
+                            allowed: format!("{} to {}", $low, $high),
+                        });
+                    }
+                )+
+                Ok(())
+            }
+        }
+
+        /// Name, least and greatest value of every numeric parameter.
+        pub const RANGES: &[(&str, f32, f32)] = &[$((stringify!($name), $low as f32, $high as f32),)+];
+    };
+}
+
+values! {
+    /// Length of an internode in metres, for exports (l).
+    internode_length: f32 = 0.1, in 0.005, 1.0;
+    /// Radius of the zone a bud occupies (r, TreeSketch Figure 8).
+    occupancy_radius: f32 = 2.0, in 0.5, 6.0;
+    /// Depth of the perception volume beyond the zone (d).
+    perception_depth: f32 = 3.0, in 0.5, 10.0;
+    /// Full opening angle of the perception volume (ζ).
+    perception_angle: f32 = 90.0, in 20.0, 360.0;
+    /// Angle between successive lateral buds around their axis (φ).
+    phyllotactic_angle: f32 = 137.5, in 0.0, 180.0;
+    /// Lateral buds at each node.
+    buds_per_node: u32 = 1, in 1, 4;
+    /// Angle between a lateral bud and its bearing axis (ψ).
+    branching_angle: f32 = 50.0, in 0.0, 120.0;
+    /// Angle by which an axis turns away from a lateral bud (δ).
+    deflection_angle: f32 = 5.0, in 0.0, 45.0;
+    /// Share of vigor the main axis claims against its laterals (λ).
+    apical_control: f32 = 0.5, in 0.4, 0.7;
+    /// Exponent of a bud's response to light (κ in Q = bL^κ).
+    light_sensitivity: f32 = 1.0, in 0.0, 6.0;
+    /// Internodes the most vigorous enabled bud adds in a step (n_max).
+    max_shoot_length: u32 = 4, in 1, 20;
+    /// Vigor per internode, over α, below which a branch is shed (Th).
+    shedding_threshold: f32 = 0.0, in 0.0, 1.0;
+    /// Vigor at the base per unit of light (α of Borchert-Honda).
+    vigor_gain: f32 = 2.0, in 0.1, 10.0;
+    /// Weight of the present heading (α in H′ = αH + βT + γE).
+    heading_weight: f32 = 0.6, in 0.0, 1.0;
+    /// Weight of tropism (β).
+    tropism_weight: f32 = 0.1, in 0.0, 1.0;
+    /// Weight of the direction towards free space (γ).
+    space_weight: f32 = 0.3, in 0.0, 1.0;
+    /// Gravitropic set-point angle from the vertical (θ).
+    setpoint_angle: f32 = 0.0, in 0.0, 180.0;
+    /// Vertical half-axis of the gravimorphism ellipse (s_v, TreeSketch Figure 10).
+    gravimorphism_vertical: f32 = 1.0, in 0.05, 3.0;
+    /// Horizontal half-axis of the gravimorphism ellipse (s_p).
+    gravimorphism_horizontal: f32 = 1.0, in 0.05, 3.0;
+    /// Shift of the ellipse along the vertical, over s_v (e_v / s_v).
+    gravimorphism_shift: f32 = 0.0, in -0.99, 0.99;
+    /// Markers the brush sows per cubic internode and step.
+    marker_density: f32 = 0.12, in 0.01, 1.0;
+    /// Markers sown in each bud's perception volume in a step of autonomous growth.
+    markers_per_bud: u32 = 6, in 1, 32;
+    /// Steps a brush marker lives.
+    marker_max_age: u32 = 8, in 1, 60;
+    /// Shadow cast into a metamer's own voxel, full light being 1 (a in a·b^-q).
+    shadow_strength: f32 = 0.2, in 0.0, 1.0;
+    /// Factor by which a shadow fades per voxel below (b).
+    shadow_decay: f32 = 2.0, in 1.1, 4.0;
+    /// Voxels below a metamer that its shadow reaches (q_max).
+    shadow_depth: u32 = 6, in 0, 8;
+    /// Exponent of da Vinci's rule (n).
+    girth_exponent: f32 = 2.5, in 2.0, 3.0;
+    /// Diameter of a twig at its tip (d_e).
+    twig_diameter: f32 = 0.1, in 0.02, 0.3;
+    /// Leaves at each node of a twig.
+    leaves_per_node: u32 = 3, in 0, 15;
+    /// Length of a leaf.
+    leaf_size: f32 = 0.7, in 0.1, 3.0;
+}
+
+/// A value outside its range.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name} is {value}; allowed: {allowed}")]
+pub struct ParameterError {
+    /// The parameter.
+    pub name: &'static str,
+    /// What it was to be.
+    pub value: String,
+    /// What it may be.
+    pub allowed: String,
+}
+
+/// Parameters in range, with what is computed from them once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameters {
+    values: ParameterValues,
+    /// Cosine of half the perception angle (ζ/2).
+    pub(crate) cos_half_perception: f32,
+    /// Sine and cosine of the branching angle (ψ).
+    pub(crate) branching: (f32, f32),
+    /// Sine and cosine of the deflection angle (δ).
+    pub(crate) deflection: (f32, f32),
+    /// Sine and cosine of the set-point angle (θ).
+    pub(crate) setpoint: (f32, f32),
+    /// Sine and cosine of the phyllotactic angle (φ).
+    pub(crate) phyllotaxis: (f32, f32),
+}
+
+const WEIGHT_TOLERANCE: f32 = 1e-3;
+
+impl Parameters {
+    /// Takes values that are all in range, and whose three weights sum to 1.
+    pub fn new(values: ParameterValues) -> Result<Self, ParameterError> {
+        values.check_ranges()?;
+        let sum = values.heading_weight + values.tropism_weight + values.space_weight;
+        if (sum - 1.0).abs() > WEIGHT_TOLERANCE {
+            return Err(ParameterError {
+                name: "heading_weight",
+                value: format!("{}, which with tropism_weight and space_weight sums to {sum}", values.heading_weight),
+                allowed: "heading_weight + tropism_weight + space_weight = 1".to_owned(),
+            });
+        }
+        Ok(Self {
+            cos_half_perception: libm::cosf((0.5 * values.perception_angle).to_radians()),
+            branching: sin_cos(values.branching_angle),
+            deflection: sin_cos(values.deflection_angle),
+            setpoint: sin_cos(values.setpoint_angle),
+            phyllotaxis: sin_cos(values.phyllotactic_angle),
+            values,
+        })
+    }
+
+    /// The plain values.
+    pub fn values(&self) -> &ParameterValues {
+        &self.values
+    }
+
+    /// How far a bud perceives (r + d).
+    pub fn perception_radius(&self) -> f32 {
+        self.values.occupancy_radius + self.values.perception_depth
+    }
+
+    /// Whether light and shadow mean the same under both sets.
+    pub(crate) fn casts_like(&self, other: &Self) -> bool {
+        (self.shadow_strength, self.shadow_decay, self.shadow_depth)
+            == (other.shadow_strength, other.shadow_decay, other.shadow_depth)
+    }
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        // The table's defaults lie in the table's ranges; a test holds them to it.
+        Self::new(ParameterValues::default()).unwrap_or_else(|error| unreachable!("defaults are in range: {error}"))
+    }
+}
+
+impl Deref for Parameters {
+    type Target = ParameterValues;
+
+    fn deref(&self) -> &ParameterValues {
+        &self.values
+    }
+}
+
+fn sin_cos(degrees: f32) -> (f32, f32) {
+    libm::sincosf(degrees.to_radians())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_in_range() {
+        assert!(Parameters::new(ParameterValues::default()).is_ok());
+    }
+
+    #[test]
+    fn both_ends_pass_and_beyond_fails() {
+        let with_r = |r| Parameters::new(ParameterValues { occupancy_radius: r, ..ParameterValues::default() });
+        assert!(with_r(0.5).is_ok() && with_r(6.0).is_ok());
+        for bad in [0.49, 6.01, f32::NAN, f32::INFINITY] {
+            let error = with_r(bad).expect_err("out of range");
+            assert_eq!((error.name, error.allowed.as_str()), ("occupancy_radius", "0.5 to 6"));
+        }
+    }
+
+    #[test]
+    fn weights_must_sum_to_one() {
+        let values = ParameterValues { space_weight: 0.5, ..ParameterValues::default() };
+        assert!(Parameters::new(values).is_err());
+    }
+}

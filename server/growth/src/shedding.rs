@@ -1,0 +1,24 @@
+//! Shedding (TreeSketch §3.2): a branch whose vigor per internode falls below a threshold is given up.
+
+use espalier_plant::{AxisId, Plant};
+
+use crate::{parameter_table::ParameterTable, vigor::VigorFlow};
+
+/// Steps a branch is given before it is judged: a shoot of the last step has had no light yet.
+const GRACE: u32 = 3;
+
+/// Axes whose branches do not pay, bearers before what they bear; branches inside others are left out by the
+/// caller, who sheds in this order.
+pub(crate) fn condemned(plant: &Plant, flow: &VigorFlow, parameters: &ParameterTable) -> Vec<AxisId> {
+    let gain = f64::from(parameters.scene().vigor_gain);
+    let axes = (0..plant.axis_count()).map(AxisId::new);
+    axes.filter(|&axis| plant.is_axis_alive(axis) && plant.axes().order(axis) > 0)
+        .filter(|&axis| {
+            plant.axes().first(axis).is_some_and(|first| {
+                let threshold = gain * f64::from(parameters.of(axis).shedding_threshold);
+                let age = plant.step() - plant.metamers().birth(first);
+                age >= GRACE && flow.of_metamer(first) < threshold * f64::from(flow.size(first))
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,152 @@
+//! Shoots: a bud adds internodes, and with each a node and its lateral buds (TreeSketch §3.2, Figure 8A).
+
+use core::f32::consts::TAU;
+
+use espalier_plant::{AxisId, Internode, MetamerId};
+use glam::Vec3;
+
+use crate::{
+    direction::{Tropism, across, next_heading, transport, turn},
+    guide::Waypoint,
+    random::{Draw, Purpose},
+    simulation::{Simulation, WORLD_EXTENT},
+};
+
+/// Nodes keep this far above the ground.
+const GROUND_CLEARANCE: f32 = 0.2;
+/// Lateral buds at one node at most.
+const MAX_LATERALS: usize = 4;
+
+/// What draws a shoot.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Aim {
+    /// The direction E to free space.
+    pub space: Option<Vec3>,
+    /// The direction of the stroke that guides this step.
+    pub stroke: Option<Vec3>,
+}
+
+impl Simulation {
+    /// Lets a bud grow up to `count` internodes; fewer where it runs into another's zone. Returns how many.
+    pub(crate) fn grow_shoot(&mut self, axis: AxisId, count: u32, aim: Aim) -> u32 {
+        let mut grown = 0;
+        while grown < count && self.grow_internode(axis, aim, None) {
+            grown += 1;
+        }
+        grown
+    }
+
+    /// Lets a leader grow along the path of its stroke, up to `count` internodes. Returns how many.
+    pub(crate) fn grow_guided(&mut self, axis: AxisId, count: u32, aim: Aim, mut next: impl FnMut(Vec3) -> Option<Waypoint>) -> u32 {
+        let mut grown = 0;
+        while grown < count {
+            let Some(waypoint) = next(self.plant.bud_position(axis)) else { break };
+            if !self.grow_internode(axis, aim, Some(waypoint)) {
+                break;
+            }
+            grown += 1;
+        }
+        grown
+    }
+
+    fn grow_internode(&mut self, axis: AxisId, aim: Aim, waypoint: Option<Waypoint>) -> bool {
+        if self.plant.metamer_count() as u32 >= self.metamer_budget {
+            self.budget_reached = true;
+            return false;
+        }
+        let node = self.plant.bud_node(axis);
+        let base = self.plant.metamers().end(node);
+        let parameters = self.parameters.of(axis);
+        let laid_down = self.laid_down_heading(axis, node);
+        let mut heading = next_heading(laid_down, self.tropism(axis, aim), aim.space, parameters);
+        if let Some(Waypoint { position, weight }) = waypoint {
+            let towards = (position - base).try_normalize().unwrap_or(heading);
+            heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
+        }
+        let end = base + heading;
+        let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
+        let is_led = waypoint.is_some_and(|waypoint| waypoint.weight >= 1.0);
+        if !in_world || (!is_led && self.is_taken(axis, end)) {
+            return false;
+        }
+
+        let normal = self.next_normal(axis, node, heading);
+        let parameters = self.parameters.of(axis);
+        let (sin, cos) = parameters.branching;
+        let mut laterals = [Vec3::ZERO; MAX_LATERALS];
+        let buds = parameters.buds_per_node as usize;
+        for (i, lateral) in laterals.iter_mut().enumerate().take(buds) {
+            let around = libm::sincosf(TAU * i as f32 / buds as f32);
+            *lateral = (heading * cos + turn(normal, heading, around) * sin).normalize();
+        }
+        let first_bud = self.plant.axis_count();
+        self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] });
+        self.shadows.cast(end);
+        for (i, &direction) in laterals.iter().enumerate().take(buds) {
+            self.buds.place(AxisId::new(first_bud + i), end, direction);
+        }
+        self.buds.place(axis, end, heading);
+        true
+    }
+
+    /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.
+    fn laid_down_heading(&self, axis: AxisId, node: MetamerId) -> Vec3 {
+        let heading = self.plant.bud_direction(axis);
+        let parameters = self.parameters.of(axis);
+        // Opposite and whorled buds push an axis to no side.
+        if !self.plant.has_grown(axis) || parameters.buds_per_node > 1 {
+            return heading;
+        }
+        let (sin, cos) = parameters.deflection;
+        heading * cos - self.plant.metamers().normal(node) * sin
+    }
+
+    fn tropism(&self, axis: AxisId, aim: Aim) -> Tropism {
+        let parameters = self.parameters.of(axis);
+        if parameters.trunk_upward && self.plant.axes().order(axis) == 0 {
+            return Tropism::Towards(Vec3::Y);
+        }
+        if let Some(direction) = aim.stroke.filter(|_| parameters.tropism_from_stroke) {
+            return Tropism::Towards(direction);
+        }
+        let angle = TAU * Draw::new(self.seed, Purpose::Azimuth, axis.raw(), 0).unit(0);
+        let (sin, cos) = libm::sincosf(angle);
+        Tropism::SetPoint { azimuth: Vec3::new(cos, 0.0, sin) }
+    }
+
+    /// The normal of a new internode: its axis' last one, carried along and turned by the phyllotactic angle.
+    fn next_normal(&self, axis: AxisId, node: MetamerId, heading: Vec3) -> Vec3 {
+        if self.plant.has_grown(axis) {
+            let carried = transport(self.plant.metamers().normal(node), self.plant.heading(node), heading);
+            return turn(across(carried, heading), heading, self.parameters.of(axis).phyllotaxis);
+        }
+        if self.plant.axes().order(axis) == 0 {
+            let angle = TAU * Draw::new(self.seed, Purpose::Phyllotaxis, axis.raw(), 0).unit(0);
+            let (sin, cos) = libm::sincosf(angle);
+            return across(Vec3::new(cos, 0.0, sin), heading);
+        }
+        // A lateral starts with a bud to its side, so that distichous branches spread flat.
+        across(heading.cross(Vec3::Y), heading)
+    }
+
+    /// Whether a node there would lie in the occupancy zone of a bud that is not its own kin.
+    ///
+    /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide.
+    fn is_taken(&self, axis: AxisId, place: Vec3) -> bool {
+        let radius = self.parameters.of(axis).occupancy_radius;
+        let axes = self.plant.axes();
+        let metamers = self.plant.metamers();
+        let axis_of_bearer = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
+        let bearer = axes.bearer(axis);
+        let is_young = bearer.is_some_and(|bearer| {
+            let zone = 2.0 * radius;
+            metamers.end(bearer).distance_squared(place) < zone * zone
+        });
+        let bearing_axis = axis_of_bearer(axis);
+        self.buds.is_occupied(place, radius, |other| {
+            let is_own = other == axis || axis_of_bearer(other) == Some(axis);
+            let is_kin = is_young && (Some(other) == bearing_axis || axis_of_bearer(other) == bearing_axis);
+            !is_own && !is_kin
+        })
+    }
+}

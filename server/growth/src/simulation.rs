@@ -1,0 +1,429 @@
+//! The simulation: a plant, its surroundings, and one step after another.
+
+use std::collections::BTreeMap;
+
+use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::{
+    autonomous,
+    brush::{BrushPiece, StrokeId},
+    gravimorphism::propensity,
+    guide::Guide,
+    light::ShadowGrid,
+    markers::{Marker, Markers},
+    observer::{Observer, Phase},
+    parameter_table::ParameterTable,
+    parameters::Parameters,
+    shedding,
+    shoot::Aim,
+    space::BudGrid,
+    vigor::VigorFlow,
+};
+
+/// Growth stays within this distance of the origin on each axis, in internodes.
+pub const WORLD_EXTENT: f32 = 1000.0;
+/// Metamers a scene may hold, dead ones and the undone future included, unless told otherwise.
+pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
+
+/// What guides one step.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StepInput {
+    /// What the brushes do.
+    pub pieces: Vec<BrushPiece>,
+    /// Whether buds also look for room on their own.
+    pub autonomous: bool,
+}
+
+/// Everything the next step depends on beside the plant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationState {
+    /// Seed of all randomness.
+    pub seed: u32,
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Brush markers still alive.
+    pub markers: Vec<Marker>,
+    /// Paths of strokes in progress.
+    pub guides: BTreeMap<StrokeId, Guide>,
+    /// Metamers the scene may hold.
+    pub metamer_budget: u32,
+}
+
+/// A scene that grows.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    pub(crate) seed: u32,
+    pub(crate) plant: Plant,
+    pub(crate) parameters: ParameterTable,
+    pub(crate) shadows: ShadowGrid,
+    pub(crate) buds: BudGrid,
+    pub(crate) metamer_budget: u32,
+    pub(crate) budget_reached: bool,
+    markers: Markers,
+    guides: BTreeMap<StrokeId, Guide>,
+    scratch: Scratch,
+}
+
+/// Columns that live only within a step, kept for their memory.
+#[derive(Clone, Debug, Default)]
+struct Scratch {
+    /// Light at each metamer's node.
+    light: Vec<f32>,
+    /// Q of each bud.
+    input: Vec<f32>,
+    flow: VigorFlow,
+}
+
+/// Work smaller than this is not worth handing to other threads.
+const PARALLEL_FROM: usize = 4096;
+/// Candidates asked at once; a constant, so that the answer never depends on the number of threads.
+const BLOCK: usize = 512;
+
+impl Simulation {
+    /// A seedling: one seed at the origin.
+    pub fn new(seed: u32, parameters: Parameters) -> Self {
+        let state =
+            SimulationState { seed, parameters, markers: Vec::new(), guides: BTreeMap::new(), metamer_budget: DEFAULT_METAMER_BUDGET };
+        Self::from_state(Plant::new(Vec3::ZERO), state)
+    }
+
+    /// Takes a plant up again.
+    pub fn from_state(plant: Plant, state: SimulationState) -> Self {
+        let mut simulation = Self {
+            seed: state.seed,
+            plant,
+            shadows: ShadowGrid::new(&state.parameters),
+            parameters: ParameterTable::new(state.parameters),
+            buds: BudGrid::new(),
+            metamer_budget: state.metamer_budget,
+            budget_reached: false,
+            markers: Markers::from_vec(state.markers),
+            guides: state.guides,
+            scratch: Scratch::default(),
+        };
+        simulation.rebuild_shadows();
+        simulation.rebuild_buds();
+        simulation
+    }
+
+    /// What [`Simulation::from_state`] needs beside the plant.
+    pub fn state(&self) -> SimulationState {
+        SimulationState {
+            seed: self.seed,
+            parameters: self.parameters.scene().clone(),
+            markers: self.markers.as_slice().to_vec(),
+            guides: self.guides.clone(),
+            metamer_budget: self.metamer_budget,
+        }
+    }
+
+    /// The plant.
+    pub fn plant(&self) -> &Plant {
+        &self.plant
+    }
+
+    /// The parameters in force.
+    pub fn parameters(&self) -> &Parameters {
+        self.parameters.scene()
+    }
+
+    /// Seed of all randomness.
+    pub fn seed(&self) -> u32 {
+        self.seed
+    }
+
+    /// Brush markers still alive.
+    pub fn markers(&self) -> &[Marker] {
+        self.markers.as_slice()
+    }
+
+    /// Metamers the scene may hold.
+    pub fn metamer_budget(&self) -> u32 {
+        self.metamer_budget
+    }
+
+    /// Sets how many metamers the scene may hold.
+    pub fn set_metamer_budget(&mut self, budget: u32) {
+        self.metamer_budget = budget;
+    }
+
+    /// Whether the last step had to stop at the budget.
+    pub fn is_out_of_budget(&self) -> bool {
+        self.budget_reached
+    }
+
+    /// Changes the parameters; growth from here on uses them.
+    pub fn set_parameters(&mut self, parameters: Parameters) {
+        let same_shadows = self.parameters().casts_like(&parameters);
+        self.parameters = ParameterTable::new(parameters);
+        if !same_shadows {
+            self.shadows = ShadowGrid::new(self.parameters.scene());
+            self.rebuild_shadows();
+        }
+    }
+
+    /// Plants another seed, in a step of its own.
+    pub fn sow(&mut self, position: Vec3) {
+        self.plant.begin_step();
+        let axis = self.plant.sow(position);
+        self.plant.end_step();
+        self.buds.place(axis, position, Vec3::Y);
+    }
+
+    /// Forgets what guided growth so far: markers and strokes. Time travel and stroke ends call for it.
+    pub fn drop_guidance(&mut self) {
+        self.markers.remove_all();
+        self.guides.clear();
+    }
+
+    /// Forgets the path of one stroke.
+    pub fn end_stroke(&mut self, stroke: StrokeId) {
+        self.guides.remove(&stroke);
+    }
+
+    /// Whether another step of settling may still find something to grow towards.
+    pub fn has_guidance(&self) -> bool {
+        !self.markers.as_slice().is_empty() || self.guides.values().any(|guide| !guide.path.is_empty())
+    }
+
+    /// One step, in the order of TreeSketch §3.2. Returns how many metamers it added.
+    pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> u32 {
+        self.budget_reached = false;
+        self.plant.begin_step();
+        let before = self.plant.metamer_count();
+
+        observer.enter(Phase::Space);
+        self.sow_and_clear_markers(input);
+        let mut enabled = self.associate_markers();
+        observer.enter(Phase::Light);
+        self.read_light();
+        observer.enter(Phase::Vigor);
+        self.distribute_vigor();
+        observer.enter(Phase::Shedding);
+        self.shed();
+
+        observer.enter(Phase::Space);
+        let stroke = input.pieces.iter().find_map(BrushPiece::direction);
+        if input.autonomous {
+            self.find_free_space(&mut enabled);
+        }
+        observer.enter(Phase::Growth);
+        self.grow(enabled, stroke);
+        observer.enter(Phase::Girth);
+        self.plant.end_step();
+        self.write_appearance();
+        (self.plant.metamer_count() - before) as u32
+    }
+
+    /// Goes to a recorded step, back or forth; shadows and buds follow exactly.
+    pub fn go_to(&mut self, step: u32) {
+        self.drop_guidance();
+        let shift = self.plant.go_to(step);
+        for &id in &shift.metamers_out {
+            self.shadows.uncast(self.plant.metamers().end(id));
+        }
+        for &id in &shift.metamers_in {
+            self.shadows.cast(self.plant.metamers().end(id));
+        }
+        for &axis in &shift.axes {
+            self.replace_bud(axis);
+        }
+        self.read_light();
+        self.distribute_vigor();
+        self.write_appearance();
+    }
+
+    fn sow_and_clear_markers(&mut self, input: &StepInput) {
+        let step = self.plant.step();
+        let parameters = self.parameters.scene();
+        for piece in &input.pieces {
+            piece.sow(&mut self.markers, self.seed, step, parameters);
+            let guide = self.guides.entry(piece.stroke).or_default();
+            for &sample in &piece.samples {
+                guide.follow(sample, parameters.occupancy_radius);
+            }
+            guide.choose_leader(&self.buds, 2.0 * parameters.perception_radius());
+        }
+        let (buds, radius) = (&self.buds, parameters.occupancy_radius);
+        self.markers.clear(step, parameters.marker_max_age, |place| !buds.is_occupied(place, radius, |_| true));
+    }
+
+    /// Gives each marker to the nearest bud that perceives it; returns those buds with their direction E.
+    fn associate_markers(&self) -> BTreeMap<AxisId, Vec3> {
+        let mut claims: BTreeMap<AxisId, Vec3> = BTreeMap::new();
+        for marker in self.markers.as_slice() {
+            if let Some(axis) = self.buds.nearest_perceiving(marker.position, self.parameters.scene()) {
+                let towards = (marker.position - self.plant.bud_position(axis)).normalize();
+                *claims.entry(axis).or_insert(Vec3::ZERO) += towards;
+            }
+        }
+        claims.into_iter().filter_map(|(axis, sum)| Some((axis, sum.try_normalize()?))).collect()
+    }
+
+    fn read_light(&mut self) {
+        let (plant, shadows) = (&self.plant, &self.shadows);
+        let count = plant.metamer_count();
+        let light = &mut self.scratch.light;
+        light.resize(count, 0.0);
+        let read = |(index, light): (usize, &mut f32)| {
+            let id = MetamerId::new(index);
+            if plant.is_alive(id) {
+                *light = shadows.exposure(plant.metamers().end(id));
+            }
+        };
+        if count < PARALLEL_FROM {
+            light.iter_mut().enumerate().for_each(read);
+        } else {
+            light.par_iter_mut().with_min_len(PARALLEL_FROM / 2).enumerate().for_each(read);
+        }
+    }
+
+    fn distribute_vigor(&mut self) {
+        let Scratch { light, input, flow } = &mut self.scratch;
+        let plant = &self.plant;
+        input.resize(plant.axis_count(), 0.0);
+        for (index, input) in input.iter_mut().enumerate() {
+            let axis = AxisId::new(index);
+            if plant.is_axis_alive(axis) {
+                let node = plant.bud_node(axis);
+                *input = bud_input(plant, axis, node, light[node.index()], self.parameters.of(axis));
+            }
+        }
+        flow.compute(plant, input, &self.parameters);
+    }
+
+    fn shed(&mut self) {
+        let condemned = shedding::condemned(&self.plant, &self.scratch.flow, &self.parameters);
+        for axis in condemned {
+            if !self.plant.is_axis_alive(axis) {
+                continue;
+            }
+            let (_, axes) = self.plant.branch(axis);
+            for axis in axes {
+                self.buds.remove(axis);
+            }
+            for id in self.plant.shed(axis) {
+                self.shadows.uncast(self.plant.metamers().end(id));
+            }
+        }
+    }
+
+    /// Lets buds look for room, the most vigorous first, until no internode can come of it.
+    fn find_free_space(&self, enabled: &mut BTreeMap<AxisId, Vec3>) {
+        let mut candidates: Vec<(f64, AxisId)> = (0..self.plant.axis_count())
+            .map(AxisId::new)
+            .filter(|&axis| self.plant.is_axis_alive(axis))
+            .map(|axis| (self.bud_vigor(axis), axis))
+            .filter(|&(vigor, _)| vigor > 0.0)
+            .collect();
+        candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut greatest = enabled.keys().map(|&axis| self.bud_vigor(axis)).fold(0.0, f64::max);
+        let step = self.plant.step();
+        for block in candidates.chunks(BLOCK) {
+            let ask = |&(vigor, axis): &(f64, AxisId)| {
+                let space = autonomous::free_space(axis, &self.buds, &self.parameters, self.seed, step)?;
+                Some((vigor, axis, space))
+            };
+            if self.shoot_length(block[0].0, greatest, block[0].1) == 0 {
+                return;
+            }
+            let found: Vec<(f64, AxisId, Vec3)> = block.par_iter().with_min_len(64).filter_map(ask).collect();
+            for (vigor, axis, space) in found {
+                greatest = greatest.max(vigor);
+                enabled.entry(axis).or_insert(space);
+            }
+        }
+    }
+
+    fn bud_vigor(&self, axis: AxisId) -> f64 {
+        self.scratch.flow.of_bud(&self.plant, axis, self.scratch.input[axis.index()], &self.parameters)
+    }
+
+    /// n = ⌊v / v_max · n_max⌋; the whole n_max while no bud is known to be enabled.
+    fn shoot_length(&self, vigor: f64, greatest: f64, axis: AxisId) -> u32 {
+        let longest = self.parameters.of(axis).max_shoot_length;
+        if greatest <= 0.0 {
+            return longest;
+        }
+        (vigor / greatest * f64::from(longest)).min(f64::from(longest)) as u32
+    }
+
+    fn grow(&mut self, mut enabled: BTreeMap<AxisId, Vec3>, stroke: Option<Vec3>) {
+        let mut guides = core::mem::take(&mut self.guides);
+        for guide in guides.values_mut() {
+            let Some(leader) = guide.leader.filter(|&leader| self.plant.is_axis_alive(leader)) else { continue };
+            let aim = Aim { space: enabled.get(&leader).copied(), stroke };
+            let longest = self.parameters.of(leader).max_shoot_length;
+            if self.grow_guided(leader, longest, aim, |tip| guide.next_node(tip)) > 0 {
+                enabled.remove(&leader);
+            }
+        }
+        self.guides = guides;
+
+        let mut shoots: Vec<(f64, AxisId, Vec3)> = enabled
+            .into_iter()
+            .filter(|&(axis, _)| self.plant.is_axis_alive(axis))
+            .map(|(axis, space)| (self.bud_vigor(axis), axis, space))
+            .collect();
+        shoots.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let greatest = shoots.first().map_or(0.0, |shoot| shoot.0);
+        let lengths: Vec<u32> =
+            shoots.iter().map(|&(vigor, axis, _)| if greatest > 0.0 { self.shoot_length(vigor, greatest, axis) } else { 0 }).collect();
+        for ((_, axis, space), length) in shoots.into_iter().zip(lengths) {
+            self.grow_shoot(axis, length, Aim { space: Some(space), stroke });
+        }
+    }
+
+    /// Hands light and vigor on to whoever draws the plant; this step's shoots look like they are in full light.
+    fn write_appearance(&mut self) {
+        let Scratch { light, flow, .. } = &self.scratch;
+        let vigor_per_tip = |plant: &Plant, id| flow.of_metamer(id) / f64::from(plant.metamers().tips(id).max(1));
+        let known = light.len().min(self.plant.metamer_count());
+        let greatest =
+            (0..known).map(MetamerId::new).map(|id| vigor_per_tip(&self.plant, id)).fold(0.0, f64::max);
+        let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
+        for (index, &light) in light.iter().enumerate().take(known) {
+            let id = MetamerId::new(index);
+            let vigor = (vigor_per_tip(&self.plant, id) * scale) as u8;
+            self.plant.set_appearance(id, Appearance { light: (light * 255.0) as u8, vigor });
+        }
+    }
+
+    fn rebuild_shadows(&mut self) {
+        for index in 0..self.plant.metamer_count() {
+            let id = MetamerId::new(index);
+            if self.plant.is_alive(id) && !self.plant.is_seed(id) {
+                self.shadows.cast(self.plant.metamers().end(id));
+            }
+        }
+    }
+
+    fn rebuild_buds(&mut self) {
+        self.buds = BudGrid::new();
+        for index in 0..self.plant.axis_count() {
+            self.replace_bud(AxisId::new(index));
+        }
+    }
+
+    /// Puts the bud of an axis where the plant says it is now, or nowhere.
+    fn replace_bud(&mut self, axis: AxisId) {
+        let is_present = axis.index() < self.plant.axis_count() && self.plant.is_axis_alive(axis);
+        if is_present {
+            self.buds.place(axis, self.plant.bud_position(axis), self.plant.bud_direction(axis));
+        } else {
+            self.buds.remove(axis);
+        }
+    }
+}
+
+/// Q = bL^κ of a bud (TreeSketch §3.2). Gravimorphism concerns lateral buds that have not grown yet.
+fn bud_input(plant: &Plant, axis: AxisId, node: MetamerId, light: f32, parameters: &Parameters) -> f32 {
+    let kappa = parameters.light_sensitivity;
+    let response = if kappa == 1.0 { light } else { libm::powf(light, kappa) };
+    if plant.axes().last(axis).is_some() {
+        return response;
+    }
+    response * propensity(plant.heading(node), plant.axes().direction(axis), parameters)
+}
