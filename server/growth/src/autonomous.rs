@@ -32,9 +32,7 @@ pub(crate) fn free_space(
     let mut sum = Vec3::ZERO;
     for marker in 0..own.markers_per_bud {
         let place = sow(bud, own, draw, marker);
-        let is_won = place.y > 0.0
-            && !buds.is_occupied(place, own.occupancy_radius, |_| true)
-            && buds.nearest_perceiving(place, own) == Some(axis);
+        let is_won = place.y > 0.0 && buds.wins(axis, place, own);
         if is_won {
             sum += (place - bud.position).normalize();
         }
@@ -70,11 +68,10 @@ mod tests {
         for marker in 0..500 {
             let place = sow(&bud, &parameters, draw, marker);
             let distance = place.distance(bud.position);
-            assert!((1.999..=5.001).contains(&distance));
-            assert!(bud.perceives(place, distance * distance, &parameters) || {
-                let cos = (place - bud.position).dot(bud.direction) / distance;
-                cos > parameters.cos_half_perception - 1e-4
-            });
+            let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
+            assert!((near - 1e-3..=far + 1e-3).contains(&distance));
+            let cos = (place - bud.position).dot(bud.direction) / distance;
+            assert!(cos > parameters.cos_half_perception - 1e-4);
         }
     }
 

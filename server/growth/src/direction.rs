@@ -30,7 +30,12 @@ impl Tropism {
 }
 
 /// H′ from the heading H, tropism, and the direction E to free space where there is one.
-pub(crate) fn next_heading(heading: Vec3, tropism: Tropism, space: Option<Vec3>, parameters: &Parameters) -> Vec3 {
+pub(crate) fn next_heading(
+    heading: Vec3,
+    tropism: Tropism,
+    space: Option<Vec3>,
+    parameters: &Parameters,
+) -> Vec3 {
     let sum = parameters.heading_weight * heading
         + parameters.tropism_weight * tropism.vector(heading, parameters)
         + parameters.space_weight * space.unwrap_or(Vec3::ZERO);
@@ -56,7 +61,9 @@ pub(crate) fn turn(vector: Vec3, around: Vec3, (sin, cos): (f32, f32)) -> Vec3 {
 
 /// The unit vector across `heading` that is nearest to `vector`.
 pub(crate) fn across(vector: Vec3, heading: Vec3) -> Vec3 {
-    (vector - heading * vector.dot(heading)).try_normalize().unwrap_or_else(|| heading.any_orthonormal_vector())
+    (vector - heading * vector.dot(heading))
+        .try_normalize()
+        .unwrap_or_else(|| heading.any_orthonormal_vector())
 }
 
 #[cfg(test)]

@@ -10,7 +10,10 @@ use std::collections::VecDeque;
 use espalier_plant::AxisId;
 use glam::Vec3;
 
-use crate::{brush::BrushSample, space::{BudGrid, Visit}};
+use crate::{
+    brush::BrushSample,
+    space::{BudGrid, Visit},
+};
 
 /// A point of the path still ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +49,8 @@ impl Guide {
     /// Takes in more of the stroke.
     pub(crate) fn follow(&mut self, sample: BrushSample, occupancy_radius: f32) {
         let weight = Self::weight(sample.radius, occupancy_radius);
-        let apart = self.path.back().is_none_or(|last| last.position.distance(sample.position) > LEAST_SPACING);
+        let apart =
+            self.path.back().is_none_or(|last| last.position.distance(sample.position) > LEAST_SPACING);
         if weight > 0.0 && apart {
             self.path.push_back(Waypoint { position: sample.position, weight });
         }
@@ -83,7 +87,12 @@ impl Guide {
             return Some(front);
         }
         match self.path.get(1) {
-            Some(&beyond) => Some(leave_sphere(front, beyond, tip)),
+            Some(&beyond) => {
+                // What lies before the next node is followed; the path now begins there.
+                let ahead = leave_sphere(front, beyond, tip);
+                self.path[0] = ahead;
+                Some(ahead)
+            }
             None if front.position.distance(tip) >= ARRIVED => Some(front),
             None => None,
         }

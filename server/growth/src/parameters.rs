@@ -45,7 +45,7 @@ values! {
     /// Length of an internode in metres, for exports (l).
     internode_length: f32 = 0.1, in 0.005, 1.0;
     /// Radius of the zone a bud occupies (r, TreeSketch Figure 8).
-    occupancy_radius: f32 = 2.0, in 0.5, 6.0;
+    occupancy_radius: f32 = 1.5, in 0.5, 6.0;
     /// Depth of the perception volume beyond the zone (d).
     perception_depth: f32 = 3.0, in 0.5, 10.0;
     /// Full opening angle of the perception volume (ζ).
@@ -69,11 +69,11 @@ values! {
     /// Vigor at the base per unit of light (α of Borchert-Honda).
     vigor_gain: f32 = 2.0, in 0.1, 10.0;
     /// Weight of the present heading (α in H′ = αH + βT + γE).
-    heading_weight: f32 = 0.6, in 0.0, 1.0;
+    heading_weight: f32 = 0.5, in 0.0, 1.0;
     /// Weight of tropism (β).
-    tropism_weight: f32 = 0.1, in 0.0, 1.0;
+    tropism_weight: f32 = 0.15, in 0.0, 1.0;
     /// Weight of the direction towards free space (γ).
-    space_weight: f32 = 0.3, in 0.0, 1.0;
+    space_weight: f32 = 0.35, in 0.0, 1.0;
     /// Gravitropic set-point angle from the vertical (θ).
     setpoint_angle: f32 = 0.0, in 0.0, 180.0;
     /// Vertical half-axis of the gravimorphism ellipse (s_v, TreeSketch Figure 10).
@@ -83,13 +83,13 @@ values! {
     /// Shift of the ellipse along the vertical, over s_v (e_v / s_v).
     gravimorphism_shift: f32 = 0.0, in -0.99, 0.99;
     /// Markers the brush sows per cubic internode and step.
-    marker_density: f32 = 0.12, in 0.01, 1.0;
+    marker_density: f32 = 0.15, in 0.01, 1.0;
     /// Markers sown in each bud's perception volume in a step of autonomous growth.
     markers_per_bud: u32 = 6, in 1, 32;
     /// Steps a brush marker lives.
     marker_max_age: u32 = 8, in 1, 60;
     /// Shadow cast into a metamer's own voxel, full light being 1 (a in a·b^-q).
-    shadow_strength: f32 = 0.2, in 0.0, 1.0;
+    shadow_strength: f32 = 0.12, in 0.0, 1.0;
     /// Factor by which a shadow fades per voxel below (b).
     shadow_decay: f32 = 2.0, in 1.1, 4.0;
     /// Voxels below a metamer that its shadow reaches (q_max).
@@ -142,7 +142,10 @@ impl Parameters {
         if (sum - 1.0).abs() > WEIGHT_TOLERANCE {
             return Err(ParameterError {
                 name: "heading_weight",
-                value: format!("{}, which with tropism_weight and space_weight sums to {sum}", values.heading_weight),
+                value: format!(
+                    "{}, which with tropism_weight and space_weight sums to {sum}",
+                    values.heading_weight
+                ),
                 allowed: "heading_weight + tropism_weight + space_weight = 1".to_owned(),
             });
         }
@@ -176,7 +179,8 @@ impl Parameters {
 impl Default for Parameters {
     fn default() -> Self {
         // The table's defaults lie in the table's ranges; a test holds them to it.
-        Self::new(ParameterValues::default()).unwrap_or_else(|error| unreachable!("defaults are in range: {error}"))
+        Self::new(ParameterValues::default())
+            .unwrap_or_else(|error| unreachable!("defaults are in range: {error}"))
     }
 }
 
@@ -203,7 +207,8 @@ mod tests {
 
     #[test]
     fn both_ends_pass_and_beyond_fails() {
-        let with_r = |r| Parameters::new(ParameterValues { occupancy_radius: r, ..ParameterValues::default() });
+        let with_r =
+            |r| Parameters::new(ParameterValues { occupancy_radius: r, ..ParameterValues::default() });
         assert!(with_r(0.5).is_ok() && with_r(6.0).is_ok());
         for bad in [0.49, 6.01, f32::NAN, f32::INFINITY] {
             let error = with_r(bad).expect_err("out of range");

@@ -37,7 +37,13 @@ impl Simulation {
     }
 
     /// Lets a leader grow along the path of its stroke, up to `count` internodes. Returns how many.
-    pub(crate) fn grow_guided(&mut self, axis: AxisId, count: u32, aim: Aim, mut next: impl FnMut(Vec3) -> Option<Waypoint>) -> u32 {
+    pub(crate) fn grow_guided(
+        &mut self,
+        axis: AxisId,
+        count: u32,
+        aim: Aim,
+        mut next: impl FnMut(Vec3) -> Option<Waypoint>,
+    ) -> u32 {
         let mut grown = 0;
         while grown < count {
             let Some(waypoint) = next(self.plant.bud_position(axis)) else { break };
@@ -85,7 +91,8 @@ impl Simulation {
         for (i, &direction) in laterals.iter().enumerate().take(buds) {
             self.buds.place(AxisId::new(first_bud + i), end, direction);
         }
-        self.buds.place(axis, end, heading);
+        // The plant's own answer, not `heading`: rounded alike whether grown just now or read from a file.
+        self.buds.place(axis, end, self.plant.bud_direction(axis));
         true
     }
 

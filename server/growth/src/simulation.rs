@@ -84,8 +84,13 @@ const BLOCK: usize = 512;
 impl Simulation {
     /// A seedling: one seed at the origin.
     pub fn new(seed: u32, parameters: Parameters) -> Self {
-        let state =
-            SimulationState { seed, parameters, markers: Vec::new(), guides: BTreeMap::new(), metamer_budget: DEFAULT_METAMER_BUDGET };
+        let state = SimulationState {
+            seed,
+            parameters,
+            markers: Vec::new(),
+            guides: BTreeMap::new(),
+            metamer_budget: DEFAULT_METAMER_BUDGET,
+        };
         Self::from_state(Plant::new(Vec3::ZERO), state)
     }
 
@@ -247,7 +252,8 @@ impl Simulation {
             guide.choose_leader(&self.buds, 2.0 * parameters.perception_radius());
         }
         let (buds, radius) = (&self.buds, parameters.occupancy_radius);
-        self.markers.clear(step, parameters.marker_max_age, |place| !buds.is_occupied(place, radius, |_| true));
+        self.markers
+            .clear(step, parameters.marker_max_age, |place| !buds.is_occupied(place, radius, |_| true));
     }
 
     /// Gives each marker to the nearest bud that perceives it; returns those buds with their direction E.
@@ -353,7 +359,9 @@ impl Simulation {
     fn grow(&mut self, mut enabled: BTreeMap<AxisId, Vec3>, stroke: Option<Vec3>) {
         let mut guides = core::mem::take(&mut self.guides);
         for guide in guides.values_mut() {
-            let Some(leader) = guide.leader.filter(|&leader| self.plant.is_axis_alive(leader)) else { continue };
+            let Some(leader) = guide.leader.filter(|&leader| self.plant.is_axis_alive(leader)) else {
+                continue;
+            };
             let aim = Aim { space: enabled.get(&leader).copied(), stroke };
             let longest = self.parameters.of(leader).max_shoot_length;
             if self.grow_guided(leader, longest, aim, |tip| guide.next_node(tip)) > 0 {
@@ -369,8 +377,12 @@ impl Simulation {
             .collect();
         shoots.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
         let greatest = shoots.first().map_or(0.0, |shoot| shoot.0);
-        let lengths: Vec<u32> =
-            shoots.iter().map(|&(vigor, axis, _)| if greatest > 0.0 { self.shoot_length(vigor, greatest, axis) } else { 0 }).collect();
+        let lengths: Vec<u32> = shoots
+            .iter()
+            .map(
+                |&(vigor, axis, _)| if greatest > 0.0 { self.shoot_length(vigor, greatest, axis) } else { 0 },
+            )
+            .collect();
         for ((_, axis, space), length) in shoots.into_iter().zip(lengths) {
             self.grow_shoot(axis, length, Aim { space: Some(space), stroke });
         }
@@ -379,7 +391,8 @@ impl Simulation {
     /// Hands light and vigor on to whoever draws the plant; this step's shoots look like they are in full light.
     fn write_appearance(&mut self) {
         let Scratch { light, flow, .. } = &self.scratch;
-        let vigor_per_tip = |plant: &Plant, id| flow.of_metamer(id) / f64::from(plant.metamers().tips(id).max(1));
+        let vigor_per_tip =
+            |plant: &Plant, id| flow.of_metamer(id) / f64::from(plant.metamers().tips(id).max(1));
         let known = light.len().min(self.plant.metamer_count());
         let greatest =
             (0..known).map(MetamerId::new).map(|id| vigor_per_tip(&self.plant, id)).fold(0.0, f64::max);

@@ -82,26 +82,60 @@ impl BudGrid {
     }
 
     /// Calls `visit` with every bud within `radius` of `place`, in no particular order, until it says stop.
-    pub(crate) fn visit_near(&self, place: Vec3, radius: f32, mut visit: impl FnMut(AxisId, &Bud, f32) -> Visit) {
-        let (low, high) = (cell_of(place - radius), cell_of(place + radius));
+    pub(crate) fn visit_near(
+        &self,
+        place: Vec3,
+        radius: f32,
+        mut visit: impl FnMut(AxisId, &Bud, f32) -> Visit,
+    ) {
+        let (low, centre, high) = (cell_of(place - radius), cell_of(place), cell_of(place + radius));
         let limit = radius * radius;
+        // The place's own cell first: what stops a search is mostly near.
+        if self.visit_cell(centre, place, limit, &mut visit) == Visit::Stop {
+            return;
+        }
+        let gap_squared = |cell: i32, at: f32| {
+            let from = cell as f32 * CELL;
+            let gap = (from - at).max(at - (from + CELL)).max(0.0);
+            gap * gap
+        };
         for y in low[1]..=high[1] {
+            let gap_y = gap_squared(y, place.y);
             for z in low[2]..=high[2] {
+                let gap_yz = gap_y + gap_squared(z, place.z);
                 for x in low[0]..=high[0] {
-                    let mut at = self.heads.get([x, y, z]);
-                    while at != 0 {
-                        let bud = &self.buds[at as usize - 1];
-                        let distance_squared = bud.position.distance_squared(place);
-                        let near = distance_squared <= limit;
-                        let axis = AxisId::new(at as usize - 1);
-                        if near && visit(axis, bud, distance_squared) == Visit::Stop {
-                            return;
-                        }
-                        at = self.next[at as usize - 1];
+                    let beyond = gap_yz + gap_squared(x, place.x) > limit * 1.0001;
+                    if beyond || [x, y, z] == centre {
+                        continue;
+                    }
+                    if self.visit_cell([x, y, z], place, limit, &mut visit) == Visit::Stop {
+                        return;
                     }
                 }
             }
         }
+    }
+
+    #[inline]
+    fn visit_cell(
+        &self,
+        cell: [i32; 3],
+        place: Vec3,
+        limit: f32,
+        visit: &mut impl FnMut(AxisId, &Bud, f32) -> Visit,
+    ) -> Visit {
+        let mut at = self.heads.get(cell);
+        while at != 0 {
+            let bud = &self.buds[at as usize - 1];
+            let distance_squared = bud.position.distance_squared(place);
+            if distance_squared <= limit
+                && visit(AxisId::new(at as usize - 1), bud, distance_squared) == Visit::Stop
+            {
+                return Visit::Stop;
+            }
+            at = self.next[at as usize - 1];
+        }
+        Visit::Go
     }
 
     /// Whether a place lies in the occupancy zone of some bud for which `counts` holds.
@@ -112,6 +146,27 @@ impl BudGrid {
             if occupied { Visit::Stop } else { Visit::Go }
         });
         occupied
+    }
+
+    /// Whether a bud wins a place in its own perception volume: no zone holds it, no nearer bud perceives it.
+    ///
+    /// The same as asking [`BudGrid::is_occupied`] and [`BudGrid::nearest_perceiving`], in one search that
+    /// looks no farther than the bud itself is away.
+    pub(crate) fn wins(&self, axis: AxisId, place: Vec3, parameters: &Parameters) -> bool {
+        let Some(own) = self.get(axis) else { return false };
+        let own_distance = own.position.distance_squared(place);
+        let zone = parameters.occupancy_radius * parameters.occupancy_radius;
+        if own_distance <= zone {
+            return false;
+        }
+        let mut wins = true;
+        self.visit_near(place, own_distance.sqrt(), |other, bud, distance_squared| {
+            let is_nearer = (distance_squared, other) < (own_distance, axis);
+            wins =
+                distance_squared > zone && !(is_nearer && bud.perceives(place, distance_squared, parameters));
+            if wins { Visit::Go } else { Visit::Stop }
+        });
+        wins
     }
 
     /// The nearest bud whose perception volume holds a place; of equally near ones the oldest.
@@ -144,7 +199,8 @@ impl Default for BudGrid {
 impl Bud {
     /// Whether a place at this squared distance, not beyond the perception radius, lies in the cone.
     pub(crate) fn perceives(&self, place: Vec3, distance_squared: f32, parameters: &Parameters) -> bool {
-        (place - self.position).dot(self.direction) >= parameters.cos_half_perception * distance_squared.sqrt()
+        (place - self.position).dot(self.direction)
+            >= parameters.cos_half_perception * distance_squared.sqrt()
     }
 }
 
@@ -205,6 +261,17 @@ mod tests {
             prop_assert_eq!(grid.nearest_perceiving(place, &parameters), nearest_by_definition(&plain, place, &parameters));
             let occupied = plain.iter().any(|(p, _)| p.distance_squared(place) <= 4.0);
             prop_assert_eq!(grid.is_occupied(place, 2.0, |_| true), occupied);
+            let zone = parameters.occupancy_radius * parameters.occupancy_radius;
+            let free = plain.iter().all(|(p, _)| p.distance_squared(place) > zone);
+            for (i, (p, d)) in plain.iter().enumerate().filter(|(_, (p, _))| p.x < 1e5) {
+                let d2 = p.distance_squared(place);
+                let perceives = d2.sqrt() <= parameters.perception_radius()
+                    && (place - *p).dot(*d) >= parameters.cos_half_perception * d2.sqrt();
+                if perceives {
+                    let won = free && nearest_by_definition(&plain, place, &parameters) == Some(AxisId::new(i));
+                    prop_assert_eq!(grid.wins(AxisId::new(i), place, &parameters), won);
+                }
+            }
         }
     }
 }

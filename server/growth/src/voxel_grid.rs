@@ -118,7 +118,8 @@ mod tests {
     #[test]
     fn far_voxels_are_kept_apart() {
         let mut grid = VoxelGrid::<u32>::new();
-        let voxels = [[0, 0, 0], [-1, 0, 0], [1000, -3, 500], [-1000, 900, -1000], [15, 15, 15], [16, 16, 16]];
+        let voxels =
+            [[0, 0, 0], [-1, 0, 0], [1000, -3, 500], [-1000, 900, -1000], [15, 15, 15], [16, 16, 16]];
         for (value, &voxel) in voxels.iter().enumerate() {
             *grid.get_mut(voxel) = value as u32 + 1;
         }

@@ -18,7 +18,8 @@ const TABLE_LEN: u32 = 4096;
 impl Girth {
     /// `exponent` is n, `twig_diameter` is d_e in internodes.
     pub fn new(exponent: f32, twig_diameter: f32) -> Self {
-        let mut girth = Self { inverse_exponent: 1.0 / exponent, twig_radius: 0.5 * twig_diameter, table: Vec::new() };
+        let mut girth =
+            Self { inverse_exponent: 1.0 / exponent, twig_radius: 0.5 * twig_diameter, table: Vec::new() };
         girth.table = (0..TABLE_LEN).map(|tips| girth.compute(tips)).collect();
         girth
     }

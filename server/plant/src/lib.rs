@@ -18,6 +18,6 @@ pub mod timeline;
 pub use axes::Axes;
 pub use girth::Girth;
 pub use id::{AxisId, MetamerId};
-pub use parts::{BrokenPlant, PlantParts};
 pub use metamers::{Appearance, Metamers};
+pub use parts::{BrokenPlant, PlantParts};
 pub use plant::{Internode, Plant};

@@ -70,7 +70,11 @@ impl Plant {
 
     /// Metamers ever born up to the present, seeds and the dead included.
     pub fn metamer_count(&self) -> usize {
-        if self.timeline.recording { self.metamers.parent.len() } else { self.timeline.present().metamers as usize }
+        if self.timeline.recording {
+            self.metamers.parent.len()
+        } else {
+            self.timeline.present().metamers as usize
+        }
     }
 
     /// Axes ever born up to the present, buds and the dead included.

@@ -13,16 +13,22 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
         let axis = plant.metamers().axis(id);
         let from = plant.metamers().parent(id);
         let expected = tip[axis.index()].or(plant.axes().bearer(axis));
-        require("axis_continuity", from == expected, || format!("metamer {index} does not continue its axis"))?;
+        require("axis_continuity", from == expected, || {
+            format!("metamer {index} does not continue its axis")
+        })?;
         if tip[axis.index()].is_none() {
             let first = plant.axes().first(axis);
-            require("axis_continuity", first == Some(id), || format!("axis {} lost its first metamer", axis.index()))?;
+            require("axis_continuity", first == Some(id), || {
+                format!("axis {} lost its first metamer", axis.index())
+            })?;
         }
         tip[axis.index()] = Some(id);
     }
     for (index, tip) in tip.into_iter().enumerate() {
         let last = plant.axes().last(AxisId::new(index));
-        require("axis_continuity", last == tip, || format!("axis {index} ends elsewhere than its last metamer"))?;
+        require("axis_continuity", last == tip, || {
+            format!("axis {index} ends elsewhere than its last metamer")
+        })?;
     }
     Ok(())
 }

@@ -8,7 +8,9 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
         let id = MetamerId::new(index);
         let Some(parent) = plant.metamers().parent(id) else { continue };
         let holds = parent < id && plant.metamers().birth(parent) <= plant.metamers().birth(id);
-        require("birth_order", holds, || format!("metamer {index} is older than its parent {}", parent.index()))?;
+        require("birth_order", holds, || {
+            format!("metamer {index} is older than its parent {}", parent.index())
+        })?;
     }
     Ok(())
 }

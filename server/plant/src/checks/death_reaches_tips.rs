@@ -22,7 +22,9 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
     for index in 0..plant.axis_count() {
         let id = AxisId::new(index);
         let borne = plant.axes().bearer(id).is_none_or(|bearer| plant.is_alive(bearer));
-        require("death_reaches_tips", borne || !plant.is_axis_alive(id), || format!("axis {index} outlives its bearer"))?;
+        require("death_reaches_tips", borne || !plant.is_axis_alive(id), || {
+            format!("axis {index} outlives its bearer")
+        })?;
     }
     require("death_reaches_tips", living == plant.living_count(), || {
         format!("{living} metamers live but {} are counted", plant.living_count())

@@ -15,13 +15,17 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
     for index in 0..plant.metamer_count() {
         let id = MetamerId::new(index);
         let (end, normal) = (plant.metamers().end(id), plant.metamers().normal(id));
-        require("finite_frames", end.is_finite() && is_unit(normal), || format!("metamer {index} has no frame"))?;
+        require("finite_frames", end.is_finite() && is_unit(normal), || {
+            format!("metamer {index} has no frame")
+        })?;
         if plant.is_seed(id) {
             continue;
         }
         let heading = plant.heading(id);
         let square = is_unit(heading) && heading.dot(normal).abs() < TOLERANCE;
-        require("finite_frames", square, || format!("metamer {index}: heading {heading} and normal {normal}"))?;
+        require("finite_frames", square, || {
+            format!("metamer {index}: heading {heading} and normal {normal}")
+        })?;
     }
     for index in 0..plant.axis_count() {
         let direction = plant.axes().direction(AxisId::new(index));

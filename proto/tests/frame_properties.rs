@@ -1,0 +1,139 @@
+//! Frames survive the journey, and no bytes at all bring the decoder down.
+
+use espalier_proto::{
+    ChunkChange, Frame, FrameError, Rows, Values,
+    frame::{CHUNK_ROWS, HEADER_BYTES},
+};
+use proptest::{collection::vec, prelude::*, sample::subsequence};
+
+fn positions(count: usize) -> impl Strategy<Value = Vec<[i32; 3]>> {
+    vec(prop_oneof![4 => prop::array::uniform3(-300..300), 1 => any::<[i32; 3]>()], count)
+}
+
+fn rows(counts: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Rows> {
+    counts.prop_flat_map(|n| {
+        (vec(any::<u32>(), n), positions(n), vec(any::<u16>(), n), vec(any::<u8>(), n), vec(any::<u8>(), n))
+            .prop_map(|(parent, position, radius, foliage, light)| Rows {
+                parent,
+                position,
+                radius,
+                foliage,
+                light,
+            })
+    })
+}
+
+fn patched() -> impl Strategy<Value = (Vec<u8>, Values)> {
+    let all: Vec<u8> = (0..=255).collect();
+    subsequence(all, 1..=CHUNK_ROWS).prop_flat_map(|rows| {
+        let n = rows.len();
+        let values = prop_oneof![
+            vec(any::<u32>(), n).prop_map(Values::Parent),
+            positions(n).prop_map(Values::Position),
+            vec(any::<u16>(), n).prop_map(Values::Radius),
+            vec(any::<u8>(), n).prop_map(Values::Foliage),
+            vec(any::<u8>(), n).prop_map(Values::Light),
+        ];
+        (Just(rows), values)
+    })
+}
+
+fn change() -> impl Strategy<Value = ChunkChange> {
+    prop_oneof![
+        any::<u32>().prop_map(|rows| ChunkChange::Truncate { rows }),
+        (any::<u32>(), any::<u32>(), rows(1..=CHUNK_ROWS))
+            .prop_map(|(chunk, generation, rows)| ChunkChange::Replace { chunk, generation, rows }),
+        (any::<u32>(), any::<u32>(), 0..CHUNK_ROWS as u32)
+            .prop_flat_map(|(chunk, generation, start)| {
+                (Just((chunk, generation, start)), rows(1..=CHUNK_ROWS - start as usize))
+            })
+            .prop_map(|((chunk, generation, start), rows)| ChunkChange::Append {
+                chunk,
+                generation,
+                start,
+                rows
+            }),
+        (any::<u32>(), any::<u32>(), patched()).prop_map(|(chunk, generation, (rows, values))| {
+            ChunkChange::Patch { chunk, generation, rows, values }
+        }),
+    ]
+}
+
+fn frame() -> impl Strategy<Value = Frame> {
+    (any::<u32>(), any::<u32>(), any::<bool>(), vec(change(), 0..6))
+        .prop_map(|(epoch, sequence, catch_up, changes)| Frame { epoch, sequence, catch_up, changes })
+}
+
+/// A valid header in front of any body at all: what is most likely to reach the depths of the decoder.
+fn headed(body: &[u8]) -> Vec<u8> {
+    let mut bytes = vec![1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    bytes.extend_from_slice(&(body.len() as u32).to_le_bytes());
+    bytes.extend_from_slice(body);
+    bytes
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn decode_undoes_encode(frame in frame()) {
+        prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
+    }
+
+    #[test]
+    fn arbitrary_bytes_never_panic(bytes in vec(any::<u8>(), 0..600)) {
+        // Few random bytes have a valid header; those that do not must say so.
+        if bytes.get(..4) != Some(&[1, 1, 0, 0]) && bytes.get(..4) != Some(&[1, 1, 0, 1]) {
+            prop_assert!(Frame::decode(&bytes).is_err() || bytes.get(2) == Some(&1));
+        }
+        let body = headed(&bytes);
+        if let Ok(frame) = Frame::decode(&body) {
+            prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
+        }
+    }
+
+    #[test]
+    fn a_flipped_bit_is_an_error_or_another_frame(frame in frame(), at: prop::sample::Index, bit in 0..8u8) {
+        let mut bytes = frame.encode();
+        let at = at.index(bytes.len());
+        bytes[at] ^= 1 << bit;
+        if at < HEADER_BYTES {
+            prop_assert_ne!(Frame::decode(&bytes), Ok(frame));
+        } else if let Ok(other) = Frame::decode(&bytes) {
+            prop_assert_eq!(Frame::decode(&other.encode()), Ok(other));
+        }
+    }
+
+    #[test]
+    fn a_frame_cut_short_is_an_error(frame in frame(), at: prop::sample::Index) {
+        let bytes = frame.encode();
+        prop_assert!(Frame::decode(&bytes[..at.index(bytes.len())]).is_err());
+    }
+}
+
+#[test]
+fn fr1_what_is_reserved_is_refused() {
+    let valid = headed(&[]);
+    let with = |at: usize, value: u8| {
+        let mut bytes = valid.clone();
+        bytes[at] = value;
+        Frame::decode(&bytes)
+    };
+    assert!(Frame::decode(&valid).is_ok());
+    assert_eq!(with(0, 2), Err(FrameError::Version(2)));
+    assert_eq!(with(1, 0), Err(FrameError::Kind(0)));
+    assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
+    assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
+    assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
+    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 5, 1, 0, 0])), Err(FrameError::Body));
+}
+
+#[test]
+fn fr2_a_body_has_the_stated_length() {
+    let mut longer = headed(&[1, 0]);
+    longer.push(0);
+    assert_eq!(Frame::decode(&longer), Err(FrameError::Length));
+    let mut vast = headed(&[]);
+    vast[12..16].copy_from_slice(&u32::MAX.to_le_bytes());
+    assert_eq!(Frame::decode(&vast), Err(FrameError::Length));
+}

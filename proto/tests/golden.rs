@@ -1,0 +1,194 @@
+//! The samples in `golden/` are what the encoder writes; the client's tests read the same files.
+//!
+//! After a deliberate change of the format: `UPDATE_GOLDEN=1 cargo test -p espalier-proto --test golden`.
+
+use std::{fs, path::PathBuf};
+
+use espalier_proto::{ChunkChange, Frame, Rows, Values, frame::CHUNK_ROWS};
+use serde_json::{Value, json};
+
+/// A seed, a trunk of three metamers and a lateral, in so few bytes that they travel raw.
+fn sapling() -> Rows {
+    Rows {
+        parent: vec![0, 2, 2, 2, 5],
+        position: vec![[0, 0, 0], [3, 256, -2], [-4, 255, 0], [0, 256, 1], [180, 181, -128]],
+        radius: vec![0, 460, 440, 392, 392],
+        foliage: vec![0x00, 0x00, 0x73, 0xf3, 0x93],
+        light: vec![0, 120, 180, 255, 210],
+    }
+}
+
+fn raw() -> Frame {
+    let rows = sapling();
+    Frame {
+        epoch: 7,
+        sequence: 1,
+        catch_up: false,
+        changes: vec![ChunkChange::Append { chunk: 0, generation: 1, start: 0, rows }],
+    }
+}
+
+/// A full chunk, and the first rows of the next; long enough to be deflated.
+fn catch_up() -> Frame {
+    let zigzag_of_the_axis = |i: usize| if i.is_multiple_of(2) { 9 } else { -9 };
+    let full = Rows {
+        parent: (0..CHUNK_ROWS).map(|i| if i == 0 { 0 } else { 2 + u32::from(i % 16 == 0) }).collect(),
+        position: (0..CHUNK_ROWS)
+            .map(|i| if i == 0 { [0; 3] } else { [zigzag_of_the_axis(i), 250, i as i32 - 128] })
+            .collect(),
+        radius: (0..CHUNK_ROWS).map(|i| if i == 0 { 0 } else { 700 - i as u16 }).collect(),
+        foliage: (0..CHUNK_ROWS).map(|i| (i % 256) as u8).collect(),
+        light: (0..CHUNK_ROWS).map(|i| (255 - i) as u8).collect(),
+    };
+    let next = Rows {
+        parent: vec![2, 513],
+        position: vec![[i32::from(i16::MAX), -1, 1], [i32::MIN, i32::MAX, 0]],
+        radius: vec![u16::MAX, 1],
+        foliage: vec![0xff, 0x0f],
+        light: vec![255, 1],
+    };
+    Frame {
+        epoch: u32::MAX,
+        sequence: 4_000_000_000,
+        catch_up: true,
+        changes: vec![
+            ChunkChange::Replace { chunk: 0, generation: 3_999_999_999, rows: full },
+            ChunkChange::Replace { chunk: 1, generation: 4_000_000_000, rows: next },
+        ],
+    }
+}
+
+fn truncate() -> Frame {
+    Frame {
+        epoch: 7,
+        sequence: 9,
+        catch_up: false,
+        changes: vec![
+            ChunkChange::Truncate { rows: 3 },
+            ChunkChange::Append {
+                chunk: 0,
+                generation: 9,
+                start: 3,
+                rows: Rows {
+                    parent: vec![2],
+                    position: vec![[-12, 240, 60]],
+                    radius: vec![392],
+                    foliage: vec![0x83],
+                    light: vec![200],
+                },
+            },
+        ],
+    }
+}
+
+/// One patch of each column.
+fn patches() -> Frame {
+    let patch = |rows: Vec<u8>, values| ChunkChange::Patch { chunk: 2, generation: 130, rows, values };
+    Frame {
+        epoch: 1,
+        sequence: 130,
+        catch_up: false,
+        changes: vec![
+            patch(vec![0, 255], Values::Parent(vec![0, 513])),
+            patch(vec![4, 5, 9], Values::Position(vec![[0, -1, 1], [64, -64, 128], [-100_000, 100_000, 0]])),
+            patch((0..=255).collect(), Values::Radius((0..256).map(|i| 300 + i % 7).collect())),
+            patch(vec![17], Values::Foliage(vec![0x40])),
+            patch(vec![100, 200], Values::Light(vec![0, 255])),
+        ],
+    }
+}
+
+fn empty() -> Frame {
+    Frame { epoch: 0, sequence: 0, catch_up: true, changes: Vec::new() }
+}
+
+fn described(frame: &Frame) -> Value {
+    json!({
+        "epoch": frame.epoch,
+        "sequence": frame.sequence,
+        "catch_up": frame.catch_up,
+        "changes": frame.changes.iter().map(described_change).collect::<Vec<_>>(),
+    })
+}
+
+fn described_change(change: &ChunkChange) -> Value {
+    match change {
+        ChunkChange::Truncate { rows } => json!({ "change": "truncate", "rows": rows }),
+        ChunkChange::Replace { chunk, generation, rows } => {
+            json!({ "change": "replace", "chunk": chunk, "generation": generation, "rows": described_rows(rows) })
+        }
+        ChunkChange::Append { chunk, generation, start, rows } => json!({
+            "change": "append", "chunk": chunk, "generation": generation, "start": start, "rows": described_rows(rows),
+        }),
+        ChunkChange::Patch { chunk, generation, rows, values } => {
+            let (column, values) = match values {
+                Values::Parent(v) => ("parent", json!(v)),
+                Values::Position(v) => ("position", json!(v)),
+                Values::Radius(v) => ("radius", json!(v)),
+                Values::Foliage(v) => ("foliage", json!(v)),
+                Values::Light(v) => ("light", json!(v)),
+            };
+            json!({
+                "change": "patch", "chunk": chunk, "generation": generation, "rows": rows,
+                "column": column, "values": values,
+            })
+        }
+    }
+}
+
+fn described_rows(rows: &Rows) -> Value {
+    json!({
+        "parent": rows.parent,
+        "position": rows.position,
+        "radius": rows.radius,
+        "foliage": rows.foliage,
+        "light": rows.light,
+    })
+}
+
+/// The stored bytes decode to `frame`; the encoder still writes a frame that decodes to it, with the same body.
+fn check(name: &str, frame: &Frame) {
+    let file = |extension: &str| {
+        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.{extension}"))
+    };
+    let description = format!("{}\n", described(frame));
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        fs::write(file("bin"), frame.encode()).expect("the sample can be written");
+        fs::write(file("json"), &description).expect("the description can be written");
+    }
+    let bytes = fs::read(file("bin")).expect("the sample can be read");
+    assert_eq!(Frame::decode(&bytes).as_ref(), Ok(frame), "{name}.bin");
+    assert_eq!(bytes, frame.encode(), "{name}.bin is what the encoder writes");
+    assert_eq!(
+        fs::read_to_string(file("json")).expect("the description can be read"),
+        description,
+        "{name}.json"
+    );
+}
+
+#[test]
+fn a_short_body_travels_raw() {
+    assert_eq!(raw().encode()[2], 0);
+    check("raw", &raw());
+}
+
+#[test]
+fn a_full_chunk_is_deflated_for_catching_up() {
+    assert_eq!(catch_up().encode()[2..4], [1, 1]);
+    check("catch-up", &catch_up());
+}
+
+#[test]
+fn growth_goes_on_behind_a_truncation() {
+    check("truncate", &truncate());
+}
+
+#[test]
+fn every_column_can_be_patched() {
+    check("patches", &patches());
+}
+
+#[test]
+fn a_frame_may_change_nothing() {
+    check("empty", &empty());
+}

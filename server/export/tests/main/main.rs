@@ -1,0 +1,107 @@
+//! Files are what their formats say, for any plant.
+
+mod reader;
+mod saplings;
+
+use espalier_export::{ExportError, glb, skeleton_json};
+use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh};
+use espalier_plant::Plant;
+use glam::Vec3;
+use proptest::prelude::*;
+use serde_json::Value;
+
+const METRES: f32 = 0.1;
+
+fn style() -> Style {
+    Style::new(StyleOptions { girth_exponent: 2.0, twig_diameter: 0.1, leaves_per_node: 2, leaf_size: 0.5 })
+}
+
+proptest! {
+    #[test]
+    fn any_plant_is_a_valid_glb(growth in saplings::growth(), metres in 0.005f32..1.0) {
+        let (plant, style) = (saplings::grown(&growth), style());
+        let file = glb(&plant, &style, metres).expect("it exports");
+        let meshes = reader::read(&file);
+        let sources = [("Bark", bark_mesh(&plant, &style)), ("Leaves", leaf_mesh(&plant, &style))];
+        let sources: Vec<_> = sources.into_iter().filter(|(_, mesh)| !mesh.is_empty()).collect();
+        prop_assert_eq!(meshes.len(), sources.len());
+        for (read, (name, source)) in meshes.iter().zip(&sources) {
+            prop_assert_eq!(&read.name, name);
+            prop_assert_eq!(&read.indices, &source.indices);
+            prop_assert_eq!(&read.normals, &source.normals);
+            let scaled: Vec<Vec3> = source.positions.iter().map(|&position| position * metres).collect();
+            prop_assert_eq!(&read.positions, &scaled);
+            prop_assert!(read.uvs.iter().zip(&source.uvs).all(|(read, uv)| read.x == uv.x && read.y == 1.0 - uv.y));
+        }
+        prop_assert_eq!(file, glb(&plant, &style, metres).expect("it exports again"));
+    }
+
+    #[test]
+    fn any_skeleton_holds_the_living_in_order(growth in saplings::growth()) {
+        let (plant, style) = (saplings::grown(&growth), style());
+        let file: Value = serde_json::from_slice(&skeleton_json(&plant, &style)).expect("it is JSON");
+        let metamers = file["metamers"].as_array().expect("metamers are a list");
+        let living = saplings::living(&plant);
+        prop_assert_eq!(metamers.len(), living.len());
+        for (place, (read, &id)) in metamers.iter().zip(&living).enumerate() {
+            let parent = read["parent"].as_u64().map(|parent| parent as usize);
+            prop_assert!(parent.is_none_or(|parent| parent < place));
+            prop_assert_eq!(parent.map(|parent| living[parent]), plant.metamers().parent(id));
+            prop_assert_eq!(read["radius"].as_f64() == Some(0.0), parent.is_none());
+            let position: Vec<f32> =
+                read["position"].as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number") as f32).collect();
+            prop_assert_eq!(Vec3::from_slice(&position), plant.metamers().end(id));
+            prop_assert_eq!(read["birth"].as_u64(), Some(u64::from(plant.metamers().birth(id))));
+        }
+    }
+}
+
+#[test]
+fn seed_alone_gives_a_valid_file_without_meshes() {
+    let file = glb(&Plant::new(Vec3::ZERO), &style(), METRES).expect("it exports");
+    assert!(reader::read(&file).is_empty());
+}
+
+#[test]
+fn bare_tree_has_no_leaf_mesh() {
+    let bare = Style::new(StyleOptions { leaves_per_node: 0, ..*style().options() });
+    let meshes = reader::read(&glb(&saplings::fork(), &bare, METRES).expect("it exports"));
+    assert_eq!(meshes.iter().map(|mesh| mesh.name.as_str()).collect::<Vec<_>>(), ["Bark"]);
+}
+
+#[test]
+fn many_vertices_get_wide_indices() {
+    // The reader checks the width; this is about six vertices an internode and eight a leaf.
+    let meshes = reader::read(&glb(&saplings::pole(12_000), &style(), METRES).expect("it exports"));
+    assert!(meshes.iter().all(|mesh| mesh.positions.len() > 65_535));
+}
+
+#[test]
+fn internode_is_as_long_as_told() {
+    let meshes = reader::read(&glb(&saplings::fork(), &style(), 0.25).expect("it exports"));
+    let top = meshes[0].positions.iter().map(|position| position.y).fold(0.0, f32::max);
+    // Two internodes and the cone at the tip: 0.45 of a twig's radius of 0.05.
+    assert!((top - 0.25 * (2.0 + 0.45 * 0.05)).abs() < 1e-6, "{top}");
+}
+
+#[test]
+fn impossible_scales_are_refused() {
+    for metres in [0.0, -1.0, f32::INFINITY] {
+        assert_eq!(glb(&saplings::fork(), &style(), metres), Err(ExportError::Scale(metres)));
+    }
+    assert!(matches!(glb(&saplings::fork(), &style(), f32::NAN), Err(ExportError::Scale(_))));
+    assert_eq!(glb(&saplings::fork(), &style(), f32::MAX), Err(ExportError::NotFinite));
+}
+
+#[test]
+fn skeleton_of_a_fork_is_this_text() {
+    let text = String::from_utf8(skeleton_json(&saplings::fork(), &style())).expect("JSON is UTF-8");
+    let expected = [
+        r#"{"format":"espalier-skeleton","version":1,"unit":"internode","metamers":["#,
+        r#"{"parent":null,"position":[0.0,0.0,0.0],"radius":0.0,"order":0,"birth":0},"#,
+        r#"{"parent":0,"position":[0.0,1.0,0.0],"radius":0.08660254,"order":0,"birth":1},"#,
+        r#"{"parent":1,"position":[0.0,2.0,0.0],"radius":0.05,"order":0,"birth":1},"#,
+        r#"{"parent":1,"position":[0.0,1.0,0.5],"radius":0.05,"order":1,"birth":2}]}"#,
+    ];
+    assert_eq!(text, expected.concat());
+}

@@ -1,0 +1,40 @@
+//! The same commands give the same plant, bit for bit: in debug and release, on any number of threads.
+//!
+//! A change of these hashes is a change of the simulation: raise `SIMULATION_VERSION` with it.
+
+use super::*;
+
+/// A life with everything in it: brush, pencil, autonomous growth, shedding, time travel, a second seed.
+fn life(seed: u32) -> u64 {
+    let mut simulation = simulation(seed);
+    brush(
+        &mut simulation,
+        1,
+        &[(Vec3::ZERO, 0.3), (Vec3::new(1.0, 9.0, 0.0), 0.3), (Vec3::new(4.0, 18.0, 2.0), 5.0)],
+    );
+    grow(&mut simulation, 7);
+    simulation.go_to(simulation.plant().step() - 3);
+    let mut values = simulation.parameters().values().clone();
+    (values.apical_control, values.shedding_threshold, values.light_sensitivity) = (0.53, 0.05, 1.7);
+    (values.setpoint_angle, values.gravimorphism_shift) = (60.0, 0.4);
+    simulation.set_parameters(Parameters::new(values).expect("in range"));
+    simulation.sow(Vec3::new(20.0, 0.0, 5.0));
+    grow(&mut simulation, 14);
+    assert!(simulation.plant().living_count() > 5000, "{}", simulation.plant().living_count());
+    simulation.plant().hash()
+}
+
+#[test]
+fn lives_give_their_golden_hashes() {
+    let hashes = [1, 2, 3].map(life);
+    assert_eq!(hashes, [0xa2d7_044e_e9b4_1eae, 0x7db9_b9a4_f394_4b13, 0x30a9_3a0f_2f08_8302], "{hashes:#x?}");
+}
+
+#[test]
+fn threads_do_not_change_the_plant() {
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        pool.install(|| life(1))
+    };
+    assert_eq!([on(1), on(2), on(8)], [life(1); 3]);
+}

@@ -1,0 +1,47 @@
+//! The simulation from outside: what a modeler does, and what must come of it.
+
+mod brushing;
+mod golden;
+mod invariants;
+
+use espalier_growth::{BrushPiece, BrushSample, NoObserver, Parameters, Simulation, StepInput, StrokeId};
+use espalier_plant::MetamerId;
+use glam::Vec3;
+
+fn simulation(seed: u32) -> Simulation {
+    Simulation::new(seed, Parameters::default())
+}
+
+fn grow(simulation: &mut Simulation, steps: u32) {
+    for _ in 0..steps {
+        simulation.step(&StepInput { autonomous: true, ..StepInput::default() }, &mut NoObserver);
+    }
+}
+
+/// Moves a brush along a path, in steps as long as a shoot, and lets the tree settle.
+fn brush(simulation: &mut Simulation, stroke: u32, path: &[(Vec3, f32)]) {
+    for pair in path.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let longest = simulation.parameters().max_shoot_length as f32;
+        let pieces = (from.0.distance(to.0) / longest).ceil().max(1.0) as u32;
+        let at = |i: u32| {
+            let t = i as f32 / pieces as f32;
+            BrushSample { position: from.0.lerp(to.0, t), radius: from.1 + (to.1 - from.1) * t }
+        };
+        for i in 0..pieces {
+            let piece = BrushPiece { stroke: StrokeId(stroke), samples: vec![at(i), at(i + 1)] };
+            simulation.step(&StepInput { pieces: vec![piece], autonomous: false }, &mut NoObserver);
+        }
+    }
+    for _ in 0..simulation.parameters().marker_max_age {
+        simulation.step(&StepInput::default(), &mut NoObserver);
+    }
+    simulation.end_stroke(StrokeId(stroke));
+    simulation.drop_guidance();
+}
+
+fn nodes(simulation: &Simulation) -> Vec<Vec3> {
+    let plant = simulation.plant();
+    let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    living.map(|id| plant.metamers().end(id)).collect()
+}

@@ -1,0 +1,123 @@
+//! Where leaves are: rules LF1 to LF4 of the protocol, by which clients place them too.
+
+use std::f64::consts::TAU;
+
+use espalier_plant::{MetamerId, Plant};
+use glam::Vec3;
+
+use crate::{foliage, style::Style};
+
+/// The angle in radians between one row's leaves and the next row's.
+const GOLDEN_ANGLE: f64 = 2.399_963_23;
+/// Cosine of the angle to a direction from which on a vector counts as parallel to it.
+const PARALLEL: f32 = 0.99;
+
+/// One leaf.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Leaf {
+    /// Where it sits on its metamer.
+    pub base: Vec3,
+    /// Unit vector from its base to its tip.
+    pub direction: Vec3,
+    /// Unit vector out of its upper side, perpendicular to its direction.
+    pub normal: Vec3,
+    /// Length in internodes.
+    pub size: f32,
+    /// A number from 0 to 1 of its own, by which its form varies.
+    pub random: f32,
+}
+
+/// All leaves of the present, in birth order.
+pub fn all(plant: &Plant, style: &Style) -> impl Iterator<Item = Leaf> {
+    (0..plant.metamer_count()).map(MetamerId::new).flat_map(move |id| {
+        let count = foliage::leaves(plant, id, style);
+        let to = plant.metamers().end(id);
+        let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
+        on_metamer(id.raw(), from, to, count, style.options().leaf_size)
+    })
+}
+
+/// How many leaves there are.
+pub fn count(plant: &Plant, style: &Style) -> usize {
+    let leaves = |index| foliage::leaves(plant, MetamerId::new(index), style);
+    (0..plant.metamer_count()).map(|index| usize::from(leaves(index))).sum()
+}
+
+/// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length.
+pub fn on_metamer(row: u32, from: Vec3, to: Vec3, count: u8, leaf_size: f32) -> impl Iterator<Item = Leaf> {
+    let heading = (to - from).try_normalize();
+    let count = if heading.is_some() { count } else { 0 };
+    let heading = heading.unwrap_or(Vec3::Y);
+    // LF1
+    let u = heading.cross(if heading.y.abs() > PARALLEL { Vec3::X } else { Vec3::Y }).normalize();
+    let w = heading.cross(u);
+    (0..count).map(move |k| {
+        // LF2. In 64 bits, for 32 do not hold the angle of a row in the hundred thousands.
+        let azimuth = GOLDEN_ANGLE * f64::from(row) + TAU * f64::from(k) / f64::from(count);
+        let (cos, sin) = (libm::cos(azimuth) as f32, libm::sin(azimuth) as f32);
+        let direction = (0.5 * heading + 0.866 * (cos * u + sin * w) - 0.15 * Vec3::Y).normalize();
+        let random = hash(row.wrapping_mul(16).wrapping_add(u32::from(k))) as f32 / (1u64 << 32) as f32;
+        // LF4
+        let up = if direction.y.abs() > PARALLEL { heading } else { Vec3::Y };
+        Leaf {
+            base: from + (to - from) * (f32::from(k + 1) / f32::from(count)),
+            direction,
+            normal: up.reject_from_normalized(direction).normalize(),
+            size: leaf_size * (0.75 + 0.5 * random),
+            random,
+        }
+    })
+}
+
+/// The hash of LF3.
+pub fn hash(input: u32) -> u32 {
+    let x = input.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let y = ((x >> ((x >> 28) + 4)) ^ x).wrapping_mul(277_803_737);
+    (y >> 22) ^ y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers from a separate calculation in 64 bits.
+    #[test]
+    fn lf1_to_lf4_place_leaves_as_calculated() {
+        let check = |[row, k, count]: [u32; 3],
+                     [from, to]: [[f32; 3]; 2],
+                     leaf_size,
+                     placed: [[f32; 3]; 3],
+                     size: f32| {
+            let [from, to] = [from, to].map(Vec3::from_array);
+            let leaf =
+                on_metamer(row, from, to, count as u8, leaf_size).nth(k as usize).expect("it has the leaf");
+            for (is, should) in [leaf.base, leaf.direction, leaf.normal].into_iter().zip(placed) {
+                assert!(is.distance(Vec3::from_array(should)) < 2e-5, "row {row}: {is} is not {should:?}");
+            }
+            assert!((leaf.size - size).abs() < 2e-5, "row {row}: {} is not {size}", leaf.size);
+        };
+        // An upright metamer, for which X takes the place of Y.
+        let upright = [[0.0, 0.33333, 0.0], [-0.62628, 0.37471, 0.68365], [0.25311, 0.92714, -0.2763]];
+        check([1, 0, 3], [[0.0; 3], [0.0, 1.0, 0.0]], 0.7, upright, 0.60488);
+        let oblique = [[1.6, 2.8, 3.0], [0.86936, -0.18486, -0.4583], [0.16353, 0.98277, -0.08621]];
+        check([7, 2, 3], [[1.0, 2.0, 3.0], [1.6, 2.8, 3.0]], 0.7, oblique, 0.58444);
+        // A row whose angle would be off by degrees in 32 bits.
+        let late = [[-0.48, 10.6, 0.64], [-0.29082, -0.47528, 0.83038], [-0.1571, 0.87984, 0.44856]];
+        check([250_000, 4, 5], [[0.0, 10.0, 0.0], [-0.48, 10.6, 0.64]], 1.0, late, 0.97212);
+        // A leaf that points straight up, for which the heading takes the place of Y.
+        let vertical = [[0.8, 0.6, 0.0], [-0.14049, 0.99007, 0.00496], [0.99008, 0.14051, -0.00273]];
+        check([36, 0, 1], [[0.0; 3], [0.8, 0.6, 0.0]], 0.0, vertical, 0.0);
+    }
+
+    #[test]
+    fn lf3_hash_gives_the_calculated_values() {
+        let inputs = [0, 1, 16, 4_000_004, u32::MAX];
+        let hashes = [129_708_002, 2_831_084_092, 980_210_444, 1_907_982_162, 3_861_530_882];
+        assert_eq!(inputs.map(hash), hashes);
+    }
+
+    #[test]
+    fn metamer_without_length_bears_nothing() {
+        assert_eq!(on_metamer(1, Vec3::ONE, Vec3::ONE, 3, 1.0).count(), 0);
+    }
+}

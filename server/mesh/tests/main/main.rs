@@ -1,0 +1,98 @@
+//! Random lives: tables mirror the plant however it got where it is, clients mirror the tables, and meshes hold.
+
+mod life;
+mod mirror;
+
+use espalier_mesh::{RingTable, Style, StyleOptions, bark_mesh, checks, leaf_mesh, leaves};
+use espalier_plant::Plant;
+use glam::Vec3;
+use life::{events, happen};
+use mirror::{ByChanges, ByGenerations};
+use proptest::prelude::*;
+
+fn styles() -> impl Strategy<Value = Style> {
+    (2.0f32..3.0, 0.02f32..0.3, 0u8..=15, 0.1f32..3.0).prop_map(
+        |(girth_exponent, twig_diameter, leaves, leaf_size)| {
+            Style::new(StyleOptions { girth_exponent, twig_diameter, leaves_per_node: leaves, leaf_size })
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn table_mirrors_the_plant_after_any_journey(events in events(), every in 1usize..6, styles in prop::array::uniform2(styles())) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        let mut table = RingTable::new();
+        let mut told = ByChanges::default();
+        let mut idle = ByGenerations::default();
+        for (count, event) in events.iter().enumerate() {
+            happen(&mut plant, event);
+            // Several events between two syncs let rows come back as others.
+            if count % every == 0 {
+                let style = &styles[count / 8 % 2];
+                let sequence = count as u32 + 1;
+                let changes = table.sync(&plant, style, sequence);
+                prop_assert_eq!(checks::table(&table, &plant, style), Ok(()));
+                told.apply(&changes, &table, sequence);
+                prop_assert!(told.equals(&table));
+                prop_assert!(table.sync(&plant, style, u32::MAX).is_empty());
+            }
+            if count % (3 * every) == 0 {
+                idle.catch_up(&table);
+                prop_assert!(idle.equals(&table));
+            }
+        }
+    }
+
+    #[test]
+    fn whole_meshes_hold_and_repeat(events in events(), style in styles()) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        for event in &events {
+            happen(&mut plant, event);
+        }
+        let (bark, foliage) = (bark_mesh(&plant, &style), leaf_mesh(&plant, &style));
+        prop_assert_eq!(checks::mesh(&bark), Ok(()));
+        prop_assert_eq!(checks::mesh(&foliage), Ok(()));
+        prop_assert_eq!(bark.is_empty(), plant.living_count() == 0);
+        prop_assert_eq!(&bark, &bark_mesh(&plant, &style));
+        let mut table = RingTable::new();
+        table.sync(&plant, &style, 1);
+        prop_assert_eq!(leaves::all(&plant, &style).count(), table.leaves() as usize);
+    }
+}
+
+#[test]
+fn faint_changes_of_light_are_kept_back() {
+    let (mut plant, mut table, style) = (life::sapling(), RingTable::new(), Style::default());
+    table.sync(&plant, &style, 1);
+    let mut look = |light, vigor| {
+        life::look(&mut plant, 1, light, vigor);
+        let changes = table.sync(&plant, &style, table.generations()[0] + 1);
+        (changes.light, changes.foliage)
+    };
+    assert_eq!(look(248, 0xe0), (vec![], vec![]));
+    assert_eq!(look(247, 0xdf), (vec![1], vec![1]));
+    assert_eq!(look(254, 0xef), (vec![], vec![]));
+    assert_eq!(look(255, 0xf0), (vec![1], vec![1]));
+}
+
+#[test]
+fn thicker_style_changes_only_radii() {
+    let (plant, mut table) = (life::sapling(), RingTable::new());
+    table.sync(&plant, &Style::default(), 1);
+    let thick = Style::new(StyleOptions { twig_diameter: 0.2, ..StyleOptions::default() });
+    let changes = table.sync(&plant, &thick, 2);
+    assert_eq!(changes.radius, [1, 2, 3]);
+    assert!(changes.appended.is_empty() && changes.foliage.is_empty() && changes.truncated.is_none());
+    assert_eq!(table.generations(), [2]);
+}
+
+#[test]
+fn ungrown_rows_are_truncated_and_the_chunk_marked() {
+    let (mut plant, mut table, style) = (life::sapling(), RingTable::new(), Style::default());
+    table.sync(&plant, &style, 1);
+    plant.go_to(0);
+    let changes = table.sync(&plant, &style, 2);
+    assert_eq!((changes.truncated, changes.appended), (Some(1), 1..1));
+    assert_eq!((table.rows(), table.generations(), table.leaves()), (1, &[2][..], 0));
+}
