@@ -76,10 +76,10 @@ impl<T: Copy + Default> VoxelGrid<T> {
     #[cold]
     fn widen(&mut self, chunk: [i32; 3]) -> usize {
         let mut wider = Self::new();
-        for i in 0..3 {
+        for (i, &at) in chunk.iter().enumerate() {
             let empty = self.size[i] == 0;
-            let low = if empty { chunk[i] } else { self.origin[i].min(chunk[i]) };
-            let high = if empty { chunk[i] } else { (self.origin[i] + self.size[i] - 1).max(chunk[i]) };
+            let low = if empty { at } else { self.origin[i].min(at) };
+            let high = if empty { at } else { (self.origin[i] + self.size[i] - 1).max(at) };
             wider.origin[i] = low - 1;
             wider.size[i] = high - low + 3;
         }
