@@ -1,10 +1,13 @@
-//! Growth without guidance: each bud sows a few markers in its own perception volume (TreeSketch §3.2).
+//! Growth without guidance: each bud has a few markers in its own perception volume (TreeSketch §3.2).
 //!
-//! A bud keeps those of its markers that lie in no bud's occupancy zone and for which it is the nearest
-//! perceiver; with none left it is not enabled. Buds are asked in descending vigor and only until the vigor
+//! A bud wins those of its markers that lie in no bud's occupancy zone and for which it is the nearest
+//! perceiver; with none won it is not enabled. Buds are asked in descending vigor and only until the vigor
 //! is too small for a single internode, for what a weaker bud sees cannot matter any more. The paper lets
 //! every bud also claim markers sown by others; a bud's own markers fill its volume evenly already, so the
 //! difference is one of density, and asking few buds instead of all is most of the speed.
+//!
+//! A bud keeps its markers as long as it stays where it is. So a marker found in an occupancy zone stays
+//! there until some node goes, and a bud with no other markers need not be asked: most of a crown is closed.
 
 use core::f32::consts::TAU;
 
@@ -15,33 +18,89 @@ use crate::{
     parameter_table::ParameterTable,
     parameters::Parameters,
     random::{Draw, Purpose},
-    space::{Bud, BudGrid},
+    space::{Contest, Space},
 };
 
-/// The direction E towards the free space a bud has won, if any.
-pub(crate) fn free_space(
-    axis: AxisId,
-    buds: &BudGrid,
-    parameters: &ParameterTable,
-    seed: u32,
-    step: u32,
-) -> Option<Vec3> {
-    let bud = buds.get(axis)?;
-    let own = parameters.of(axis);
-    let draw = Draw::new(seed, Purpose::Autonomous, axis.raw(), step);
-    let mut sum = Vec3::ZERO;
-    for marker in 0..own.markers_per_bud {
-        let place = sow(bud, own, draw, marker);
-        let is_won = place.y > 0.0 && buds.wins(axis, place, own);
-        if is_won {
-            sum += (place - bud.position).normalize();
-        }
-    }
-    sum.try_normalize()
+/// Markers of each bud known to be occupied, one bit each.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ClosedMarkers {
+    /// Only valid for the node the bud was at when it was written.
+    closed: Vec<Closed>,
 }
 
-/// A marker uniform in the perception volume: a truncated cone with spherical base.
-fn sow(bud: &Bud, parameters: &Parameters, draw: Draw, marker: u32) -> Vec3 {
+#[derive(Clone, Copy, Debug, Default)]
+struct Closed {
+    node: u32,
+    markers: u32,
+}
+
+impl ClosedMarkers {
+    /// The markers known to be occupied of a bud at a node.
+    pub(crate) fn of(&self, axis: AxisId, node: u32) -> u32 {
+        self.closed.get(axis.index()).filter(|closed| closed.node == node).map_or(0, |closed| closed.markers)
+    }
+
+    /// Notes them.
+    pub(crate) fn set(&mut self, axis: AxisId, node: u32, markers: u32) {
+        if axis.index() >= self.closed.len() {
+            self.closed.resize(axis.index() + 1, Closed::default());
+        }
+        self.closed[axis.index()] = Closed { node, markers };
+    }
+
+    /// Forgets everything: some node has gone, or parameters are others.
+    pub(crate) fn reopen(&mut self) {
+        self.closed.clear();
+    }
+}
+
+/// All of a bud's markers, as bits.
+pub(crate) fn all_markers(parameters: &Parameters) -> u32 {
+    u32::MAX >> (32 - parameters.markers_per_bud)
+}
+
+/// What a bud finds around it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Finding {
+    /// The direction E towards the free space it has won, if any.
+    pub space: Option<Vec3>,
+    /// The markers known to be occupied.
+    pub closed: u32,
+}
+
+/// Lets a bud at a node look at those of its markers that are not known to be occupied.
+pub(crate) fn look_around(
+    axis: AxisId,
+    node: u32,
+    closed: u32,
+    space: &Space,
+    parameters: &ParameterTable,
+    seed: u32,
+) -> Finding {
+    let mut finding = Finding { space: None, closed };
+    let Some(bud) = space.bud(axis) else { return finding };
+    let own = parameters.of(axis);
+    let draw = Draw::new(seed, Purpose::Autonomous, axis.raw(), node);
+    let (u, w) = bud.direction.any_orthonormal_pair();
+    let mut sum = Vec3::ZERO;
+    for marker in (0..own.markers_per_bud).filter(|marker| closed >> marker & 1 == 0) {
+        let [across, along, aside] = offset(own, draw, marker);
+        let offset = u * across + bud.direction * along + w * aside;
+        let place = bud.position + offset;
+        let contest = if place.y > 0.0 { space.contest(axis, place, own) } else { Contest::Occupied };
+        match contest {
+            Contest::Won => sum += offset.normalize(),
+            Contest::Lost => {}
+            Contest::Occupied => finding.closed |= 1 << marker,
+        }
+    }
+    finding.space = sum.try_normalize();
+    finding
+}
+
+/// A marker uniform in the perception volume, a truncated cone with spherical base, as coordinates across the
+/// bud's direction, along it, and across both.
+fn offset(parameters: &Parameters, draw: Draw, marker: u32) -> [f32; 3] {
     let unit = |i| draw.unit(3 * marker + i);
     let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
     let (near_cubed, far_cubed) = (near * near * near, far * far * far);
@@ -49,48 +108,45 @@ fn sow(bud: &Bud, parameters: &Parameters, draw: Draw, marker: u32) -> Vec3 {
     let cos = 1.0 - (1.0 - parameters.cos_half_perception) * unit(1);
     let sin = (1.0 - cos * cos).max(0.0).sqrt();
     let (sin_azimuth, cos_azimuth) = libm::sincosf(TAU * unit(2));
-    let (u, w) = bud.direction.any_orthonormal_pair();
-    let direction = bud.direction * cos + (u * cos_azimuth + w * sin_azimuth) * sin;
-    bud.position + direction * distance
+    [distance * sin * cos_azimuth, distance * cos, distance * sin * sin_azimuth]
 }
 
 #[cfg(test)]
 mod tests {
+    use espalier_plant::MetamerId;
+
     use super::*;
 
     #[test]
     fn markers_lie_in_the_perception_volume() {
         let parameters = Parameters::default();
-        let mut buds = BudGrid::new();
-        buds.place(AxisId::new(0), Vec3::new(1.0, 5.0, 2.0), Vec3::new(0.6, 0.8, 0.0));
-        let bud = *buds.get(AxisId::new(0)).expect("just placed");
+        let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
         let draw = Draw::new(3, Purpose::Autonomous, 0, 1);
         for marker in 0..500 {
-            let place = sow(&bud, &parameters, draw, marker);
-            let distance = place.distance(bud.position);
-            let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
-            assert!((near - 1e-3..=far + 1e-3).contains(&distance));
-            let cos = (place - bud.position).dot(bud.direction) / distance;
-            assert!(cos > parameters.cos_half_perception - 1e-4);
+            let place = Vec3::from(offset(&parameters, draw, marker));
+            assert!((near - 1e-3..=far + 1e-3).contains(&place.length()));
+            assert!(place.y / place.length() > parameters.cos_half_perception - 1e-4);
         }
     }
 
     #[test]
     fn a_crowded_bud_finds_no_room() {
         let parameters = ParameterTable::default();
-        let mut buds = BudGrid::new();
-        buds.place(AxisId::new(0), Vec3::Y * 20.0, Vec3::Y);
-        assert!(free_space(AxisId::new(0), &buds, &parameters, 1, 1).is_some());
-        let mut next = 1;
+        let mut space = Space::new();
+        let axis = AxisId::new(0);
+        space.place_bud(axis, Vec3::Y * 20.0, Vec3::Y);
+        let look = |space: &Space| look_around(axis, 1, 0, space, &parameters, 1);
+        assert!(look(&space).space.is_some() && look(&space).closed == 0);
+        let mut next = 0;
         for x in -4..=4 {
             for y in 0..=6 {
                 for z in -4..=4 {
                     let place = Vec3::new(x as f32 * 1.5, 21.0 + y as f32 * 1.5, z as f32 * 1.5);
-                    buds.place(AxisId::new(next), place, Vec3::Y);
+                    space.occupy(MetamerId::new(next), place);
                     next += 1;
                 }
             }
         }
-        assert!(free_space(AxisId::new(0), &buds, &parameters, 1, 1).is_none());
+        assert_eq!(look(&space), Finding { space: None, closed: all_markers(parameters.scene()) });
     }
 }

@@ -10,10 +10,7 @@ use std::collections::VecDeque;
 use espalier_plant::AxisId;
 use glam::Vec3;
 
-use crate::{
-    brush::BrushSample,
-    space::{BudGrid, Visit},
-};
+use crate::{brush::BrushSample, space::Space};
 
 /// A point of the path still ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,20 +54,19 @@ impl Guide {
     }
 
     /// Chooses the leader once the stroke's direction is known: a near bud that points along it.
-    pub(crate) fn choose_leader(&mut self, buds: &BudGrid, reach: f32) {
+    pub(crate) fn choose_leader(&mut self, space: &Space, reach: f32) {
         let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
         if self.leader.is_some() || first.position.distance(last.position) < ASSURED_LENGTH {
             return;
         }
         let towards = (last.position - first.position).normalize();
         let mut best: Option<(f32, AxisId)> = None;
-        buds.visit_near(first.position, reach, |axis, bud, distance_squared| {
+        space.visit_buds(first.position, reach, |axis, bud, distance_squared| {
             let turn = 1.0 - bud.direction.dot(towards);
             let cost = distance_squared.sqrt() + 0.75 * turn;
             if best.is_none_or(|(c, a)| (cost, axis) < (c, a)) {
                 best = Some((cost, axis));
             }
-            Visit::Go
         });
         self.leader = best.map(|(_, axis)| axis);
     }

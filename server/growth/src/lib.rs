@@ -14,6 +14,7 @@ mod markers;
 mod observer;
 mod parameter_table;
 mod parameters;
+mod place_grid;
 pub mod random;
 mod shedding;
 mod shoot;
@@ -31,7 +32,7 @@ pub use observer::{NoObserver, Observer, Phase};
 pub use parameter_table::ParameterTable;
 pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES};
 pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, StepInput, WORLD_EXTENT};
-pub use space::BudGrid;
+pub use space::Space;
 
 /// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
 pub const SIMULATION_VERSION: u32 = 1;

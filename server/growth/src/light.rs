@@ -5,7 +5,10 @@
 
 use glam::Vec3;
 
-use crate::{parameters::Parameters, voxel_grid::VoxelGrid};
+use crate::{
+    parameters::Parameters,
+    voxel_grid::{EDGE, VoxelGrid, voxel_of},
+};
 
 /// Fixed-point steps of one unit of light.
 const UNIT: f32 = 65536.0;
@@ -47,30 +50,43 @@ impl ShadowGrid {
 
     fn spread(&mut self, position: Vec3, change: impl Fn(u32, u32) -> u32) {
         let [x, y, z] = voxel_of(position);
-        for (depth, (&shadow, widths)) in self.strength.iter().zip(&self.half_width).enumerate() {
-            let reach = widths.len() as i32 - 1;
-            for dz in -reach..=reach {
-                let half = widths[dz.unsigned_abs() as usize];
-                self.grid.row_mut([x - half, y - depth as i32, z + dz], 2 * half + 1, |row| {
-                    for value in row {
+        let reach = self.strength.len() as i32 - 1;
+        let (strength, half_width) = (&self.strength, &self.half_width);
+        let (low, high) = ([x - reach, y - reach, z - reach], [x + reach, y, z + reach]);
+        self.grid.chunks_mut(low, high, |chunk, [left, bottom, back]| {
+            for at_y in bottom.max(y - reach)..=(bottom + EDGE - 1).min(y) {
+                let depth = y - at_y;
+                let (shadow, widths) = (strength[depth as usize], &half_width[depth as usize]);
+                for at_z in back.max(z - depth)..=(back + EDGE - 1).min(z + depth) {
+                    let half = widths[(at_z - z).unsigned_abs() as usize];
+                    let from = (x - half - left).max(0);
+                    let to = (x + half - left).min(EDGE - 1);
+                    if from > to {
+                        continue;
+                    }
+                    let row = ((at_y - bottom) * EDGE + (at_z - back)) * EDGE;
+                    for value in &mut chunk[(row + from) as usize..=(row + to) as usize] {
                         *value = change(*value, shadow);
                     }
-                });
+                }
             }
-        }
+        });
     }
 
     /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
     ///
     /// Shadows are interpolated between voxel centres; read at one voxel they would come in blocks.
     pub fn exposure(&self, position: Vec3) -> f32 {
-        let base = (position - 0.5).floor();
-        let f = position - 0.5 - base;
-        let [x, y, z] = base.to_array().map(|c| c as i32);
-        let corner = |dx, dy, dz| self.grid.get([x + dx, y + dy, z + dz]) as f32;
-        let along_x = |dy, dz| corner(0, dy, dz) * (1.0 - f.x) + corner(1, dy, dz) * f.x;
-        let along_z = |dy| along_x(dy, 0) * (1.0 - f.z) + along_x(dy, 1) * f.z;
-        let shadow = along_z(0) * (1.0 - f.y) + along_z(1) * f.y;
+        let [x, y, z] = voxel_of(position - 0.5);
+        let f = position - 0.5 - Vec3::new(x as f32, y as f32, z as f32);
+        let octet = self.grid.octet([x, y, z]);
+        let mut s = [0.0; 8];
+        for (s, shadow) in s.iter_mut().zip(octet) {
+            *s = shadow as f32;
+        }
+        let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
+        let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
+        let shadow = along_z(0) * (1.0 - f.y) + along_z(4) * f.y;
         let own = voxel_of(position);
         // The metamer's own shadow reaches the corners in its own voxel and those in the layer below.
         let share = |own: i32, base: i32, f: f32| if own == base { 1.0 - f } else { f };
@@ -81,10 +97,6 @@ impl ShadowGrid {
         let second = self.strength.get(1).map_or(0.0, |&s| s as f32) * below;
         (1.0 - (shadow - first - second) / UNIT).clamp(0.0, 1.0)
     }
-}
-
-fn voxel_of(position: Vec3) -> [i32; 3] {
-    position.floor().to_array().map(|c| c as i32)
 }
 
 /// A layer is a disc of radius q + ½ voxels: square layers would give square crowns.

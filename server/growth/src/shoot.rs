@@ -86,13 +86,14 @@ impl Simulation {
             *lateral = (heading * cos + turn(normal, heading, around) * sin).normalize();
         }
         let first_bud = self.plant.axis_count();
-        self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] });
+        let id = self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] });
         self.shadows.cast(end);
+        self.space.occupy(id, end);
         for (i, &direction) in laterals.iter().enumerate().take(buds) {
-            self.buds.place(AxisId::new(first_bud + i), end, direction);
+            self.space.place_bud(AxisId::new(first_bud + i), end, direction);
         }
         // The plant's own answer, not `heading`: rounded alike whether grown just now or read from a file.
-        self.buds.place(axis, end, self.plant.bud_direction(axis));
+        self.space.place_bud(axis, end, self.plant.bud_direction(axis));
         true
     }
 
@@ -136,23 +137,22 @@ impl Simulation {
         across(heading.cross(Vec3::Y), heading)
     }
 
-    /// Whether a node there would lie in the occupancy zone of a bud that is not its own kin.
+    /// Whether a node there would lie in the occupancy zone of one that is not its own kin.
     ///
     /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide.
     fn is_taken(&self, axis: AxisId, place: Vec3) -> bool {
         let radius = self.parameters.of(axis).occupancy_radius;
-        let axes = self.plant.axes();
-        let metamers = self.plant.metamers();
-        let axis_of_bearer = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
-        let bearer = axes.bearer(axis);
-        let is_young = bearer.is_some_and(|bearer| {
+        let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
+        let bearing_axis = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
+        let parent = bearing_axis(axis);
+        let is_young = axes.bearer(axis).is_some_and(|bearer| {
             let zone = 2.0 * radius;
             metamers.end(bearer).distance_squared(place) < zone * zone
         });
-        let bearing_axis = axis_of_bearer(axis);
-        self.buds.is_occupied(place, radius, |other| {
-            let is_own = other == axis || axis_of_bearer(other) == Some(axis);
-            let is_kin = is_young && (Some(other) == bearing_axis || axis_of_bearer(other) == bearing_axis);
+        self.space.is_occupied(place, radius, |id| {
+            let other = metamers.axis(id);
+            let is_own = other == axis || bearing_axis(other) == Some(axis);
+            let is_kin = is_young && (Some(other) == parent || bearing_axis(other) == parent);
             !is_own && !is_kin
         })
     }

@@ -7,7 +7,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    autonomous,
+    autonomous::{self, ClosedMarkers, Finding},
     brush::{BrushPiece, StrokeId},
     gravimorphism::propensity,
     guide::Guide,
@@ -18,7 +18,7 @@ use crate::{
     parameters::Parameters,
     shedding,
     shoot::Aim,
-    space::BudGrid,
+    space::Space,
     vigor::VigorFlow,
 };
 
@@ -58,7 +58,7 @@ pub struct Simulation {
     pub(crate) plant: Plant,
     pub(crate) parameters: ParameterTable,
     pub(crate) shadows: ShadowGrid,
-    pub(crate) buds: BudGrid,
+    pub(crate) space: Space,
     pub(crate) metamer_budget: u32,
     pub(crate) budget_reached: bool,
     markers: Markers,
@@ -74,6 +74,7 @@ struct Scratch {
     /// Q of each bud.
     input: Vec<f32>,
     flow: VigorFlow,
+    closed: ClosedMarkers,
 }
 
 /// Work smaller than this is not worth handing to other threads.
@@ -101,15 +102,14 @@ impl Simulation {
             plant,
             shadows: ShadowGrid::new(&state.parameters),
             parameters: ParameterTable::new(state.parameters),
-            buds: BudGrid::new(),
+            space: Space::new(),
             metamer_budget: state.metamer_budget,
             budget_reached: false,
             markers: Markers::from_vec(state.markers),
             guides: state.guides,
             scratch: Scratch::default(),
         };
-        simulation.rebuild_shadows();
-        simulation.rebuild_buds();
+        simulation.rebuild();
         simulation
     }
 
@@ -161,11 +161,11 @@ impl Simulation {
 
     /// Changes the parameters; growth from here on uses them.
     pub fn set_parameters(&mut self, parameters: Parameters) {
+        self.scratch.closed.reopen();
         let same_shadows = self.parameters().casts_like(&parameters);
         self.parameters = ParameterTable::new(parameters);
         if !same_shadows {
-            self.shadows = ShadowGrid::new(self.parameters.scene());
-            self.rebuild_shadows();
+            self.rebuild();
         }
     }
 
@@ -174,7 +174,8 @@ impl Simulation {
         self.plant.begin_step();
         let axis = self.plant.sow(position);
         self.plant.end_step();
-        self.buds.place(axis, position, Vec3::Y);
+        self.space.place_bud(axis, position, Vec3::Y);
+        self.enter(self.plant.bud_node(axis));
     }
 
     /// Forgets what guided growth so far: markers and strokes. Time travel and stroke ends call for it.
@@ -225,12 +226,14 @@ impl Simulation {
     /// Goes to a recorded step, back or forth; shadows and buds follow exactly.
     pub fn go_to(&mut self, step: u32) {
         self.drop_guidance();
+        self.scratch.closed.reopen();
         let shift = self.plant.go_to(step);
-        for &id in &shift.metamers_out {
-            self.shadows.uncast(self.plant.metamers().end(id));
-        }
+        // First in, then out: a long way back revives what was shed before it unmakes it.
         for &id in &shift.metamers_in {
-            self.shadows.cast(self.plant.metamers().end(id));
+            self.enter(id);
+        }
+        for &id in &shift.metamers_out {
+            self.leave(id);
         }
         for &axis in &shift.axes {
             self.replace_bud(axis);
@@ -249,18 +252,18 @@ impl Simulation {
             for &sample in &piece.samples {
                 guide.follow(sample, parameters.occupancy_radius);
             }
-            guide.choose_leader(&self.buds, 2.0 * parameters.perception_radius());
+            guide.choose_leader(&self.space, 2.0 * parameters.perception_radius());
         }
-        let (buds, radius) = (&self.buds, parameters.occupancy_radius);
+        let (space, radius) = (&self.space, parameters.occupancy_radius);
         self.markers
-            .clear(step, parameters.marker_max_age, |place| !buds.is_occupied(place, radius, |_| true));
+            .clear(step, parameters.marker_max_age, |place| !space.is_occupied(place, radius, |_| true));
     }
 
     /// Gives each marker to the nearest bud that perceives it; returns those buds with their direction E.
     fn associate_markers(&self) -> BTreeMap<AxisId, Vec3> {
         let mut claims: BTreeMap<AxisId, Vec3> = BTreeMap::new();
         for marker in self.markers.as_slice() {
-            if let Some(axis) = self.buds.nearest_perceiving(marker.position, self.parameters.scene()) {
+            if let Some(axis) = self.space.nearest_perceiving(marker.position, self.parameters.scene()) {
                 let towards = (marker.position - self.plant.bud_position(axis)).normalize();
                 *claims.entry(axis).or_insert(Vec3::ZERO) += towards;
             }
@@ -287,7 +290,7 @@ impl Simulation {
     }
 
     fn distribute_vigor(&mut self) {
-        let Scratch { light, input, flow } = &mut self.scratch;
+        let Scratch { light, input, flow, .. } = &mut self.scratch;
         let plant = &self.plant;
         input.resize(plant.axis_count(), 0.0);
         for (index, input) in input.iter_mut().enumerate() {
@@ -306,41 +309,51 @@ impl Simulation {
             if !self.plant.is_axis_alive(axis) {
                 continue;
             }
+            self.scratch.closed.reopen();
             let (_, axes) = self.plant.branch(axis);
             for axis in axes {
-                self.buds.remove(axis);
+                self.space.remove_bud(axis);
             }
             for id in self.plant.shed(axis) {
-                self.shadows.uncast(self.plant.metamers().end(id));
+                self.leave(id);
             }
         }
     }
 
     /// Lets buds look for room, the most vigorous first, until no internode can come of it.
-    fn find_free_space(&self, enabled: &mut BTreeMap<AxisId, Vec3>) {
+    fn find_free_space(&mut self, enabled: &mut BTreeMap<AxisId, Vec3>) {
+        let mut closed = core::mem::take(&mut self.scratch.closed);
+        let node_of = |axis| self.plant.bud_node(axis).raw();
         let mut candidates: Vec<(f64, AxisId)> = (0..self.plant.axis_count())
             .map(AxisId::new)
             .filter(|&axis| self.plant.is_axis_alive(axis))
+            .filter(|&axis| {
+                closed.of(axis, node_of(axis)) != autonomous::all_markers(self.parameters.of(axis))
+            })
             .map(|axis| (self.bud_vigor(axis), axis))
             .filter(|&(vigor, _)| vigor > 0.0)
             .collect();
-        candidates.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        candidates.sort_unstable_by(by_vigor);
         let mut greatest = enabled.keys().map(|&axis| self.bud_vigor(axis)).fold(0.0, f64::max);
-        let step = self.plant.step();
         for block in candidates.chunks(BLOCK) {
-            let ask = |&(vigor, axis): &(f64, AxisId)| {
-                let space = autonomous::free_space(axis, &self.buds, &self.parameters, self.seed, step)?;
-                Some((vigor, axis, space))
-            };
             if self.shoot_length(block[0].0, greatest, block[0].1) == 0 {
-                return;
+                break;
             }
-            let found: Vec<(f64, AxisId, Vec3)> = block.par_iter().with_min_len(64).filter_map(ask).collect();
-            for (vigor, axis, space) in found {
-                greatest = greatest.max(vigor);
-                enabled.entry(axis).or_insert(space);
+            let ask = |&(_, axis): &(f64, AxisId)| {
+                let node = node_of(axis);
+                let known = closed.of(axis, node);
+                autonomous::look_around(axis, node, known, &self.space, &self.parameters, self.seed)
+            };
+            let findings: Vec<Finding> = block.par_iter().with_min_len(64).map(ask).collect();
+            for (&(vigor, axis), finding) in block.iter().zip(findings) {
+                closed.set(axis, node_of(axis), finding.closed);
+                if let Some(space) = finding.space {
+                    greatest = greatest.max(vigor);
+                    enabled.entry(axis).or_insert(space);
+                }
             }
         }
+        self.scratch.closed = closed;
     }
 
     fn bud_vigor(&self, axis: AxisId) -> f64 {
@@ -375,7 +388,7 @@ impl Simulation {
             .filter(|&(axis, _)| self.plant.is_axis_alive(axis))
             .map(|(axis, space)| (self.bud_vigor(axis), axis, space))
             .collect();
-        shoots.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        shoots.sort_unstable_by(|a, b| by_vigor(&(a.0, a.1), &(b.0, b.1)));
         let greatest = shoots.first().map_or(0.0, |shoot| shoot.0);
         let lengths: Vec<u32> = shoots
             .iter()
@@ -399,22 +412,40 @@ impl Simulation {
         let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
         for (index, &light) in light.iter().enumerate().take(known) {
             let id = MetamerId::new(index);
-            let vigor = (vigor_per_tip(&self.plant, id) * scale) as u8;
-            self.plant.set_appearance(id, Appearance { light: (light * 255.0) as u8, vigor });
+            // By way of u32: LLVM 22 crashes on a vectorised f64-to-u8 conversion.
+            let vigor = (vigor_per_tip(&self.plant, id) * scale) as u32 as u8;
+            self.plant.set_appearance(id, Appearance { light: (light * 255.0) as u32 as u8, vigor });
         }
     }
 
-    fn rebuild_shadows(&mut self) {
+    /// Casts the shadow of a living metamer and occupies its node.
+    fn enter(&mut self, id: MetamerId) {
+        let node = self.plant.metamers().end(id);
+        self.space.occupy(id, node);
+        if !self.plant.is_seed(id) {
+            self.shadows.cast(node);
+        }
+    }
+
+    /// Undoes [`Simulation::enter`].
+    fn leave(&mut self, id: MetamerId) {
+        let node = self.plant.metamers().end(id);
+        self.space.vacate(id, node);
+        if !self.plant.is_seed(id) {
+            self.shadows.uncast(node);
+        }
+    }
+
+    /// Makes everything that follows from the plant afresh.
+    fn rebuild(&mut self) {
+        self.shadows = ShadowGrid::new(self.parameters.scene());
+        self.space = Space::new();
         for index in 0..self.plant.metamer_count() {
             let id = MetamerId::new(index);
-            if self.plant.is_alive(id) && !self.plant.is_seed(id) {
-                self.shadows.cast(self.plant.metamers().end(id));
+            if self.plant.is_alive(id) {
+                self.enter(id);
             }
         }
-    }
-
-    fn rebuild_buds(&mut self) {
-        self.buds = BudGrid::new();
         for index in 0..self.plant.axis_count() {
             self.replace_bud(AxisId::new(index));
         }
@@ -424,11 +455,16 @@ impl Simulation {
     fn replace_bud(&mut self, axis: AxisId) {
         let is_present = axis.index() < self.plant.axis_count() && self.plant.is_axis_alive(axis);
         if is_present {
-            self.buds.place(axis, self.plant.bud_position(axis), self.plant.bud_direction(axis));
+            self.space.place_bud(axis, self.plant.bud_position(axis), self.plant.bud_direction(axis));
         } else {
-            self.buds.remove(axis);
+            self.space.remove_bud(axis);
         }
     }
+}
+
+/// The most vigorous first; of equally vigorous ones the oldest.
+fn by_vigor(a: &(f64, AxisId), b: &(f64, AxisId)) -> core::cmp::Ordering {
+    b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
 }
 
 /// Q = bL^κ of a bud (TreeSketch §3.2). Gravimorphism concerns lateral buds that have not grown yet.

@@ -1,15 +1,25 @@
 //! A sparse grid of unit voxels: a directory of cubic chunks that exist where something was written.
 
+use glam::Vec3;
+
 /// Voxels along one edge of a chunk.
 pub(crate) const EDGE: i32 = 1 << EDGE_BITS;
 const EDGE_BITS: i32 = 4;
 const VOXELS: usize = (EDGE * EDGE * EDGE) as usize;
 const ABSENT: u32 = u32::MAX;
+/// Offsets of the voxels at +x, +z, +y and their sums within a chunk.
+const OCTET: [usize; 8] = {
+    let (z, y) = (EDGE as usize, (EDGE * EDGE) as usize);
+    [0, 1, z, z + 1, y, y + 1, y + z, y + z + 1]
+};
+
+/// Values of a cube of voxels: x fastest, then z, then y.
+pub(crate) type Chunk<T> = [T; VOXELS];
 
 /// Values at voxels; what was never written is `T::default()`.
 #[derive(Clone, Debug)]
 pub(crate) struct VoxelGrid<T> {
-    chunks: Vec<Box<[T]>>,
+    chunks: Vec<Box<Chunk<T>>>,
     directory: Vec<u32>,
     /// Least chunk coordinate of the directory's box, and its size in chunks.
     origin: [i32; 3],
@@ -25,7 +35,7 @@ impl<T: Copy + Default> VoxelGrid<T> {
     /// The value at a voxel.
     #[inline]
     pub(crate) fn get(&self, voxel: [i32; 3]) -> T {
-        match self.chunk_at(voxel.map(|c| c >> EDGE_BITS)) {
+        match self.chunk_at(chunk_of(voxel)) {
             ABSENT => T::default(),
             chunk => self.chunks[chunk as usize][offset(voxel)],
         }
@@ -33,22 +43,47 @@ impl<T: Copy + Default> VoxelGrid<T> {
 
     /// The value at a voxel, to change.
     pub(crate) fn get_mut(&mut self, voxel: [i32; 3]) -> &mut T {
-        let chunk = self.chunk_or_new(voxel.map(|c| c >> EDGE_BITS));
+        let chunk = self.chunk_or_new(chunk_of(voxel));
         &mut self.chunks[chunk as usize][offset(voxel)]
     }
 
-    /// Calls `change` with the stretches of voxels from `start` on along x, `len` in all.
-    #[inline]
-    pub(crate) fn row_mut(&mut self, start: [i32; 3], len: i32, mut change: impl FnMut(&mut [T])) {
-        let [mut x, y, z] = start;
-        let end = x + len;
-        while x < end {
-            let stop = end.min(((x >> EDGE_BITS) + 1) << EDGE_BITS);
-            let chunk = self.chunk_or_new([x >> EDGE_BITS, y >> EDGE_BITS, z >> EDGE_BITS]);
-            let from = offset([x, y, z]);
-            change(&mut self.chunks[chunk as usize][from..from + (stop - x) as usize]);
-            x = stop;
+    /// Calls `visit` with each chunk that meets the box from `low` to `high`, both included, and with the
+    /// chunk's least voxel. Chunks are made where there are none.
+    pub(crate) fn chunks_mut(
+        &mut self,
+        low: [i32; 3],
+        high: [i32; 3],
+        mut visit: impl FnMut(&mut Chunk<T>, [i32; 3]),
+    ) {
+        let (first, last) = (chunk_of(low), chunk_of(high));
+        for y in first[1]..=last[1] {
+            for z in first[2]..=last[2] {
+                for x in first[0]..=last[0] {
+                    let chunk = self.chunk_or_new([x, y, z]);
+                    visit(&mut self.chunks[chunk as usize], [x << EDGE_BITS, y << EDGE_BITS, z << EDGE_BITS]);
+                }
+            }
         }
+    }
+
+    /// The values at the eight voxels from `low` to `low + 1`, x fastest, then z, then y.
+    #[inline]
+    pub(crate) fn octet(&self, low: [i32; 3]) -> [T; 8] {
+        let last = EDGE - 1;
+        if low[0] & last != last && low[1] & last != last && low[2] & last != last {
+            let chunk = self.chunk_at(chunk_of(low));
+            if chunk == ABSENT {
+                return [T::default(); 8];
+            }
+            let (chunk, at) = (&self.chunks[chunk as usize], offset(low));
+            let mut octet = [T::default(); 8];
+            for (value, step) in octet.iter_mut().zip(OCTET) {
+                *value = chunk[(at + step) & (VOXELS - 1)];
+            }
+            return octet;
+        }
+        let [x, y, z] = low;
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|i| self.get([x + (i & 1), y + (i >> 2), z + (i >> 1 & 1)]))
     }
 
     #[inline]
@@ -58,16 +93,18 @@ impl<T: Copy + Default> VoxelGrid<T> {
 
     #[inline]
     fn slot(&self, chunk: [i32; 3]) -> Option<usize> {
-        let at = [chunk[0] - self.origin[0], chunk[1] - self.origin[1], chunk[2] - self.origin[2]];
-        let inside = (0..3).all(|i| (at[i] as u32) < self.size[i] as u32);
-        inside.then(|| ((at[1] * self.size[2] + at[2]) * self.size[0] + at[0]) as usize)
+        let [x, y, z] = [chunk[0] - self.origin[0], chunk[1] - self.origin[1], chunk[2] - self.origin[2]];
+        let [width, height, depth] = self.size;
+        // As unsigned numbers, what lies below the box lies beyond it too.
+        let inside = (x as u32) < width as u32 && (y as u32) < height as u32 && (z as u32) < depth as u32;
+        inside.then(|| ((y * depth + z) * width + x) as usize)
     }
 
     fn chunk_or_new(&mut self, chunk: [i32; 3]) -> u32 {
         let slot = self.slot(chunk).unwrap_or_else(|| self.widen(chunk));
         if self.directory[slot] == ABSENT {
             self.directory[slot] = self.chunks.len() as u32;
-            self.chunks.push(vec![T::default(); VOXELS].into_boxed_slice());
+            self.chunks.push(Box::new([T::default(); VOXELS]));
         }
         self.directory[slot]
     }
@@ -105,10 +142,28 @@ impl<T: Copy + Default> VoxelGrid<T> {
     }
 }
 
+/// The voxel a point lies in.
 #[inline]
-fn offset(voxel: [i32; 3]) -> usize {
-    let [x, y, z] = voxel.map(|c| c & (EDGE - 1));
-    (((y << EDGE_BITS) | z) << EDGE_BITS | x) as usize
+pub(crate) fn voxel_of(place: Vec3) -> [i32; 3] {
+    [floor(place.x), floor(place.y), floor(place.z)]
+}
+
+/// The greatest whole number not above `x`. Exact, and cheaper than `libm`'s on processors of the baseline.
+#[inline]
+fn floor(x: f32) -> i32 {
+    let toward_zero = x as i32;
+    toward_zero - i32::from(x < toward_zero as f32)
+}
+
+#[inline]
+fn chunk_of(voxel: [i32; 3]) -> [i32; 3] {
+    [voxel[0] >> EDGE_BITS, voxel[1] >> EDGE_BITS, voxel[2] >> EDGE_BITS]
+}
+
+#[inline]
+fn offset([x, y, z]: [i32; 3]) -> usize {
+    let last = EDGE - 1;
+    ((((y & last) << EDGE_BITS) | (z & last)) << EDGE_BITS | (x & last)) as usize
 }
 
 #[cfg(test)]
@@ -130,11 +185,18 @@ mod tests {
     }
 
     #[test]
-    fn rows_cross_chunks() {
+    fn octets_agree_with_single_voxels() {
         let mut grid = VoxelGrid::<u32>::new();
-        grid.row_mut([-20, 3, 4], 41, |stretch| stretch.iter_mut().for_each(|v| *v += 1));
-        for x in -22..23 {
-            assert_eq!(grid.get([x, 3, 4]), u32::from((-20..=20).contains(&x)), "x = {x}");
+        for i in 0..40 {
+            for j in 0..40 {
+                *grid.get_mut([i - 20, j - 20, (i * j) % 37 - 18]) = (i * 100 + j) as u32;
+            }
+        }
+        for low in [[0, 0, 0], [-1, 4, 15], [15, 15, 15], [-17, -17, 3], [3, -1, -1]] {
+            let [x, y, z] = low;
+            let expected =
+                [0, 1, 2, 3, 4, 5, 6, 7].map(|i| grid.get([x + (i & 1), y + (i >> 2), z + (i >> 1 & 1)]));
+            assert_eq!(grid.octet(low), expected);
         }
     }
 }

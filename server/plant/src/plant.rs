@@ -36,9 +36,9 @@ pub struct Internode<'a> {
 /// What a move in time did, for whoever keeps structures derived from the plant.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TimeShift {
-    /// Metamers that are alive now and were not before.
+    /// Metamers that are alive now and were not before, seeds included.
     pub metamers_in: Vec<MetamerId>,
-    /// Metamers that were alive before and are not now.
+    /// Metamers that were alive before and are not now, seeds included.
     pub metamers_out: Vec<MetamerId>,
     /// Axes whose bud moved, appeared or vanished; some more than once, some beyond the present.
     pub axes: Vec<AxisId>,
@@ -306,8 +306,8 @@ impl Plant {
         let (before, end) = (self.timeline.before(now), self.timeline.present());
         for index in (before.metamers..end.metamers).rev() {
             let id = MetamerId::new(index as usize);
+            shift.metamers_out.push(id);
             if !self.is_seed(id) {
-                shift.metamers_out.push(id);
                 self.living = self.living.wrapping_sub(1);
             }
             self.unlink(id);
@@ -339,8 +339,8 @@ impl Plant {
             self.link(id);
             self.carry(id);
             shift.axes.push(self.metamers.axis(id));
+            shift.metamers_in.push(id);
             if !self.is_seed(id) {
-                shift.metamers_in.push(id);
                 self.living = self.living.wrapping_add(1);
             }
         }
