@@ -23,11 +23,16 @@ pub enum Input {
     Text(ClientId, String),
     /// A binary message came; there are none from clients, so it is answered with a problem.
     Binary(ClientId),
-    /// A socket is gone.
+    /// A socket is gone; not needed after `Output::Close`, but harmless.
     Disconnected(ClientId),
+    /// So many more of this client's `Output::Text`s have been handed to its socket.
+    /// A client with 1,024 of them outstanding is closed (`FL3`), so report each one or in small batches.
+    Written(ClientId, usize),
     /// Journal entries up to this number are durable.
     Journaled(u64),
     /// The journal could not be written; nothing after the last `Journaled` is durable.
+    /// The document may already hold what was lost, so the session ends itself: every socket is closed with
+    /// 1011 and [`crate::Session::has_failed`] turns true. Drop it, and restore it from disk for the next socket.
     JournalFailed(String),
     /// A piece of work came back from the simulation pool.
     Worked(Box<Work>),
@@ -44,9 +49,9 @@ pub enum Output {
     Text(ClientId, Arc<str>),
     /// Send a mesh delta.
     Frame(ClientId, Arc<[u8]>),
-    /// Close a socket; a sentence for people goes with the code.
+    /// Close a socket; a sentence for people goes with the code. The session has forgotten the client already.
     Close(ClientId, CloseCode, String),
-    /// Write these entries; answer with `Journaled` or `JournalFailed`.
+    /// Write these entries; answer with `Journaled` or `JournalFailed`. There is one batch on the way at a time.
     Journal(Vec<JournalEntry>),
     /// Run `work.run()` away from the network, then answer with `Worked`.
     Work(Box<Work>),
@@ -67,6 +72,7 @@ pub enum Output {
         metamers: u32,
     },
     /// Answer with `Woken` at this time, in milliseconds of the clock handed to `handle`.
+    /// A later `WakeAt` takes the place of an earlier one.
     WakeAt(u64),
 }
 
@@ -75,9 +81,9 @@ pub enum Output {
 pub struct JournalEntry {
     /// 1, 2, 3 … within the session.
     pub number: u64,
-    /// Who did it: the client's key, or empty for the session itself.
+    /// The key of the client it is done for.
     pub client: String,
-    /// The client's number for it; 0 for the session itself.
+    /// The client's number for it; 0 where the session acts in a client's place (`CM5`).
     pub id: u32,
     /// The command as JSON.
     pub command: String,

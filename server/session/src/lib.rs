@@ -1,1 +1,26 @@
-//! Placeholder.
+//! One shared document: command order, undo, clients and their windows, without I/O.
+//!
+//! [`Session::handle`] takes what happened, [`Session::poll_output`] gives what is to be done; [`io`] is the
+//! whole boundary. There is no clock, thread or socket in here: the caller hands in the time. The rules kept
+//! are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
+
+mod action;
+mod author;
+mod clients;
+mod document;
+mod io;
+mod journal;
+mod malformed;
+mod session;
+mod snapshot;
+mod to_proto;
+mod window;
+mod work;
+
+pub use action::{Action, Sample};
+pub use document::{Document, DocumentError, Figures};
+pub use io::{ClientId, Input, JournalEntry, Output, ReadId};
+pub use session::Session;
+pub use snapshot::RestoreError;
+pub use to_proto::{delta, style_options};
+pub use work::Work;

@@ -1,0 +1,163 @@
+//! What can be done to a document: commands whose form has been checked.
+
+use espalier_proto::{
+    Command, ParametersPatch, Problem, ProblemCode, StrokeSample,
+    version::{MAX_STEPS_PER_COMMAND, MAX_STROKE_SAMPLES},
+};
+use glam::Vec3;
+
+use crate::malformed;
+
+/// The farthest a position may lie from the origin on any axis, in internodes (`LM2`).
+const FARTHEST: f32 = 1000.0;
+/// The lowest y of a position, in internodes (`LM2`).
+const DEEPEST: f32 = -10.0;
+/// The widest brush, in internodes (`LM2`).
+const WIDEST_BRUSH: f32 = 40.0;
+
+/// One place of the brush, in internodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// The centre of the brush.
+    pub position: Vec3,
+    /// The radius of the brush; 0 sketches one limb.
+    pub radius: f32,
+}
+
+/// A command in good form (`LM2`, `LM3`). Whether it can be done now is for the document to say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Action {
+    /// A stroke begins.
+    StrokeBegin {
+        /// The author's number for it.
+        stroke: u32,
+    },
+    /// The brush moves or rests.
+    StrokeMove {
+        /// The author's number for the stroke.
+        stroke: u32,
+        /// Where it went, 1 to 256 places.
+        samples: Vec<Sample>,
+    },
+    /// A stroke ends.
+    StrokeEnd {
+        /// The author's number for it.
+        stroke: u32,
+    },
+    /// Growth without guidance.
+    Grow {
+        /// 1 to 1000 steps.
+        steps: u32,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// Back in time.
+    Ungrow {
+        /// 1 to 1000 steps.
+        steps: u32,
+    },
+    /// Take back the last operation.
+    Undo,
+    /// Do again what was taken back.
+    Redo,
+    /// Change parameters; all values are finite, their ranges are for the document to check.
+    SetParameters(Box<ParametersPatch>),
+    /// Another plant.
+    PlantSeed {
+        /// Where.
+        position: Vec3,
+    },
+}
+
+impl Action {
+    /// Checks a command's form; a problem names the field at fault.
+    pub fn parse(command: &Command) -> Result<Self, Problem> {
+        Ok(match command {
+            &Command::StrokeBegin { stroke } => Self::StrokeBegin { stroke },
+            Command::StrokeMove { stroke, samples } => {
+                Self::StrokeMove { stroke: *stroke, samples: parse_samples(samples)? }
+            }
+            &Command::StrokeEnd { stroke } => Self::StrokeEnd { stroke },
+            &Command::Grow { steps, gesture } => Self::Grow { steps: parse_steps(steps)?, gesture },
+            &Command::Ungrow { steps } => Self::Ungrow { steps: parse_steps(steps)? },
+            Command::Undo {} => Self::Undo,
+            Command::Redo {} => Self::Redo,
+            Command::SetParameters { parameters } => {
+                check_finite(parameters)?;
+                Self::SetParameters(Box::new(parameters.clone()))
+            }
+            Command::PlantSeed { position } => Self::PlantSeed { position: parse_position(position)? },
+        })
+    }
+
+    /// Reads a command as the journal and replay scripts hold it.
+    pub fn from_json(text: &str) -> Result<Self, Problem> {
+        let command = serde_json::from_str(text).map_err(|error| malformed::command(text, &error))?;
+        Self::parse(&command)
+    }
+
+    /// The fewest simulation steps this will run, for telling people how much is still to come.
+    pub(crate) fn least_steps(&self) -> u32 {
+        match self {
+            Self::Grow { steps, .. } => *steps,
+            Self::StrokeMove { .. } => 1,
+            _ => 0,
+        }
+    }
+}
+
+fn parse_samples(samples: &[StrokeSample]) -> Result<Vec<Sample>, Problem> {
+    let count = samples.len();
+    if !(1..=MAX_STROKE_SAMPLES).contains(&count) {
+        let code = if count == 0 { ProblemCode::OutOfRange } else { ProblemCode::TooMany };
+        return Err(Problem {
+            code,
+            field: Some("samples".into()),
+            allowed: Some(format!("1 to {MAX_STROKE_SAMPLES}")),
+            message: format!("samples has {count} entries; allowed: 1 to {MAX_STROKE_SAMPLES}"),
+        });
+    }
+    let parse = |(index, sample)| {
+        parse_sample(sample).map_err(|problem| problem.within(&format!("samples[{index}]")))
+    };
+    samples.iter().enumerate().map(parse).collect()
+}
+
+fn parse_sample(sample: &StrokeSample) -> Result<Sample, Problem> {
+    let position = parse_position(&sample.position)?;
+    let radius = sample.radius;
+    if !(0.0..=WIDEST_BRUSH).contains(&radius) {
+        return Err(Problem::out_of_range("radius", radius, format!("0 to {WIDEST_BRUSH}")));
+    }
+    Ok(Sample { position, radius })
+}
+
+fn parse_position(position: &[f32; 3]) -> Result<Vec3, Problem> {
+    for (axis, &value) in position.iter().enumerate() {
+        let lowest = if axis == 1 { DEEPEST } else { -FARTHEST };
+        if !(lowest..=FARTHEST).contains(&value) {
+            let field = format!("position[{axis}]");
+            return Err(Problem::out_of_range(field, value, format!("{lowest} to {FARTHEST}")));
+        }
+    }
+    Ok(Vec3::from_array(*position))
+}
+
+fn parse_steps(steps: u32) -> Result<u32, Problem> {
+    if (1..=MAX_STEPS_PER_COMMAND).contains(&steps) {
+        Ok(steps)
+    } else {
+        Err(Problem::out_of_range("steps", steps, format!("1 to {MAX_STEPS_PER_COMMAND}")))
+    }
+}
+
+/// JSON numbers beyond an f32 arrive as infinities, and JSON cannot write those down again.
+fn check_finite(patch: &ParametersPatch) -> Result<(), Problem> {
+    let Ok(serde_json::Value::Object(fields)) = serde_json::to_value(patch) else { return Ok(()) };
+    match fields.iter().find(|(_, value)| value.is_null()) {
+        Some((name, _)) => {
+            Err(Problem::out_of_range(name, "not a finite number", "a finite number").within("parameters"))
+        }
+        None => Ok(()),
+    }
+}

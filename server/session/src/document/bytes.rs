@@ -1,0 +1,361 @@
+//! A document as bytes and back, for snapshots and saved trees.
+//!
+//! Layout: magic, format version, simulation version, checksum, then the deflated body. The body holds the
+//! plant's columns, the simulation's state and the history, all little-endian; parameters as JSON, so that
+//! a document written before a parameter existed gets its default.
+
+use std::{
+    collections::BTreeMap,
+    io::{Read, Write},
+    sync::Arc,
+};
+
+use espalier_growth::{
+    BrushSample, Guide, Marker, Parameters, SIMULATION_VERSION, Simulation, SimulationState, StrokeId,
+    Waypoint,
+};
+use espalier_plant::{AxisId, Plant, PlantParts, hash::StableHash};
+use espalier_proto::ParametersPatch;
+use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
+use glam::Vec3;
+
+use super::{
+    Document,
+    history::{History, Kind, Operation},
+    parameters,
+    strokes::{OpenStroke, OpenStrokes},
+};
+
+const MAGIC: &[u8; 8] = b"ESPALIER";
+const FORMAT: u32 = 1;
+const HEADER: usize = 24;
+/// No document is larger than this: the budget's metamers with all their columns fit many times over.
+const MAX_BODY: u64 = 4 << 30;
+
+/// Bytes are not a document.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DocumentError {
+    /// Not written by this program.
+    #[error("this is not an Espalier document")]
+    NotADocument,
+    /// Written by a later program.
+    #[error("the document has format {0}; this program reads format 1")]
+    Format(u32),
+    /// Cut short or changed since it was written.
+    #[error("the document is damaged: {0}")]
+    Damaged(String),
+}
+
+impl Document {
+    /// The whole document, its history included. Steps still pending are run first by the caller.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        debug_assert!(self.pending.is_empty(), "a document is written between two actions");
+        let mut body = Writer::default();
+        write_plant(&mut body, &self.simulation.plant().to_parts());
+        write_state(&mut body, &self.simulation.state());
+        write_history(&mut body, &self.history);
+        write_strokes(&mut body, &self.strokes);
+        sealed(&body.0)
+    }
+
+    /// Reads a document; any bytes at all give a document or an error.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DocumentError> {
+        let (header, packed) = bytes.split_at_checked(HEADER).ok_or(DocumentError::NotADocument)?;
+        if &header[..8] != MAGIC {
+            return Err(DocumentError::NotADocument);
+        }
+        let mut fields = Reader(&header[8..]);
+        let format = fields.u32()?;
+        if format != FORMAT {
+            return Err(DocumentError::Format(format));
+        }
+        let _simulation_version = fields.u32()?;
+        let expected = fields.u64()?;
+        let mut body = Vec::new();
+        DeflateDecoder::new(packed)
+            .take(MAX_BODY)
+            .read_to_end(&mut body)
+            .map_err(|_| damaged("it does not unpack"))?;
+        if checksum(&body) != expected {
+            return Err(damaged("its checksum differs"));
+        }
+        let mut reader = Reader(&body);
+        let plant =
+            Plant::from_parts(read_plant(&mut reader)?).map_err(|error| damaged(error.to_string()))?;
+        let state = read_state(&mut reader, &plant)?;
+        let history = read_history(&mut reader, &plant)?;
+        let strokes = read_strokes(&mut reader)?;
+        if !reader.0.is_empty() {
+            return Err(damaged("something follows its end"));
+        }
+        Ok(Self {
+            simulation: Simulation::from_state(plant, state),
+            history,
+            strokes,
+            pending: Default::default(),
+        })
+    }
+}
+
+/// A body behind its header, packed.
+pub(super) fn sealed(body: &[u8]) -> Vec<u8> {
+    let mut out = Vec::with_capacity(HEADER + body.len() / 2);
+    out.extend_from_slice(MAGIC);
+    out.extend_from_slice(&FORMAT.to_le_bytes());
+    out.extend_from_slice(&SIMULATION_VERSION.to_le_bytes());
+    out.extend_from_slice(&checksum(body).to_le_bytes());
+    let mut deflate = DeflateEncoder::new(out, Compression::new(3));
+    // Writing into memory does not fail.
+    let _ = deflate.write_all(body);
+    deflate.finish().unwrap_or_default()
+}
+
+fn damaged(what: impl Into<String>) -> DocumentError {
+    DocumentError::Damaged(what.into())
+}
+
+fn checksum(body: &[u8]) -> u64 {
+    let mut hash = StableHash::default();
+    hash.word(body.len() as u64);
+    for chunk in body.chunks(8) {
+        hash.word(chunk.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+    }
+    hash.finish()
+}
+
+fn write_plant(out: &mut Writer, parts: &PlantParts) {
+    out.u32(parts.now);
+    out.list(&parts.ends, |out, end| end.iter().for_each(|&n| out.u32(n)));
+    out.list(&parts.losses, |out, &axis| out.u32(axis));
+    for column in [&parts.parent, &parts.axis, &parts.death] {
+        out.list(column, |out, &value| out.u32(value));
+    }
+    for column in [&parts.end, &parts.normal] {
+        out.list(column, |out, &v| out.vector(v));
+    }
+    out.list(&parts.light, |out, &value| out.0.push(value));
+    out.list(&parts.vigor, |out, &value| out.0.push(value));
+    out.list(&parts.bearer, |out, &value| out.u32(value));
+    out.list(&parts.direction, |out, &v| out.vector(v));
+    out.list(&parts.axis_death, |out, &value| out.u32(value));
+}
+
+fn read_plant(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
+    Ok(PlantParts {
+        now: reader.u32()?,
+        ends: reader.list(|r| Ok([r.u32()?, r.u32()?, r.u32()?]))?,
+        losses: reader.list(Reader::u32)?,
+        parent: reader.list(Reader::u32)?,
+        axis: reader.list(Reader::u32)?,
+        death: reader.list(Reader::u32)?,
+        end: reader.list(Reader::vector)?,
+        normal: reader.list(Reader::vector)?,
+        light: reader.list(Reader::u8)?,
+        vigor: reader.list(Reader::u8)?,
+        bearer: reader.list(Reader::u32)?,
+        direction: reader.list(Reader::vector)?,
+        axis_death: reader.list(Reader::u32)?,
+    })
+}
+
+fn write_state(out: &mut Writer, state: &SimulationState) {
+    out.u32(state.seed);
+    out.u32(state.metamer_budget);
+    out.parameters(&state.parameters);
+    out.list(&state.markers, |out, marker| {
+        out.vector(marker.position);
+        out.u32(marker.born);
+    });
+    let guides: Vec<_> = state.guides.iter().collect();
+    out.list(&guides, |out, (stroke, guide)| {
+        out.u32(stroke.0);
+        out.option(guide.leader.map(AxisId::raw));
+        let path: Vec<_> = guide.path.iter().collect();
+        out.list(&path, |out, waypoint| {
+            out.vector(waypoint.position);
+            out.f32(waypoint.weight);
+        });
+    });
+}
+
+fn read_state(reader: &mut Reader<'_>, plant: &Plant) -> Result<SimulationState, DocumentError> {
+    let (seed, metamer_budget) = (reader.u32()?, reader.u32()?);
+    let parameters = reader.parameters()?;
+    let markers = reader.list(|r| Ok(Marker { position: r.vector()?, born: r.u32()? }))?;
+    if markers.iter().any(|marker| marker.born > plant.step()) {
+        return Err(damaged("a marker comes from the future"));
+    }
+    let guides = reader.list(|r| {
+        let stroke = StrokeId(r.u32()?);
+        let leader = r.option()?.map(|axis| axis as usize);
+        if leader.is_some_and(|axis| axis >= plant.axis_count()) {
+            return Err(damaged("a stroke leads an axis that is not there"));
+        }
+        let path = r.list(|r| Ok(Waypoint { position: r.vector()?, weight: r.f32()? }))?;
+        Ok((stroke, Guide { leader: leader.map(AxisId::new), path: path.into() }))
+    })?;
+    Ok(SimulationState { seed, parameters, markers, guides: BTreeMap::from_iter(guides), metamer_budget })
+}
+
+fn write_history(out: &mut Writer, history: &History) {
+    out.u32(history.done as u32);
+    out.list(&history.operations, |out, operation| {
+        out.0.push(operation.kind as u8);
+        out.text(&operation.author);
+        out.option(operation.gesture);
+        out.u32(operation.first);
+        out.u32(operation.last);
+        out.parameters(&operation.before);
+        out.parameters(&operation.after);
+    });
+}
+
+fn read_history(reader: &mut Reader<'_>, plant: &Plant) -> Result<History, DocumentError> {
+    let done = reader.u32()? as usize;
+    let operations = reader.list(|r| {
+        let kind = match r.u8()? {
+            0 => Kind::Stroke,
+            1 => Kind::Growth,
+            2 => Kind::Parameters,
+            3 => Kind::Seed,
+            _ => return Err(damaged("an operation of unknown kind")),
+        };
+        let (author, gesture) = (r.text()?, r.option()?);
+        let (first, last) = (r.u32()?, r.u32()?);
+        if first > last || last > plant.last_step() {
+            return Err(damaged("an operation spans steps that are not there"));
+        }
+        let (before, after) = (Arc::new(r.parameters()?), Arc::new(r.parameters()?));
+        Ok(Operation { kind, author, gesture, first, last, before, after })
+    })?;
+    if done > operations.len() {
+        return Err(damaged("more operations are in force than there are"));
+    }
+    Ok(History { operations, done })
+}
+
+fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
+    out.u32(strokes.begun);
+    out.list(&strokes.open, |out, stroke| {
+        out.text(&stroke.author);
+        out.u32(stroke.number);
+        out.u32(stroke.id.0);
+        out.list(stroke.last.as_slice(), |out, last| {
+            out.vector(last.position);
+            out.f32(last.radius);
+        });
+    });
+}
+
+fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
+    let begun = reader.u32()?;
+    let open = reader.list(|r| {
+        let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
+        let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
+        Ok(OpenStroke { author, number, id, last: last.first().copied() })
+    })?;
+    Ok(OpenStrokes { open, begun })
+}
+
+#[derive(Default)]
+struct Writer(Vec<u8>);
+
+impl Writer {
+    fn u32(&mut self, value: u32) {
+        self.0.extend_from_slice(&value.to_le_bytes());
+    }
+
+    fn f32(&mut self, value: f32) {
+        self.u32(value.to_bits());
+    }
+
+    fn vector(&mut self, v: Vec3) {
+        v.to_array().into_iter().for_each(|c| self.f32(c));
+    }
+
+    fn option(&mut self, value: Option<u32>) {
+        self.0.push(u8::from(value.is_some()));
+        self.u32(value.unwrap_or(0));
+    }
+
+    fn text(&mut self, text: &str) {
+        self.list(text.as_bytes(), |out, &byte| out.0.push(byte));
+    }
+
+    fn parameters(&mut self, set: &Parameters) {
+        // Plain numbers and switches always have a JSON form.
+        self.text(&serde_json::to_string(&parameters::to_proto(set.values())).unwrap_or_default());
+    }
+
+    fn list<T>(&mut self, items: &[T], mut write: impl FnMut(&mut Self, &T)) {
+        self.u32(items.len() as u32);
+        for item in items {
+            write(self, item);
+        }
+    }
+}
+
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], DocumentError> {
+        let (taken, rest) = self.0.split_first_chunk::<N>().ok_or_else(|| damaged("it is cut short"))?;
+        self.0 = rest;
+        Ok(*taken)
+    }
+
+    fn u8(&mut self) -> Result<u8, DocumentError> {
+        self.take::<1>().map(|[byte]| byte)
+    }
+
+    fn u32(&mut self) -> Result<u32, DocumentError> {
+        self.take().map(u32::from_le_bytes)
+    }
+
+    fn u64(&mut self) -> Result<u64, DocumentError> {
+        self.take().map(u64::from_le_bytes)
+    }
+
+    fn f32(&mut self) -> Result<f32, DocumentError> {
+        let value = f32::from_bits(self.u32()?);
+        if value.is_finite() { Ok(value) } else { Err(damaged("a number is not finite")) }
+    }
+
+    fn vector(&mut self) -> Result<Vec3, DocumentError> {
+        Ok(Vec3::new(self.f32()?, self.f32()?, self.f32()?))
+    }
+
+    fn option(&mut self) -> Result<Option<u32>, DocumentError> {
+        let (is_some, value) = (self.u8()?, self.u32()?);
+        Ok((is_some != 0).then_some(value))
+    }
+
+    fn text(&mut self) -> Result<String, DocumentError> {
+        let bytes = self.list(Self::u8)?;
+        String::from_utf8(bytes).map_err(|_| damaged("a text is not UTF-8"))
+    }
+
+    fn parameters(&mut self) -> Result<Parameters, DocumentError> {
+        let text = self.text()?;
+        let patch: ParametersPatch =
+            serde_json::from_str(&text).map_err(|error| damaged(format!("its parameters: {error}")))?;
+        let defaults = parameters::to_proto(Parameters::default().values());
+        parameters::parse(&defaults.patched(&patch)).map_err(|problem| damaged(problem.message))
+    }
+
+    fn list<T>(
+        &mut self,
+        read: impl Fn(&mut Self) -> Result<T, DocumentError>,
+    ) -> Result<Vec<T>, DocumentError> {
+        let len = self.u32()? as usize;
+        // Every item takes a byte at least, so a length beyond the rest is a lie not worth allocating for.
+        if len > self.0.len() {
+            return Err(damaged("a list is longer than what is left"));
+        }
+        let mut items = Vec::with_capacity(len.min(1 << 20));
+        for _ in 0..len {
+            items.push(read(self)?);
+        }
+        Ok(items)
+    }
+}

@@ -1,0 +1,183 @@
+//! Strokes in progress, cut into the pieces that guide single steps.
+
+use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
+use espalier_plant::hash::StableHash;
+use espalier_proto::{Problem, ProblemCode};
+
+use super::refused;
+use crate::action::Sample;
+
+/// Strokes open at once; more fingers than this on one tree are a mistake or an attack.
+const MAX_OPEN: usize = 32;
+/// Steps one message runs at most (`CM6`).
+const MAX_STEPS: u32 = 16;
+
+/// One stroke between its begin and its end.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct OpenStroke {
+    pub author: String,
+    /// The author's number for it.
+    pub number: u32,
+    /// The document's own name for it.
+    pub id: StrokeId,
+    /// Where the brush was last.
+    pub last: Option<BrushSample>,
+}
+
+/// All strokes in progress.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct OpenStrokes {
+    pub open: Vec<OpenStroke>,
+    /// Strokes ever begun: names them, and keys their randomness.
+    pub begun: u32,
+}
+
+impl OpenStrokes {
+    pub fn is_empty(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    pub fn of(&self, author: &str) -> Vec<u32> {
+        self.open.iter().filter(|s| s.author == author).map(|s| s.number).collect()
+    }
+
+    pub fn open(&mut self, author: &str, number: u32) -> Result<(), Problem> {
+        if self.find(author, number).is_some() {
+            return Err(refused(format!("stroke {number} has begun already")));
+        }
+        if self.open.len() >= MAX_OPEN {
+            return Err(refused(format!("{MAX_OPEN} strokes are in progress; end one first")));
+        }
+        self.begun = self.begun.wrapping_add(1);
+        self.open.push(OpenStroke {
+            author: author.to_owned(),
+            number,
+            id: StrokeId(self.begun),
+            last: None,
+        });
+        Ok(())
+    }
+
+    pub fn close(&mut self, author: &str, number: u32) -> Result<StrokeId, Problem> {
+        let index = self.find(author, number).ok_or_else(|| unknown(number))?;
+        Ok(self.open.remove(index).id)
+    }
+
+    pub fn close_all(&mut self) {
+        self.open.clear();
+    }
+
+    /// Takes in more of a stroke and cuts it into steps: as many as its path is long in shoots of
+    /// `longest` internodes.
+    pub fn extend(
+        &mut self,
+        author: &str,
+        number: u32,
+        samples: &[Sample],
+        longest: u32,
+    ) -> Result<Vec<StepInput>, Problem> {
+        let index = self.find(author, number).ok_or_else(|| unknown(number))?;
+        let stroke = &mut self.open[index];
+        let new = samples.iter().map(|s| BrushSample { position: s.position, radius: s.radius });
+        let path: Vec<BrushSample> = stroke.last.into_iter().chain(new).collect();
+        stroke.last = path.last().copied();
+        let length: f32 = path.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum();
+        let steps = ((length / longest as f32).ceil() as u32).clamp(1, MAX_STEPS);
+        let id = stroke.id;
+        let piece =
+            |samples| StepInput { pieces: vec![BrushPiece { stroke: id, samples }], autonomous: false };
+        Ok(cut(&path, length, steps).into_iter().map(piece).collect())
+    }
+
+    pub fn hash(&self, hash: &mut StableHash) {
+        hash.word(u64::from(self.begun));
+        for stroke in &self.open {
+            hash.word(u64::from(stroke.number) | u64::from(stroke.id.0) << 32);
+            if let Some(last) = stroke.last {
+                hash.vector(last.position);
+                hash.word(u64::from(last.radius.to_bits()));
+            }
+        }
+    }
+
+    fn find(&self, author: &str, number: u32) -> Option<usize> {
+        self.open.iter().position(|s| s.number == number && s.author == author)
+    }
+}
+
+fn unknown(number: u32) -> Problem {
+    Problem {
+        code: ProblemCode::NotFound,
+        field: Some("stroke".to_owned()),
+        allowed: Some("the number of a stroke in progress".to_owned()),
+        message: format!("there is no stroke {number} in progress"),
+    }
+}
+
+/// Cuts a path into `parts` pieces of equal length; each begins where the one before ends.
+fn cut(path: &[BrushSample], length: f32, parts: u32) -> Vec<Vec<BrushSample>> {
+    let mut pieces = Vec::with_capacity(parts as usize);
+    let mut piece = vec![path[0]];
+    let mut gone = 0.0;
+    for pair in path.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let span = from.position.distance(to.position);
+        loop {
+            let border = length * (pieces.len() + 1) as f32 / parts as f32;
+            if pieces.len() as u32 + 1 >= parts || gone + span < border || span <= 0.0 {
+                break;
+            }
+            let t = ((border - gone) / span).clamp(0.0, 1.0);
+            let at = BrushSample {
+                position: from.position.lerp(to.position, t),
+                radius: from.radius + (to.radius - from.radius) * t,
+            };
+            piece.push(at);
+            pieces.push(std::mem::replace(&mut piece, vec![at]));
+        }
+        gone += span;
+        piece.push(to);
+    }
+    pieces.push(piece);
+    pieces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn sample(x: f32) -> Sample {
+        Sample { position: Vec3::new(x, 10.0, 0.0), radius: 1.0 }
+    }
+
+    fn extend(strokes: &mut OpenStrokes, xs: &[f32]) -> Vec<StepInput> {
+        let samples: Vec<Sample> = xs.iter().map(|&x| sample(x)).collect();
+        strokes.extend("a", 1, &samples, 4).expect("the stroke is open")
+    }
+
+    #[test]
+    fn cm6_a_path_runs_a_step_per_shoot() {
+        let mut strokes = OpenStrokes::default();
+        strokes.open("a", 1).expect("nothing is open");
+        assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
+        assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
+        assert_eq!(extend(&mut strokes, &[3.0, 9.0]).len(), 3);
+        assert_eq!(extend(&mut strokes, &[999.0]).len(), 16);
+    }
+
+    #[test]
+    fn pieces_join_without_a_gap() {
+        let mut strokes = OpenStrokes::default();
+        strokes.open("a", 1).expect("nothing is open");
+        extend(&mut strokes, &[0.0]);
+        let steps = extend(&mut strokes, &[1.0, 2.5, 7.0, 7.0, 30.0]);
+        let mut end = 0.0;
+        for step in &steps {
+            let samples = &step.pieces[0].samples;
+            assert!((samples[0].position.x - end).abs() < 1e-4);
+            end = samples[samples.len() - 1].position.x;
+        }
+        assert!((end - 30.0).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,261 @@
+//! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
+
+use espalier_plant::checks;
+use proptest::prelude::*;
+
+use super::*;
+use crate::action::Sample;
+
+fn sample(x: f32, y: f32, radius: f32) -> Sample {
+    Sample { position: Vec3::new(x, y, 0.0), radius }
+}
+
+/// A stroke from the ground up, with a crown.
+fn stroke(document: &mut Document, number: u32) {
+    let mut apply = |action: Action| document.apply("ann", &action).expect("the stroke is well formed");
+    apply(Action::StrokeBegin { stroke: number });
+    apply(Action::StrokeMove { stroke: number, samples: vec![sample(0.0, 0.0, 0.2), sample(1.0, 8.0, 0.2)] });
+    apply(Action::StrokeMove {
+        stroke: number,
+        samples: vec![sample(2.0, 13.0, 4.0), sample(-3.0, 15.0, 5.0)],
+    });
+    apply(Action::StrokeEnd { stroke: number });
+}
+
+fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
+    document.apply("ann", &Action::Grow { steps, gesture }).expect("there is room to grow");
+}
+
+fn patch(apical_control: f32) -> Action {
+    Action::SetParameters(Box::new(ParametersPatch {
+        apical_control: Some(apical_control),
+        ..ParametersPatch::default()
+    }))
+}
+
+#[test]
+fn undo_takes_back_whole_operations() {
+    let mut document = Document::new(4);
+    let seedling = document.plant().hash();
+    stroke(&mut document, 1);
+    let after_stroke = document.plant().hash();
+    grow(&mut document, 3, None);
+    document.apply("ann", &Action::Undo).expect("there is growth to undo");
+    assert_eq!(document.plant().hash(), after_stroke);
+    document.apply("ann", &Action::Undo).expect("there is a stroke to undo");
+    assert_eq!(document.plant().hash(), seedling);
+    let problem = document.apply("ann", &Action::Undo).expect_err("nothing is left");
+    assert_eq!(problem.code, ProblemCode::Refused);
+}
+
+#[test]
+fn redo_restores_what_undo_took() {
+    let mut document = Document::new(4);
+    stroke(&mut document, 1);
+    document.apply("ann", &patch(0.55)).expect("0.55 is in range");
+    grow(&mut document, 3, None);
+    let (hash, parameters) = (document.plant().hash(), document.parameters());
+    for _ in 0..3 {
+        document.apply("ann", &Action::Undo).expect("three operations were done");
+    }
+    assert_eq!(document.parameters().apical_control, 0.5);
+    for _ in 0..3 {
+        document.apply("ann", &Action::Redo).expect("three operations were undone");
+    }
+    assert_eq!((document.plant().hash(), document.parameters()), (hash, parameters));
+    assert!(document.apply("ann", &Action::Redo).is_err());
+}
+
+#[test]
+fn cm7_ungrow_goes_back_through_a_stroke_and_redo_returns() {
+    let mut document = Document::new(4);
+    stroke(&mut document, 1);
+    let (step, hash) = (document.plant().step(), document.plant().hash());
+    document.apply("ann", &Action::Ungrow { steps: 2 }).expect("there are steps");
+    assert_eq!(document.plant().step(), step - 2);
+    document.apply("ann", &Action::Redo).expect("the stroke was left in part");
+    assert_eq!(document.plant().hash(), hash);
+    document.apply("ann", &Action::Ungrow { steps: 1000 }).expect("there are steps");
+    assert_eq!(document.plant().step(), 0);
+    assert!(document.apply("ann", &Action::Ungrow { steps: 1 }).is_err());
+}
+
+#[test]
+fn growth_of_one_gesture_is_one_operation() {
+    let mut document = Document::new(4);
+    for _ in 0..4 {
+        grow(&mut document, 1, Some(7));
+    }
+    grow(&mut document, 1, Some(8));
+    document.apply("ann", &Action::Undo).expect("one");
+    assert_eq!(document.plant().step(), 4);
+    document.apply("ann", &Action::Undo).expect("two");
+    assert_eq!(document.plant().step(), 0);
+}
+
+#[test]
+fn cm5_overlapping_strokes_are_one_operation() {
+    let mut document = Document::new(4);
+    let mut apply = |author: &str, action: Action| document.apply(author, &action).expect("well formed");
+    apply("ann", Action::StrokeBegin { stroke: 1 });
+    apply("bob", Action::StrokeBegin { stroke: 1 });
+    apply(
+        "ann",
+        Action::StrokeMove { stroke: 1, samples: vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)] },
+    );
+    apply(
+        "bob",
+        Action::StrokeMove { stroke: 1, samples: vec![sample(0.0, 4.0, 0.0), sample(6.0, 7.0, 0.0)] },
+    );
+    apply("ann", Action::StrokeEnd { stroke: 1 });
+    apply("bob", Action::StrokeEnd { stroke: 1 });
+    apply("bob", Action::Undo);
+    assert_eq!(document.plant().step(), 0);
+}
+
+#[test]
+fn unknown_strokes_and_bad_seeds_are_refused() {
+    let mut document = Document::new(4);
+    let problem = document.apply("ann", &Action::StrokeEnd { stroke: 3 }).expect_err("never begun");
+    assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("stroke")));
+    document.apply("ann", &Action::StrokeBegin { stroke: 3 }).expect("new");
+    assert!(document.apply("ann", &Action::StrokeBegin { stroke: 3 }).is_err(), "begun twice");
+    assert!(document.apply("bob", &Action::StrokeEnd { stroke: 3 }).is_err(), "another's stroke");
+    assert!(document.apply("ann", &Action::PlantSeed { position: Vec3::Y }).is_err());
+}
+
+#[test]
+fn every_parameter_refuses_beyond_its_ends() {
+    let defaults = serde_json::to_value(Document::new(1).parameters()).expect("plain values");
+    for &(name, low, high) in espalier_growth::RANGES {
+        for value in [f64::from(low) - 1.0, f64::from(high) + 1.0] {
+            // A whole number below zero has no form in an unsigned field; the wire refuses it before this.
+            if defaults[name].is_u64() && value < 0.0 {
+                continue;
+            }
+            let json = if defaults[name].is_u64() {
+                format!("{{\"{name}\":{}}}", value as u64)
+            } else {
+                format!("{{\"{name}\":{value}}}")
+            };
+            let patch: ParametersPatch = serde_json::from_str(&json).expect("a patch");
+            let mut document = Document::new(1);
+            let before = document.hash();
+            let problem = document.apply("ann", &Action::SetParameters(Box::new(patch))).expect_err(&json);
+            assert_eq!(problem.field.as_deref(), Some(name));
+            assert!(problem.allowed.is_some());
+            assert_eq!(document.hash(), before, "{name} changed something");
+        }
+    }
+}
+
+#[test]
+fn growth_beyond_the_budget_is_refused() {
+    let mut document = Document::new(4);
+    document.set_metamer_budget(300);
+    grow(&mut document, 1000, None);
+    assert_eq!(document.pending_steps(), 0);
+    assert_eq!(document.plant().metamer_count(), 300);
+    let problem = document.apply("ann", &Action::Grow { steps: 1, gesture: None }).expect_err("full");
+    assert!(problem.message.contains("300"));
+}
+
+#[derive(Clone, Debug)]
+enum Event {
+    Stroke,
+    Grow(u32),
+    Ungrow(u32),
+    Undo,
+    Redo,
+    Apical(f32),
+    Seed(f32),
+    Begin(u32),
+    Move(u32, f32, f32, f32),
+    End(u32),
+}
+
+fn events() -> impl Strategy<Value = Vec<Event>> {
+    let event = prop_oneof![
+        1 => Just(Event::Stroke),
+        2 => (1u32..5).prop_map(Event::Grow),
+        2 => (1u32..9).prop_map(Event::Ungrow),
+        2 => Just(Event::Undo),
+        2 => Just(Event::Redo),
+        1 => (0.3f32..0.8).prop_map(Event::Apical),
+        1 => (-20f32..20.0).prop_map(Event::Seed),
+        1 => (90u32..92).prop_map(Event::Begin),
+        2 => (90u32..92, -6f32..6.0, 0f32..14.0, 0f32..4.0).prop_map(|(n, x, y, r)| Event::Move(n, x, y, r)),
+        1 => (90u32..92).prop_map(Event::End),
+    ];
+    prop::collection::vec(event, 1..14)
+}
+
+fn happen(document: &mut Document, number: usize, event: &Event) {
+    let action = match event {
+        Event::Stroke => return stroke(document, 1000 + number as u32),
+        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None },
+        Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
+        Event::Undo => Action::Undo,
+        Event::Redo => Action::Redo,
+        Event::Apical(value) => patch(*value),
+        Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
+        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke },
+        Event::Move(stroke, x, y, r) => {
+            Action::StrokeMove { stroke: *stroke, samples: vec![sample(*x, *y, *r)] }
+        }
+        Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
+    };
+    let before = document.hash();
+    if document.apply("ann", &action).is_err() {
+        assert_eq!(document.hash(), before, "a refused {event:?} changed something");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn histories_undo_redo_and_read_back_exactly(seed: u32, events in events()) {
+        let mut document = Document::new(seed);
+        document.set_metamer_budget(4000);
+        for (number, event) in events.iter().enumerate() {
+            happen(&mut document, number, event);
+            prop_assert_eq!(checks::all(document.plant()), Ok(()));
+        }
+        // Written down and read again it is the same, and goes on the same.
+        let mut copy = Document::from_bytes(&document.to_bytes()).expect("our own bytes");
+        prop_assert_eq!(copy.hash(), document.hash());
+        for event in [Event::Move(90, 3.0, 9.0, 0.0), Event::Grow(2), Event::Undo, Event::Redo] {
+            happen(&mut document, 500, &event);
+            happen(&mut copy, 500, &event);
+            prop_assert_eq!(copy.hash(), document.hash());
+        }
+        // All the way back is the seedling; all the way forth is the end again.
+        while document.apply("ann", &Action::Redo).is_ok() {}
+        let end = (document.plant().hash(), document.parameters());
+        while document.apply("ann", &Action::Undo).is_ok() {}
+        prop_assert_eq!(document.plant().hash(), Document::new(seed).plant().hash());
+        prop_assert_eq!(document.parameters(), Document::new(seed).parameters());
+        while document.apply("ann", &Action::Redo).is_ok() {}
+        prop_assert_eq!((document.plant().hash(), document.parameters()), end);
+    }
+
+    #[test]
+    fn damaged_bytes_never_panic(cut in 0usize..4000, at in 0usize..4000, with: u8) {
+        let mut document = Document::new(9);
+        stroke(&mut document, 1);
+        let mut bytes = document.to_bytes();
+        let at = at % bytes.len();
+        bytes[at] ^= with;
+        bytes.truncate(bytes.len().saturating_sub(cut % 50));
+        // Only untouched bytes, or a touched field that nothing is checked against, may pass.
+        if let Ok(read) = Document::from_bytes(&bytes) {
+            prop_assert_eq!(read.hash(), document.hash());
+        }
+    }
+
+    #[test]
+    fn arbitrary_bodies_never_panic(body in prop::collection::vec(any::<u8>(), 0..400)) {
+        prop_assert!(Document::from_bytes(&bytes::sealed(&body)).is_err());
+    }
+}

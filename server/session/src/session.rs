@@ -1,0 +1,264 @@
+//! The state machine of one session: what happened goes in, what is to be done comes out.
+
+mod commands;
+mod delivery;
+mod greeting;
+mod upkeep;
+
+use std::{
+    collections::{BTreeMap, VecDeque},
+    sync::Arc,
+};
+
+use espalier_proto::{
+    ClientMessage, Parameters, Problem, ProblemCode, ServerMessage,
+    version::{CloseCode, MAX_MESSAGE_BYTES},
+};
+
+use crate::{
+    action::Action,
+    author::{Authors, LastCommand, note_last},
+    clients::{Client, Clients},
+    document::{Document, Figures},
+    io::{ClientId, Input, JournalEntry, Output, ReadId},
+    journal::Journal,
+    malformed,
+    snapshot::{self, RestoreError, Snapshot},
+    window::MAX_UNREAD,
+    work::Work,
+};
+
+use self::{commands::Queue, upkeep::Upkeep};
+
+/// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
+#[derive(Debug)]
+pub struct Session {
+    name: String,
+    epoch: u32,
+    /// The latest time handed in, in milliseconds.
+    now: u64,
+    clients: Clients,
+    authors: Authors,
+    journal: Journal,
+    queue: Queue,
+    /// The document, unless it is away on the simulation pool.
+    home: Option<Box<Work>>,
+    reads: Vec<ReadId>,
+    /// The newest frame and the rows the table has since.
+    newest: (u32, u32),
+    figures: Figures,
+    leaves: u32,
+    parameters: Parameters,
+    upkeep: Upkeep,
+    failed: bool,
+    outputs: VecDeque<Output>,
+}
+
+impl Session {
+    /// Loads a session: its last snapshot, if there is one, and the journal entries behind it.
+    ///
+    /// Without a snapshot the document starts from `seed`; without entries either, the session is new.
+    /// `epoch` must differ from load to load (`RS2`). Entries the snapshot contains are skipped.
+    pub fn restore(
+        name: impl Into<String>,
+        epoch: u32,
+        snapshot: Option<&[u8]>,
+        seed: u32,
+        entries: impl IntoIterator<Item = JournalEntry>,
+    ) -> Result<Self, RestoreError> {
+        let Snapshot { through, mut last_commands, mut document } = match snapshot {
+            Some(bytes) => snapshot::from_bytes(bytes)?,
+            None => Snapshot { through: 0, last_commands: BTreeMap::new(), document: Document::new(seed) },
+        };
+        let mut last = through;
+        for entry in entries.into_iter().skip_while(|entry| entry.number <= through) {
+            if entry.number != last + 1 {
+                return Err(RestoreError::Gap { expected: last + 1, found: entry.number });
+            }
+            last = entry.number;
+            let action = Action::from_json(&entry.command)
+                .map_err(|problem| RestoreError::Entry { number: entry.number, problem })?;
+            // What the document refuses now it refused the first time as well.
+            let _refused_again = document.apply(&entry.client, &action);
+            let key = Arc::from(entry.client);
+            note_last(&mut last_commands, &key, LastCommand { id: entry.id, entry: entry.number });
+        }
+        Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
+    }
+
+    /// The first snapshot of a session that opens a saved tree, from the bytes a [`Input::Read`] gave.
+    /// Keep it with `through` 0 and restore the session from it.
+    pub fn first_snapshot(document: &[u8]) -> Result<Vec<u8>, RestoreError> {
+        Document::from_bytes(document)?;
+        Ok(snapshot::to_bytes(0, &BTreeMap::new(), document))
+    }
+
+    fn with_document(
+        name: String,
+        epoch: u32,
+        document: Document,
+        snapshotted: u64,
+        last: u64,
+        last_commands: BTreeMap<Arc<str>, LastCommand>,
+    ) -> Self {
+        let mut authors = Authors::default();
+        if last > 0 {
+            authors = Authors::restored(&last_commands);
+        }
+        let work = Box::new(Work::new(document, epoch, last, last_commands));
+        Self {
+            name,
+            epoch,
+            now: 0,
+            clients: Clients::new(),
+            authors,
+            journal: Journal::new(last),
+            queue: Queue::default(),
+            reads: Vec::new(),
+            newest: (work.sequence, work.table.rows() as u32),
+            figures: work.document.figures(),
+            leaves: work.table.leaves(),
+            parameters: work.document.parameters(),
+            home: Some(work),
+            upkeep: Upkeep::new(snapshotted),
+            failed: false,
+            outputs: VecDeque::new(),
+        }
+    }
+
+    /// Something happened at this time, in milliseconds of a clock that never goes back.
+    pub fn handle(&mut self, now: u64, input: Input) {
+        self.now = self.now.max(now);
+        if self.failed {
+            if let Input::Connected(client) = input {
+                self.outputs.push_back(Output::Close(client, CloseCode::InternalError, LOST.into()));
+            }
+            return;
+        }
+        self.start_clocks();
+        match input {
+            Input::Connected(client) => self.connect(client),
+            Input::Text(client, text) => self.read(client, &text),
+            Input::Binary(client) => self.read_binary(client),
+            Input::Disconnected(client) => self.forget(client),
+            Input::Written(client, count) => {
+                if let Some(client) = self.clients.get_mut(&client) {
+                    client.unread = client.unread.saturating_sub(count);
+                }
+            }
+            Input::Journaled(through) => self.journaled(through),
+            Input::JournalFailed(reason) => self.fail(&reason),
+            Input::Worked(work) => self.worked(work),
+            Input::Read(read) => self.reads.push(read),
+            Input::Woken => self.upkeep.woken(),
+        }
+        if !self.failed {
+            self.keep_up();
+            self.dispatch();
+            self.ask_to_be_woken();
+        }
+    }
+
+    /// The next thing to do, oldest first.
+    pub fn poll_output(&mut self) -> Option<Output> {
+        self.outputs.pop_front()
+    }
+
+    /// Whether the journal failed: this session is over and must be restored from disk.
+    pub fn has_failed(&self) -> bool {
+        self.failed
+    }
+
+    /// Whether nobody is here and nothing is left to do or to keep: it can be dropped and restored later.
+    pub fn is_idle(&self) -> bool {
+        let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
+        let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
+        self.clients.is_empty() && self.outputs.is_empty() && self.reads.is_empty() && settled && kept
+    }
+
+    /// The document, unless it is away on the simulation pool.
+    pub fn document(&self) -> Option<&Document> {
+        self.home.as_ref().map(|work| &work.document)
+    }
+
+    /// Clients that have said hello.
+    pub fn people(&self) -> usize {
+        self.clients.values().filter(|client| client.guest.is_some()).count()
+    }
+
+    fn read(&mut self, client: ClientId, text: &str) {
+        let Some(Client { guest, .. }) = self.clients.get(&client) else { return };
+        if text.len() > MAX_MESSAGE_BYTES {
+            return self.close(client, CloseCode::MessageTooBig, "a message has at most 256 KiB");
+        }
+        let message = serde_json::from_str::<ClientMessage>(text);
+        let Some(guest) = guest else { return self.greet(client, text, message) };
+        let key = Arc::clone(&guest.key);
+        match message {
+            Ok(ClientMessage::Command { id, command }) => self.take(client, &key, id, Ok(command)),
+            Ok(ClientMessage::Received { sequence }) => self.received(client, sequence),
+            Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
+            Ok(ClientMessage::Hello { .. }) => {
+                let problem = Problem::new(ProblemCode::Malformed, "hello is only the first message");
+                self.send(client, &ServerMessage::Problem { problem });
+            }
+            Err(error) => match malformed::numbered_command(text, &error) {
+                Some((id, problem)) => self.take(client, &key, id, Err(problem)),
+                None => self.send(client, &ServerMessage::Problem { problem: malformed::message(&error) }),
+            },
+        }
+    }
+
+    fn read_binary(&mut self, client: ClientId) {
+        match self.clients.get(&client) {
+            Some(Client { guest: Some(_), .. }) => {
+                let problem = Problem::new(ProblemCode::Malformed, "clients send no binary messages");
+                self.send(client, &ServerMessage::Problem { problem });
+            }
+            Some(_) => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),
+            None => {}
+        }
+    }
+
+    fn fail(&mut self, reason: &str) {
+        let sentence = format!("{LOST}: {reason}");
+        for client in std::mem::take(&mut self.clients).into_keys() {
+            self.outputs.push_back(Output::Close(client, CloseCode::InternalError, sentence.clone()));
+        }
+        self.failed = true;
+        self.home = None;
+    }
+
+    fn send(&mut self, client: ClientId, message: &ServerMessage) {
+        self.send_text(client, &text_of(message));
+    }
+
+    fn broadcast(&mut self, message: &ServerMessage) {
+        let text = text_of(message);
+        let guests = self.clients.iter().filter(|(_, client)| client.guest.is_some());
+        for client in guests.map(|(&id, _)| id).collect::<Vec<_>>() {
+            self.send_text(client, &text);
+        }
+    }
+
+    fn send_text(&mut self, id: ClientId, text: &Arc<str>) {
+        let Some(client) = self.clients.get_mut(&id) else { return };
+        if client.unread >= MAX_UNREAD {
+            return self.close(id, CloseCode::TooSlow, "1024 messages were sent and none of them was read");
+        }
+        client.unread += 1;
+        self.outputs.push_back(Output::Text(id, Arc::clone(text)));
+    }
+
+    fn close(&mut self, client: ClientId, code: CloseCode, sentence: &str) {
+        self.outputs.push_back(Output::Close(client, code, sentence.into()));
+        self.forget(client);
+    }
+}
+
+const LOST: &str = "the server could not write to its disk; what was not acknowledged is sent again";
+
+fn text_of(message: &ServerMessage) -> Arc<str> {
+    // Maps with keys that are no strings are all that serde_json cannot write, and there are none.
+    serde_json::to_string(message).unwrap_or_default().into()
+}

@@ -1,0 +1,156 @@
+//! Commands: their numbers, their one order, their way to the disk (`CM`).
+
+use std::{collections::VecDeque, sync::Arc};
+
+use espalier_proto::{Command, Problem, ProblemCode, ServerMessage};
+
+use super::Session;
+use crate::{action::Action, io::ClientId, malformed, work::Order};
+
+/// The most commands that wait for the document or for the disk.
+const MAX_WAITING: usize = 4096;
+/// The most bytes of journal text that wait for the document or for the disk.
+const MAX_WAITING_BYTES: usize = 8 * 1024 * 1024;
+
+/// Commands in order that the document has not taken on.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    /// Those that wait at home.
+    pub(super) orders: VecDeque<Order>,
+    /// Bytes and least steps of those.
+    weight: Weight,
+    /// Of those that went away with the document.
+    away: Weight,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Weight {
+    orders: usize,
+    bytes: usize,
+    steps: u32,
+}
+
+impl Weight {
+    fn add(&mut self, order: &Order) {
+        self.orders += 1;
+        self.bytes += order.bytes;
+        self.steps = self.steps.saturating_add(order.action.least_steps());
+    }
+}
+
+impl Queue {
+    fn push(&mut self, order: Order) {
+        self.weight.add(&order);
+        self.orders.push_back(order);
+    }
+
+    /// Moves everything to what the document takes along.
+    pub(super) fn send_along(&mut self, along: &mut VecDeque<Order>) {
+        along.append(&mut self.orders);
+        self.weight = Weight::default();
+        self.came_back(along);
+    }
+
+    /// The document came back with these still to be done.
+    pub(super) fn came_back(&mut self, orders: &VecDeque<Order>) {
+        self.away = Weight::default();
+        orders.iter().for_each(|order| self.away.add(order));
+    }
+
+    /// The fewest steps still to be run for these commands.
+    pub(super) fn least_steps(&self) -> u32 {
+        self.weight.steps.saturating_add(self.away.steps)
+    }
+
+    fn waiting(&self) -> (usize, usize) {
+        (self.weight.orders + self.away.orders, self.weight.bytes + self.away.bytes)
+    }
+}
+
+impl Session {
+    /// A numbered command came; `command` is a problem if it could not be read.
+    pub(super) fn take(
+        &mut self,
+        client: ClientId,
+        key: &Arc<str>,
+        id: u32,
+        command: Result<Command, Problem>,
+    ) {
+        let author = self.authors.enter(key);
+        let next = author.taken.saturating_add(1);
+        if id <= author.taken && id > 0 {
+            return self.take_again(client, key, id, command);
+        }
+        if id != next && !(author.forgot_refusals && id > next) {
+            let problem = Problem {
+                code: ProblemCode::Refused,
+                field: Some("id".into()),
+                allowed: Some(next.to_string()),
+                message: format!("the command has number {id}, but the next one of this client is {next}"),
+            };
+            return self.send(client, &ServerMessage::Refused { id, problem });
+        }
+        author.taken = id;
+        author.forgot_refusals = false;
+        match self.check(command) {
+            Ok((action, text)) => self.accept(key, id, action, text),
+            Err(problem) => self.send(client, &ServerMessage::Refused { id, problem }),
+        }
+    }
+
+    /// A command came whose number was taken before: it is answered again, not done again (`CM1`).
+    fn take_again(&mut self, client: ClientId, key: &Arc<str>, id: u32, command: Result<Command, Problem>) {
+        let durable = self.authors.get(key).map_or(0, |author| author.durable);
+        if id <= durable {
+            return self.send(client, &ServerMessage::Acknowledged { id: durable });
+        }
+        if self.journal.is_waiting(key, id) {
+            return;
+        }
+        let problem = match self.check(command) {
+            Err(problem) => problem,
+            Ok(_) => Problem::new(ProblemCode::Refused, format!("command {id} was refused before")),
+        };
+        self.send(client, &ServerMessage::Refused { id, problem });
+    }
+
+    /// A command in good form, read back from the very text the journal will hold, so that a replay cannot differ.
+    fn check(&self, command: Result<Command, Problem>) -> Result<(Action, String), Problem> {
+        let command = command?;
+        Action::parse(&command)?;
+        let text = serde_json::to_string(&command).map_err(|error| malformed::message(&error))?;
+        let action = Action::from_json(&text)?;
+        let (queued, queued_bytes) = self.queue.waiting();
+        let (writing, written_bytes) = self.journal.waiting();
+        let full = queued.max(writing) >= MAX_WAITING
+            || queued_bytes.max(written_bytes).saturating_add(text.len()) > MAX_WAITING_BYTES;
+        if full {
+            let message = "too many commands wait to be done: try again when the tree has caught up";
+            return Err(Problem::new(ProblemCode::TooMany, message));
+        }
+        Ok((action, text))
+    }
+
+    /// Gives a command its place in the order.
+    pub(super) fn accept(&mut self, key: &Arc<str>, id: u32, action: Action, text: String) {
+        let bytes = text.len();
+        let number = self.journal.append(key, id, text);
+        if let Some(author) = self.authors.get_mut(key) {
+            author.last_entry = number;
+        }
+        self.queue.push(Order { number, author: Arc::clone(key), id, action, bytes });
+        self.upkeep.last_command_at = self.now;
+        self.upkeep.state_changed |= self.queue.least_steps() > 0;
+    }
+
+    /// Entries up to `through` are durable.
+    pub(super) fn journaled(&mut self, through: u64) {
+        for (key, id) in self.journal.made_durable(through) {
+            let Some(author) = self.authors.get_mut(&key) else { continue };
+            author.durable = id;
+            if let Some(client) = author.client {
+                self.send(client, &ServerMessage::Acknowledged { id });
+            }
+        }
+    }
+}

@@ -1,0 +1,125 @@
+//! Frames to clients, each at its own pace (`FL`).
+
+use std::sync::Arc;
+
+use espalier_proto::{DocumentState, Problem, ServerMessage};
+
+use super::Session;
+use crate::{
+    clients::{Guest, View},
+    io::{ClientId, Output},
+    to_proto::{self, Held},
+    work::{CatchUp, Report, Work},
+};
+
+impl Session {
+    /// The client took in frames up to `sequence`.
+    pub(super) fn received(&mut self, client: ClientId, sequence: u32) {
+        let newest = self.newest.0;
+        let Some(guest) = self.guest_mut(client) else { return };
+        if guest.window.receive(sequence, newest).is_err() {
+            let problem = Problem::out_of_range("sequence", sequence, format!("up to {newest}"));
+            self.send(client, &ServerMessage::Problem { problem });
+        }
+    }
+
+    /// The document came home from a slice of work.
+    pub(super) fn worked(&mut self, mut work: Box<Work>) {
+        let Report { delta, catch_ups, refused, documents, snapshot } = work.take_report();
+        self.deliver(delta.as_ref(), work.sequence);
+        self.newest = (work.sequence, work.table.rows() as u32);
+        for (client, frame) in catch_ups {
+            self.deliver_catch_up(client, &frame);
+        }
+        for refusal in refused {
+            // The session's own commands have number 0, and nobody waits for their answer.
+            let client = self.authors.get(&refusal.author).and_then(|author| author.client);
+            if let Some(client) = client.filter(|_| refusal.id > 0) {
+                self.send(client, &ServerMessage::Refused { id: refusal.id, problem: refusal.problem });
+            }
+        }
+        for (read, bytes, metamers) in documents {
+            self.outputs.push_back(Output::Document { read, bytes, metamers });
+        }
+        if let Some((through, bytes)) = snapshot {
+            self.upkeep.snapshot_made(through, bytes);
+        }
+        self.queue.came_back(&work.orders);
+        self.take_figures(&work);
+        self.home = Some(work);
+    }
+
+    fn take_figures(&mut self, work: &Work) {
+        let (figures, leaves) = (work.document.figures(), work.table.leaves());
+        if (figures, leaves) != (self.figures, self.leaves) {
+            (self.figures, self.leaves) = (figures, leaves);
+            self.upkeep.state_changed = true;
+        }
+        let parameters = work.document.parameters();
+        if parameters != self.parameters {
+            self.parameters = parameters.clone();
+            self.broadcast(&ServerMessage::Parameters { parameters: Box::new(parameters) });
+        }
+    }
+
+    /// Sends the delta to all in step; a client whose window is closed falls out of step instead (`FL2`).
+    fn deliver(&mut self, delta: Option<&Arc<[u8]>>, sequence: u32) {
+        let Some(delta) = delta else { return };
+        let (before, rows) = self.newest;
+        for (&id, client) in &mut self.clients {
+            let Some(Guest { window, view: view @ View::InStep, .. }) = &mut client.guest else { continue };
+            if window.admits(delta.len()) {
+                window.send(sequence, delta.len());
+                self.outputs.push_back(Output::Frame(id, Arc::clone(delta)));
+            } else {
+                *view = View::Stale(Held::AsOf { sequence: before, rows });
+            }
+        }
+    }
+
+    fn deliver_catch_up(&mut self, client: ClientId, frame: &Arc<[u8]>) {
+        let sequence = self.newest.0;
+        let Some(guest @ Guest { view: View::Coming, .. }) = self.guest_mut(client) else { return };
+        guest.window.send(sequence, frame.len());
+        guest.view = View::InStep;
+        self.outputs.push_back(Output::Frame(client, Arc::clone(frame)));
+    }
+
+    /// Hands out what waits: journal entries to the disk, the document to the simulation pool.
+    pub(super) fn dispatch(&mut self) {
+        if let Some(batch) = self.journal.take_batch() {
+            self.outputs.push_back(Output::Journal(batch));
+        }
+        let Some(mut work) = self.home.take() else { return };
+        self.queue.send_along(&mut work.orders);
+        work.reads.append(&mut self.reads);
+        work.snapshot_wanted |= self.snapshot_due(work.applied);
+        work.delta_wanted = false;
+        for (&client, state) in &mut self.clients {
+            let Some(guest) = &mut state.guest else { continue };
+            match &mut guest.view {
+                View::InStep => work.delta_wanted = true,
+                view @ View::Stale(_) if guest.window.is_empty() => {
+                    if let View::Stale(held) = std::mem::replace(view, View::Coming) {
+                        work.catch_ups.push(CatchUp { client, held });
+                    }
+                }
+                View::Stale(_) | View::Coming => {}
+            }
+        }
+        if work.is_needed() {
+            self.outputs.push_back(Output::Work(work));
+        } else {
+            self.home = Some(work);
+        }
+    }
+
+    /// The document's figures as clients are told them.
+    pub(super) fn state(&self) -> DocumentState {
+        to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people())
+    }
+
+    fn guest_mut(&mut self, client: ClientId) -> Option<&mut Guest> {
+        self.clients.get_mut(&client)?.guest.as_mut()
+    }
+}

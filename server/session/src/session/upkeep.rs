@@ -1,0 +1,194 @@
+//! What happens by the clock: late hellos, strokes left open, snapshots, figures for everybody.
+
+use std::{
+    collections::{BTreeSet, VecDeque},
+    sync::Arc,
+};
+
+use espalier_proto::{Command, ServerMessage, version::CloseCode};
+
+use super::Session;
+use crate::{
+    action::Action,
+    io::{ClientId, Output},
+};
+
+/// How long the strokes of a client that went away stay open, in milliseconds (`CM5`).
+const ABSENCE_MS: u64 = 30_000;
+/// Figures go out no more often than this, in milliseconds.
+const STATE_MS: u64 = 50;
+/// After so many commands a snapshot is made.
+const SNAPSHOT_COMMANDS: u64 = 512;
+/// A snapshot costs in proportion to the plants; with so many metamers more, wait for one command more.
+const SNAPSHOT_METAMERS: u64 = 50;
+/// After a pause of so many milliseconds a snapshot is made.
+const SNAPSHOT_PAUSE_MS: u64 = 30_000;
+
+/// Deadlines and what they are about.
+#[derive(Debug)]
+pub(super) struct Upkeep {
+    started: bool,
+    /// When hellos are due; all have the same patience, so this is in order.
+    pub(super) hellos: VecDeque<(u64, ClientId)>,
+    /// When strokes of absent authors end, in order.
+    absences: VecDeque<(u64, Arc<str>)>,
+    /// Authors whose strokes end as soon as the document is at home.
+    pub(super) overdue: BTreeSet<Arc<str>>,
+    /// Whether figures differ from what clients were told.
+    pub(super) state_changed: bool,
+    state_due: u64,
+    pub(super) last_command_at: u64,
+    /// The last entry in a snapshot that was handed out.
+    snapshotted: u64,
+    snapshot_asked: bool,
+    /// A snapshot whose entries are not all durable yet, with the last of them.
+    snapshot: Option<(u64, Vec<u8>)>,
+    wake_at: Option<u64>,
+}
+
+impl Upkeep {
+    pub(super) fn new(snapshotted: u64) -> Self {
+        Self {
+            started: false,
+            hellos: VecDeque::new(),
+            absences: VecDeque::new(),
+            overdue: BTreeSet::new(),
+            state_changed: false,
+            state_due: 0,
+            last_command_at: 0,
+            snapshotted,
+            snapshot_asked: false,
+            snapshot: None,
+            wake_at: None,
+        }
+    }
+
+    /// The time asked for has come; the next one must be asked for anew.
+    pub(super) fn woken(&mut self) {
+        self.wake_at = None;
+    }
+
+    /// The document came home with a snapshot.
+    pub(super) fn snapshot_made(&mut self, through: u64, bytes: Vec<u8>) {
+        self.snapshot_asked = false;
+        self.snapshot = Some((through, bytes));
+    }
+
+    /// Whether nothing waits for the clock and a snapshot holds everything up to `last`.
+    pub(super) fn is_done(&self, last: u64) -> bool {
+        self.absences.is_empty() && self.overdue.is_empty() && self.snapshotted == last
+    }
+}
+
+impl Session {
+    /// Time begins with the first input: after a restart the absent have their whole patience again.
+    pub(super) fn start_clocks(&mut self) {
+        if self.upkeep.started {
+            return;
+        }
+        self.upkeep.started = true;
+        self.upkeep.last_command_at = self.now;
+        let until = self.now + ABSENCE_MS;
+        let Some(work) = &self.home else { return };
+        for (key, author) in self.authors.iter_mut() {
+            if !work.document.open_strokes(key).is_empty() {
+                author.strokes_end_at = Some(until);
+                self.upkeep.absences.push_back((until, Arc::clone(key)));
+            }
+        }
+    }
+
+    /// An author's connection is gone.
+    pub(super) fn author_left(&mut self, key: &Arc<str>, client: ClientId) {
+        let until = self.now + ABSENCE_MS;
+        let Some(author) = self.authors.get_mut(key).filter(|author| author.client == Some(client)) else {
+            return;
+        };
+        if author.taken > 0 {
+            author.strokes_end_at = Some(until);
+            self.upkeep.absences.push_back((until, Arc::clone(key)));
+        }
+        self.authors.leave(key);
+    }
+
+    /// Does all that is due now.
+    pub(super) fn keep_up(&mut self) {
+        while let Some(client) = pop_due(&mut self.upkeep.hellos, self.now) {
+            if self.clients.get(&client).is_some_and(|client| client.guest.is_none()) {
+                self.close(client, CloseCode::HelloExpected, "no hello came for 10 seconds");
+            }
+        }
+        while let Some(key) = pop_due(&mut self.upkeep.absences, self.now) {
+            let due = self.authors.get(&key).and_then(|author| author.strokes_end_at);
+            if due.is_some_and(|due| due <= self.now) {
+                self.upkeep.overdue.insert(key);
+            }
+        }
+        self.end_overdue_strokes();
+        self.hand_out_snapshot();
+        if self.upkeep.state_changed && self.now >= self.upkeep.state_due {
+            self.upkeep.state_changed = false;
+            self.upkeep.state_due = self.now + STATE_MS;
+            self.broadcast(&ServerMessage::State { state: self.state() });
+        }
+    }
+
+    /// Ends the strokes of those who stayed away, once it is known which are open.
+    fn end_overdue_strokes(&mut self) {
+        let Some(work) = &self.home else { return };
+        let orders = || work.orders.iter().chain(&self.queue.orders);
+        let mut ends = Vec::new();
+        self.upkeep.overdue.retain(|key| {
+            if orders().any(|order| order.author == *key) {
+                return true;
+            }
+            ends.extend(work.document.open_strokes(key).into_iter().map(|stroke| (Arc::clone(key), stroke)));
+            false
+        });
+        for (key, stroke) in ends {
+            let Ok(text) = serde_json::to_string(&Command::StrokeEnd { stroke }) else { continue };
+            self.accept(&key, 0, Action::StrokeEnd { stroke }, text);
+        }
+    }
+
+    /// Whether the document, which contains entries up to `applied`, should be written down when it is next whole.
+    pub(super) fn snapshot_due(&mut self, applied: u64) -> bool {
+        let since = applied - self.upkeep.snapshotted;
+        let many = SNAPSHOT_COMMANDS.max(u64::from(self.figures.metamers) / SNAPSHOT_METAMERS);
+        let pause = self.now >= self.upkeep.last_command_at + SNAPSHOT_PAUSE_MS;
+        let asked = self.upkeep.snapshot_asked || self.upkeep.snapshot.is_some();
+        let due = !asked && (since >= many || since > 0 && pause);
+        self.upkeep.snapshot_asked |= due;
+        due
+    }
+
+    /// A snapshot must not be ahead of the journal: it waits until all its entries are durable.
+    fn hand_out_snapshot(&mut self) {
+        let durable = self.journal.durable();
+        if let Some((through, bytes)) = self.upkeep.snapshot.take_if(|(through, _)| *through <= durable) {
+            self.upkeep.snapshotted = through;
+            self.outputs.push_back(Output::Snapshot { through, bytes });
+        }
+    }
+
+    /// Asks for the earliest deadline, if it differs from what was asked for.
+    pub(super) fn ask_to_be_woken(&mut self) {
+        let upkeep = &self.upkeep;
+        let state = upkeep.state_changed.then_some(upkeep.state_due);
+        let unkept =
+            self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked && upkeep.snapshot.is_none();
+        let pause = (unkept && self.home.is_some()).then_some(upkeep.last_command_at + SNAPSHOT_PAUSE_MS);
+        let hello = upkeep.hellos.front().map(|(due, _)| *due);
+        let absence = upkeep.absences.front().map(|(due, _)| *due);
+        let earliest = [state, pause, hello, absence].into_iter().flatten().min();
+        if earliest != upkeep.wake_at {
+            self.upkeep.wake_at = earliest;
+            self.outputs.extend(earliest.map(Output::WakeAt));
+        }
+    }
+}
+
+fn pop_due<T>(deadlines: &mut VecDeque<(u64, T)>, now: u64) -> Option<T> {
+    let due = deadlines.front().is_some_and(|(due, _)| *due <= now);
+    if due { deadlines.pop_front().map(|(_, what)| what) } else { None }
+}

@@ -1,0 +1,154 @@
+//! The table of rings as frames, and figures as messages.
+
+use std::ops::Range;
+
+use espalier_mesh::{Changes, RingTable, StyleOptions};
+use espalier_proto::{
+    ChunkChange, DocumentState, Frame, Parameters, Resume, Rows, Values, frame::CHUNK_ROWS,
+};
+
+use crate::document::Figures;
+
+/// Rows in a chunk, as row numbers are counted.
+const CHUNK: u32 = CHUNK_ROWS as u32;
+
+/// What a client holds that is not up to date.
+#[derive(Debug)]
+pub(crate) enum Held {
+    /// No rows.
+    Nothing,
+    /// All of the table as it was then.
+    AsOf {
+        /// The last frame it was sent.
+        sequence: u32,
+        /// The rows it had then.
+        rows: u32,
+    },
+    /// What a returning client says (`RS1`).
+    Chunks(Resume),
+}
+
+/// What everybody in step is sent: from the table as it was to `table`, by `changes`.
+pub fn delta(table: &RingTable, changes: &Changes, epoch: u32, sequence: u32) -> Frame {
+    let mut list = Vec::new();
+    if let Some(rows) = changes.truncated {
+        list.push(ChunkChange::Truncate { rows });
+    }
+    let end = changes.appended.start;
+    // Positions go first and upwards: every other position is read relative to its parent's new one.
+    patches(&mut list, &changes.position, end, sequence, |rows| {
+        Values::Position(rows.iter().map(|&row| relative_position(table, row)).collect())
+    });
+    patches(&mut list, &changes.radius, end, sequence, |rows| {
+        Values::Radius(rows.iter().map(|&row| table.radius(row)).collect())
+    });
+    patches(&mut list, &changes.foliage, end, sequence, |rows| {
+        Values::Foliage(rows.iter().map(|&row| table.foliage(row)).collect())
+    });
+    patches(&mut list, &changes.light, end, sequence, |rows| {
+        Values::Light(rows.iter().map(|&row| table.light(row)).collect())
+    });
+    let mut next = changes.appended.start;
+    while next < changes.appended.end {
+        let (chunk, start) = (next / CHUNK, next % CHUNK);
+        let until = changes.appended.end.min((chunk + 1) * CHUNK);
+        list.push(ChunkChange::Append { chunk, generation: sequence, start, rows: rows(table, next..until) });
+        next = until;
+    }
+    Frame { epoch, sequence, catch_up: false, changes: list }
+}
+
+/// What one client lacks of the table, made from the table alone (`FL2`, `RS1`).
+pub(crate) fn catch_up(table: &RingTable, held: &Held, epoch: u32, sequence: u32) -> Frame {
+    let total = table.rows() as u32;
+    let mut changes = Vec::new();
+    let held_rows = match held {
+        Held::Nothing => 0,
+        Held::AsOf { rows, .. } => *rows,
+        Held::Chunks(resume) => resume.rows,
+    };
+    if held_rows > total {
+        changes.push(ChunkChange::Truncate { rows: total });
+    }
+    for (chunk, &generation) in table.generations().iter().enumerate() {
+        let current = match held {
+            Held::Nothing => false,
+            Held::AsOf { sequence, .. } => generation <= *sequence,
+            Held::Chunks(resume) => resume.generations.get(chunk) == Some(&generation),
+        };
+        let first = chunk as u32 * CHUNK;
+        let end = total.min(first + CHUNK);
+        // A chunk that looks current but is cut short at the client cannot be: its rows would have a newer stamp.
+        if !current || held_rows < end {
+            let rows = rows(table, first..end);
+            changes.push(ChunkChange::Replace { chunk: chunk as u32, generation, rows });
+        }
+    }
+    Frame { epoch, sequence, catch_up: true, changes }
+}
+
+/// The document's figures for clients; `queued` steps belong to commands not begun yet.
+pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) -> DocumentState {
+    DocumentState {
+        step: figures.step,
+        metamers: figures.metamers,
+        axes: figures.axes,
+        leaves,
+        metamer_budget: figures.metamer_budget,
+        can_undo: figures.can_undo,
+        can_redo: figures.can_redo,
+        pending_steps: figures.pending_steps.saturating_add(queued),
+        people: people as u32,
+    }
+}
+
+/// The parameters that concern drawing alone.
+pub fn style_options(parameters: &Parameters) -> StyleOptions {
+    StyleOptions {
+        girth_exponent: parameters.girth_exponent,
+        twig_diameter: parameters.twig_diameter,
+        leaves_per_node: u8::try_from(parameters.leaves_per_node).unwrap_or(u8::MAX),
+        leaf_size: parameters.leaf_size,
+    }
+}
+
+/// Patches of one column, chunk by chunk; rows from `end` on are left out, for they are appended whole.
+fn patches(
+    list: &mut Vec<ChunkChange>,
+    changed: &[u32],
+    end: u32,
+    generation: u32,
+    values: impl Fn(&[u32]) -> Values,
+) {
+    let changed = &changed[..changed.partition_point(|&row| row < end)];
+    for rows in changed.chunk_by(|a, b| a / CHUNK == b / CHUNK) {
+        let Some(first) = rows.first() else { continue };
+        let within = rows.iter().map(|row| (row % CHUNK) as u8).collect();
+        list.push(ChunkChange::Patch {
+            chunk: first / CHUNK,
+            generation,
+            rows: within,
+            values: values(rows),
+        });
+    }
+}
+
+fn rows(table: &RingTable, range: Range<u32>) -> Rows {
+    Rows {
+        parent: range.clone().map(|row| parent_code(table, row)).collect(),
+        position: range.clone().map(|row| relative_position(table, row)).collect(),
+        radius: range.clone().map(|row| table.radius(row)).collect(),
+        foliage: range.clone().map(|row| table.foliage(row)).collect(),
+        light: range.map(|row| table.light(row)).collect(),
+    }
+}
+
+fn parent_code(table: &RingTable, row: u32) -> u32 {
+    table.parent(row).map_or(0, |parent| 2 * (row - parent) + u32::from(table.starts_axis(row)))
+}
+
+fn relative_position(table: &RingTable, row: u32) -> [i32; 3] {
+    let position = table.position(row);
+    let origin = table.parent(row).map_or([0; 3], |parent| table.position(parent));
+    std::array::from_fn(|axis| position[axis].wrapping_sub(origin[axis]))
+}

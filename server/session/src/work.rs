@@ -1,0 +1,235 @@
+//! The document on its way through the simulation pool, in slices.
+
+use std::{
+    collections::{BTreeMap, VecDeque},
+    sync::Arc,
+};
+
+use espalier_mesh::{RingTable, Style};
+use espalier_proto::Problem;
+
+use crate::{
+    action::Action,
+    author::{LastCommand, note_last},
+    document::Document,
+    io::{ClientId, ReadId},
+    snapshot,
+    to_proto::{self, Held},
+};
+
+/// After so many steps a slice ends, so that long growth is seen while it goes on.
+const SLICE_STEPS: u32 = 4;
+/// After so many new metamers a slice ends.
+const SLICE_METAMERS: u32 = 2000;
+/// After so many commands a slice ends.
+const SLICE_COMMANDS: u32 = 64;
+
+/// A command in its place in the order.
+#[derive(Debug)]
+pub(crate) struct Order {
+    /// Its journal entry.
+    pub(crate) number: u64,
+    /// The key of the client it is done for.
+    pub(crate) author: Arc<str>,
+    /// The author's number; 0 where the session acts for it.
+    pub(crate) id: u32,
+    /// What to do.
+    pub(crate) action: Action,
+    /// The length of its journal text, for bounds.
+    pub(crate) bytes: usize,
+}
+
+/// A client that needs a frame of its own.
+#[derive(Debug)]
+pub(crate) struct CatchUp {
+    pub(crate) client: ClientId,
+    pub(crate) held: Held,
+}
+
+/// A command the document refused.
+#[derive(Debug)]
+pub(crate) struct Refusal {
+    pub(crate) author: Arc<str>,
+    pub(crate) id: u32,
+    pub(crate) problem: Problem,
+}
+
+/// What a slice brought about.
+#[derive(Debug, Default)]
+pub(crate) struct Report {
+    /// For everybody in step.
+    pub(crate) delta: Option<Arc<[u8]>>,
+    pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
+    pub(crate) refused: Vec<Refusal>,
+    /// The document as bytes with its living metamers, for each read.
+    pub(crate) documents: Vec<(ReadId, Vec<u8>, u32)>,
+    /// A snapshot and the last entry it contains.
+    pub(crate) snapshot: Option<(u64, Vec<u8>)>,
+}
+
+/// The document and everything to be done to it. Owns all it needs: call [`Work::run`] on any thread.
+#[derive(Debug)]
+pub struct Work {
+    pub(crate) document: Document,
+    pub(crate) table: RingTable,
+    style: Style,
+    pub(crate) epoch: u32,
+    /// The newest frame.
+    pub(crate) sequence: u32,
+    /// The last journal entry the document has taken on.
+    pub(crate) applied: u64,
+    /// The last command of each author up to there.
+    pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
+    pub(crate) orders: VecDeque<Order>,
+    pub(crate) catch_ups: Vec<CatchUp>,
+    pub(crate) reads: Vec<ReadId>,
+    pub(crate) snapshot_wanted: bool,
+    /// Whether anybody is in step and needs the delta.
+    pub(crate) delta_wanted: bool,
+    /// Whether a command is still being done.
+    pub(crate) busy: bool,
+    /// The frame with all rows, kept while it is current: people often come in groups.
+    complete: Option<(u32, Arc<[u8]>)>,
+    report: Report,
+}
+
+impl Work {
+    /// A document nobody has seen yet.
+    pub(crate) fn new(
+        document: Document,
+        epoch: u32,
+        applied: u64,
+        last_commands: BTreeMap<Arc<str>, LastCommand>,
+    ) -> Self {
+        let busy = document.pending_steps() > 0;
+        let style = Style::new(to_proto::style_options(&document.parameters()));
+        let mut work = Self {
+            document,
+            table: RingTable::new(),
+            style,
+            epoch,
+            sequence: 0,
+            applied,
+            last_commands,
+            orders: VecDeque::new(),
+            catch_ups: Vec::new(),
+            reads: Vec::new(),
+            snapshot_wanted: false,
+            delta_wanted: false,
+            busy,
+            complete: None,
+            report: Report::default(),
+        };
+        work.sync();
+        work
+    }
+
+    /// Does one slice of what is to be done. Takes a while; the result goes back as [`crate::Input::Worked`].
+    pub fn run(&mut self) {
+        self.simulate();
+        self.sync();
+        for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
+            let frame = self.catch_up(&held);
+            self.report.catch_ups.push((client, frame));
+        }
+    }
+
+    /// What the slices since the last call brought about.
+    pub(crate) fn take_report(&mut self) -> Report {
+        std::mem::take(&mut self.report)
+    }
+
+    /// Whether there is something to run.
+    pub(crate) fn is_needed(&self) -> bool {
+        self.busy
+            || self.snapshot_wanted
+            || !self.orders.is_empty()
+            || !self.catch_ups.is_empty()
+            || !self.reads.is_empty()
+    }
+
+    fn simulate(&mut self) {
+        let mut steps = 0;
+        let mut commands = 0;
+        let start = self.document.metamers();
+        loop {
+            if self.busy {
+                if self.document.advance() {
+                    steps += 1;
+                    if steps == SLICE_STEPS
+                        || self.document.metamers() >= start.saturating_add(SLICE_METAMERS)
+                    {
+                        return;
+                    }
+                    continue;
+                }
+                self.busy = false;
+            }
+            self.hand_out();
+            if commands == SLICE_COMMANDS {
+                return;
+            }
+            let Some(order) = self.orders.pop_front() else { return };
+            commands += 1;
+            self.begin(order);
+        }
+    }
+
+    fn begin(&mut self, order: Order) {
+        self.applied = order.number;
+        note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
+        match self.document.begin(&order.author, &order.action) {
+            Ok(()) => self.busy = true,
+            Err(problem) => self.report.refused.push(Refusal { author: order.author, id: order.id, problem }),
+        }
+    }
+
+    /// Between two commands the document is whole: now it can be read.
+    fn hand_out(&mut self) {
+        if self.reads.is_empty() && !self.snapshot_wanted {
+            return;
+        }
+        let bytes = self.document.to_bytes();
+        let metamers = self.document.metamers();
+        if self.snapshot_wanted {
+            self.snapshot_wanted = false;
+            let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &bytes);
+            self.report.snapshot = Some((self.applied, snapshot));
+        }
+        for read in self.reads.drain(..) {
+            self.report.documents.push((read, bytes.clone(), metamers));
+        }
+    }
+
+    fn sync(&mut self) {
+        let options = to_proto::style_options(&self.document.parameters());
+        if options != *self.style.options() {
+            self.style = Style::new(options);
+        }
+        let sequence = self.sequence + 1;
+        let changes = self.table.sync(self.document.plant(), &self.style, sequence);
+        if changes.is_empty() {
+            return;
+        }
+        self.sequence = sequence;
+        if self.delta_wanted {
+            let frame = to_proto::delta(&self.table, &changes, self.epoch, sequence);
+            self.report.delta = Some(frame.encode().into());
+        }
+    }
+
+    fn catch_up(&mut self, held: &Held) -> Arc<[u8]> {
+        if !matches!(held, Held::Nothing) {
+            return to_proto::catch_up(&self.table, held, self.epoch, self.sequence).encode().into();
+        }
+        if let Some((sequence, frame)) = &self.complete
+            && *sequence == self.sequence
+        {
+            return Arc::clone(frame);
+        }
+        let frame: Arc<[u8]> =
+            to_proto::catch_up(&self.table, held, self.epoch, self.sequence).encode().into();
+        self.complete = Some((self.sequence, Arc::clone(&frame)));
+        frame
+    }
+}

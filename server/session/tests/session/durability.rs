@@ -1,0 +1,258 @@
+//! `CM2`, snapshots and restarts.
+
+use std::sync::LazyLock;
+
+use espalier_proto::{Command, version::CloseCode};
+use espalier_session::{Document, Input, JournalEntry, ReadId, RestoreError, Session};
+use proptest::prelude::*;
+
+use crate::world::{SEED, World, grow};
+
+#[test]
+fn cm2_nothing_is_acknowledged_before_it_is_durable() {
+    let mut world = World::new();
+    world.write_ms = 400;
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(1));
+    world.command(client, 2, grow(1));
+    world.pass(399);
+    assert!(world.peer(client).acknowledged().is_empty());
+    assert_eq!(world.document().figures().step, 2, "but it is seen at once");
+    world.pass(1);
+    assert_eq!(world.peer(client).acknowledged(), [1]);
+    world.pass(400);
+    assert_eq!(world.peer(client).acknowledged(), [1, 2]);
+}
+
+#[test]
+fn cm2_only_what_was_handed_out_can_be_durable() {
+    let mut world = World::new();
+    world.write_ms = 1_000;
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(1));
+    world.command(client, 2, grow(1));
+    world.writing = None;
+    world.handle(Input::Journaled(2));
+    world.pass(10);
+    assert_eq!(world.peer(client).acknowledged(), [1]);
+}
+
+#[test]
+fn commands_gather_while_the_disk_is_busy() {
+    let mut world = World::new();
+    world.write_ms = 100;
+    let client = world.join("birch-01");
+    for id in 1..=50 {
+        world.command(client, id, Command::Redo {});
+    }
+    world.pass(100);
+    assert_eq!(world.disk.len(), 1);
+    world.pass(100);
+    assert_eq!(world.disk.len(), 50, "the rest is one batch");
+    assert_eq!(world.peer(client).acknowledged(), [1, 50]);
+}
+
+#[test]
+fn a_failed_journal_ends_the_session() {
+    let mut world = World::new();
+    let birch = world.join("birch-01");
+    let maple = world.join("maple-01");
+    world.command(birch, 1, grow(3));
+    world.settle();
+    world.command(birch, 2, grow(3));
+    world.handle(Input::JournalFailed("no space left".into()));
+    for client in [birch, maple] {
+        assert_eq!(world.peer(client).closed, Some(CloseCode::InternalError));
+    }
+    assert!(world.session.has_failed());
+    let late = world.connect();
+    assert_eq!(world.peer(late).closed, Some(CloseCode::InternalError));
+
+    world.crash();
+    let birch = world.join("birch-01");
+    assert_eq!(world.peer(birch).welcome_acknowledged(), 1);
+    world.command(birch, 2, grow(3));
+    world.settle();
+    assert_eq!(world.peer(birch).acknowledged(), [2]);
+    assert_eq!(world.document().figures().step, 6);
+}
+
+#[test]
+fn a_crash_loses_nothing_acknowledged() {
+    let mut world = World::new();
+    world.write_ms = 50;
+    let client = world.join("birch-01");
+    for id in 1..=10 {
+        world.command(client, id, grow(1));
+        world.pass(9);
+    }
+    let acknowledged = *world.peer(client).acknowledged().last().unwrap();
+    assert!(acknowledged < 10, "the crash comes in time to lose something");
+    world.crash();
+    let client = world.join("birch-01");
+    assert_eq!(world.peer(client).welcome_acknowledged(), acknowledged);
+    for id in acknowledged + 1..=10 {
+        world.command(client, id, grow(1));
+    }
+    world.settle();
+    world.pass(200);
+    assert_eq!(world.document().figures().step, 10);
+    world.assert_mirrored(client);
+}
+
+#[test]
+fn many_commands_make_a_snapshot() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for id in 1..=600 {
+        world.command(client, id, if id % 2 == 0 { Command::Undo {} } else { grow(1) });
+        world.pass(1);
+    }
+    world.settle();
+    assert_eq!(world.snapshots, 1);
+    let through = world.snapshot.as_ref().unwrap().0;
+    assert!((512..=600).contains(&through));
+    restart_and_compare(&mut world);
+}
+
+#[test]
+fn a_pause_makes_a_snapshot() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(5));
+    world.pass(29_000);
+    assert_eq!(world.snapshots, 0);
+    world.pass(2_000);
+    assert_eq!(world.snapshots, 1);
+    assert_eq!(world.snapshot.as_ref().unwrap().0, 1);
+    world.pass(120_000);
+    assert_eq!(world.snapshots, 1, "nothing new, no new snapshot");
+    restart_and_compare(&mut world);
+}
+
+#[test]
+fn a_snapshot_waits_for_the_disk() {
+    let mut world = World::new();
+    world.write_ms = 100_000;
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(5));
+    world.pass(90_000);
+    assert_eq!(world.snapshots, 0);
+    world.pass(20_000);
+    assert_eq!(world.snapshots, 1);
+}
+
+#[test]
+fn undo_reaches_behind_a_restart() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(5));
+    world.settle();
+    let five = world.document().plant().clone();
+    world.command(client, 2, grow(7));
+    world.pass(40_000);
+    world.disk.retain(|entry| entry.number > world.snapshot.as_ref().unwrap().0);
+    assert!(world.disk.is_empty(), "everything is in the snapshot");
+    world.crash();
+    let client = world.join("birch-01");
+    world.command(client, 3, Command::Undo {});
+    world.settle();
+    assert!(world.peer(client).refused().is_empty());
+    assert_eq!(world.document().plant().metamer_count(), five.metamer_count());
+}
+
+#[test]
+fn a_missing_entry_is_noticed() {
+    let entry = |number| JournalEntry {
+        number,
+        client: "birch-01".into(),
+        id: number as u32,
+        command: r#"{"kind":"grow","steps":1}"#.into(),
+    };
+    let restore = |entries: Vec<JournalEntry>| Session::restore("x", 1, None, SEED, entries).map(drop);
+    assert!(restore(vec![entry(1), entry(2)]).is_ok());
+    assert!(matches!(restore(vec![entry(2)]), Err(RestoreError::Gap { expected: 1, found: 2 })));
+    assert!(matches!(restore(vec![entry(1), entry(3)]), Err(RestoreError::Gap { expected: 2, found: 3 })));
+    let unreadable = JournalEntry { command: "{".into(), ..entry(1) };
+    assert!(matches!(restore(vec![unreadable]), Err(RestoreError::Entry { number: 1, .. })));
+}
+
+#[test]
+fn a_read_gives_the_document() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(9));
+    world.handle(Input::Read(ReadId(5)));
+    world.settle();
+    let (read, bytes, metamers) = world.documents.pop().unwrap();
+    assert_eq!(read, ReadId(5));
+    let document = Document::from_bytes(&bytes).unwrap();
+    assert_eq!(document.figures().metamers, metamers);
+    assert_eq!(document.figures().pending_steps, 0, "a document is whole between two commands");
+}
+
+#[test]
+fn a_saved_tree_opens_as_a_session() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(9));
+    world.settle();
+    world.handle(Input::Read(ReadId(1)));
+    world.settle();
+    let (_, bytes, _) = world.documents.pop().unwrap();
+    let snapshot = Session::first_snapshot(&bytes).unwrap();
+    let opened = Session::restore("opened", 1, Some(&snapshot), 0, []).unwrap();
+    assert_eq!(opened.document().unwrap().hash(), world.document().hash());
+    assert!(Session::first_snapshot(b"not a tree").is_err());
+}
+
+#[test]
+fn an_idle_session_says_so() {
+    let mut world = World::new();
+    assert!(world.session.is_idle());
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(2));
+    world.settle();
+    assert!(!world.session.is_idle());
+    world.leave(client);
+    world.pass(100);
+    assert!(!world.session.is_idle(), "a snapshot is still to come");
+    world.pass(61_000);
+    assert!(world.session.is_idle());
+}
+
+fn restart_and_compare(world: &mut World) {
+    let hash = world.document().hash();
+    let figures = world.document().figures();
+    world.crash();
+    assert_eq!(world.document().hash(), hash);
+    assert_eq!(world.document().figures(), figures);
+    assert_eq!(world.replayed_hash(), hash, "the snapshot and the journal agree");
+}
+
+static SOME_SNAPSHOT: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(5));
+    world.pass(31_000);
+    world.snapshot.unwrap().1
+});
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn a_damaged_snapshot_is_noticed(at in any::<prop::sample::Index>(), bit in 0..8u32, cut in any::<prop::sample::Index>()) {
+        let good = &*SOME_SNAPSHOT;
+        let mut damaged = good.clone();
+        damaged[at.index(good.len())] ^= 1 << bit;
+        prop_assert!(Session::restore("x", 1, Some(&damaged), SEED, []).is_err());
+        prop_assert!(Session::restore("x", 1, Some(&good[..cut.index(good.len())]), SEED, []).is_err());
+        prop_assert!(Session::restore("x", 1, Some(good), SEED, []).is_ok());
+    }
+
+    #[test]
+    fn any_bytes_are_refused_as_a_snapshot(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
+        prop_assert!(Session::restore("x", 1, Some(&bytes), SEED, []).is_err());
+    }
+}

@@ -1,0 +1,172 @@
+//! `FL`: windows, catch-up, bounded memory for slow readers; and growth that is seen while it goes on.
+
+use espalier_proto::{ClientMessage, Command, ProblemCode, version::CloseCode};
+use espalier_session::{ClientId, Input};
+
+use crate::world::{World, grow};
+
+/// Makes the tree change until a client that answers nothing is left behind; gives the next command id.
+fn leave_behind(world: &mut World, busy: u64, slow: u64) -> u32 {
+    world.peer_mut(slow).slow = true;
+    world.settle();
+    let mut id = 1;
+    for round in 0..2_000 {
+        let command = if round % 2 == 0 { grow(12) } else { Command::Ungrow { steps: 12 } };
+        let before = [busy, slow].map(|client| world.peer(client).frames.len());
+        world.command(busy, id, command);
+        world.settle();
+        id += 1;
+        if world.peer(slow).frames.len() - before[1] < world.peer(busy).frames.len() - before[0] {
+            return id;
+        }
+    }
+    panic!("the window never closes");
+}
+
+#[test]
+fn fl1_frames_on_the_way_are_bounded() {
+    let mut world = World::new();
+    let busy = world.join("birch-01");
+    let slow = world.join("maple-01");
+    leave_behind(&mut world, busy, slow);
+    // The simulated socket asserts the limit at every frame; here: that it was really reached.
+    let sent: usize = world.peer(slow).in_flight.iter().map(|(_, bytes)| bytes).sum();
+    assert!(sent > 128 * 1024, "only {sent} bytes were on the way");
+}
+
+#[test]
+fn fl2_an_opened_window_brings_one_catch_up() {
+    let mut world = World::new();
+    let busy = world.join("birch-01");
+    let slow = world.join("maple-01");
+    let next = leave_behind(&mut world, busy, slow);
+    let stuck = world.peer(slow).frames.len();
+    for id in next..next + 5 {
+        world.command(busy, id, grow(3));
+        world.settle();
+    }
+    assert_eq!(world.peer(slow).frames.len(), stuck, "nothing comes through a closed window");
+    world.peer_mut(slow).slow = false;
+    world.answer_frames(slow);
+    world.settle();
+    assert_eq!(world.peer(slow).frames.len(), stuck + 1);
+    assert!(world.peer(slow).frames[stuck].catch_up);
+    world.assert_mirrored(slow);
+    world.assert_mirrored(busy);
+}
+
+#[test]
+fn fl2_the_frame_that_did_not_fit_is_made_up_for() {
+    let mut world = World::new();
+    let busy = world.join("birch-01");
+    let slow = world.join("maple-01");
+    leave_behind(&mut world, busy, slow);
+    world.peer_mut(slow).slow = false;
+    world.answer_frames(slow);
+    world.settle();
+    world.assert_mirrored(slow);
+}
+
+#[test]
+fn fl1_received_ahead_of_time_is_a_problem() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.settle();
+    world.send(client, &ClientMessage::Received { sequence: 9_999 });
+    let problems = world.peer(client).problems();
+    assert_eq!(problems.len(), 1);
+    assert_eq!(problems[0].code, ProblemCode::OutOfRange);
+    assert_eq!(problems[0].field.as_deref(), Some("sequence"));
+}
+
+#[test]
+fn fl3_a_deaf_client_is_closed() {
+    let mut world = World::new();
+    let deaf = world.join("birch-01");
+    let other = world.join("maple-01");
+    world.peer_mut(deaf).deaf = true;
+    for nonce in 0..2_000 {
+        if world.peer(deaf).closed.is_none() {
+            world.send(deaf, &ClientMessage::Ping { nonce });
+        }
+    }
+    assert_eq!(world.peer(deaf).closed, Some(CloseCode::TooSlow));
+    assert_eq!(world.peer(deaf).unread, 1024);
+    assert_eq!(world.peer(other).closed, None);
+}
+
+#[test]
+fn fl3_a_client_that_reads_may_ask_forever() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for nonce in 0..5_000 {
+        world.send(client, &ClientMessage::Ping { nonce });
+        if nonce % 500 == 0 {
+            world.pass(1);
+        }
+    }
+    assert_eq!(world.peer(client).closed, None);
+}
+
+#[test]
+fn long_growth_is_seen_while_it_goes_on() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.settle();
+    let before = world.peer(client).frames.len();
+    world.command(client, 1, grow(12));
+    // The command is acknowledged long before its last step is run.
+    world.pass(6);
+    assert_eq!(world.peer(client).acknowledged(), [1]);
+    assert!(world.working.is_some());
+    assert!(world.peer(client).last_state().unwrap().pending_steps > 0);
+    world.settle();
+    assert!(world.peer(client).frames.len() - before >= 3);
+    assert_eq!(world.peer(client).last_state().unwrap().pending_steps, 0);
+    world.assert_mirrored(client);
+}
+
+#[test]
+fn those_who_join_together_share_one_frame() {
+    let mut world = World::new();
+    let first = world.join("birch-01");
+    world.command(first, 1, grow(9));
+    world.settle();
+    let guests: Vec<u64> = (0..20).map(|number| world.join(&format!("guest-{number:02}"))).collect();
+    world.settle();
+    for guest in guests {
+        assert_eq!(world.peer(guest).frames.len(), 1);
+        world.assert_mirrored(guest);
+    }
+}
+
+#[test]
+fn a_client_that_joins_amid_growth_sees_it_all() {
+    let mut world = World::new();
+    let first = world.join("birch-01");
+    world.command(first, 1, grow(13));
+    for number in 0..6 {
+        world.pass(3);
+        world.join(&format!("guest-{number:02}"));
+    }
+    world.settle();
+    let all: Vec<u64> = world.peers.keys().copied().collect();
+    for client in all {
+        world.assert_mirrored(client);
+    }
+}
+
+#[test]
+fn a_client_may_vanish_while_its_frame_is_made() {
+    let mut world = World::new();
+    let first = world.join("birch-01");
+    world.command(first, 1, grow(4));
+    let gone = world.join("maple-01");
+    assert!(world.working.is_some());
+    world.leave(gone);
+    // A text may still be under way from a socket that is gone.
+    world.handle(Input::Text(ClientId(gone), "{}".into()));
+    world.handle(Input::Written(ClientId(gone), 3));
+    world.settle();
+    world.assert_mirrored(first);
+}

@@ -1,0 +1,132 @@
+//! `LM`: what has the right form to become part of a document.
+
+use espalier_proto::{Command, ProblemCode, version::CloseCode};
+use espalier_session::Action;
+
+use crate::world::World;
+
+fn check(json: &str, expected: Result<(), (ProblemCode, Option<&str>)>) {
+    let found = Action::from_json(json).map(drop).map_err(|problem| {
+        assert!(problem.message.len() > 10, "{json}: {}", problem.message);
+        (problem.code, problem.field)
+    });
+    let expected = expected.map_err(|(code, field)| (code, field.map(str::to_owned)));
+    assert_eq!(found, expected, "{json}");
+}
+
+const OUT: ProblemCode = ProblemCode::OutOfRange;
+const BAD: ProblemCode = ProblemCode::Malformed;
+
+#[test]
+fn lm2_samples_lie_within_the_world() {
+    let sample = |position: &str, radius: &str| {
+        let good = r#"{"position":[0,1,0],"radius":4}"#;
+        format!(
+            r#"{{"kind":"stroke_move","stroke":1,"samples":[{good},{{"position":{position},"radius":{radius}}}]}}"#
+        )
+    };
+    check(&sample("[1000,1000,-1000]", "0"), Ok(()));
+    check(&sample("[-1000,-10,1000]", "40"), Ok(()));
+    check(&sample("[1000.1,0,0]", "1"), Err((OUT, Some("samples[1].position[0]"))));
+    check(&sample("[0,-10.01,0]", "1"), Err((OUT, Some("samples[1].position[1]"))));
+    check(&sample("[0,0,-1001]", "1"), Err((OUT, Some("samples[1].position[2]"))));
+    check(&sample("[0,0,1e39]", "1"), Err((OUT, Some("samples[1].position[2]"))));
+    check(&sample("[0,0,0]", "40.5"), Err((OUT, Some("samples[1].radius"))));
+    check(&sample("[0,0,0]", "-0.1"), Err((OUT, Some("samples[1].radius"))));
+    check(&sample("[0,0,0]", "\"wide\""), Err((BAD, Some("samples[1].radius"))));
+    check(&sample("[0,0]", "1"), Err((BAD, Some("samples[1].position"))));
+    check(&sample("[0,0,null]", "1"), Err((BAD, Some("samples[1].position"))));
+}
+
+#[test]
+fn lm2_a_move_has_1_to_256_samples() {
+    let samples = |count: usize| {
+        let list = vec![r#"{"position":[0,1,0],"radius":4}"#; count].join(",");
+        format!(r#"{{"kind":"stroke_move","stroke":1,"samples":[{list}]}}"#)
+    };
+    check(&samples(0), Err((OUT, Some("samples"))));
+    check(&samples(1), Ok(()));
+    check(&samples(256), Ok(()));
+    check(&samples(257), Err((ProblemCode::TooMany, Some("samples"))));
+}
+
+#[test]
+fn lm3_steps_go_from_1_to_1000() {
+    for kind in ["grow", "ungrow"] {
+        for (steps, allowed) in [(0, false), (1, true), (1000, true), (1001, false)] {
+            let expected = if allowed { Ok(()) } else { Err((OUT, Some("steps"))) };
+            check(&format!(r#"{{"kind":"{kind}","steps":{steps}}}"#), expected);
+        }
+    }
+}
+
+#[test]
+fn unreadable_fields_are_named() {
+    check(r#"{"kind":"grow"}"#, Err((BAD, Some("steps"))));
+    check(r#"{"kind":"grow","steps":1,"water":2}"#, Err((BAD, Some("water"))));
+    check(r#"{"kind":"grow","steps":1.5}"#, Err((BAD, Some("steps"))));
+    check(r#"{"kind":"grow","steps":1,"gesture":"a"}"#, Err((BAD, Some("gesture"))));
+    check(r#"{"kind":"stroke_end","stroke":-1}"#, Err((BAD, Some("stroke"))));
+    check(r#"{"kind":"stroke_move","stroke":1,"samples":7}"#, Err((BAD, Some("samples"))));
+    check(r#"{"kind":"stroke_move","stroke":1,"samples":[7]}"#, Err((BAD, Some("samples[0]"))));
+    check(r#"{"kind":"plant_seed","position":[0,"a",0]}"#, Err((BAD, Some("position"))));
+    check(r#"{"kind":"plant_seed","position":[0,0,2000]}"#, Err((OUT, Some("position[2]"))));
+    check(r#"{"kind":"set_parameters","parameters":{"sap":1}}"#, Err((BAD, Some("parameters.sap"))));
+    let not_a_number = r#"{"kind":"set_parameters","parameters":{"leaf_size":"big"}}"#;
+    check(not_a_number, Err((BAD, Some("parameters.leaf_size"))));
+    let infinite = r#"{"kind":"set_parameters","parameters":{"leaf_size":1e39}}"#;
+    check(infinite, Err((OUT, Some("parameters.leaf_size"))));
+    check(r#"{"kind":"graft"}"#, Err((BAD, None)));
+    check("grow", Err((BAD, None)));
+}
+
+#[test]
+fn every_kind_of_command_is_read() {
+    for json in [
+        r#"{"kind":"stroke_begin","stroke":1}"#,
+        r#"{"kind":"stroke_end","stroke":1}"#,
+        r#"{"kind":"grow","steps":3,"gesture":4}"#,
+        r#"{"kind":"undo"}"#,
+        r#"{"kind":"redo"}"#,
+        r#"{"kind":"set_parameters","parameters":{}}"#,
+        r#"{"kind":"plant_seed","position":[1,0,2]}"#,
+    ] {
+        check(json, Ok(()));
+    }
+}
+
+#[test]
+fn lm1_a_large_message_closes() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let padding = " ".repeat(256 * 1024);
+    world.text(client, &format!(r#"{{"type":"ping","nonce":1}}{padding}"#));
+    assert_eq!(world.peer(client).closed, Some(CloseCode::MessageTooBig));
+}
+
+#[test]
+fn commands_waiting_for_the_tree_are_bounded() {
+    let mut world = World::new();
+    world.work_ms = u64::MAX / 2;
+    check_bounded(&mut world);
+}
+
+#[test]
+fn commands_waiting_for_the_disk_are_bounded() {
+    let mut world = World::new();
+    world.write_ms = u64::MAX / 2;
+    check_bounded(&mut world);
+}
+
+fn check_bounded(world: &mut World) {
+    let client = world.join("birch-01");
+    for id in 1..=5000 {
+        world.command(client, id, Command::Redo {});
+        if id % 200 == 0 {
+            world.pass(20);
+        }
+    }
+    let refused = world.peer(client).refused();
+    let too_many = refused.iter().filter(|(_, problem)| problem.code == ProblemCode::TooMany).count();
+    assert!((850..=910).contains(&too_many), "{too_many} were refused");
+}

@@ -1,0 +1,12 @@
+//! A session under virtual time, with a simulated disk, simulation pool and clients.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod commands;
+mod durability;
+mod flow;
+mod fuzz;
+mod handshake;
+mod limits;
+mod mirror;
+mod world;

@@ -1,0 +1,335 @@
+//! Everything around a session: a disk, a simulation pool, clients and a clock, all of them obedient.
+
+use std::collections::BTreeMap;
+
+use espalier_proto::{
+    ClientMessage, Command, DocumentState, Frame, Problem, Resume, ServerMessage,
+    version::{CloseCode, PROTOCOL_VERSION},
+};
+use espalier_session::{ClientId, Document, Input, JournalEntry, Output, ReadId, Session, Work};
+
+use crate::mirror::{Mirror, rows_of};
+
+pub const SEED: u32 = 7;
+
+/// The other end of one connection.
+#[derive(Debug, Default)]
+pub struct Peer {
+    pub texts: Vec<ServerMessage>,
+    pub frames: Vec<Frame>,
+    pub mirror: Mirror,
+    pub closed: Option<CloseCode>,
+    /// Frames not yet answered with `received`: sequence and bytes.
+    pub in_flight: Vec<(u32, usize)>,
+    pub most_in_flight: usize,
+    /// Does not answer frames.
+    pub slow: bool,
+    /// Does not read its control messages.
+    pub deaf: bool,
+    pub unread: usize,
+}
+
+pub struct World {
+    pub session: Session,
+    pub now: u64,
+    pub peers: BTreeMap<u64, Peer>,
+    /// What survives a crash.
+    pub disk: Vec<JournalEntry>,
+    pub snapshot: Option<(u64, Vec<u8>)>,
+    pub snapshots: usize,
+    pub documents: Vec<(ReadId, Vec<u8>, u32)>,
+    pub writing: Option<(u64, Vec<JournalEntry>)>,
+    pub working: Option<(u64, Box<Work>)>,
+    wake_at: Option<u64>,
+    /// How long the disk and a slice of work take.
+    pub write_ms: u64,
+    pub work_ms: u64,
+    next_client: u64,
+    next_epoch: u32,
+}
+
+impl World {
+    pub fn new() -> Self {
+        Self {
+            session: Session::restore("plane-tree", 1, None, SEED, []).unwrap(),
+            now: 0,
+            peers: BTreeMap::new(),
+            disk: Vec::new(),
+            snapshot: None,
+            snapshots: 0,
+            documents: Vec::new(),
+            writing: None,
+            working: None,
+            wake_at: None,
+            write_ms: 5,
+            work_ms: 3,
+            next_client: 1,
+            next_epoch: 2,
+        }
+    }
+
+    /// The process dies and the session is loaded from what the disk holds.
+    pub fn crash(&mut self) {
+        let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice());
+        self.session =
+            Session::restore("plane-tree", self.next_epoch, snapshot, SEED, self.disk.iter().cloned())
+                .unwrap();
+        self.next_epoch += 1;
+        self.peers.clear();
+        (self.writing, self.working, self.wake_at) = (None, None, None);
+    }
+
+    pub fn handle(&mut self, input: Input) {
+        self.session.handle(self.now, input);
+        while let Some(output) = self.session.poll_output() {
+            self.fulfil(output);
+        }
+    }
+
+    fn fulfil(&mut self, output: Output) {
+        match output {
+            Output::Text(ClientId(id), text) => {
+                let peer = self.peers.get_mut(&id).expect("a text goes to a connection that was made");
+                assert!(peer.closed.is_none(), "nothing follows a close");
+                peer.texts.push(serde_json::from_str(&text).expect("every text is a server message"));
+                peer.unread += 1;
+            }
+            Output::Frame(ClientId(id), bytes) => {
+                let peer = self.peers.get_mut(&id).expect("a frame goes to a connection that was made");
+                assert!(peer.closed.is_none(), "nothing follows a close");
+                let frame = Frame::decode(&bytes).expect("every frame is valid");
+                peer.in_flight.push((frame.sequence, bytes.len()));
+                let bytes: usize = peer.in_flight.iter().map(|(_, bytes)| bytes).sum();
+                assert!(bytes <= 256 * 1024 || peer.in_flight.len() == 1, "FL1");
+                peer.most_in_flight = peer.most_in_flight.max(bytes);
+                peer.mirror.apply(&frame);
+                peer.frames.push(frame);
+            }
+            Output::Close(ClientId(id), code, _) => {
+                let peer = self.peers.get_mut(&id).expect("a close goes to a connection that was made");
+                assert_eq!(peer.closed.replace(code), None, "a socket closes once");
+            }
+            Output::Journal(entries) => {
+                assert!(self.writing.is_none(), "one batch at a time");
+                self.writing = Some((self.now + self.write_ms, entries));
+            }
+            Output::Work(work) => {
+                assert!(self.working.is_none(), "there is one document");
+                self.working = Some((self.now + self.work_ms, work));
+            }
+            Output::Snapshot { through, bytes } => {
+                let durable = self.disk.last().map_or(0, |entry| entry.number);
+                assert!(through <= durable, "a snapshot is never ahead of the journal");
+                self.snapshot = Some((through, bytes));
+                self.snapshots += 1;
+            }
+            Output::Document { read, bytes, metamers } => self.documents.push((read, bytes, metamers)),
+            Output::WakeAt(at) => self.wake_at = Some(at),
+        }
+    }
+
+    /// Lets time pass; what is due happens in its order.
+    pub fn pass(&mut self, ms: u64) {
+        let end = self.now + ms;
+        loop {
+            self.let_peers_read();
+            let write = self.writing.as_ref().map(|(due, _)| *due);
+            let work = self.working.as_ref().map(|(due, _)| *due);
+            let next = [write, work, self.wake_at].into_iter().flatten().filter(|due| *due <= end).min();
+            let Some(due) = next else { break };
+            self.now = self.now.max(due);
+            if write == Some(due) {
+                let (_, entries) = self.writing.take().unwrap();
+                let through = entries.last().unwrap().number;
+                self.disk.extend(entries);
+                self.handle(Input::Journaled(through));
+            } else if work == Some(due) {
+                let (_, mut work) = self.working.take().unwrap();
+                work.run();
+                self.handle(Input::Worked(work));
+            } else {
+                self.wake_at = None;
+                self.handle(Input::Woken);
+            }
+        }
+        self.now = end;
+    }
+
+    /// Answers of clients that answer at once.
+    fn let_peers_read(&mut self) {
+        let ids: Vec<u64> = self.peers.keys().copied().collect();
+        for id in ids {
+            let peer = &self.peers[&id];
+            if peer.closed.is_some() {
+                continue;
+            }
+            if !peer.deaf && peer.unread > 0 {
+                self.read_texts(id);
+            }
+            if !self.peers[&id].slow && !self.peers[&id].in_flight.is_empty() {
+                self.answer_frames(id);
+            }
+        }
+    }
+
+    pub fn read_texts(&mut self, id: u64) {
+        let count = std::mem::take(&mut self.peers.get_mut(&id).unwrap().unread);
+        self.handle(Input::Written(ClientId(id), count));
+    }
+
+    /// Says that all frames so far have arrived.
+    pub fn answer_frames(&mut self, id: u64) {
+        let frames = std::mem::take(&mut self.peers.get_mut(&id).unwrap().in_flight);
+        if let Some(&(sequence, _)) = frames.last() {
+            self.send(id, &ClientMessage::Received { sequence });
+        }
+    }
+
+    /// Long enough for all work to be done, too short for any deadline.
+    pub fn settle(&mut self) {
+        for _ in 0..100_000 {
+            self.pass(1);
+            if self.writing.is_none() && self.working.is_none() {
+                // Figures wait for their turn.
+                self.pass(60);
+                if self.writing.is_none() && self.working.is_none() {
+                    return;
+                }
+            }
+        }
+        panic!("the session never comes to rest");
+    }
+
+    pub fn connect(&mut self) -> u64 {
+        let id = self.next_client;
+        self.next_client += 1;
+        self.peers.insert(id, Peer::default());
+        self.handle(Input::Connected(ClientId(id)));
+        id
+    }
+
+    /// Connects and says hello.
+    pub fn join(&mut self, key: &str) -> u64 {
+        let id = self.connect();
+        self.hello(id, key, None);
+        id
+    }
+
+    /// Connects again with what an earlier connection had.
+    pub fn rejoin(&mut self, key: &str, mirror: Mirror) -> u64 {
+        let id = self.connect();
+        let resume = mirror.resume();
+        self.peer_mut(id).mirror = mirror;
+        self.hello(id, key, Some(resume));
+        id
+    }
+
+    pub fn hello(&mut self, id: u64, key: &str, resume: Option<Resume>) {
+        self.send(id, &ClientMessage::Hello { protocol: PROTOCOL_VERSION, client: key.into(), resume });
+        if let Some(ServerMessage::Welcome { epoch, resumed, .. }) = self.peer(id).texts.first().cloned() {
+            let mirror = &mut self.peer_mut(id).mirror;
+            if !resumed {
+                *mirror = Mirror::default();
+            }
+            mirror.epoch = epoch;
+            mirror.sequence = None;
+        }
+    }
+
+    pub fn leave(&mut self, id: u64) -> Peer {
+        self.handle(Input::Disconnected(ClientId(id)));
+        self.peers.remove(&id).unwrap()
+    }
+
+    pub fn send(&mut self, id: u64, message: &ClientMessage) {
+        self.text(id, &serde_json::to_string(message).unwrap());
+    }
+
+    pub fn text(&mut self, id: u64, text: &str) {
+        self.handle(Input::Text(ClientId(id), text.into()));
+    }
+
+    pub fn command(&mut self, client: u64, id: u32, command: Command) {
+        self.send(client, &ClientMessage::Command { id, command });
+    }
+
+    pub fn peer(&self, id: u64) -> &Peer {
+        &self.peers[&id]
+    }
+
+    pub fn peer_mut(&mut self, id: u64) -> &mut Peer {
+        self.peers.get_mut(&id).unwrap()
+    }
+
+    pub fn document(&self) -> &Document {
+        self.session.document().expect("the document is at home")
+    }
+
+    /// The hash of the document when the same commands are done again from the start.
+    pub fn replayed_hash(&self) -> u64 {
+        let again = Session::restore("again", 99, None, SEED, self.disk.iter().cloned()).unwrap();
+        again.document().expect("a new session has its document").hash()
+    }
+
+    /// A client's rows show the plants; all clients have the very same rows.
+    pub fn assert_mirrored(&mut self, id: u64) {
+        let stranger = self.join("stranger");
+        self.settle();
+        let Peer { mirror: complete, .. } = self.leave(stranger);
+        let expected = rows_of(self.document());
+        let mirror = &self.peer(id).mirror;
+        assert_eq!(mirror.rows.len(), expected.len(), "rows of client {id}");
+        for (row, (seen, expected)) in mirror.rows.iter().zip(&expected).enumerate() {
+            assert!(seen.shows(expected), "row {row} of client {id} is {seen:?} instead of {expected:?}");
+            assert_eq!(seen, &complete.rows[row], "row {row} of client {id} differs from a newcomer's");
+        }
+    }
+}
+
+impl Peer {
+    pub fn acknowledged(&self) -> Vec<u32> {
+        let id = |text: &ServerMessage| match text {
+            ServerMessage::Acknowledged { id } => Some(*id),
+            _ => None,
+        };
+        self.texts.iter().filter_map(id).collect()
+    }
+
+    pub fn refused(&self) -> Vec<(u32, Problem)> {
+        let refusal = |text: &ServerMessage| match text {
+            ServerMessage::Refused { id, problem } => Some((*id, problem.clone())),
+            _ => None,
+        };
+        self.texts.iter().filter_map(refusal).collect()
+    }
+
+    pub fn problems(&self) -> Vec<Problem> {
+        let problem = |text: &ServerMessage| match text {
+            ServerMessage::Problem { problem } => Some(problem.clone()),
+            _ => None,
+        };
+        self.texts.iter().filter_map(problem).collect()
+    }
+
+    pub fn last_state(&self) -> Option<DocumentState> {
+        self.texts.iter().rev().find_map(|text| match text {
+            ServerMessage::State { state } | ServerMessage::Welcome { state, .. } => Some(state.clone()),
+            _ => None,
+        })
+    }
+
+    pub fn welcome_acknowledged(&self) -> u32 {
+        match self.texts.first() {
+            Some(ServerMessage::Welcome { acknowledged, .. }) => *acknowledged,
+            other => panic!("no welcome but {other:?}"),
+        }
+    }
+
+    pub fn resumed(&self) -> bool {
+        matches!(self.texts.first(), Some(ServerMessage::Welcome { resumed: true, .. }))
+    }
+}
+
+pub fn grow(steps: u32) -> Command {
+    Command::Grow { steps, gesture: None }
+}
