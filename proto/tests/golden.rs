@@ -151,19 +151,15 @@ fn check(name: &str, frame: &Frame) {
     let file = |extension: &str| {
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.{extension}"))
     };
-    let description = format!("{}\n", described(frame));
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         fs::write(file("bin"), frame.encode()).expect("the sample can be written");
-        fs::write(file("json"), &description).expect("the description can be written");
+        fs::write(file("json"), format!("{}\n", described(frame))).expect("the description can be written");
     }
     let bytes = fs::read(file("bin")).expect("the sample can be read");
     assert_eq!(Frame::decode(&bytes).as_ref(), Ok(frame), "{name}.bin");
     assert_eq!(bytes, frame.encode(), "{name}.bin is what the encoder writes");
-    assert_eq!(
-        fs::read_to_string(file("json")).expect("the description can be read"),
-        description,
-        "{name}.json"
-    );
+    let stored = fs::read_to_string(file("json")).expect("the description can be read");
+    assert_eq!(serde_json::from_str::<Value>(&stored).ok(), Some(described(frame)), "{name}.json");
 }
 
 #[test]

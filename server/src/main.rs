@@ -1,1 +1,53 @@
-fn main() {}
+//! The Espalier server and command line: a thin shell around the session's state machine.
+
+mod announce;
+mod cli;
+mod database;
+mod document;
+mod headless;
+mod http;
+mod listener;
+mod live;
+mod name;
+mod pool;
+mod serve;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::{
+    cli::{Cli, Command},
+    headless::HeadlessError,
+    serve::ServeError,
+};
+
+pub use espalier_growth::SIMULATION_VERSION;
+
+/// A script that cannot be done is the caller's mistake, like a wrong option (which clap ends with 2 as well).
+const USAGE: u8 = 2;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match cli.command {
+        None => served(serve::run(&cli.serve)),
+        Some(Command::Serve(options)) => served(serve::run(&options)),
+        Some(Command::Replay(options)) => done(headless::replay(&options)),
+        Some(Command::Grow(options)) => done(headless::grow(&options)),
+    }
+}
+
+fn served(result: Result<(), ServeError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("{error}");
+    ExitCode::FAILURE
+}
+
+fn done(result: Result<(), HeadlessError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("{error}");
+    match error {
+        HeadlessError::Script(_) | HeadlessError::Read { .. } => ExitCode::from(USAGE),
+        _ => ExitCode::FAILURE,
+    }
+}

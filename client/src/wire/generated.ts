@@ -292,11 +292,11 @@ leaves_per_node?: number,
  */
 leaf_size?: number, };
 
-export type Command = { "StrokeBegin": { 
+export type Command = { "kind": "stroke_begin", 
 /**
  * The client's own number for this stroke.
  */
-stroke: number, } } | { "StrokeMove": { 
+stroke: number, } | { "kind": "stroke_move", 
 /**
  * The number given in `stroke_begin`.
  */
@@ -304,11 +304,11 @@ stroke: number,
 /**
  * 1 to 256 places, in the order the finger went through them.
  */
-samples: Array<StrokeSample>, } } | { "StrokeEnd": { 
+samples: Array<StrokeSample>, } | { "kind": "stroke_end", 
 /**
  * The number given in `stroke_begin`.
  */
-stroke: number, } } | { "Grow": { 
+stroke: number, } | { "kind": "grow", 
 /**
  * 1 to 1000 simulation steps.
  */
@@ -316,21 +316,21 @@ steps: number,
 /**
  * Commands of one client that follow each other with the same gesture are one operation for undo.
  */
-gesture?: number, } } | { "Ungrow": { 
+gesture?: number, } | { "kind": "ungrow", 
 /**
  * 1 to 1000 simulation steps.
  */
-steps: number, } } | { "Undo": Record<symbol, never> } | { "Redo": Record<symbol, never> } | { "SetParameters": { 
+steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "set_parameters", 
 /**
  * The fields to change.
  */
-parameters: ParametersPatch, } } | { "PlantSeed": { 
+parameters: ParametersPatch, } | { "kind": "plant_seed", 
 /**
  * Where, in internode lengths.
  */
-position: [number, number, number], } };
+position: [number, number, number], };
 
-export type ProblemCode = "Malformed" | "OutOfRange" | "TooMany" | "Refused" | "NotFound" | "Unavailable";
+export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "unavailable";
 
 export type Problem = { 
 /**
@@ -402,7 +402,7 @@ pending_steps: number,
  */
 people: number, };
 
-export type ClientMessage = { "Hello": { 
+export type ClientMessage = { "type": "hello", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
  */
@@ -414,7 +414,7 @@ client: string,
 /**
  * What it still holds of this session, if it returns.
  */
-resume?: Resume, } } | { "Command": { 
+resume?: Resume, } | { "type": "command", 
 /**
  * 1, 2, 3 … for each client key; sent again after a reconnection until acknowledged.
  */
@@ -422,17 +422,17 @@ id: number,
 /**
  * What to do.
  */
-command: Command, } } | { "Received": { 
+command: Command, } | { "type": "received", 
 /**
  * The sequence of the newest frame.
  */
-sequence: number, } } | { "Ping": { 
+sequence: number, } | { "type": "ping", 
 /**
  * Comes back in the pong.
  */
-nonce: number, } };
+nonce: number, };
 
-export type ServerMessage = { "Welcome": { 
+export type ServerMessage = { "type": "welcome", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
  */
@@ -460,11 +460,11 @@ parameters: Parameters,
 /**
  * The document.
  */
-state: DocumentState, } } | { "Acknowledged": { 
+state: DocumentState, } | { "type": "acknowledged", 
 /**
  * The command.
  */
-id: number, } } | { "Refused": { 
+id: number, } | { "type": "refused", 
 /**
  * The command.
  */
@@ -472,23 +472,23 @@ id: number,
 /**
  * Why.
  */
-problem: Problem, } } | { "Problem": { 
+problem: Problem, } | { "type": "problem", 
 /**
  * Why.
  */
-problem: Problem, } } | { "State": { 
+problem: Problem, } | { "type": "state", 
 /**
  * The document.
  */
-state: DocumentState, } } | { "Parameters": { 
+state: DocumentState, } | { "type": "parameters", 
 /**
  * The parameters in force.
  */
-parameters: Parameters, } } | { "Pong": { 
+parameters: Parameters, } | { "type": "pong", 
 /**
  * The ping's.
  */
-nonce: number, } };
+nonce: number, };
 
 export type NewSession = { 
 /**

@@ -1,6 +1,6 @@
 //! `FL`: windows, catch-up, bounded memory for slow readers; and growth that is seen while it goes on.
 
-use espalier_proto::{ClientMessage, Command, ProblemCode, version::CloseCode};
+use espalier_proto::{ChunkChange, ClientMessage, Command, ProblemCode, version::CloseCode};
 use espalier_session::{ClientId, Input};
 
 use crate::world::{World, grow};
@@ -64,6 +64,32 @@ fn fl2_the_frame_that_did_not_fit_is_made_up_for() {
     world.peer_mut(slow).slow = false;
     world.answer_frames(slow);
     world.settle();
+    world.assert_mirrored(slow);
+}
+
+#[test]
+fn fl2_a_catch_up_holds_only_what_is_stale() {
+    let mut world = World::new();
+    let busy = world.join("birch-01");
+    world.command(busy, 1, grow(18));
+    world.settle();
+    // One frame larger than the window is on the way, so not even a small one may follow.
+    let slow = world.join("maple-01");
+    world.peer_mut(slow).slow = true;
+    world.settle();
+    assert!(world.peer(slow).most_in_flight > 256 * 1024);
+    world.command(busy, 2, Command::PlantSeed { position: [9.0, 0.0, 0.0] });
+    world.settle();
+    assert_eq!(world.peer(slow).frames.len(), 1);
+    world.peer_mut(slow).slow = false;
+    world.answer_frames(slow);
+    world.settle();
+    let last_chunk = world.peer(busy).mirror.generations.len() as u32 - 1;
+    assert!(last_chunk > 100);
+    let [ChunkChange::Replace { chunk, .. }] = world.peer(slow).frames[1].changes.as_slice() else {
+        panic!("{} changes instead of one chunk", world.peer(slow).frames[1].changes.len());
+    };
+    assert_eq!(*chunk, last_chunk);
     world.assert_mirrored(slow);
 }
 

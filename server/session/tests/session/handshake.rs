@@ -135,7 +135,7 @@ fn rs1_a_returning_client_gets_what_is_stale() {
     world.command(birch, 1, grow(12));
     world.settle();
     let left = world.leave(birch);
-    world.command(maple, 1, grow(1));
+    world.command(maple, 1, espalier_proto::Command::PlantSeed { position: [9.0, 0.0, 0.0] });
     world.settle();
     let back = world.rejoin("birch-01", left.mirror);
     world.settle();
@@ -143,6 +143,7 @@ fn rs1_a_returning_client_gets_what_is_stale() {
     world.assert_mirrored(back);
     assert_eq!(world.peer(back).frames.len(), 1);
     assert!(world.peer(back).frames[0].catch_up);
+    assert_eq!(world.peer(back).frames[0].changes.len(), 1, "a seed changes one chunk");
 }
 
 #[test]

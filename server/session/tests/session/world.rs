@@ -36,6 +36,8 @@ pub struct World {
     /// What survives a crash.
     pub disk: Vec<JournalEntry>,
     pub snapshot: Option<(u64, Vec<u8>)>,
+    /// The saved tree the session was opened with.
+    origin: Option<Vec<u8>>,
     pub snapshots: usize,
     pub documents: Vec<(ReadId, Vec<u8>, u32)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
@@ -50,8 +52,14 @@ pub struct World {
 
 impl World {
     pub fn new() -> Self {
+        Self::opened_with(None)
+    }
+
+    /// A session that starts from a first snapshot.
+    pub fn opened_with(origin: Option<Vec<u8>>) -> Self {
         Self {
-            session: Session::restore("plane-tree", 1, None, SEED, []).unwrap(),
+            session: Session::restore("plane-tree", 1, origin.as_deref(), SEED, []).unwrap(),
+            origin,
             now: 0,
             peers: BTreeMap::new(),
             disk: Vec::new(),
@@ -70,7 +78,7 @@ impl World {
 
     /// The process dies and the session is loaded from what the disk holds.
     pub fn crash(&mut self) {
-        let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice());
+        let snapshot = self.snapshot.as_ref().map(|(_, bytes)| bytes.as_slice()).or(self.origin.as_deref());
         self.session =
             Session::restore("plane-tree", self.next_epoch, snapshot, SEED, self.disk.iter().cloned())
                 .unwrap();
@@ -267,7 +275,8 @@ impl World {
 
     /// The hash of the document when the same commands are done again from the start.
     pub fn replayed_hash(&self) -> u64 {
-        let again = Session::restore("again", 99, None, SEED, self.disk.iter().cloned()).unwrap();
+        let again =
+            Session::restore("again", 99, self.origin.as_deref(), SEED, self.disk.iter().cloned()).unwrap();
         again.document().expect("a new session has its document").hash()
     }
 

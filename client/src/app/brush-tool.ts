@@ -1,0 +1,154 @@
+import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../wire/generated";
+import { MAX_RADIUS } from "./brush-radius";
+import type { StrokePoint } from "./gestures";
+import type { BrushView, Point } from "./ports";
+import { SampleQueue } from "./sample-queue";
+
+/** How often the brush is sent while it is down, in milliseconds. */
+export const SEND_EVERY = 33;
+/** How near to a branch a stroke must begin to begin on it, in pixels. */
+const PICK_TOLERANCE = 24;
+/** Messages that may be under way; beyond it places gather for the next one. */
+const MAX_UNSETTLED = 8;
+/** Positions beyond this are refused (`LM2`). */
+const REACH = 1000;
+
+export interface BrushOptions {
+  readonly view: BrushView;
+  readonly submit: (command: Command) => void;
+  /** A number no other stroke of this client has. */
+  readonly newStroke: () => number;
+  /** How many `stroke_move` the server has not yet answered. */
+  readonly unsettledMoves: () => number;
+  readonly radius: () => number;
+  /** Whether a pen's pressure widens and narrows the brush. */
+  readonly pressureWidens: () => boolean;
+  /** Where a stroke lies in depth if it begins beside every branch. */
+  readonly base: (x: number, y: number) => Point;
+}
+
+interface Stroke {
+  readonly number: number;
+  /** The drawing plane passes through this point, parallel to the screen. */
+  readonly through: Point;
+  readonly samples: SampleQueue;
+  pressure: number | null;
+}
+
+/** Turns the strokes of a finger into commands. */
+export class BrushTool {
+  #options: BrushOptions;
+  #stroke: Stroke | null = null;
+
+  constructor(options: BrushOptions) {
+    this.#options = options;
+  }
+
+  get active(): boolean {
+    return this.#stroke !== null;
+  }
+
+  begin(point: StrokePoint): void {
+    this.end();
+    const number = this.#options.newStroke();
+    const through = this.#through(point.x, point.y);
+    this.#stroke = { number, through, samples: new SampleQueue(), pressure: null };
+    this.#options.submit({ kind: "stroke_begin", stroke: number });
+    this.move([point]);
+  }
+
+  move(points: readonly StrokePoint[]): void {
+    const stroke = this.#stroke;
+    if (!stroke) {
+      return;
+    }
+    for (const point of points) {
+      const place = this.#options.view.pointOnPlane(point.x, point.y, stroke.through);
+      if (place) {
+        stroke.pressure = point.pressure;
+        stroke.samples.add({ position: withinReach(place), radius: this.#radius(point.pressure) });
+      }
+    }
+    const { latest } = stroke.samples;
+    if (latest) {
+      this.#options.view.showBrush(latest.position, latest.radius);
+    }
+  }
+
+  /** Sends what has gathered, or once more the place where the brush rests: it keeps sowing there. */
+  tick(): void {
+    const stroke = this.#stroke;
+    if (!stroke || this.#options.unsettledMoves() >= MAX_UNSETTLED) {
+      return;
+    }
+    const { latest } = stroke.samples;
+    const radius = this.#radius(stroke.pressure);
+    if (latest && latest.radius !== radius) {
+      // The other hand has moved the slider while this one rests.
+      stroke.samples.add({ position: latest.position, radius });
+      this.#options.view.showBrush(latest.position, radius);
+    }
+    this.#send(stroke);
+  }
+
+  end(): void {
+    const stroke = this.#stroke;
+    if (!stroke) {
+      return;
+    }
+    stroke.samples.finish();
+    while (stroke.samples.length > 0) {
+      this.#send(stroke);
+    }
+    this.#options.submit({ kind: "stroke_end", stroke: stroke.number });
+    this.#stroke = null;
+    this.#options.view.hideBrush();
+  }
+
+  /** Forgets the stroke without a word to the server, which no longer knows it. */
+  abandon(): void {
+    this.#stroke = null;
+    this.#options.view.hideBrush();
+  }
+
+  /** Shows where a stroke beginning here would lie. */
+  hover(x: number, y: number): void {
+    if (this.#stroke) {
+      return;
+    }
+    const place = this.#options.view.pointOnPlane(x, y, this.#through(x, y));
+    if (place) {
+      this.#options.view.showBrush(withinReach(place), this.#options.radius());
+    } else {
+      this.#options.view.hideBrush();
+    }
+  }
+
+  #through(x: number, y: number): Point {
+    return this.#options.view.pick(x, y, PICK_TOLERANCE)?.point ?? this.#options.base(x, y);
+  }
+
+  #send(stroke: Stroke): void {
+    const samples: StrokeSample[] = stroke.samples.take(MAX_STROKE_SAMPLES);
+    if (samples.length > 0) {
+      this.#options.submit({ kind: "stroke_move", stroke: stroke.number, samples });
+    }
+  }
+
+  #radius(pressure: number | null): number {
+    const radius = this.#options.radius();
+    const share = pressure !== null && this.#options.pressureWidens() ? 0.25 + 1.5 * pressure : 1;
+    return tidy(Math.min(MAX_RADIUS, Math.max(0, radius * share)));
+  }
+}
+
+/** The nearest place the server accepts; nothing is sown below the ground. */
+function withinReach([x, y, z]: Point): [number, number, number] {
+  const clamp = (value: number, least: number) => tidy(Math.min(REACH, Math.max(least, value)));
+  return [clamp(x, -REACH), clamp(y, 0), clamp(z, -REACH)];
+}
+
+/** A thousandth of an internode is far below what anyone can see, and the message is half as long. */
+function tidy(value: number): number {
+  return Math.round(value * 1000) / 1000;
+}

@@ -1,0 +1,381 @@
+import {
+  type ClientMessage,
+  CloseCode,
+  type Command,
+  type DocumentState,
+  type Parameters,
+  PROTOCOL_VERSION,
+  type Problem,
+  type Resume,
+  type ServerMessage,
+} from "../wire/generated";
+
+/** Silence after which the server is asked whether it is there, in milliseconds. */
+export const PING_AFTER = 3000;
+/** How long a ping may stay unanswered before the socket counts as dead. */
+export const PONG_WITHIN = 5000;
+/** How long a socket may take to open and greet. */
+export const OPEN_WITHIN = 8000;
+const BACKOFF_FIRST = 250;
+const BACKOFF_LAST = 8000;
+
+export type Phase = "idle" | "opening" | "greeting" | "connected" | "waiting" | "stopped";
+export type StopReason = "unknown-session" | "version";
+
+/** A command that is not yet known to be durable. */
+export interface PendingCommand {
+  readonly id: number;
+  readonly command: Command;
+  /** The server has said no; the number stays taken until an acknowledgement passes it (`CM3`). */
+  refused: boolean;
+}
+
+/** What outlives a page: the key, its numbering, and what the server may not have yet. */
+export interface ClientRecord {
+  readonly key: string;
+  readonly next: number;
+  readonly acknowledged: number;
+  readonly pending: readonly { readonly id: number; readonly command: Command }[];
+}
+
+/** What the shell must do, in order. */
+export type Effect =
+  | { readonly kind: "open" }
+  | { readonly kind: "close" }
+  | { readonly kind: "send"; readonly message: ClientMessage }
+  | { readonly kind: "forget-rows" }
+  | { readonly kind: "reload" }
+  | { readonly kind: "rekeyed" }
+  | { readonly kind: "state"; readonly state: DocumentState }
+  | { readonly kind: "parameters"; readonly parameters: Parameters }
+  | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
+
+export interface CoreOptions {
+  /** Draws a new client key. */
+  readonly newKey: () => string;
+  /** What is still held of the session (`RS1`). */
+  readonly resume: () => Resume | undefined;
+  /** A number in [0, 1) for the backoff's jitter. */
+  readonly random: () => number;
+  /** What an earlier page of this tab left behind. */
+  readonly record?: ClientRecord;
+}
+
+/** The facts of a frame that order it. */
+export interface FrameHead {
+  readonly epoch: number;
+  readonly sequence: number;
+  readonly catchUp: boolean;
+}
+
+/** One client's side of the protocol, without socket or clock: call a method, then drain `effects()`. */
+export class ConnectionCore {
+  #options: CoreOptions;
+  #key: string;
+  #next = 1;
+  #acknowledged = 0;
+  #pending: PendingCommand[] = [];
+  #phase: Phase = "idle";
+  #stopReason: StopReason | null = null;
+  #attempts = 0;
+  #deadline: number | null = null;
+  #pinged: number | null = null;
+  #nonce = 0;
+  #epoch = 0;
+  #sequence: number | null = null;
+  #resumable = true;
+  #effects: Effect[] = [];
+
+  constructor(options: CoreOptions) {
+    this.#options = options;
+    this.#key = options.record?.key ?? options.newKey();
+    if (options.record) {
+      this.#next = options.record.next;
+      this.#acknowledged = options.record.acknowledged;
+      this.#pending = options.record.pending.map(({ id, command }) => ({ id, command, refused: false }));
+    }
+  }
+
+  get phase(): Phase {
+    return this.#phase;
+  }
+
+  get stopReason(): StopReason | null {
+    return this.#stopReason;
+  }
+
+  /** Failed attempts since the last welcome. */
+  get attempts(): number {
+    return this.#attempts;
+  }
+
+  /** When `tick` is next due, in the clock of the calls. */
+  get deadline(): number | null {
+    return this.#deadline;
+  }
+
+  /** The number the next command gets. */
+  get next(): number {
+    return this.#next;
+  }
+
+  /** The highest number up to which every command is durable or refused. */
+  get settled(): number {
+    const open = this.#pending.find((entry) => !entry.refused);
+    return (open?.id ?? this.#next) - 1;
+  }
+
+  /** How many commands of a kind the server has neither acknowledged nor refused. */
+  unsettled(kind: Command["kind"]): number {
+    return this.#pending.reduce((count, entry) => count + (entry.command.kind === kind && !entry.refused ? 1 : 0), 0);
+  }
+
+  /** What a later page of this tab needs to go on. */
+  record(): ClientRecord {
+    const pending = this.#pending.map(({ id, command }) => ({ id, command }));
+    return { key: this.#key, next: this.#next, acknowledged: this.#acknowledged, pending };
+  }
+
+  /** Takes the effects that have come up since the last call. */
+  effects(): Effect[] {
+    return this.#effects.splice(0);
+  }
+
+  start(now: number): void {
+    if (this.#phase === "idle") {
+      this.#open(now);
+    }
+  }
+
+  /** Numbers a command and sends it as soon as there is a server to take it (`CM1`). */
+  submit(command: Command): number {
+    const entry = { id: this.#next++, command, refused: false };
+    this.#pending.push(entry);
+    if (this.#phase === "connected") {
+      this.#send({ type: "command", id: entry.id, command });
+    }
+    return entry.id;
+  }
+
+  /** The socket is open: say hello (`HS1`). */
+  opened(now: number): void {
+    if (this.#phase !== "opening") {
+      return;
+    }
+    this.#phase = "greeting";
+    this.#deadline = now + OPEN_WITHIN;
+    const resume = this.#resumable ? this.#options.resume() : undefined;
+    const hello = { type: "hello", protocol: PROTOCOL_VERSION, client: this.#key } as const;
+    this.#send(resume ? { ...hello, resume } : hello);
+  }
+
+  /** A control message arrived. */
+  message(now: number, message: ServerMessage): void {
+    this.#heard(now);
+    switch (message.type) {
+      case "welcome":
+        this.#welcome(now, message);
+        break;
+      case "acknowledged":
+        this.#acknowledge(message.id);
+        break;
+      case "refused":
+        this.#refuse(message.id, message.problem);
+        break;
+      case "problem":
+        this.#effects.push({ kind: "problem", problem: message.problem });
+        break;
+      case "state":
+        this.#effects.push({ kind: "state", state: message.state });
+        break;
+      case "parameters":
+        this.#effects.push({ kind: "parameters", parameters: message.parameters });
+        break;
+      case "pong":
+        break;
+    }
+  }
+
+  /** Bytes arrived; they show that the server lives, before they are decoded. */
+  heard(now: number): void {
+    this.#heard(now);
+  }
+
+  /** Whether a decoded frame may be applied: right epoch, right place in the order (`FR4`). */
+  admits(frame: FrameHead): boolean {
+    if (this.#phase !== "connected" || frame.epoch !== this.#epoch) {
+      return false;
+    }
+    return frame.catchUp || this.#sequence === null || frame.sequence === this.#sequence + 1;
+  }
+
+  /** A frame has been applied: say so (`FL1`). */
+  applied(frame: FrameHead): void {
+    this.#sequence = frame.sequence;
+    this.#resumable = true;
+    this.#send({ type: "received", sequence: frame.sequence });
+  }
+
+  /** A frame was invalid or out of order: connect again and forget what is held (`FR1`). */
+  invalid(now: number): void {
+    if (this.#phase === "connected") {
+      this.#resumable = false;
+      this.#effects.push({ kind: "close" });
+      this.#retry(now);
+    }
+  }
+
+  /** The socket closed, by whichever side. */
+  closed(now: number, code: number): void {
+    if (this.#phase === "stopped" || this.#phase === "waiting" || this.#phase === "idle") {
+      return;
+    }
+    switch (code) {
+      case CloseCode.UnknownSession:
+        this.#stop("unknown-session");
+        break;
+      case CloseCode.VersionMismatch:
+        this.#stop("version");
+        this.#effects.push({ kind: "reload" });
+        break;
+      case CloseCode.Replaced:
+        // Another page holds our key (a duplicated tab): this one goes on under a key of its own.
+        this.#rekey();
+        this.#retry(now);
+        break;
+      default:
+        this.#retry(now);
+    }
+  }
+
+  /** The network or the page came back: do not wait out the backoff. */
+  wake(now: number): void {
+    if (this.#phase === "waiting") {
+      this.#open(now);
+    } else if (this.#phase === "connected" && this.#pinged === null) {
+      this.#ping(now);
+    }
+  }
+
+  /** Time has passed; call when `deadline` is reached, or later. */
+  tick(now: number): void {
+    if (this.#deadline === null || now < this.#deadline) {
+      return;
+    }
+    if (this.#phase === "waiting") {
+      this.#open(now);
+    } else if (this.#phase === "connected" && this.#pinged === null) {
+      this.#ping(now);
+    } else if (this.#phase === "connected" || this.#phase === "opening" || this.#phase === "greeting") {
+      this.#effects.push({ kind: "close" });
+      this.#retry(now);
+    }
+  }
+
+  #open(now: number): void {
+    this.#phase = "opening";
+    this.#deadline = now + OPEN_WITHIN;
+    this.#effects.push({ kind: "open" });
+  }
+
+  #retry(now: number): void {
+    const delay = Math.min(BACKOFF_LAST, BACKOFF_FIRST * 2 ** Math.min(this.#attempts, 10));
+    this.#attempts += 1;
+    this.#phase = "waiting";
+    this.#pinged = null;
+    // Half of the delay is chance, so that a room full of tablets does not return in one instant.
+    this.#deadline = now + delay * (0.5 + 0.5 * this.#options.random());
+  }
+
+  #stop(reason: StopReason): void {
+    this.#phase = "stopped";
+    this.#stopReason = reason;
+    this.#deadline = null;
+  }
+
+  #heard(now: number): void {
+    if (this.#phase === "connected") {
+      this.#pinged = null;
+      this.#deadline = now + PING_AFTER;
+    }
+  }
+
+  #ping(now: number): void {
+    this.#pinged = now;
+    this.#deadline = now + PONG_WITHIN;
+    this.#nonce += 1;
+    this.#send({ type: "ping", nonce: this.#nonce });
+  }
+
+  #welcome(now: number, welcome: Extract<ServerMessage, { type: "welcome" }>): void {
+    if (this.#phase !== "greeting") {
+      return;
+    }
+    if (welcome.protocol !== PROTOCOL_VERSION) {
+      this.#stop("version");
+      this.#effects.push({ kind: "close" }, { kind: "reload" });
+      return;
+    }
+    const first = this.#pending[0]?.id ?? this.#next;
+    if (welcome.acknowledged + 1 < first) {
+      // The server knows less of this key than it once acknowledged; a gap would be refused for ever.
+      this.#rekey();
+      this.#effects.push({ kind: "close" });
+      this.#retry(now);
+      return;
+    }
+    this.#phase = "connected";
+    this.#attempts = 0;
+    this.#epoch = welcome.epoch;
+    this.#sequence = null;
+    this.#heard(now);
+    if (!welcome.resumed) {
+      this.#effects.push({ kind: "forget-rows" });
+    }
+    this.#next = Math.max(this.#next, welcome.acknowledged + 1);
+    this.#acknowledge(welcome.acknowledged);
+    this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
+    this.#effects.push({ kind: "state", state: welcome.state });
+    for (const { id, command } of this.#pending) {
+      this.#send({ type: "command", id, command });
+    }
+  }
+
+  #acknowledge(id: number): void {
+    this.#acknowledged = Math.max(this.#acknowledged, id);
+    const keep = this.#pending.findIndex((entry) => entry.id > id);
+    this.#pending.splice(0, keep === -1 ? this.#pending.length : keep);
+  }
+
+  #refuse(id: number, problem: Problem): void {
+    const entry = this.#pending.find((candidate) => candidate.id === id);
+    if (entry?.refused) {
+      return;
+    }
+    if (entry) {
+      entry.refused = true;
+    }
+    this.#effects.push(entry ? { kind: "problem", problem, command: entry.command } : { kind: "problem", problem });
+  }
+
+  /** Goes on under a new key, with numbers from 1; a stroke whose beginning is gone cannot be continued there. */
+  #rekey(): void {
+    const begun = new Set<number>();
+    const kept = this.#pending.filter(({ command, refused }) => {
+      if (command.kind === "stroke_begin") {
+        begun.add(command.stroke);
+      }
+      const continues = command.kind === "stroke_move" || command.kind === "stroke_end";
+      return !refused && (!continues || begun.has(command.stroke));
+    });
+    this.#key = this.#options.newKey();
+    this.#acknowledged = 0;
+    this.#pending = kept.map(({ command }, index) => ({ id: index + 1, command, refused: false }));
+    this.#next = this.#pending.length + 1;
+    this.#effects.push({ kind: "rekeyed" });
+  }
+
+  #send(message: ClientMessage): void {
+    this.#effects.push({ kind: "send", message });
+  }
+}

@@ -1,0 +1,189 @@
+import { describe, expect, it } from "vitest";
+import { type DocumentState, type Parameters, PROTOCOL_VERSION, type ServerMessage } from "../wire/generated";
+import { type Clock, Connection, type Socket } from "./connection";
+import type { FrameHead } from "./connection-core";
+
+class FakeSocket implements Socket {
+  binaryType = "";
+  onopen: ((event: Event) => void) | null = null;
+  onmessage: ((event: MessageEvent) => void) | null = null;
+  onclose: ((event: CloseEvent) => void) | null = null;
+  sent: { type: string; id?: number; sequence?: number }[] = [];
+  closed = false;
+  send(text: string) {
+    this.sent.push(JSON.parse(text));
+  }
+  close() {
+    this.closed = true;
+  }
+  say(message: ServerMessage) {
+    this.arrive(JSON.stringify(message));
+  }
+  arrive(data: unknown) {
+    this.onmessage?.({ data } as MessageEvent);
+  }
+  end(code: number) {
+    this.onclose?.({ code } as CloseEvent);
+  }
+  begin() {
+    this.onopen?.({} as Event);
+  }
+  welcome(acknowledged = 0) {
+    this.begin();
+    const state = { step: 0 } as DocumentState;
+    const parameters = {} as Parameters;
+    const head = { protocol: PROTOCOL_VERSION, session: "s", epoch: 1, resumed: false };
+    this.say({ type: "welcome", ...head, acknowledged, parameters, state });
+  }
+  /** A frame of the test is one byte, its sequence; the second says how long decoding takes. */
+  frame(sequence: number, turns: number) {
+    this.arrive(new Uint8Array([sequence, turns]).buffer);
+  }
+  get received() {
+    return this.sent.flatMap((message) => (message.type === "received" ? [message.sequence] : []));
+  }
+  get commands() {
+    return this.sent.flatMap((message) => (message.type === "command" ? [message.id] : []));
+  }
+}
+
+function setUp() {
+  const sockets: FakeSocket[] = [];
+  const timers: { at: number; run: () => void }[] = [];
+  let time = 0;
+  const clock: Clock = {
+    now: () => time,
+    after: (delay, run) => {
+      const timer = { at: time + delay, run };
+      timers.push(timer);
+      return () => timers.splice(timers.indexOf(timer), 1);
+    },
+  };
+  const applied: number[] = [];
+  let cleared = 0;
+  let reloads = 0;
+  const nothing = () => {};
+  const connection = new Connection<FrameHead>({
+    openSocket: () => {
+      const socket = new FakeSocket();
+      sockets.push(socket);
+      return socket;
+    },
+    clock,
+    random: () => 1,
+    newKey: () => "a-key-of-the-test",
+    rows: {
+      held: () => undefined,
+      apply: (frame) => {
+        if (frame.sequence === 66) {
+          throw new Error("does not fit");
+        }
+        applied.push(frame.sequence);
+      },
+      clear: () => {
+        cleared += 1;
+      },
+    },
+    decode: async (bytes) => {
+      const [sequence = 0, turns = 0] = new Uint8Array(bytes);
+      for (let i = 0; i < turns; i++) await Promise.resolve();
+      return { epoch: 1, sequence, catchUp: sequence > 50 };
+    },
+    events: {
+      phase: nothing,
+      commands: nothing,
+      state: nothing,
+      parameters: nothing,
+      problem: nothing,
+      rows: nothing,
+      rekeyed: nothing,
+      reload: () => {
+        reloads += 1;
+      },
+    },
+  });
+  const settle = () => new Promise((resolve) => setTimeout(resolve, 5));
+  const pass = (to: number) => {
+    time = to;
+    for (const timer of timers.filter(({ at }) => at <= to)) {
+      timers.splice(timers.indexOf(timer), 1);
+      timer.run();
+    }
+  };
+  const socket = (index: number) => sockets[index] as FakeSocket;
+  return { connection, socket, sockets, applied, cleared: () => cleared, reloads: () => reloads, settle, pass };
+}
+
+describe("connection", () => {
+  it("FL1: applies frames in order however long each decodes", async () => {
+    const { socket, applied, settle } = setUp();
+    socket(0).welcome();
+    [30, 0, 12, 1].forEach((turns, index) => {
+      socket(0).frame(index + 1, turns);
+    });
+    await settle();
+    expect(applied).toEqual([1, 2, 3, 4]);
+    expect(socket(0).received).toEqual([1, 2, 3, 4]);
+  });
+
+  it("FR4: a missing frame opens a new socket", async () => {
+    const { socket, sockets, applied, settle, pass } = setUp();
+    socket(0).welcome();
+    socket(0).frame(1, 0);
+    socket(0).frame(3, 0);
+    socket(0).frame(4, 0);
+    await settle();
+    expect([applied, socket(0).closed]).toEqual([[1], true]);
+    pass(300);
+    expect(sockets.length).toBe(2);
+  });
+
+  it("FR1: a frame that does not fit opens a new socket", async () => {
+    const { socket, settle } = setUp();
+    socket(0).welcome();
+    socket(0).frame(66, 0);
+    await settle();
+    expect(socket(0).closed).toBe(true);
+  });
+
+  it("drops frames of a socket that is gone", async () => {
+    const { socket, applied, settle, pass } = setUp();
+    socket(0).welcome();
+    socket(0).frame(1, 20);
+    socket(0).end(1006);
+    pass(300);
+    socket(1).welcome();
+    socket(1).frame(60, 0);
+    await settle();
+    expect(applied).toEqual([60]);
+  });
+
+  it("CM1: loses no command when the socket dies", () => {
+    const { connection, socket, pass } = setUp();
+    socket(0).welcome();
+    connection.submit({ kind: "undo" });
+    connection.submit({ kind: "undo" });
+    socket(0).say({ type: "acknowledged", id: 1 });
+    socket(0).end(1006);
+    connection.submit({ kind: "redo" });
+    pass(300);
+    socket(1).welcome(1);
+    expect(socket(1).commands).toEqual([2, 3]);
+  });
+
+  it("ignores whatever a left session still says", () => {
+    const { connection, socket, cleared } = setUp();
+    const { onmessage } = socket(0);
+    connection.close();
+    onmessage?.({ data: JSON.stringify({ type: "pong", nonce: 1 }) } as MessageEvent);
+    expect([socket(0).closed, cleared()]).toEqual([true, 0]);
+  });
+
+  it("HS1: asks for one reload when the versions differ", () => {
+    const { socket, sockets, reloads, pass } = setUp();
+    socket(0).begin();
+    socket(0).end(4000);
+    pass(100_000);
+    expect([reloads(), sockets.length]).toEqual([1, 1]);
+  });
+});

@@ -1,0 +1,85 @@
+/** What the keyboard can do. */
+export interface KeyActions {
+  undo(): void;
+  redo(): void;
+  frame(): void;
+  help(): void;
+  widen(notches: number): void;
+  /** 1 grows, −1 takes back, 0 rests. */
+  grow(direction: -1 | 0 | 1): void;
+  /** Whether a sheet is open, which then has the keys. */
+  busy(): boolean;
+}
+
+/** Listens to the keyboard; `handHeld` says whether the space bar is down. */
+export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop(): void } {
+  let space = false;
+  let growing: string | null = null;
+  const stop = new AbortController();
+
+  const rest = () => {
+    space = false;
+    if (growing !== null) {
+      growing = null;
+      actions.grow(0);
+    }
+  };
+  const press = (event: KeyboardEvent) => {
+    if (actions.busy() || typing(event.target) || event.defaultPrevented) {
+      return;
+    }
+    const key = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey) {
+      if (key === "z" || key === "y") {
+        event.preventDefault();
+        (key === "y" || event.shiftKey ? actions.redo : actions.undo)();
+      }
+      return;
+    }
+    switch (key) {
+      case " ":
+        // On a focused button the space bar presses it.
+        if (!(event.target instanceof HTMLButtonElement)) {
+          space = true;
+          event.preventDefault();
+        }
+        break;
+      case "g":
+      case "u":
+        if (!event.repeat && growing === null) {
+          growing = key;
+          actions.grow(key === "g" ? 1 : -1);
+        }
+        break;
+      case "[":
+        actions.widen(-1);
+        break;
+      case "]":
+        actions.widen(1);
+        break;
+      case "f":
+        actions.frame();
+        break;
+      case "?":
+        actions.help();
+        break;
+    }
+  };
+  const release = (event: KeyboardEvent) => {
+    const key = event.key.toLowerCase();
+    if (key === " ") {
+      space = false;
+    } else if (key === growing) {
+      rest();
+    }
+  };
+  addEventListener("keydown", press, { signal: stop.signal });
+  addEventListener("keyup", release, { signal: stop.signal });
+  // A window that loses the focus never hears of the key's release.
+  addEventListener("blur", rest, { signal: stop.signal });
+  return { handHeld: () => space, stop: () => stop.abort() };
+}
+
+function typing(target: EventTarget | null): boolean {
+  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
+}

@@ -1,0 +1,53 @@
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { createSession, deleteTree, RequestFailed, renameTree, sessionExists, socketAddress } from "./library-api";
+
+function answer(status: number, body: unknown) {
+  const fetch = vi.fn(async () => new Response(body === undefined ? null : JSON.stringify(body), { status }));
+  vi.stubGlobal("fetch", fetch);
+  return fetch;
+}
+
+afterEach(() => vi.unstubAllGlobals());
+
+describe("library", () => {
+  it("starts a session from a saved tree", async () => {
+    const fetch = answer(201, { session: "oak" });
+    expect(await createSession({ tree: "t1" })).toBe("oak");
+    expect(fetch).toHaveBeenCalledWith("/api/sessions", expect.objectContaining({ body: '{"tree":"t1"}' }));
+  });
+
+  it("tells a missing session from a failing server", async () => {
+    answer(404, { code: "not_found", message: "No such session." });
+    expect(await sessionExists("elm")).toBe(false);
+    answer(503, { code: "unavailable", message: "The disk is full." });
+    await expect(sessionExists("elm")).rejects.toThrow("The disk is full.");
+  });
+
+  it("hands on the server's own sentence", async () => {
+    answer(400, { code: "out_of_range", field: "name", allowed: "1 to 80", message: "The name is too long." });
+    const failure = await renameTree("t", "x".repeat(99)).catch((error: unknown) => error);
+    expect(failure).toBeInstanceOf(RequestFailed);
+    expect(failure).toMatchObject({ status: 400, problem: { field: "name" }, message: "The name is too long." });
+  });
+
+  it("has a sentence where the server gives none", async () => {
+    answer(500, undefined);
+    await expect(createSession()).rejects.toThrow("500");
+    vi.stubGlobal("fetch", async () => {
+      throw new TypeError("network");
+    });
+    await expect(createSession()).rejects.toThrow("does not answer");
+  });
+
+  it("an answer without a body is fine", async () => {
+    answer(204, undefined);
+    await expect(deleteTree("t 1/2")).resolves.toBeUndefined();
+  });
+
+  it("keeps names inside their path", async () => {
+    const fetch = answer(204, undefined);
+    await deleteTree("../x");
+    expect(fetch).toHaveBeenCalledWith("/api/trees/..%2Fx", expect.anything());
+    expect(socketAddress("a/b", { protocol: "https:", host: "h:1" })).toBe("wss://h:1/api/sessions/a%2Fb/socket");
+  });
+});

@@ -1,0 +1,94 @@
+import type { NewSession, Problem, RenameTree, SavedTree, SaveTree, SessionCreated } from "../wire/generated";
+
+/** A request the server refused, or that never reached it. */
+export class RequestFailed extends Error {
+  readonly problem: Problem;
+  /** The HTTP status; 0 if there was no answer. */
+  readonly status: number;
+
+  constructor(status: number, problem: Problem) {
+    super(problem.message);
+    this.name = "RequestFailed";
+    this.status = status;
+    this.problem = problem;
+  }
+}
+
+const UNREACHABLE: Problem = { code: "unavailable", message: "The server does not answer. Is it running?" };
+
+/** Starts a session, empty or from a saved tree. */
+export async function createSession(request: NewSession = {}): Promise<string> {
+  const created = await ask<SessionCreated>("POST", "/api/sessions", request);
+  return created.session;
+}
+
+/** Whether a session exists. */
+export async function sessionExists(session: string): Promise<boolean> {
+  try {
+    await ask<SessionCreated>("GET", `/api/sessions/${encodeURIComponent(session)}`);
+    return true;
+  } catch (error) {
+    if (error instanceof RequestFailed && error.status === 404) {
+      return false;
+    }
+    throw error;
+  }
+}
+
+/** The saved trees, newest first. */
+export function listTrees(): Promise<SavedTree[]> {
+  return ask<SavedTree[]>("GET", "/api/trees");
+}
+
+/** Saves a session's plants in the library. */
+export function saveTree(request: SaveTree): Promise<SavedTree> {
+  return ask<SavedTree>("POST", "/api/trees", request);
+}
+
+export function renameTree(id: string, name: string): Promise<SavedTree> {
+  const request: RenameTree = { name };
+  return ask<SavedTree>("PATCH", `/api/trees/${encodeURIComponent(id)}`, request);
+}
+
+export async function deleteTree(id: string): Promise<void> {
+  await ask<undefined>("DELETE", `/api/trees/${encodeURIComponent(id)}`);
+}
+
+/** Where a session's plants can be downloaded as glTF. */
+export function gltfAddress(session: string): string {
+  return `/api/sessions/${encodeURIComponent(session)}/tree.glb`;
+}
+
+/** Where a session's socket is. */
+export function socketAddress(session: string, page: { protocol: string; host: string }): string {
+  const scheme = page.protocol === "https:" ? "wss" : "ws";
+  return `${scheme}://${page.host}/api/sessions/${encodeURIComponent(session)}/socket`;
+}
+
+async function ask<Answer>(method: string, path: string, body?: object): Promise<Answer> {
+  const request: RequestInit = { method };
+  if (body) {
+    request.headers = { "content-type": "application/json" };
+    request.body = JSON.stringify(body);
+  }
+  let response: Response;
+  try {
+    response = await fetch(path, request);
+  } catch {
+    throw new RequestFailed(0, UNREACHABLE);
+  }
+  const json: unknown = await response.json().catch(() => undefined);
+  if (!response.ok) {
+    throw new RequestFailed(response.status, asProblem(json) ?? unexplained(response.status));
+  }
+  return json as Answer;
+}
+
+function asProblem(json: unknown): Problem | null {
+  const message = typeof json === "object" && json !== null && "message" in json ? json.message : null;
+  return typeof message === "string" ? (json as Problem) : null;
+}
+
+function unexplained(status: number): Problem {
+  return { code: "unavailable", message: `The server answered with status ${status} and no reason.` };
+}

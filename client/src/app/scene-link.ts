@@ -1,0 +1,34 @@
+import type { TreeTable } from "../scene/tree-table";
+import type { Frame } from "../wire/frame";
+import type { BrushView, Point, RowStore } from "./ports";
+
+/** The table of rows as the connection sees it. */
+export function rowStore(table: TreeTable): RowStore<Frame> {
+  return {
+    held: () =>
+      table.epoch !== 0 && table.rows > 0
+        ? { epoch: table.epoch, generations: table.generations(), rows: table.rows }
+        : undefined,
+    apply: (frame) => table.apply(frame),
+    clear: () => table.clear(),
+  };
+}
+
+/** The base of the plant nearest to a pixel; the origin while there is none. */
+export function nearestBase(table: TreeTable, view: BrushView, x: number, y: number): Point {
+  let nearest: Point = [0, 0, 0];
+  let least = Number.POSITIVE_INFINITY;
+  for (let row = 0; row < table.rows; row += 1) {
+    if (table.parent[row] !== -1) {
+      continue;
+    }
+    const base = [0, 1, 2].map((axis) => table.position[3 * row + axis] ?? 0) as [number, number, number];
+    const place = view.pointOnPlane(x, y, base);
+    const distance = place ? Math.hypot(place[0] - base[0], place[1] - base[1], place[2] - base[2]) : least;
+    if (distance < least) {
+      least = distance;
+      nearest = base;
+    }
+  }
+  return nearest;
+}

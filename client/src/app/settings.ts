@@ -1,0 +1,46 @@
+import { effect, type Signal, signal } from "@preact/signals";
+
+/** What a person chose, kept on this device. */
+export interface Settings {
+  /** Where the tools stand: opposite the drawing hand. */
+  readonly side: Signal<"left" | "right">;
+  /** Whether a pen's pressure widens the brush. */
+  readonly pressureWidens: Signal<boolean>;
+  /** The brush's radius, in internodes. */
+  readonly radius: Signal<number>;
+  /** Whether the first stroke has been drawn, after which the hint rests. */
+  readonly hasDrawn: Signal<boolean>;
+  /** The session to come back to. */
+  readonly lastSession: Signal<string | null>;
+}
+
+/** Reads the settings and keeps them as they change. */
+export function loadSettings(store: Storage): Settings {
+  return {
+    side: kept(store, "side", "left", (value) => value === "left" || value === "right"),
+    pressureWidens: kept(store, "pressure", false, (value) => typeof value === "boolean"),
+    radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
+    hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
+    lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
+  };
+}
+
+function kept<Value>(store: Storage, name: string, fallback: Value, valid: (value: unknown) => boolean): Signal<Value> {
+  const key = `espalier.${name}`;
+  let initial = fallback;
+  try {
+    const value: unknown = JSON.parse(store.getItem(key) ?? "null");
+    initial = valid(value) ? (value as Value) : fallback;
+  } catch {
+    // Something else stands there; the fallback takes its place.
+  }
+  const setting = signal<Value>(initial);
+  effect(() => {
+    try {
+      store.setItem(key, JSON.stringify(setting.value));
+    } catch {
+      // Private windows may forbid storing; the setting then lives as long as the page.
+    }
+  });
+  return setting;
+}

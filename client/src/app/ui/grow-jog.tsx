@@ -1,0 +1,87 @@
+import { useRef } from "preact/hooks";
+import { growthRate } from "../grow-pacer";
+import type { Studio } from "../studio";
+
+const KEY_PUSH = 0.6;
+
+/** A lever that springs back: pushed up the tree grows, pulled down it grows backwards, further is faster. */
+export function GrowJog({ studio }: { studio: Studio }) {
+  const lever = useRef<HTMLDivElement>(null);
+  const held = useRef<number | null>(null);
+  const deflection = studio.growing.value;
+  const rate = Math.round(growthRate(deflection));
+
+  const follow = (event: PointerEvent) => {
+    const frame = lever.current?.getBoundingClientRect();
+    if (frame) {
+      const way = (frame.height - frame.width) / 2;
+      const offset = frame.top + frame.height / 2 - event.clientY;
+      studio.growTo(Math.max(-1, Math.min(1, offset / way)));
+    }
+  };
+  const release = (event: PointerEvent) => {
+    if (held.current === event.pointerId) {
+      held.current = null;
+      studio.growRelease();
+    }
+  };
+  const pushed = (key: string) => ({ ArrowUp: KEY_PUSH, PageUp: 1, ArrowDown: -KEY_PUSH, PageDown: -1 })[key];
+  const speech =
+    rate === 0 ? "at rest" : `${rate > 0 ? "growing" : "growing backwards"}, ${Math.abs(rate)} steps a second`;
+
+  return (
+    <div
+      class="jog"
+      ref={lever}
+      role="slider"
+      tabIndex={0}
+      aria-label="Grow"
+      aria-orientation="vertical"
+      aria-valuemin={-30}
+      aria-valuemax={30}
+      aria-valuenow={rate}
+      aria-valuetext={speech}
+      data-moving={deflection !== 0}
+      style={{ "--deflection": deflection }}
+      title="Push up to grow, pull down to grow backwards"
+      onPointerDown={(event) => {
+        if (held.current === null) {
+          held.current = event.pointerId;
+          event.currentTarget.setPointerCapture(event.pointerId);
+          follow(event);
+        }
+      }}
+      onPointerMove={(event) => {
+        if (held.current === event.pointerId) {
+          follow(event);
+        }
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onLostPointerCapture={release}
+      onKeyDown={(event) => {
+        const push = pushed(event.key);
+        if (push !== undefined) {
+          event.preventDefault();
+          studio.growTo(push);
+        }
+      }}
+      onKeyUp={(event) => {
+        if (pushed(event.key) !== undefined) {
+          studio.growRelease();
+        }
+      }}
+      onBlur={() => studio.growRelease()}
+    >
+      <svg class="jog-scale" viewBox="0 0 44 140" aria-hidden="true">
+        <path d="M22 14v16M22 24c-4.5.2-7-2-7.3-6 4.5-.2 7 2 7.3 6ZM22 20c0-4 2.2-6.5 6.6-7 .2 4.3-2.2 6.8-6.6 7Z" />
+        <path d="M16 116l6 7 6-7M22 123v-16" />
+      </svg>
+      <span class="jog-knob">
+        <i />
+        <i />
+        <i />
+      </span>
+    </div>
+  );
+}

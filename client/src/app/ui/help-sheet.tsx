@@ -1,0 +1,78 @@
+import type { Studio } from "../studio";
+import { Sheet } from "./sheet";
+
+const GESTURES: readonly (readonly [string, string])[] = [
+  ["One finger, pen, left button", "Brush: the tree grows into the stroke"],
+  ["Begin on a branch", "Draw at that branch’s depth"],
+  ["Rest the finger", "Growth goes on under it"],
+  ["Two fingers, middle button", "Move and zoom"],
+  ["Three fingers, right button", "Turn around the tree"],
+  ["Radius at the bottom", "Sketch: one limb, exactly along the stroke"],
+  ["Grow, pushed up or pulled down", "Grow on alone, or backwards"],
+];
+
+const KEYS: readonly (readonly [string, string])[] = [
+  ["[  ]", "Narrower, wider"],
+  ["G  U", "Grow, ungrow while held"],
+  ["F", "Show the whole tree"],
+  ["Ctrl Z", "Undo, with Shift redo"],
+  ["Space", "Held: drag to move"],
+  ["Alt wheel", "Radius"],
+];
+
+/** The gestures and keys on one card, and the few settings. */
+export function HelpSheet({ studio }: { studio: Studio }) {
+  const { side, pressureWidens } = studio.settings;
+  return (
+    <Sheet studio={studio} title="How to draw a tree" wide>
+      <div class="help">
+        <dl>
+          {GESTURES.map(([gesture, effect]) => (
+            <div key={gesture}>
+              <dt>{gesture}</dt>
+              <dd>{effect}</dd>
+            </div>
+          ))}
+        </dl>
+        <dl class="keys">
+          {KEYS.map(([keys, effect]) => (
+            <div key={keys}>
+              <dt>
+                <kbd>{keys}</kbd>
+              </dt>
+              <dd>{effect}</dd>
+            </div>
+          ))}
+        </dl>
+      </div>
+      <div class="options">
+        <fieldset class="segments">
+          <legend>Tools at the</legend>
+          {(["left", "right"] as const).map((choice) => (
+            <label key={choice}>
+              <input
+                type="radio"
+                name="side"
+                checked={side.value === choice}
+                onChange={() => {
+                  side.value = choice;
+                }}
+              />
+              <span>{choice}</span>
+            </label>
+          ))}
+        </fieldset>
+        <label class="switch">
+          <input
+            type="checkbox"
+            checked={pressureWidens.value}
+            onChange={(event) => {
+              pressureWidens.value = event.currentTarget.checked;
+            }}
+          />
+          <span>Pen pressure widens the brush</span>
+        </label>
+      </div>
+    </Sheet>
+  );
+}

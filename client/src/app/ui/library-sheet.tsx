@@ -1,0 +1,137 @@
+import { useEffect, useState } from "preact/hooks";
+import type { SavedTree } from "../../wire/generated";
+import { deleteTree, listTrees, renameTree } from "../library-api";
+import { type Studio, sentence } from "../studio";
+import { DeleteIcon, RenameIcon, TreeIcon } from "./icons";
+import { Sheet } from "./sheet";
+
+/** The saved trees; a tap opens one as a new session. */
+export function LibrarySheet({ studio }: { studio: Studio }) {
+  const [trees, setTrees] = useState<readonly SavedTree[] | null>(null);
+  const [failure, setFailure] = useState<string | null>(null);
+  useEffect(() => {
+    listTrees().then(setTrees, (error: unknown) => setFailure(sentence(error)));
+  }, []);
+
+  const replace = (id: string, tree: SavedTree | null) =>
+    setTrees((all) => (all ?? []).flatMap((other) => (other.id !== id ? other : (tree ?? []))));
+
+  return (
+    <Sheet studio={studio} title="Library" wide>
+      {failure !== null && <p class="quiet empty">{failure}</p>}
+      {trees === null && failure === null && <p class="quiet empty">Looking…</p>}
+      {trees?.length === 0 && <p class="quiet empty">Nothing saved yet. Trees you save appear here.</p>}
+      <ul class="library">
+        {trees?.map((tree) => (
+          <TreeCard key={tree.id} studio={studio} tree={tree} onChange={(changed) => replace(tree.id, changed)} />
+        ))}
+      </ul>
+    </Sheet>
+  );
+}
+
+interface TreeCardProps {
+  readonly studio: Studio;
+  readonly tree: SavedTree;
+  /** The tree was renamed, or is gone. */
+  readonly onChange: (tree: SavedTree | null) => void;
+}
+
+function TreeCard({ studio, tree, onChange }: TreeCardProps) {
+  const [mode, setMode] = useState<"show" | "rename" | "delete">("show");
+  const attempt = (work: Promise<void>) => {
+    setMode("show");
+    work.catch((error: unknown) => studio.toasts.show(sentence(error)));
+  };
+  const rename = (event: SubmitEvent) => {
+    event.preventDefault();
+    const name = new FormData(event.currentTarget as HTMLFormElement).get("name")?.toString().trim() ?? "";
+    if (name !== "" && name !== tree.name) {
+      attempt(renameTree(tree.id, name).then(onChange));
+    } else {
+      setMode("show");
+    }
+  };
+
+  return (
+    <li class="card">
+      <button
+        type="button"
+        class="card-open"
+        aria-label={`Open ${tree.name}`}
+        onClick={() => studio.newSession(tree.id)}
+      >
+        {tree.thumbnail === undefined ? <TreeIcon /> : <img src={tree.thumbnail} alt="" loading="lazy" />}
+      </button>
+      {mode === "rename" && (
+        <form class="card-rename" onSubmit={rename}>
+          <input
+            name="name"
+            aria-label="New name"
+            maxLength={80}
+            autocomplete="off"
+            defaultValue={tree.name}
+            ref={(input) => input?.focus()}
+            onKeyDown={(event) => {
+              if (event.key === "Escape") {
+                event.preventDefault();
+                setMode("show");
+              }
+            }}
+          />
+          <button type="submit" class="small">
+            Rename
+          </button>
+        </form>
+      )}
+      {mode === "delete" && (
+        <div class="card-confirm">
+          <span>Delete for good?</span>
+          <button
+            type="button"
+            class="small danger"
+            onClick={() => attempt(deleteTree(tree.id).then(() => onChange(null)))}
+          >
+            Delete
+          </button>
+          <button type="button" class="small" onClick={() => setMode("show")}>
+            Keep
+          </button>
+        </div>
+      )}
+      {mode === "show" && (
+        <div class="card-foot">
+          <strong class="card-name">{tree.name}</strong>
+          <span class="quiet card-facts">
+            {tree.metamers.toLocaleString()} metamers
+            <br />
+            {dateOf(tree.saved_at)}
+          </span>
+          <button
+            type="button"
+            class="tool"
+            aria-label={`Rename ${tree.name}`}
+            title="Rename"
+            onClick={() => setMode("rename")}
+          >
+            <RenameIcon />
+          </button>
+          <button
+            type="button"
+            class="tool"
+            aria-label={`Delete ${tree.name}`}
+            title="Delete"
+            onClick={() => setMode("delete")}
+          >
+            <DeleteIcon />
+          </button>
+        </div>
+      )}
+    </li>
+  );
+}
+
+function dateOf(time: string): string {
+  const date = new Date(time);
+  return Number.isNaN(date.valueOf()) ? time : date.toLocaleDateString(undefined, { dateStyle: "medium" });
+}

@@ -1,0 +1,88 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { Obstacle, Studio } from "../studio";
+
+const OBSTACLES: Record<Obstacle, { title: string; text: string }> = {
+  "unknown-session": {
+    title: "This tree is not here",
+    text: "The link names a tree this server does not know. It may have been started on another machine.",
+  },
+  version: {
+    title: "This page is of another version",
+    text: "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",
+  },
+  "no-server": {
+    title: "The server does not answer",
+    text: "Is it running, and is this device in the same network? This page keeps trying.",
+  },
+  "no-webgl": {
+    title: "This browser cannot draw in 3D",
+    text: "Espalier needs WebGL 2. Try a current Safari, Chrome, Edge or Firefox with graphics acceleration on.",
+  },
+};
+
+/** What keeps the workspace from being used, and the way on. */
+export function ObstacleCard({ studio }: { studio: Studio }) {
+  const obstacle = studio.obstacle.value;
+  if (obstacle === null) {
+    return null;
+  }
+  const { title, text } = OBSTACLES[obstacle];
+  return (
+    <section class="panel obstacle" role="alert">
+      <h2>{title}</h2>
+      <p>{text}</p>
+      {obstacle === "unknown-session" && (
+        <button type="button" class="primary" onClick={() => studio.newSession()}>
+          Plant a new tree
+        </button>
+      )}
+      {obstacle === "version" && (
+        <button type="button" class="primary" onClick={() => location.reload()}>
+          Reload
+        </button>
+      )}
+    </section>
+  );
+}
+
+/** Short notes that go by themselves. */
+export function ToastList({ studio }: { studio: Studio }) {
+  const host = useRef<HTMLDivElement>(null);
+  const toasts = studio.toasts.list.value;
+  // As a popover shown anew with each note, the list lies above a sheet that may be open.
+  useEffect(() => {
+    const popover = host.current;
+    if (!popover?.showPopover) {
+      return;
+    }
+    if (popover.matches(":popover-open")) {
+      popover.hidePopover();
+    }
+    if (toasts.length > 0) {
+      popover.showPopover();
+    }
+  }, [toasts]);
+  return (
+    <div class="toasts" ref={host} popover="manual" aria-live="polite">
+      {toasts.map((toast) => (
+        <button type="button" class="toast" key={toast.id} onClick={() => studio.toasts.dismiss(toast.id)}>
+          {toast.text}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The one line a first visit needs; it fades with the first stroke. */
+export function Hint({ studio }: { studio: Studio }) {
+  const visible =
+    studio.obstacle.value === null &&
+    !studio.settings.hasDrawn.value &&
+    studio.phase.value === "connected" &&
+    !studio.drawing.value;
+  return (
+    <p class="hint" data-visible={visible} aria-hidden={!visible}>
+      Draw upward from the seedling
+    </p>
+  );
+}

@@ -1,0 +1,66 @@
+import { useRef } from "preact/hooks";
+import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../brush-radius";
+import type { Studio } from "../studio";
+
+/** A vertical slider for the brush's radius, with the brush itself in small above it. */
+export function RadiusSlider({ studio }: { studio: Studio }) {
+  const track = useRef<HTMLDivElement>(null);
+  const radius = studio.settings.radius.value;
+  const place = placeOf(radius);
+
+  const follow = (event: PointerEvent) => {
+    const frame = track.current?.getBoundingClientRect();
+    if (frame && (event.type === "pointerdown" || event.buttons > 0)) {
+      studio.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
+    }
+  };
+  const onKeyDown = (event: KeyboardEvent) => {
+    const notches = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 4, PageDown: -4 }[event.key];
+    if (notches !== undefined) {
+      studio.setRadius(stepRadius(radius, notches));
+    } else if (event.key === "Home" || event.key === "End") {
+      studio.setRadius(event.key === "Home" ? 0 : MAX_RADIUS);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  };
+
+  return (
+    <div class="radius">
+      <div class="radius-dot" aria-hidden="true">
+        <span style={{ "--size": `${radius === 0 ? 3 : 6 + 30 * place}px` }} data-sketch={radius === 0} />
+      </div>
+      <div class="radius-value" aria-hidden="true">
+        {radiusLabel(radius)}
+      </div>
+      <div
+        class="radius-slider"
+        role="slider"
+        tabIndex={0}
+        aria-label="Brush radius"
+        aria-orientation="vertical"
+        aria-valuemin={0}
+        aria-valuemax={MAX_RADIUS}
+        aria-valuenow={Math.round(radius * 10) / 10}
+        aria-valuetext={
+          radius === 0 ? "Sketch: one limb, exactly along the stroke" : `${radiusLabel(radius)} internodes`
+        }
+        style={{ "--place": place }}
+        onPointerDown={(event) => {
+          event.currentTarget.setPointerCapture(event.pointerId);
+          follow(event);
+        }}
+        onPointerMove={follow}
+        onKeyDown={onKeyDown}
+      >
+        <div class="radius-track" ref={track}>
+          <svg viewBox="0 0 20 100" preserveAspectRatio="none" aria-hidden="true">
+            <path class="wedge" d="M9 100 L2 2 Q10 -2 18 2 L11 100 Q10 101 9 100Z" />
+          </svg>
+          <span class="radius-thumb" />
+        </div>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,86 @@
+import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
+import { CHUNK_ROWS } from "../wire/generated";
+import { grown } from "./column";
+import { radiusOf, type TreeTable } from "./tree-table";
+
+/** Texels each row has: position and radius; frame and light; birth, duration, extension and arc. */
+const TEXELS = 3;
+const LINE = CHUNK_ROWS * TEXELS * 4;
+const NEVER = 1e9;
+
+/** The node table on the GPU: one line of the texture is one chunk, so that a delta uploads only its chunks. */
+export class NodeTexture {
+  /** For the shaders' `uNodes`; the texture is another one when the table outgrows it. */
+  readonly uniform: { value: DataTexture };
+  private texels = new Float32Array(4 * LINE);
+  private readonly stale = new Set<number>();
+  private whole = true;
+
+  constructor() {
+    this.uniform = { value: this.allocate() };
+  }
+
+  /** Makes room for `rows`. */
+  reserve(rows: number): void {
+    const lines = Math.ceil(rows / CHUNK_ROWS);
+    let height = this.texels.length / LINE;
+    if (lines <= height) return;
+    while (height < lines) height *= 2;
+    this.texels = grown(this.texels, height * LINE);
+    this.uniform.value.dispose();
+    this.uniform.value = this.allocate();
+    this.uploadWhole();
+  }
+
+  /** Makes the next upload a whole one, as a new texture or a restored context needs. */
+  uploadWhole(): void {
+    this.whole = true;
+    this.uniform.value.clearUpdateRanges();
+    this.uniform.value.needsUpdate = true;
+  }
+
+  /** Copies a row from the table. */
+  write(table: TreeTable, row: number): void {
+    const { texels } = this;
+    const at = 4 * TEXELS * row;
+    const successor = table.successor[row]!;
+    texels[at] = table.position[3 * row]!;
+    texels[at + 1] = table.position[3 * row + 1]!;
+    texels[at + 2] = table.position[3 * row + 2]!;
+    texels[at + 3] = radiusOf(table.radiusCode[row]!);
+    texels[at + 4] = table.frames[4 * row]!;
+    texels[at + 5] = table.frames[4 * row + 1]!;
+    texels[at + 6] = table.frames[4 * row + 2]!;
+    texels[at + 7] = table.light[row]! / 255;
+    texels[at + 8] = table.birth[row]!;
+    texels[at + 9] = table.growing[row]!;
+    texels[at + 10] = successor < 0 ? NEVER : table.birth[successor]!;
+    texels[at + 11] = table.arc[row]!;
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Has three.js upload the lines written since the last call. */
+  upload(): void {
+    if (this.stale.size === 0) return;
+    const texture = this.uniform.value;
+    if (!this.whole) {
+      for (const line of this.stale) texture.addUpdateRange(line * LINE, LINE);
+    }
+    this.whole = false;
+    texture.needsUpdate = true;
+    this.stale.clear();
+  }
+
+  dispose(): void {
+    this.uniform.value.dispose();
+  }
+
+  private allocate(): DataTexture {
+    const texture = new DataTexture(this.texels, CHUNK_ROWS * TEXELS, this.texels.length / LINE, RGBAFormat, FloatType);
+    texture.minFilter = NearestFilter;
+    texture.magFilter = NearestFilter;
+    texture.generateMipmaps = false;
+    texture.needsUpdate = true;
+    return texture;
+  }
+}

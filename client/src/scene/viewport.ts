@@ -1,0 +1,278 @@
+import { Matrix4, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { Branches } from "./branches";
+import { BrushShell } from "./brush-shell";
+import { CameraRig, FIELD_OF_VIEW, fitted, type Pose } from "./camera-rig";
+import { Environment } from "./environment";
+import { Foliage } from "./foliage";
+import { type Materials, makeMaterials, type Uniforms } from "./materials";
+import { NodeTexture } from "./node-texture";
+import { type Pick, type Projection, pickBranch } from "./picking";
+import { Sun } from "./sun";
+import { encodePicture } from "./thumbnail";
+import { Dirty, type TreeTable } from "./tree-table";
+import type { Ray, Vec3 } from "./vector";
+
+const MAX_PIXEL_RATIO = 2;
+/** Leaves and tips go on easing for this long after the last metamer has grown. */
+const AFTERGROWTH_SECONDS = 0.6;
+/** What the first frame after a pause counts as, in seconds: the pause itself is no part of any movement. */
+const FIRST_STEP = 1 / 60;
+
+/** The picture on a canvas: what is in it, the camera, and what a finger on it means. Draws only when needed. */
+export class Viewport {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera((FIELD_OF_VIEW * 180) / Math.PI, 1, 0.1, 2000);
+  private readonly rig = new CameraRig();
+  private readonly uniforms: Uniforms = {};
+  private readonly materials: Materials;
+  private readonly nodes = new NodeTexture();
+  private readonly branches: Branches;
+  private readonly foliage: Foliage;
+  private readonly environment: Environment;
+  private readonly sun: Sun;
+  private readonly brush: BrushShell;
+  private readonly resizing: ResizeObserver;
+  private readonly worldFromClip = new Matrix4();
+  private width = 1;
+  private height = 1;
+  private request = 0;
+  /** When the movement under way was last drawn. */
+  private lastFrame: number | null = null;
+  private tableChanged = true;
+  private shadowStale = true;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly table: TreeTable,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.uniforms.uTime = { value: 0 };
+    this.uniforms.uLeafSize = { value: 0.7 };
+    this.uniforms.uNodes = this.nodes.uniform;
+    this.uniforms.uWorldFromClip = { value: this.worldFromClip };
+    this.sun = new Sun(this.uniforms);
+    this.materials = makeMaterials(this.uniforms);
+    this.branches = new Branches(this.materials);
+    this.foliage = new Foliage(this.materials);
+    this.environment = new Environment(this.materials, this.uniforms);
+    this.brush = new BrushShell(this.materials, this.uniforms);
+    this.scene.add(...this.environment.meshes, ...this.branches.meshes, this.foliage.mesh, this.brush.mesh);
+    this.sun.casters.add(...this.branches.casters, this.foliage.caster);
+    canvas.addEventListener("webglcontextrestored", this.restored);
+    this.resizing = new ResizeObserver(() => this.resize());
+    this.resizing.observe(canvas);
+    this.resize();
+  }
+
+  /** The table has changed; what is new is drawn with the next frame. */
+  changed(): void {
+    this.tableChanged = true;
+    this.invalidate();
+  }
+
+  /** Length of a leaf in internodes. */
+  setLeafSize(size: number): void {
+    if (this.uniforms.uLeafSize!.value === size) return;
+    this.uniforms.uLeafSize!.value = size;
+    this.shadowStale = true;
+    this.invalidate();
+  }
+
+  /** Turns around the target. */
+  orbit(dxPixels: number, dyPixels: number): void {
+    this.rig.orbit(dxPixels, dyPixels);
+    this.invalidate();
+  }
+
+  /** Moves the picture with the fingers. */
+  pan(dxPixels: number, dyPixels: number): void {
+    this.rig.pan(dxPixels, dyPixels, this.height);
+    this.invalidate();
+  }
+
+  /** Brings what is under a place on the canvas nearer (factor above 1) or further away. */
+  zoom(factor: number, x: number, y: number): void {
+    this.rig.zoom(factor, (2 * x - this.width) / this.height, 1 - (2 * y) / this.height);
+    this.invalidate();
+  }
+
+  /** Eases the camera to a view of the whole tree. */
+  frameTree(): void {
+    this.rig.frame(this.table.bounds(), this.width / this.height);
+    this.invalidate();
+  }
+
+  /** From the eye through a place on the canvas, in CSS pixels. */
+  rayAt(x: number, y: number): Ray {
+    this.aim(this.rig.pose, this.width / this.height);
+    const origin = this.camera.position;
+    const through = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera);
+    const direction = through.sub(origin).normalize();
+    return { origin: [origin.x, origin.y, origin.z], direction: [direction.x, direction.y, direction.z] };
+  }
+
+  /** Where a place on the canvas lies in the plane that faces the camera and holds `through`. */
+  pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null {
+    const { origin, direction } = this.rayAt(x, y);
+    const forward = this.camera.getWorldDirection(new Vector3());
+    const towards = forward.x * direction[0] + forward.y * direction[1] + forward.z * direction[2];
+    const depth = this.depthOf(through, forward);
+    if (towards < 1e-6 || depth < this.camera.near) return null;
+    const length = depth / towards;
+    return [origin[0] + direction[0] * length, origin[1] + direction[1] * length, origin[2] + direction[2] * length];
+  }
+
+  /** The branch under or near a place on the canvas. */
+  pick(x: number, y: number, tolerancePixels: number): Pick | null {
+    return pickBranch(this.table, this.projection(), x, y, tolerancePixels);
+  }
+
+  /** How long one CSS pixel is at a point, in internodes. */
+  metersPerPixelAt(point: Vec3): number {
+    this.aim(this.rig.pose, this.width / this.height);
+    const depth = Math.max(this.camera.near, this.depthOf(point, this.camera.getWorldDirection(new Vector3())));
+    return (2 * depth * Math.tan(FIELD_OF_VIEW / 2)) / this.height;
+  }
+
+  /** Shows the brush around a point. */
+  showBrush(point: Vec3, radius: number): void {
+    const eye = this.rig.eye();
+    this.brush.show(point, radius, Math.hypot(point[0] - eye[0], point[1] - eye[1], point[2] - eye[2]));
+    this.invalidate();
+  }
+
+  hideBrush(): void {
+    this.brush.hide();
+    this.invalidate();
+  }
+
+  /** A picture of the whole tree as a data URL of at most 192 KiB. */
+  async thumbnail(width: number, height: number): Promise<string> {
+    const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
+    const brushShown = this.brush.mesh.visible;
+    this.brush.hide();
+    this.sync();
+    this.drawShadow();
+    this.aim(pose, width / height);
+    const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
+    this.brush.mesh.visible = brushShown;
+    this.invalidate();
+    return picture;
+  }
+
+  /** Lets go of the GPU and the canvas. */
+  dispose(): void {
+    cancelAnimationFrame(this.request);
+    this.resizing.disconnect();
+    this.canvas.removeEventListener("webglcontextrestored", this.restored);
+    for (const part of [this.branches, this.foliage, this.environment, this.brush, this.nodes, this.sun])
+      part.dispose();
+    for (const material of Object.values(this.materials)) material.dispose();
+    this.renderer.dispose();
+  }
+
+  private invalidate(): void {
+    if (this.request !== 0) return;
+    this.request = requestAnimationFrame(this.draw);
+  }
+
+  private readonly draw = (milliseconds: number): void => {
+    this.request = 0;
+    const step = this.lastFrame === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastFrame) / 1000);
+    this.lastFrame = null;
+    this.sync();
+    const now = this.table.now();
+    this.uniforms.uTime!.value = now;
+    const growing = now < this.table.settledAt + AFTERGROWTH_SECONDS;
+    const moving = this.rig.step(step);
+    if (this.shadowStale || growing) this.drawShadow();
+    this.aim(this.rig.pose, this.width / this.height);
+    this.drawScene();
+    // One more frame after the last growth shows everything full grown.
+    this.shadowStale = growing;
+    if (!growing && !moving) return;
+    this.lastFrame = milliseconds;
+    this.invalidate();
+  };
+
+  /** Takes over what changed in the table. */
+  private sync(): void {
+    if (!this.tableChanged) return;
+    this.tableChanged = false;
+    this.shadowStale = true;
+    const { table } = this;
+    this.nodes.reserve(table.rows);
+    table.drain(
+      (rows) => {
+        this.branches.truncate(rows);
+        this.foliage.truncate(rows);
+      },
+      (row, bits) => {
+        this.nodes.write(table, row);
+        this.branches.update(table, row);
+        if ((bits & Dirty.Shape) !== 0) this.foliage.update(table, row);
+      },
+    );
+    this.nodes.upload();
+    this.branches.upload();
+    this.foliage.upload();
+    this.environment.update(table);
+    this.rig.keep(table.bounds());
+  }
+
+  private drawShadow(): void {
+    this.sun.render(this.renderer, this.uniforms, this.table.bounds());
+  }
+
+  private drawScene(): void {
+    this.renderer.clear();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private aim(pose: Pose, aspect: number): void {
+    const { camera } = this;
+    camera.aspect = aspect;
+    camera.near = Math.max(0.05, 0.02 * pose.distance);
+    camera.far = pose.distance + 1500;
+    camera.updateProjectionMatrix();
+    camera.position.set(...this.rig.eye(pose));
+    camera.lookAt(...pose.target);
+    camera.updateMatrixWorld();
+    this.worldFromClip.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
+  }
+
+  private projection(): Projection {
+    this.aim(this.rig.pose, this.width / this.height);
+    const { camera, width, height } = this;
+    return {
+      clipFromWorld: new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements,
+      width,
+      height,
+      pixelsPerInternode: height / (2 * Math.tan(FIELD_OF_VIEW / 2)),
+    };
+  }
+
+  private depthOf(point: Vec3, forward: Vector3): number {
+    return new Vector3(...point).sub(this.camera.position).dot(forward);
+  }
+
+  private resize(): void {
+    const width = this.canvas.clientWidth;
+    const height = this.canvas.clientHeight;
+    if (width === 0 || height === 0) return;
+    this.width = width;
+    this.height = height;
+    this.renderer.setPixelRatio(Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
+    this.renderer.setSize(width, height, false);
+    this.invalidate();
+  }
+
+  /** A restored context has lost every texture and buffer. */
+  private readonly restored = (): void => {
+    this.nodes.uploadWhole();
+    this.shadowStale = true;
+    this.invalidate();
+  };
+}

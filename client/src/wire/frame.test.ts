@@ -1,0 +1,86 @@
+import { describe, expect, it } from "vitest";
+import { randoms } from "../../test/randoms";
+import { decodeFrame, FrameError } from "./frame";
+
+function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
+  const bytes = new Uint8Array(16 + body.length);
+  bytes.set([1, 1, header.codec ?? 0, header.flags ?? 0]);
+  new DataView(bytes.buffer).setUint32(12, header.length ?? body.length, true);
+  bytes.set(body, 16);
+  return bytes.buffer;
+}
+
+async function refused(bytes: ArrayBuffer, sentence: RegExp) {
+  await expect(decodeFrame(bytes)).rejects.toThrow(FrameError);
+  await expect(decodeFrame(bytes)).rejects.toThrow(sentence);
+}
+
+async function deflated(body: Uint8Array<ArrayBuffer>): Promise<number[]> {
+  const stream = new Blob([body]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+  return [...new Uint8Array(await new Response(stream).arrayBuffer())];
+}
+
+describe("a frame", () => {
+  it("FR1: refuses what is reserved or unknown", async () => {
+    const with_ = (at: number, value: number) => {
+      const bytes = new Uint8Array(headed([]));
+      bytes[at] = value;
+      return bytes.buffer;
+    };
+    await refused(with_(0, 2), /version 2 is not 1/);
+    await refused(with_(1, 7), /kind 7/);
+    await refused(with_(2, 2), /Codec 2/);
+    await refused(with_(3, 2), /flags 0x2/);
+    await refused(headed([5, 0]), /Change 5 is unknown/);
+    await refused(headed([4, 0, 0, 9, 1, 0, 0]), /Column 9/);
+  });
+
+  it("FR2: has exactly the stated length", async () => {
+    await refused(headed([1, 0], { length: 3 }), /length/);
+    await refused(headed([1, 0], { length: 1 }), /length/);
+    await refused(headed([], { length: 64 * 1024 * 1024 + 1 }), /64 MiB/);
+  });
+
+  it("FR2: unpacks to exactly the stated length", async () => {
+    const body = new Uint8Array(200).map((_, i) => (i % 2 === 0 ? 1 : 0));
+    const packed = await deflated(body);
+    expect((await decodeFrame(headed(packed, { codec: 1, length: 200 }))).changes).toHaveLength(100);
+    await refused(headed(packed, { codec: 1, length: 199 }), /more than the header says/);
+    await refused(headed(packed, { codec: 1, length: 201 }), /less than the header says/);
+    await refused(headed([255, 255, 255], { codec: 1, length: 3 }), /not raw deflate/);
+  });
+
+  it("FR3: takes varints of at most 32 bits", async () => {
+    const frame = await decodeFrame(headed([1, 255, 255, 255, 255, 15]));
+    expect(frame.changes).toEqual([{ change: "truncate", rows: 0xffffffff }]);
+    await refused(headed([1, 255, 255, 255, 255, 31]), /32 bits/);
+    await refused(headed([1, 255, 255, 255, 255, 255, 0]), /32 bits/);
+  });
+
+  it("refuses counts and rows outside a chunk", async () => {
+    await refused(headed([2, 0, 1, 0]), /count of 0/);
+    await refused(headed([2, 0, 1, 129, 2]), /count of 257/);
+    await refused(headed([3, 0, 1, 255, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]), /past the end/);
+    await refused(headed([4, 0, 1, 4, 2, 255, 1, 0, 7, 7]), /past the end/);
+    await refused(headed([4, 0, 1, 2, 1, 0, 128, 128, 4]), /16 bits/);
+  });
+
+  it("is a frame or a FrameError, whatever the bytes", async () => {
+    const random = randoms(20260);
+    let frames = 0;
+    for (let round = 0; round < 4000; round += 1) {
+      const body = Array.from({ length: Math.floor(random() * 40) }, () =>
+        Math.floor(random() * (round % 2 ? 256 : 6)),
+      );
+      const codec = random() < 0.1 ? 1 : 0;
+      try {
+        await decodeFrame(headed(body, { codec, flags: Math.floor(random() * 2.1) }));
+        frames += 1;
+      } catch (error) {
+        expect(error).toBeInstanceOf(FrameError);
+      }
+    }
+    // The generator is good enough to reach past the first check.
+    expect(frames).toBeGreaterThan(50);
+  });
+});

@@ -1,0 +1,168 @@
+import { ByteReader } from "./bytes";
+import { FrameError } from "./frame-error";
+import { CHUNK_ROWS, HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
+import { inflateRaw } from "./inflate";
+
+export { FrameError } from "./frame-error";
+
+/** One binary message; mirrors `proto/src/frame.rs`. */
+export interface Frame {
+  epoch: number;
+  sequence: number;
+  catchUp: boolean;
+  changes: ChunkChange[];
+}
+
+/** A change to the table of rows. */
+export type ChunkChange =
+  | { change: "truncate"; rows: number }
+  | { change: "replace"; chunk: number; generation: number; rows: Rows }
+  | { change: "append"; chunk: number; generation: number; start: number; rows: Rows }
+  | ({ change: "patch"; chunk: number; generation: number; rows: Uint8Array } & Values);
+
+/** Whole rows, column by column. */
+export interface Rows {
+  /** 0 for a seed, else 2·(row − parent's row) + (1 if it begins an axis). */
+  parent: Uint32Array;
+  /** Differences to the parent's position, x y z interleaved, in 1/256 internode. */
+  position: Int32Array;
+  /** Radius codes; 0 is dead. */
+  radius: Uint16Array;
+  /** Leaves in the low four bits, vigor in the high four. */
+  foliage: Uint8Array;
+  /** Exposure 0 to 255. */
+  light: Uint8Array;
+}
+
+/** Values of one column, encoded as in `Rows`. */
+export type Values = { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows];
+
+const VERSION = 1;
+const MESH_DELTA = 1;
+const CATCH_UP = 1;
+
+/** Reads a frame; any bytes at all give a frame or a `FrameError` (FR1–FR3). */
+export async function decodeFrame(bytes: ArrayBuffer): Promise<Frame> {
+  if (bytes.byteLength < HEADER_BYTES) throw new FrameError("The frame is cut short.");
+  const header = new DataView(bytes, 0, HEADER_BYTES);
+  const [version, kind, codec, flags] = [0, 1, 2, 3].map((at) => header.getUint8(at)) as [
+    number,
+    number,
+    number,
+    number,
+  ];
+  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 1.`);
+  if (kind !== MESH_DELTA) throw new FrameError(`Frame kind ${kind} is not 1, a mesh delta.`);
+  if ((flags & ~CATCH_UP) !== 0) throw new FrameError(`Reserved flags 0x${flags.toString(16)} are set.`);
+  const length = header.getUint32(12, true);
+  if (length > MAX_BODY_BYTES) throw new FrameError("The body is larger than 64 MiB.");
+  const body = await unpack(codec, new Uint8Array(bytes, HEADER_BYTES), length);
+  const reader = new ByteReader(body);
+  const changes: ChunkChange[] = [];
+  while (!reader.done) changes.push(readChange(reader));
+  return {
+    epoch: header.getUint32(4, true),
+    sequence: header.getUint32(8, true),
+    catchUp: (flags & CATCH_UP) !== 0,
+    changes,
+  };
+}
+
+async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
+  if (codec === 0) {
+    if (payload.length !== length) throw new FrameError("The body's length differs from the header's.");
+    return payload;
+  }
+  if (codec === 1) return inflateRaw(payload, length);
+  throw new FrameError(`Codec ${codec} is neither 0, raw, nor 1, deflate.`);
+}
+
+function readChange(reader: ByteReader): ChunkChange {
+  const kind = reader.byte();
+  if (kind < 1 || kind > 4) throw new FrameError(`Change ${kind} is unknown.`);
+  const first = reader.varint();
+  if (kind === 1) return { change: "truncate", rows: first };
+  const chunk = first;
+  const generation = reader.varint();
+  if (kind === 2) return { change: "replace", chunk, generation, rows: readRows(reader) };
+  if (kind === 3) {
+    const start = reader.varint();
+    const rows = readRows(reader);
+    if (start + rows.parent.length > CHUNK_ROWS) throw new FrameError("An append runs past the end of its chunk.");
+    return { change: "append", chunk, generation, start, rows };
+  }
+  const column = reader.byte();
+  const rows = readGaps(reader, readCount(reader));
+  return { change: "patch", chunk, generation, rows, ...readValues(reader, column, rows.length) };
+}
+
+function readCount(reader: ByteReader): number {
+  const count = reader.varint();
+  if (count < 1 || count > CHUNK_ROWS) throw new FrameError(`A count of ${count} is not 1 to ${CHUNK_ROWS}.`);
+  return count;
+}
+
+function readGaps(reader: ByteReader, count: number): Uint8Array {
+  const rows = new Uint8Array(count);
+  let next = 0;
+  for (let i = 0; i < count; i += 1) {
+    const row = next + reader.varint();
+    if (row >= CHUNK_ROWS) throw new FrameError("A patch runs past the end of its chunk.");
+    rows[i] = row;
+    next = row + 1;
+  }
+  return rows;
+}
+
+function readRows(reader: ByteReader): Rows {
+  const count = readCount(reader);
+  return {
+    parent: readVarints(reader, count),
+    position: readPositions(reader, count),
+    radius: readRadii(reader, count),
+    foliage: reader.take(count),
+    light: reader.take(count),
+  };
+}
+
+function readValues(reader: ByteReader, column: number, count: number): Values {
+  switch (column) {
+    case 0:
+      return { column: "parent", values: readVarints(reader, count) };
+    case 1:
+      return { column: "position", values: readPositions(reader, count) };
+    case 2:
+      return { column: "radius", values: readRadii(reader, count) };
+    case 3:
+      return { column: "foliage", values: reader.take(count) };
+    case 4:
+      return { column: "light", values: reader.take(count) };
+    default:
+      throw new FrameError(`Column ${column} is unknown.`);
+  }
+}
+
+function readVarints(reader: ByteReader, count: number): Uint32Array {
+  const values = new Uint32Array(count);
+  for (let i = 0; i < count; i += 1) values[i] = reader.varint();
+  return values;
+}
+
+function readRadii(reader: ByteReader, count: number): Uint16Array {
+  const values = new Uint16Array(count);
+  for (let i = 0; i < count; i += 1) {
+    const code = reader.varint();
+    if (code > 0xffff) throw new FrameError(`A radius code of ${code} has more than 16 bits.`);
+    values[i] = code;
+  }
+  return values;
+}
+
+/** All x, then all y, then all z on the wire; interleaved here. */
+function readPositions(reader: ByteReader, count: number): Int32Array {
+  const values = new Int32Array(3 * count);
+  for (let axis = 0; axis < 3; axis += 1) {
+    for (let i = 0; i < count; i += 1) values[3 * i + axis] = reader.zigzag();
+  }
+  return values;
+}

@@ -1,0 +1,62 @@
+import { readdirSync, readFileSync } from "node:fs";
+import { describe, expect, it } from "vitest";
+import { type ChunkChange, decodeFrame, type Frame, type Rows } from "./frame";
+
+const folder = new URL("../../../proto/golden/", import.meta.url);
+const names = readdirSync(folder)
+  .filter((file) => file.endsWith(".bin"))
+  .map((file) => file.slice(0, -".bin".length));
+
+/** The frame in the words of the samples' descriptions. */
+function described(frame: Frame): object {
+  return {
+    epoch: frame.epoch,
+    sequence: frame.sequence,
+    catch_up: frame.catchUp,
+    changes: frame.changes.map(describedChange),
+  };
+}
+
+function describedChange(change: ChunkChange): object {
+  if (change.change === "truncate") return change;
+  if (change.change === "patch") {
+    const { values } = change;
+    return {
+      ...change,
+      rows: [...change.rows],
+      values: change.column === "position" ? triples(values) : [...values],
+    };
+  }
+  return { ...change, rows: describedRows(change.rows) };
+}
+
+function describedRows(rows: Rows): object {
+  return {
+    parent: [...rows.parent],
+    position: triples(rows.position),
+    radius: [...rows.radius],
+    foliage: [...rows.foliage],
+    light: [...rows.light],
+  };
+}
+
+function triples(values: ArrayLike<number>): number[][] {
+  return Array.from({ length: values.length / 3 }, (_, i) => [values[3 * i]!, values[3 * i + 1]!, values[3 * i + 2]!]);
+}
+
+describe("the golden samples", () => {
+  it("are at least five", () => expect(names.length).toBeGreaterThanOrEqual(5));
+
+  it.each(names)("%s decodes to what is described", async (name) => {
+    const bytes = new Uint8Array(readFileSync(new URL(`${name}.bin`, folder))).buffer;
+    const description: unknown = JSON.parse(readFileSync(new URL(`${name}.json`, folder), "utf8"));
+    expect(described(await decodeFrame(bytes))).toEqual(description);
+  });
+
+  it.each(names)("%s is an error wherever it is cut short", async (name) => {
+    const bytes = new Uint8Array(readFileSync(new URL(`${name}.bin`, folder)));
+    for (let length = 0; length < bytes.length; length += 1 + (length >> 5)) {
+      await expect(decodeFrame(bytes.slice(0, length).buffer)).rejects.toThrow();
+    }
+  });
+});

@@ -1,0 +1,13 @@
+import { defineConfig } from "vitest/config";
+
+const server = "http://127.0.0.1:7700";
+
+export default defineConfig({
+  base: "/",
+  oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
+  // three.js is most of the one chunk, and the first picture needs all of it.
+  build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 800 },
+  // `/s/NAME` needs no proxy: Vite answers unknown paths with index.html, as the server does.
+  server: { proxy: { "/api": { target: server, ws: true }, "/health": server } },
+  test: { include: ["src/**/*.test.{ts,tsx}", "test/**/*.test.ts"], environment: "node" },
+});

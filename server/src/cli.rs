@@ -1,0 +1,197 @@
+//! The command line.
+
+use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const EXAMPLES: &str = "\
+Examples:
+  espalier                                   serve on port 7700; the tree is drawn in a browser
+  espalier serve --port 8080 --database trees.db
+  espalier grow --metamers 20000 --seed 3 --export tree.glb
+  espalier replay strokes.jsonl --export tree.json --stats json
+
+Without a command, espalier serves. Every option of `serve` can be set by the environment variable named in
+`espalier serve --help`.";
+
+const SERVE_NOTES: &str = "\
+The server prints its address, the address for tablets in the same network, and a QR code of it.
+Everything is kept in one SQLite file; Ctrl+C stops the server, and even a crash loses nothing acknowledged.";
+
+const REPLAY_NOTES: &str = "\
+SCRIPT has one command in JSON on each line, the same as on the wire; empty lines are skipped. For example:
+  {\"kind\":\"stroke_begin\",\"stroke\":1}
+  {\"kind\":\"stroke_move\",\"stroke\":1,\"samples\":[{\"position\":[0,2,0],\"radius\":3}]}
+  {\"kind\":\"stroke_end\",\"stroke\":1}
+  {\"kind\":\"grow\",\"steps\":20}
+A line that cannot be read or done stops the replay with exit code 2, and nothing is exported.";
+
+/// Draw living trees: a server with its tablet client, and tools for scripts.
+#[derive(Debug, Parser)]
+#[command(version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+pub struct Cli {
+    /// What to do; without it, serve.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// Options of `serve`, which may stand without it.
+    #[command(flatten)]
+    pub serve: Serve,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Serve the tablet client and its sessions.
+    Serve(Serve),
+    /// Do the commands of a script, without a server.
+    Replay(Replay),
+    /// Grow a tree on its own, without a server.
+    Grow(Grow),
+}
+
+/// Options of `serve`.
+#[derive(Clone, Debug, Args)]
+#[command(after_help = SERVE_NOTES)]
+pub struct Serve {
+    /// Address to listen on; 127.0.0.1 keeps other machines out.
+    #[arg(long, env = "ESPALIER_HOST", default_value = "0.0.0.0")]
+    pub host: IpAddr,
+    /// Port to listen on; 0 takes a free one.
+    #[arg(long, env = "ESPALIER_PORT", default_value_t = 7700)]
+    pub port: u16,
+    /// SQLite file; made together with its folder if it does not exist.
+    #[arg(long, env = "ESPALIER_DATABASE", default_value = "./data/espalier.db", value_name = "FILE")]
+    pub database: PathBuf,
+    /// What to log to stderr: error, warn, info, debug, trace, or a filter such as espalier=debug,sqlx=warn.
+    #[arg(long, env = "ESPALIER_LOG", default_value = "info", value_name = "LEVEL")]
+    pub log: String,
+}
+
+/// Options of `replay`.
+#[derive(Debug, Args)]
+#[command(after_help = REPLAY_NOTES)]
+pub struct Replay {
+    /// The script, JSON lines; `-` reads standard input.
+    pub script: PathBuf,
+    /// Seed of all randomness.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u32,
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// Options of `grow`.
+#[derive(Debug, Args)]
+pub struct Grow {
+    /// Grow until so many metamers are alive.
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    pub metamers: u32,
+    /// Seed of all randomness.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u32,
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// What comes out, and with how many threads.
+#[derive(Debug, Args)]
+pub struct Results {
+    /// Write the plants to a file: .glb (triangles for any glTF viewer) or .json (the skeleton).
+    #[arg(long, value_name = "OUT", value_parser = parse_export)]
+    pub export: Option<Export>,
+    /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
+    #[arg(long, value_name = "FORMAT")]
+    pub stats: Option<Stats>,
+    /// Threads of the simulation; one for each core if not given. The plants do not depend on it.
+    #[arg(long)]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// Formats of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stats {
+    /// One JSON object.
+    Json,
+}
+
+/// A file to write, in the format its name asks for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Export {
+    /// Where.
+    pub path: PathBuf,
+    /// As what.
+    pub format: Format,
+}
+
+/// A file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF binary.
+    Glb,
+    /// The skeleton as JSON.
+    Skeleton,
+}
+
+fn parse_export(path: &str) -> Result<Export, String> {
+    let path = PathBuf::from(path);
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    let format = match extension.as_deref() {
+        Some("glb") => Format::Glb,
+        Some("json") => Format::Skeleton,
+        _ => return Err("the name must end in .glb (triangles) or .json (skeleton)".into()),
+    };
+    Ok(Export { path, format })
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{CommandFactory, error::ErrorKind};
+
+    use super::*;
+
+    fn parse(line: &str) -> Result<Cli, clap::Error> {
+        Cli::try_parse_from(line.split_whitespace())
+    }
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn without_a_command_it_serves() {
+        let cli = parse("espalier").unwrap();
+        assert!(cli.command.is_none());
+        assert_eq!((cli.serve.host.to_string(), cli.serve.port), ("0.0.0.0".into(), 7700));
+        assert_eq!(cli.serve.database, PathBuf::from("./data/espalier.db"));
+        assert_eq!(parse("espalier --port 0").unwrap().serve.port, 0);
+        assert!(
+            matches!(parse("espalier serve --port 1").unwrap().command, Some(Command::Serve(serve)) if serve.port == 1)
+        );
+    }
+
+    #[test]
+    fn the_extension_chooses_the_format() {
+        assert_eq!(parse_export("a/tree.GLB").unwrap().format, Format::Glb);
+        assert_eq!(parse_export("tree.json").unwrap().format, Format::Skeleton);
+        for bad in ["tree", "tree.obj", "glb", ".json"] {
+            assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn bad_options_are_refused() {
+        for (line, kind) in [
+            ("espalier --port 70000", ErrorKind::ValueValidation),
+            ("espalier --host example", ErrorKind::ValueValidation),
+            ("espalier grow", ErrorKind::MissingRequiredArgument),
+            ("espalier grow --metamers 0", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --stats xml", ErrorKind::InvalidValue),
+            ("espalier grow --metamers 9 --threads 0", ErrorKind::ValueValidation),
+            ("espalier replay a.jsonl --export a.txt", ErrorKind::ValueValidation),
+            ("espalier dig", ErrorKind::InvalidSubcommand),
+        ] {
+            assert_eq!(parse(line).unwrap_err().kind(), kind, "{line}");
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! Opening the file, bringing its schema up to date, and every way that can fail.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io,
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use sqlx::{
+    ConnectOptions, SqlitePool,
+    migrate::{MigrateError, Migrator},
+    sqlite::{
+        SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous,
+    },
+};
+
+use super::{in_words, writer::Writer};
+
+/// The schema, one file for each change.
+static MIGRATIONS: Migrator = sqlx::migrate!("../migrations");
+
+/// Releases before this one can lose a committed transaction when the write-ahead log starts over.
+const OLDEST_SAFE_SQLITE: [u32; 3] = [3, 51, 3];
+
+/// Larger files are not read through at the start, which would take seconds; damage then shows where it is met.
+const MAX_CHECKED_BYTES: u64 = 256 * 1024 * 1024;
+
+const READERS: u32 = 4;
+const BUSY_TIMEOUT: Duration = Duration::from_secs(5);
+
+/// The database cannot be used; each message is one sentence for the person at the terminal.
+#[derive(Debug, thiserror::Error)]
+#[error("The database {} cannot be used: {reason}.", path.display())]
+pub struct OpenError {
+    path: PathBuf,
+    reason: String,
+}
+
+/// The library of sessions and trees.
+#[derive(Debug)]
+pub struct Database {
+    pub(super) readers: SqlitePool,
+    pub(super) writer: Writer,
+    /// Two servers on one file would each think that they hold its sessions; the system frees the lock when we die.
+    lock: File,
+}
+
+impl Database {
+    /// Opens the file, or makes it together with its folder.
+    pub async fn open(path: &Path) -> Result<Self, OpenError> {
+        Self::try_open(path).await.map_err(|reason| OpenError { path: path.to_owned(), reason })
+    }
+
+    async fn try_open(path: &Path) -> Result<Self, String> {
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            fs::create_dir_all(folder)
+                .map_err(|error| format!("its folder {} cannot be made ({error})", folder.display()))?;
+        }
+        if path.is_dir() {
+            return Err("it is a folder".into());
+        }
+        let size = match fs::metadata(path) {
+            Ok(metadata) if metadata.permissions().readonly() => return Err("it is read-only".into()),
+            Ok(metadata) => metadata.len(),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => 0,
+            Err(error) => return Err(error.to_string()),
+        };
+        let lock = lock(path)?;
+
+        let mut connection = writer_options(path).connect().await.map_err(|error| sentence(&error))?;
+        check_version(&mut connection).await?;
+        if size <= MAX_CHECKED_BYTES {
+            check_integrity(&mut connection).await?;
+        }
+        MIGRATIONS
+            .run_direct(None, &mut connection, false)
+            .await
+            .map_err(|error| migration_sentence(&error))?;
+
+        let readers = SqlitePoolOptions::new()
+            .max_connections(READERS)
+            .connect_with(common_options(path).read_only(true))
+            .await
+            .map_err(|error| sentence(&error))?;
+        Ok(Self { readers, writer: Writer::start(connection), lock })
+    }
+
+    /// Commits what is under way and closes the file.
+    pub async fn close(&self) {
+        self.readers.close().await;
+        self.writer.close().await;
+        if let Err(error) = self.lock.unlock() {
+            tracing::warn!(%error, "the database's lock stays until the end of the process");
+        }
+    }
+}
+
+fn common_options(path: &Path) -> SqliteConnectOptions {
+    SqliteConnectOptions::new().filename(path).busy_timeout(BUSY_TIMEOUT).foreign_keys(true)
+}
+
+pub(super) fn writer_options(path: &Path) -> SqliteConnectOptions {
+    common_options(path)
+        .create_if_missing(true)
+        .journal_mode(SqliteJournalMode::Wal)
+        .synchronous(SqliteSynchronous::Full)
+}
+
+fn lock(path: &Path) -> Result<File, String> {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".lock");
+    let file = File::create(&name)
+        .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
+    match file.try_lock() {
+        Ok(()) => Ok(file),
+        Err(TryLockError::WouldBlock) => Err("another Espalier server is using it".into()),
+        Err(TryLockError::Error(error)) => Err(format!("it cannot be locked ({error})")),
+    }
+}
+
+async fn check_version(connection: &mut SqliteConnection) -> Result<(), String> {
+    let version: String = sqlx::query_scalar("SELECT sqlite_version()")
+        .fetch_one(connection)
+        .await
+        .map_err(|error| sentence(&error))?;
+    if is_safe(&version) {
+        return Ok(());
+    }
+    let [major, minor, patch] = OLDEST_SAFE_SQLITE;
+    Err(format!(
+        "this program was built with SQLite {version}, which can lose data; it needs {major}.{minor}.{patch}"
+    ))
+}
+
+fn is_safe(version: &str) -> bool {
+    let parts: Vec<u32> = version.split('.').map_while(|part| part.parse().ok()).collect();
+    parts.as_slice() >= OLDEST_SAFE_SQLITE.as_slice()
+}
+
+async fn check_integrity(connection: &mut SqliteConnection) -> Result<(), String> {
+    let found: String = sqlx::query_scalar("PRAGMA quick_check(1)")
+        .fetch_one(connection)
+        .await
+        .map_err(|error| sentence(&error))?;
+    if found == "ok" { Ok(()) } else { Err(format!("it is damaged ({})", found.replace('\n', " "))) }
+}
+
+fn sentence(error: &sqlx::Error) -> String {
+    in_words(error).map_or_else(|| error.to_string(), str::to_owned)
+}
+
+fn migration_sentence(error: &MigrateError) -> String {
+    match error {
+        MigrateError::VersionMissing(version) => {
+            format!(
+                "its schema ({version}) is newer than this program knows; use the newer Espalier that wrote it"
+            )
+        }
+        MigrateError::VersionMismatch(version) => {
+            format!("its schema ({version}) was made by a different build of Espalier")
+        }
+        MigrateError::Execute(error) | MigrateError::ExecuteMigration(error, _) => sentence(error),
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use sqlx::Connection;
+
+    use super::*;
+
+    /// A folder of its own for one test, removed when the test ends.
+    pub struct Folder(PathBuf);
+
+    impl Folder {
+        pub(crate) fn new() -> Self {
+            let path = std::env::temp_dir().join(format!("espalier-test-{:016x}", rand::random::<u64>()));
+            fs::create_dir(&path).unwrap();
+            Self(path)
+        }
+
+        pub(crate) fn database(&self) -> PathBuf {
+            self.0.join("made/for/it/test.db")
+        }
+    }
+
+    impl Database {
+        /// From here on every write fails, while reading goes on.
+        pub(crate) async fn refuse_writes(&self) {
+            self.writer.close().await;
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = fs::remove_dir_all(&self.0);
+        }
+    }
+
+    async fn refusal(path: &Path) -> String {
+        Database::open(path).await.unwrap_err().to_string()
+    }
+
+    #[tokio::test]
+    async fn makes_the_file_and_its_folder() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        assert!(folder.database().is_file());
+        Database::open(&folder.database()).await.unwrap().close().await;
+    }
+
+    #[tokio::test]
+    async fn writes_are_logged_and_synchronous() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        let mut connection = writer_options(&folder.database()).connect().await.unwrap();
+        for (pragma, expected) in
+            [("PRAGMA synchronous", 2), ("PRAGMA foreign_keys", 1), ("PRAGMA busy_timeout", 5000)]
+        {
+            let value: i64 = sqlx::query_scalar(pragma).fetch_one(&mut connection).await.unwrap();
+            assert_eq!(value, expected, "{pragma}");
+        }
+        let mode: String =
+            sqlx::query_scalar("PRAGMA journal_mode").fetch_one(&mut connection).await.unwrap();
+        assert_eq!(mode, "wal");
+    }
+
+    #[tokio::test]
+    async fn a_second_server_is_turned_away() {
+        let folder = Folder::new();
+        let first = Database::open(&folder.database()).await.unwrap();
+        assert!(refusal(&folder.database()).await.contains("another Espalier server is using it"));
+        first.close().await;
+        Database::open(&folder.database()).await.unwrap().close().await;
+    }
+
+    #[tokio::test]
+    async fn a_newer_schema_is_said_so() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        let mut connection = writer_options(&folder.database()).connect().await.unwrap();
+        sqlx::query(
+            "INSERT INTO _sqlx_migrations (version, description, success, checksum, execution_time)
+             VALUES (9999, 'from the future', TRUE, x'00', 0)",
+        )
+        .execute(&mut connection)
+        .await
+        .unwrap();
+        connection.close().await.unwrap();
+        let refusal = refusal(&folder.database()).await;
+        assert!(refusal.contains("schema (9999) is newer"), "{refusal}");
+    }
+
+    #[tokio::test]
+    async fn a_file_of_another_kind_is_refused() {
+        let folder = Folder::new();
+        let path = folder.0.join("letter.db");
+        fs::write(&path, "Dear tree, ".repeat(500)).unwrap();
+        let refusal = refusal(&path).await;
+        assert!(refusal.contains("it is not a database"), "{refusal}");
+        assert_eq!(refusal.lines().count(), 1);
+    }
+
+    #[tokio::test]
+    async fn a_damaged_file_is_refused() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        let mut bytes = fs::read(folder.database()).unwrap();
+        bytes[4096..].fill(0xa5);
+        fs::write(folder.database(), bytes).unwrap();
+        let refusal = refusal(&folder.database()).await;
+        assert!(refusal.contains("it is damaged"), "{refusal}");
+    }
+
+    #[tokio::test]
+    async fn a_read_only_file_is_refused() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        let mut permissions = fs::metadata(folder.database()).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(folder.database(), permissions).unwrap();
+        assert!(refusal(&folder.database()).await.contains("it is read-only"));
+    }
+
+    #[tokio::test]
+    async fn a_folder_is_no_database() {
+        let folder = Folder::new();
+        assert!(refusal(&folder.0).await.contains("it is a folder"));
+        let beneath_a_file = folder.0.join("file");
+        fs::write(&beneath_a_file, "").unwrap();
+        assert!(refusal(&beneath_a_file.join("x.db")).await.contains("cannot be made"));
+    }
+
+    #[test]
+    fn old_sqlite_is_not_safe() {
+        for (version, safe) in
+            [("3.51.3", true), ("3.51.2", false), ("3.52.0", true), ("4.0", true), ("3.9.9", false)]
+        {
+            assert_eq!(is_safe(version), safe, "{version}");
+        }
+    }
+}

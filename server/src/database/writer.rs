@@ -1,0 +1,189 @@
+//! The one writer: collects what arrives within a few milliseconds and commits it together.
+
+use std::time::Duration;
+
+use sqlx::{Connection, sqlite::SqliteConnection};
+use tokio::{
+    sync::{Mutex, mpsc, oneshot},
+    task::JoinHandle,
+    time::{Instant, timeout_at},
+};
+use tokio_util::sync::CancellationToken;
+
+use super::{DatabaseError, sessions::SessionWrite, trees::TreeWrite};
+
+/// How long a write waits for company. What arrives during a commit makes up the next group anyway.
+const GROUP_WINDOW: Duration = Duration::from_millis(5);
+/// The most writes in one commit.
+const MAX_GROUP: usize = 256;
+/// Writes waiting for the writer; beyond that, whoever writes waits too.
+const QUEUE: usize = 256;
+
+/// Anything that changes the database.
+#[derive(Debug)]
+pub(super) enum Write {
+    Session(SessionWrite),
+    Tree(TreeWrite),
+}
+
+impl Write {
+    /// Answers with the number of rows changed.
+    async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, sqlx::Error> {
+        match self {
+            Self::Session(write) => write.apply(connection).await,
+            Self::Tree(write) => write.apply(connection).await,
+        }
+    }
+}
+
+#[derive(Debug)]
+struct Request {
+    write: Write,
+    answer: oneshot::Sender<Result<u64, sqlx::Error>>,
+}
+
+#[derive(Debug)]
+pub(super) struct Writer {
+    requests: mpsc::Sender<Request>,
+    closing: CancellationToken,
+    task: Mutex<Option<JoinHandle<()>>>,
+}
+
+impl Writer {
+    pub(super) fn start(connection: SqliteConnection) -> Self {
+        let (requests, receiver) = mpsc::channel(QUEUE);
+        let closing = CancellationToken::new();
+        let task = tokio::spawn(run(connection, receiver, closing.clone()));
+        Self { requests, closing, task: Mutex::new(Some(task)) }
+    }
+
+    /// Returns once the write is durable.
+    pub(super) async fn write(&self, write: Write) -> Result<u64, DatabaseError> {
+        let (answer, answered) = oneshot::channel();
+        self.requests.send(Request { write, answer }).await.map_err(|_| DatabaseError::Closed)?;
+        Ok(answered.await.map_err(|_| DatabaseError::Closed)??)
+    }
+
+    /// Commits what has come so far and closes the connection.
+    pub(super) async fn close(&self) {
+        self.closing.cancel();
+        let Some(task) = self.task.lock().await.take() else { return };
+        if let Err(error) = task.await {
+            tracing::error!(%error, "the database writer ended badly");
+        }
+    }
+}
+
+async fn run(
+    mut connection: SqliteConnection,
+    mut requests: mpsc::Receiver<Request>,
+    closing: CancellationToken,
+) {
+    loop {
+        let first = tokio::select! {
+            biased;
+            first = requests.recv() => first,
+            () = closing.cancelled() => {
+                // What is queued is still taken, but nothing after it.
+                requests.close();
+                requests.recv().await
+            }
+        };
+        let Some(first) = first else { break };
+        let mut group = vec![first];
+        let deadline = Instant::now() + GROUP_WINDOW;
+        while group.len() < MAX_GROUP {
+            match timeout_at(deadline, requests.recv()).await {
+                Ok(Some(request)) => group.push(request),
+                Ok(None) | Err(_) => break,
+            }
+        }
+        commit(&mut connection, group).await;
+    }
+    if let Err(error) = connection.close().await {
+        tracing::error!(%error, "closing the database failed");
+    }
+}
+
+/// A group is committed as one; if that fails, each write is tried alone, so that one cannot spoil the others.
+async fn commit(connection: &mut SqliteConnection, group: Vec<Request>) {
+    if group.len() > 1 {
+        let writes: Vec<&Write> = group.iter().map(|request| &request.write).collect();
+        match commit_together(connection, &writes).await {
+            Ok(changed) => {
+                for (request, changed) in group.into_iter().zip(changed) {
+                    // Whoever asked may have gone; the write stands all the same.
+                    let _ = request.answer.send(Ok(changed));
+                }
+                return;
+            }
+            Err(error) => tracing::debug!(%error, "a group of writes failed; trying them one by one"),
+        }
+    }
+    for request in group {
+        let result = commit_together(connection, &[&request.write]).await;
+        let _ = request.answer.send(result.map(|changed| changed.into_iter().sum()));
+    }
+}
+
+async fn commit_together(
+    connection: &mut SqliteConnection,
+    writes: &[&Write],
+) -> Result<Vec<u64>, sqlx::Error> {
+    let result = try_together(connection, writes).await;
+    if result.is_err() {
+        // SQLite itself ends a transaction that meets a full disk; then there is none to roll back.
+        // sqlx's own transactions would count that one as open for ever, so they are not used here.
+        let _ = sqlx::query("ROLLBACK").execute(connection).await;
+    }
+    result
+}
+
+async fn try_together(connection: &mut SqliteConnection, writes: &[&Write]) -> Result<Vec<u64>, sqlx::Error> {
+    sqlx::query("BEGIN IMMEDIATE").execute(&mut *connection).await?;
+    let mut changed = Vec::with_capacity(writes.len());
+    for write in writes {
+        changed.push(write.apply(connection).await?);
+    }
+    sqlx::query("COMMIT").execute(connection).await?;
+    Ok(changed)
+}
+
+#[cfg(test)]
+mod tests {
+    use sqlx::ConnectOptions;
+
+    use super::{super::open::tests::Folder, *};
+    use crate::database::{Database, NewTree};
+
+    fn save(id: &str, bytes: usize) -> Write {
+        Write::Tree(TreeWrite::Save(NewTree {
+            id: id.into(),
+            name: id.into(),
+            metamers: 1,
+            simulation_version: 1,
+            document: vec![7; bytes],
+            thumbnail: None,
+        }))
+    }
+
+    #[tokio::test]
+    async fn writing_goes_on_when_the_disk_has_room_again() {
+        let folder = Folder::new();
+        Database::open(&folder.database()).await.unwrap().close().await;
+        let mut connection = super::super::open::writer_options(&folder.database()).connect().await.unwrap();
+        // Asked for less than the file has, SQLite keeps to what it has: the file cannot grow.
+        let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 1");
+        limit.fetch_one(&mut connection).await.unwrap();
+        let (small, large) = (save("small", 10), save("large", 1_000_000));
+        let error = commit_together(&mut connection, &[&small, &large]).await.unwrap_err();
+        assert_eq!(crate::database::in_words(&error), Some("the disk is full"), "{error}");
+
+        let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 100000");
+        limit.fetch_one(&mut connection).await.unwrap();
+        let ids = || sqlx::query_scalar::<_, String>("SELECT id FROM trees ORDER BY id");
+        assert!(ids().fetch_all(&mut connection).await.unwrap().is_empty(), "all of a group or nothing");
+        commit_together(&mut connection, &[&small, &large]).await.unwrap();
+        assert_eq!(ids().fetch_all(&mut connection).await.unwrap(), ["large", "small"]);
+    }
+}

@@ -1,0 +1,33 @@
+//! What the shell does with whole documents: makes files of them.
+
+use espalier_export::ExportError;
+use espalier_mesh::Style;
+use espalier_session::{Document, DocumentError, style_options};
+
+use crate::cli::Format;
+
+/// A document cannot be made a file.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The bytes are no document.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+    /// The format cannot hold it.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+}
+
+/// The plants of a stored document as glTF binary.
+pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
+    Ok(file(&Document::from_bytes(bytes)?, Format::Glb)?)
+}
+
+/// The plants of a document in a file format.
+pub fn file(document: &Document, format: Format) -> Result<Vec<u8>, ExportError> {
+    let parameters = document.parameters();
+    let style = Style::new(style_options(&parameters));
+    match format {
+        Format::Glb => espalier_export::glb(document.plant(), &style, parameters.internode_length),
+        Format::Skeleton => Ok(espalier_export::skeleton_json(document.plant(), &style)),
+    }
+}

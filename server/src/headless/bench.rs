@@ -1,0 +1,189 @@
+//! A document under a stopwatch: does what a session does with it, and notes what that costs.
+
+use std::time::{Duration, Instant};
+
+use espalier_growth::{Observer, Phase};
+use espalier_mesh::{RingTable, Style};
+use espalier_proto::Problem;
+use espalier_session::{Action, Document, delta, style_options};
+
+use super::stats::{PhaseSeconds, Stats};
+
+/// A document and what it has cost so far.
+#[derive(Debug)]
+pub struct Bench {
+    document: Document,
+    table: RingTable,
+    sequence: u32,
+    started: Instant,
+    phases: Stopwatch,
+    delta: Duration,
+    delta_bytes: u64,
+    steps: u32,
+    last_step: Duration,
+}
+
+impl Bench {
+    /// The clock begins to run.
+    pub fn new(document: Document) -> Self {
+        Self {
+            document,
+            table: RingTable::new(),
+            sequence: 0,
+            started: Instant::now(),
+            phases: Stopwatch::default(),
+            delta: Duration::ZERO,
+            delta_bytes: 0,
+            steps: 0,
+            last_step: Duration::ZERO,
+        }
+    }
+
+    /// The document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// Does an action with all its steps; after each step a client would get a delta.
+    pub fn act(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
+        self.document.begin(author, action)?;
+        self.follow();
+        loop {
+            let (began, before) = (Instant::now(), self.document.plant().step());
+            let advanced = self.document.advance_observed(&mut self.phases);
+            self.phases.stop();
+            if !advanced {
+                return Ok(());
+            }
+            if self.document.plant().step() != before {
+                self.follow();
+                self.steps += 1;
+                self.last_step = began.elapsed();
+            }
+        }
+    }
+
+    /// The figures up to now.
+    pub fn stats(&self) -> Stats {
+        let figures = self.document.figures();
+        let plant = self.document.plant();
+        // Seeds are rows as well, but nothing that grew.
+        let seeds = (0..self.table.rows() as u32).filter(|&row| self.table.parent(row).is_none()).count();
+        let of = |phase: Phase| self.phases.total(phase).as_secs_f64();
+        Stats {
+            metamers_alive: figures.metamers,
+            metamers_grown: (plant.metamer_count() - seeds) as u32,
+            axes: figures.axes,
+            leaves: self.table.leaves(),
+            steps: self.steps,
+            seconds_total: self.started.elapsed().as_secs_f64(),
+            seconds_last_step: self.last_step.as_secs_f64(),
+            seconds: PhaseSeconds {
+                space: of(Phase::Space),
+                light: of(Phase::Light),
+                vigor: of(Phase::Vigor),
+                growth: of(Phase::Growth),
+                shedding: of(Phase::Shedding),
+                girth: of(Phase::Girth),
+                delta: self.delta.as_secs_f64(),
+            },
+            delta_bytes: self.delta_bytes,
+            peak_memory_bytes: super::stats::peak_memory_bytes(),
+            plant_hash: format!("{:016x}", plant.hash()),
+        }
+    }
+
+    /// Makes the frame that a client in step would get.
+    fn follow(&mut self) {
+        let began = Instant::now();
+        let style = Style::new(style_options(&self.document.parameters()));
+        let sequence = self.sequence + 1;
+        let changes = self.table.sync(self.document.plant(), &style, sequence);
+        if !changes.is_empty() {
+            self.sequence = sequence;
+            self.delta_bytes += delta(&self.table, &changes, 0, sequence).encode().len() as u64;
+        }
+        self.delta += began.elapsed();
+    }
+}
+
+/// Adds up the time spent in each phase of a step.
+#[derive(Debug, Default)]
+struct Stopwatch {
+    totals: Vec<(Phase, Duration)>,
+    running: Option<(Phase, Instant)>,
+}
+
+impl Stopwatch {
+    fn total(&self, phase: Phase) -> Duration {
+        self.totals.iter().find(|(known, _)| *known == phase).map_or(Duration::ZERO, |&(_, total)| total)
+    }
+
+    fn stop(&mut self) {
+        let Some((phase, began)) = self.running.take() else { return };
+        match self.totals.iter_mut().find(|(known, _)| *known == phase) {
+            Some((_, total)) => *total += began.elapsed(),
+            None => self.totals.push((phase, began.elapsed())),
+        }
+    }
+}
+
+impl Observer for Stopwatch {
+    fn enter(&mut self, phase: Phase) {
+        self.stop();
+        self.running = Some((phase, Instant::now()));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grown(steps: u32) -> Bench {
+        let mut bench = Bench::new(Document::new(3));
+        bench.act("me", &Action::Grow { steps, gesture: None }).unwrap();
+        bench
+    }
+
+    #[test]
+    fn what_was_grown_is_counted() {
+        let bench = grown(12);
+        let stats = bench.stats();
+        assert_eq!(stats.steps, 12);
+        assert!(stats.metamers_alive > 12 && stats.metamers_grown >= stats.metamers_alive);
+        assert!(stats.leaves > 0 && stats.axes > 0);
+        // A row travels in some bytes, even compressed.
+        assert!(stats.delta_bytes > u64::from(stats.metamers_alive), "{}", stats.delta_bytes);
+    }
+
+    #[test]
+    fn every_phase_takes_its_time() {
+        let stats = grown(20).stats();
+        let seconds = &stats.seconds;
+        let phases =
+            [seconds.space, seconds.light, seconds.vigor, seconds.growth, seconds.shedding, seconds.girth];
+        assert!(phases.iter().all(|&seconds| seconds > 0.0), "{seconds:?}");
+        let sum: f64 = phases.iter().sum::<f64>() + seconds.delta;
+        assert!(sum <= stats.seconds_total, "{sum} of {}", stats.seconds_total);
+        assert!(stats.seconds_last_step > 0.0 && stats.seconds_last_step < stats.seconds_total);
+    }
+
+    #[test]
+    fn going_back_in_time_is_no_step() {
+        let mut bench = grown(5);
+        let hash = bench.stats().plant_hash;
+        bench.act("me", &Action::Ungrow { steps: 2 }).unwrap();
+        assert_eq!(bench.stats().steps, 5);
+        assert_ne!(bench.stats().plant_hash, hash);
+        bench.act("me", &Action::Redo).unwrap();
+        assert_eq!(bench.stats().plant_hash, hash);
+    }
+
+    #[test]
+    fn a_refused_action_changes_nothing() {
+        let mut bench = Bench::new(Document::new(1));
+        let hash = bench.stats().plant_hash;
+        assert!(bench.act("me", &Action::Undo).is_err());
+        assert_eq!(bench.stats().plant_hash, hash);
+    }
+}

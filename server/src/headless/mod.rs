@@ -1,0 +1,130 @@
+//! Growing without a server: `espalier replay` and `espalier grow`.
+
+mod bench;
+mod script;
+mod stats;
+
+use std::{
+    fs,
+    io::{self, Read, Write},
+    path::{Path, PathBuf},
+};
+
+use espalier_export::ExportError;
+use espalier_session::{Action, Document};
+
+use self::{bench::Bench, script::ScriptError};
+use crate::{
+    cli::{Grow, Replay, Results},
+    document,
+    pool::SimulationPool,
+};
+
+/// Commands of a script and of `grow` are done in this name.
+const AUTHOR: &str = "command-line";
+/// A tree that adds nothing in so many steps will not add anything any more.
+const PATIENCE: u32 = 50;
+/// One operation for undo, however many commands it takes.
+const GESTURE: Option<u32> = Some(1);
+
+/// The command could not be done; each message is one sentence.
+#[derive(Debug, thiserror::Error)]
+pub enum HeadlessError {
+    /// The script cannot be done.
+    #[error(transparent)]
+    Script(#[from] ScriptError),
+    /// The script cannot be read.
+    #[error("The script {} cannot be read: {cause}.", path.display())]
+    Read {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// The result cannot be written.
+    #[error("The export {} cannot be written: {cause}.", path.display())]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// The result does not fit its format.
+    #[error("The export failed: {0}.")]
+    Export(#[from] ExportError),
+    /// The tree does not get that large.
+    #[error("The tree stopped growing with {alive} of {wanted} metamers.")]
+    Stalled {
+        /// Living metamers reached.
+        alive: u32,
+        /// Living metamers asked for.
+        wanted: u32,
+    },
+    /// The threads cannot be made.
+    #[error("The simulation's threads cannot be started: {0}.")]
+    Pool(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// `espalier replay`.
+pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
+    let text =
+        read(&options.script).map_err(|cause| HeadlessError::Read { path: options.script.clone(), cause })?;
+    let name = options.script.display().to_string();
+    // All lines are read before the first is done: a typo at the end should not cost the time of the rest.
+    let script = script::parse(&name, &text)?;
+    let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
+        let mut bench = Bench::new(Document::new(options.seed));
+        for (line, action) in &script {
+            bench.act(AUTHOR, action).map_err(|problem| ScriptError {
+                name: name.clone(),
+                line: *line,
+                problem,
+            })?;
+        }
+        Ok::<_, ScriptError>(bench)
+    })?;
+    finish(bench, &options.results)
+}
+
+/// `espalier grow`.
+pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
+    let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
+        let mut document = Document::new(options.seed);
+        // Dead metamers count as well, and how many will die is not known before.
+        document.set_metamer_budget(u32::MAX);
+        let mut bench = Bench::new(document);
+        let (mut most, mut idle) = (0, 0);
+        while bench.document().metamers() < options.metamers {
+            let alive = bench.document().metamers();
+            (most, idle) = if alive > most { (alive, 0) } else { (most, idle + 1) };
+            let stalled = HeadlessError::Stalled { alive, wanted: options.metamers };
+            if idle == PATIENCE || bench.act(AUTHOR, &Action::Grow { steps: 1, gesture: GESTURE }).is_err() {
+                return Err(stalled);
+            }
+        }
+        Ok(bench)
+    })?;
+    finish(bench, &options.results)
+}
+
+fn read(path: &Path) -> io::Result<String> {
+    if path == Path::new("-") {
+        let mut text = String::new();
+        io::stdin().read_to_string(&mut text)?;
+        return Ok(text);
+    }
+    fs::read_to_string(path)
+}
+
+fn finish(bench: Bench, results: &Results) -> Result<(), HeadlessError> {
+    let stats = bench.stats();
+    if let Some(export) = &results.export {
+        let bytes = document::file(bench.document(), export.format)?;
+        fs::write(&export.path, bytes)
+            .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
+    }
+    let text = if results.stats.is_some() { stats.to_json() } else { stats.summary() };
+    // A reader that has gone, as `head` may, is no error of ours.
+    let _ = writeln!(io::stdout(), "{text}");
+    Ok(())
+}

@@ -1,0 +1,65 @@
+//! Scripts: one command in JSON on each line.
+
+use espalier_proto::Problem;
+use espalier_session::Action;
+
+/// A line that cannot be read or done.
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{name} line {line}: {problem}")]
+pub struct ScriptError {
+    /// The script, as it was given.
+    pub name: String,
+    /// Which line, from 1.
+    pub line: usize,
+    /// Why.
+    pub problem: Problem,
+}
+
+/// The actions of a script, each with its line; empty lines are none.
+pub fn parse(name: &str, text: &str) -> Result<Vec<(usize, Action)>, ScriptError> {
+    let numbered = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+    numbered
+        .map(|(line, text)| match Action::from_json(text) {
+            Ok(action) => Ok((line, action)),
+            Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem }),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn empty_lines_count_but_do_nothing() {
+        let script = parse("s", "\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").unwrap();
+        assert_eq!(script, [(2, Action::Undo), (4, Action::Redo)]);
+        assert_eq!(parse("s", ""), Ok(vec![]));
+    }
+
+    #[test]
+    fn an_error_names_line_field_and_range() {
+        let sample = |radius| format!("{{\"position\":[0,1,0],\"radius\":{radius}}}");
+        let samples = [sample(1), sample(2), sample(3), sample(99)].join(",");
+        let text = format!(
+            "{{\"kind\":\"stroke_begin\",\"stroke\":1}}\n{{\"kind\":\"stroke_move\",\"stroke\":1,\"samples\":[{samples}]}}"
+        );
+        let error = parse("script.jsonl", &text).unwrap_err();
+        assert_eq!(error.to_string(), "script.jsonl line 2: samples[3].radius is 99; allowed: 0 to 40");
+    }
+
+    #[test]
+    fn what_is_no_command_is_an_error() {
+        for bad in [
+            "{",
+            "[]",
+            "undo",
+            "{\"kind\":\"dig\"}",
+            "{\"kind\":\"grow\",\"steps\":-1}",
+            "{\"kind\":\"undo\"} x",
+        ] {
+            let error = parse("s", bad).unwrap_err();
+            assert!(error.to_string().starts_with("s line 1: "), "{error}");
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The figures of a run. `docs/command-line.md` explains each of them.
+
+use serde::Serialize;
+
+/// The object that `--stats json` prints.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Stats {
+    /// Living metamers at the end.
+    pub metamers_alive: u32,
+    /// Metamers born up to the present, the dead included.
+    pub metamers_grown: u32,
+    /// Living axes with wood.
+    pub axes: u32,
+    /// Leaves at the end.
+    pub leaves: u32,
+    /// Simulation steps run.
+    pub steps: u32,
+    /// From the first command to the last, without the export.
+    pub seconds_total: f64,
+    /// The last step with its delta.
+    pub seconds_last_step: f64,
+    /// All steps by phase.
+    pub seconds: PhaseSeconds,
+    /// Bytes of all mesh deltas, as they would travel.
+    pub delta_bytes: u64,
+    /// The most memory the process held, where the system tells.
+    pub peak_memory_bytes: Option<u64>,
+    /// A hash of the plants, in hexadecimal; equal plants have equal hashes.
+    pub plant_hash: String,
+}
+
+/// Seconds spent in each phase.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PhaseSeconds {
+    /// Markers are sown, removed, and associated with buds.
+    pub space: f64,
+    /// Light is read at every node.
+    pub light: f64,
+    /// Vigor is distributed.
+    pub vigor: f64,
+    /// Shoots grow and cast their shadows.
+    pub growth: f64,
+    /// Branches that do not pay are shed.
+    pub shedding: f64,
+    /// Girth follows.
+    pub girth: f64,
+    /// Mesh deltas are made and compressed.
+    pub delta: f64,
+}
+
+impl Stats {
+    /// One line of JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("figures are always JSON")
+    }
+
+    /// A few lines for people.
+    pub fn summary(&self) -> String {
+        let Self { metamers_alive, metamers_grown, axes, leaves, steps, seconds_total, plant_hash, .. } =
+            self;
+        let rate = f64::from(*metamers_grown) / seconds_total.max(f64::MIN_POSITIVE);
+        format!(
+            "{metamers_alive} metamers alive of {metamers_grown} grown, on {axes} axes with {leaves} leaves\n\
+             {steps} steps in {seconds_total:.2} s, {rate:.0} metamers per second\n\
+             plant {plant_hash}"
+        )
+    }
+}
+
+/// The most memory this process has held; Linux tells it without a system call of its own.
+pub fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kibibytes: u64 = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?
+        .trim()
+        .strip_suffix("kB")?
+        .trim()
+        .parse()
+        .ok()?;
+    Some(kibibytes * 1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn memory_is_counted_in_bytes() {
+        let before = peak_memory_bytes().unwrap();
+        assert!(before > 1024 * 1024);
+        let block = vec![1u8; 64 * 1024 * 1024];
+        assert!(block.iter().map(|&byte| u64::from(byte)).sum::<u64>() > 0);
+        assert!(peak_memory_bytes().unwrap() > before);
+    }
+
+    #[test]
+    fn the_object_has_the_documented_fields() {
+        let seconds = PhaseSeconds {
+            space: 0.5,
+            light: 0.0,
+            vigor: 0.0,
+            growth: 0.0,
+            shedding: 0.0,
+            girth: 0.0,
+            delta: 0.0,
+        };
+        let stats = Stats {
+            metamers_alive: 3,
+            metamers_grown: 4,
+            axes: 1,
+            leaves: 9,
+            steps: 2,
+            seconds_total: 1.0,
+            seconds_last_step: 0.25,
+            seconds,
+            delta_bytes: 99,
+            peak_memory_bytes: None,
+            plant_hash: "00ff".into(),
+        };
+        assert_eq!(
+            stats.to_json(),
+            "{\"metamers_alive\":3,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
+             \"seconds_last_step\":0.25,\"seconds\":{\"space\":0.5,\"light\":0.0,\"vigor\":0.0,\"growth\":0.0,\
+             \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"peak_memory_bytes\":null,\
+             \"plant_hash\":\"00ff\"}"
+        );
+    }
+}

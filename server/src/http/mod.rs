@@ -1,0 +1,64 @@
+//! The routes of `PROTOCOL.md`, and the client itself.
+
+mod client;
+mod failure;
+mod guard;
+mod sessions;
+mod thumbnail;
+mod trees;
+
+use std::sync::Arc;
+
+use axum::{
+    Router,
+    extract::DefaultBodyLimit,
+    middleware::{from_fn, map_response},
+    routing::{get, patch, post},
+};
+
+use crate::{database::Database, live::Sessions, pool::SimulationPool};
+
+/// A request for a session or a name is tiny.
+const MAX_SMALL_BODY: usize = 4 * 1024;
+/// A thumbnail of 192 KiB as base64, with room for the rest of the request.
+const MAX_TREE_BODY: usize = 264 * 1024;
+
+/// What the handlers work with.
+#[derive(Clone, Debug)]
+pub struct Shared {
+    /// The library.
+    pub database: Arc<Database>,
+    /// The sessions in memory.
+    pub sessions: Sessions,
+    /// For what takes long.
+    pub pool: SimulationPool,
+}
+
+/// Everything the server answers.
+pub fn router(shared: Shared) -> Router {
+    let requests = Router::new()
+        .route("/api/sessions", post(sessions::create))
+        .route("/api/sessions/{name}", get(sessions::find))
+        .route("/api/sessions/{name}/tree.glb", get(sessions::export))
+        .route("/api/trees/{id}", patch(trees::rename).delete(trees::delete))
+        .route("/api/trees/{id}/thumbnail", get(trees::thumbnail))
+        .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
+        .merge(
+            Router::new()
+                .route("/api/trees", get(trees::list).post(trees::save))
+                .layer(DefaultBodyLimit::max(MAX_TREE_BODY)),
+        )
+        .route("/api/{*unknown}", get(failure::unknown_route))
+        .route("/health", get("ok"))
+        .layer(from_fn(guard::time_limit));
+    Router::new()
+        .merge(requests)
+        // A socket lasts as long as its drawing, so no time limit holds here.
+        .route("/api/sessions/{name}/socket", get(sessions::socket))
+        .route("/", get(client::page))
+        .route("/s/{name}", get(client::page))
+        .fallback(client::file)
+        .layer(from_fn(guard::same_origin))
+        .layer(map_response(guard::headers))
+        .with_state(shared)
+}

@@ -1,0 +1,127 @@
+//! Sessions: making one, its socket, its tree as a file.
+
+use axum::{
+    Json,
+    extract::{
+        Path, State, WebSocketUpgrade,
+        ws::{WebSocket, rejection::WebSocketUpgradeRejection},
+    },
+    http::{StatusCode, header},
+    response::{IntoResponse, Response},
+};
+use espalier_proto::{
+    library::{NewSession, SessionCreated},
+    version::CloseCode,
+};
+use espalier_session::Session;
+
+use super::{
+    Shared,
+    failure::{Body, Failure},
+};
+use crate::{
+    SIMULATION_VERSION, document,
+    live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
+    name,
+};
+
+/// Bytes read from a socket at once.
+const READ_BUFFER: usize = 8 * 1024;
+/// Frames are written one at a time, so this only has to hold the largest one.
+const MAX_WRITE_BUFFER: usize = espalier_proto::frame::MAX_BODY_BYTES + 1024 * 1024;
+
+pub(super) async fn create(
+    State(shared): State<Shared>,
+    Body(new): Body<NewSession>,
+) -> Result<impl IntoResponse, Failure> {
+    let seed = new.seed.unwrap_or_else(rand::random);
+    let snapshot = match new.tree {
+        None => None,
+        Some(id) => Some(planted(&shared, &id).await?),
+    };
+    let session = name::unguessable();
+    shared.database.create_session(session.clone(), seed, SIMULATION_VERSION, snapshot).await?;
+    Ok((StatusCode::CREATED, Json(SessionCreated { session })))
+}
+
+pub(super) async fn find(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+) -> Result<impl IntoResponse, Failure> {
+    if shared.database.has_session(&session).await? {
+        Ok(Json(SessionCreated { session }))
+    } else {
+        Err(Failure::not_found("session"))
+    }
+}
+
+pub(super) async fn export(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+) -> Result<impl IntoResponse, Failure> {
+    let document = open(&shared, &session).await?.read().await?;
+    let glb = shared.pool.run(move || document::glb(&document.bytes)).await?.map_err(|error| {
+        tracing::error!(session, %error, "a document cannot be exported");
+        Failure::unavailable("The tree cannot be exported.")
+    })?;
+    let headers = [
+        (header::CONTENT_TYPE, "model/gltf-binary"),
+        (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.glb\""),
+    ];
+    Ok((headers, glb))
+}
+
+pub(super) async fn socket(
+    State(shared): State<Shared>,
+    Path(name): Path<String>,
+    upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
+) -> Response {
+    let upgrade = match upgrade {
+        Ok(upgrade) => upgrade,
+        Err(rejection) => return rejection.into_response(),
+    };
+    let Some(place) = shared.sessions.place() else {
+        return Failure::unavailable("Too many people are here already.").into_response();
+    };
+    upgrade
+        .read_buffer_size(READ_BUFFER)
+        .max_message_size(REFUSED_MESSAGE_BYTES)
+        .max_frame_size(REFUSED_MESSAGE_BYTES)
+        .max_write_buffer_size(MAX_WRITE_BUFFER)
+        .on_upgrade(async move |socket| {
+            shared.sessions.run_socket(place, connect(socket, &shared.sessions, &name)).await;
+        })
+}
+
+async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
+    let (code, sentence) = match sessions.open(name).await {
+        Ok(Some(session)) => return live::serve(socket, session).await,
+        Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
+        Err(OpenError::Stopping) => (CloseCode::GoingAway, "The server is stopping."),
+        Err(error) => {
+            tracing::error!(session = name, %error, "a session could not be opened");
+            (CloseCode::InternalError, "The session cannot be opened now.")
+        }
+    };
+    live::turn_away(socket, code, sentence).await;
+}
+
+/// A snapshot of a new session that goes on with a saved tree.
+async fn planted(shared: &Shared, tree: &str) -> Result<Vec<u8>, Failure> {
+    let (version, document) =
+        shared.database.tree_document(tree).await?.ok_or_else(|| Failure::not_found("tree"))?;
+    if version != SIMULATION_VERSION {
+        return Err(Failure::conflict(format!(
+            "The tree was grown by version {version} of the simulation; this is version {SIMULATION_VERSION}."
+        )));
+    }
+    shared.pool.run(move || Session::first_snapshot(&document)).await?.map_err(|error| {
+        tracing::error!(tree, %error, "a saved tree cannot be read");
+        Failure::unavailable("The tree cannot be read.")
+    })
+}
+
+/// A live session for a request.
+pub(super) async fn open(shared: &Shared, name: &str) -> Result<SessionHandle, Failure> {
+    shared.sessions.open(name).await?.ok_or_else(|| Failure::not_found("session"))
+}

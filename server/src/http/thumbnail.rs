@@ -1,0 +1,95 @@
+//! Pictures that come as data URLs.
+
+use base64::{Engine, engine::general_purpose::STANDARD};
+use espalier_proto::{Problem, ProblemCode};
+
+use super::failure::Failure;
+use crate::database::Picture;
+
+const MAX_BYTES: usize = 192 * 1024;
+const ALLOWED: &str = "a PNG, JPEG or WebP picture as a base64 data URL";
+
+/// Reads a data URL. What it claims to be must be what its first bytes say, since browsers will trust the claim.
+pub(super) fn parse(url: &str) -> Result<Picture, Failure> {
+    let (media_type, encoded) =
+        url.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")).ok_or_else(refused)?;
+    if encoded.len() > MAX_BYTES.div_ceil(3) * 4 {
+        return Err(too_large());
+    }
+    let bytes = STANDARD.decode(encoded).map_err(|_| refused())?;
+    if bytes.len() > MAX_BYTES {
+        return Err(too_large());
+    }
+    let is_what_it_claims = match media_type {
+        "image/png" => bytes.starts_with(b"\x89PNG\r\n\x1a\n"),
+        "image/jpeg" => bytes.starts_with(b"\xff\xd8\xff"),
+        "image/webp" => bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP"),
+        _ => false,
+    };
+    if is_what_it_claims { Ok(Picture { media_type: media_type.into(), bytes }) } else { Err(refused()) }
+}
+
+fn refused() -> Failure {
+    let problem = Problem {
+        code: ProblemCode::Malformed,
+        field: Some("thumbnail".into()),
+        allowed: Some(ALLOWED.into()),
+        message: format!("thumbnail is not a picture; allowed: {ALLOWED}"),
+    };
+    problem.into()
+}
+
+fn too_large() -> Failure {
+    let allowed = format!("at most {} KiB", MAX_BYTES / 1024);
+    Failure::too_large(Some("thumbnail"), &allowed, format!("thumbnail is too large; allowed: {allowed}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn url(media_type: &str, bytes: &[u8]) -> String {
+        format!("data:{media_type};base64,{}", STANDARD.encode(bytes))
+    }
+
+    #[test]
+    fn pictures_of_three_kinds_are_taken() {
+        for (media_type, bytes) in [
+            ("image/png", b"\x89PNG\r\n\x1a\n...".as_slice()),
+            ("image/jpeg", b"\xff\xd8\xff\xe0..."),
+            ("image/webp", b"RIFF\x04\0\0\0WEBPVP8 "),
+        ] {
+            let picture = parse(&url(media_type, bytes)).unwrap();
+            assert_eq!((picture.media_type.as_str(), picture.bytes.as_slice()), (media_type, bytes));
+        }
+    }
+
+    #[test]
+    fn what_is_no_picture_is_refused() {
+        let svg = url("image/svg+xml", b"<svg onload='alert(1)'/>");
+        let disguised = url("image/png", b"<script>alert(1)</script>");
+        let parameters = url("image/png;charset=utf-8", b"\x89PNG\r\n\x1a\n");
+        for bad in [
+            "",
+            "data:",
+            "https://example.org/a.png",
+            "data:image/png;base64,&&&",
+            &svg,
+            &disguised,
+            &parameters,
+        ] {
+            assert_eq!(parse(bad), Err(refused()), "{bad}");
+        }
+    }
+
+    #[test]
+    fn the_size_is_limited_to_the_byte() {
+        let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
+        bytes.resize(MAX_BYTES, 0);
+        assert!(parse(&url("image/png", &bytes)).is_ok());
+        bytes.push(0);
+        assert_eq!(parse(&url("image/png", &bytes)), Err(too_large()));
+        bytes.resize(2 * MAX_BYTES, 0);
+        assert_eq!(parse(&url("image/png", &bytes)), Err(too_large()));
+    }
+}

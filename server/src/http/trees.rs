@@ -1,0 +1,126 @@
+//! The library of saved trees.
+
+use axum::{
+    Json,
+    extract::{Path, State},
+    http::{StatusCode, header},
+    response::IntoResponse,
+};
+use espalier_proto::{
+    Problem,
+    library::{RenameTree, SaveTree, SavedTree},
+};
+
+use super::{
+    Shared,
+    failure::{Body, Failure},
+    sessions, thumbnail,
+};
+use crate::{
+    SIMULATION_VERSION,
+    database::{NewTree, StoredTree},
+    name,
+};
+
+const MAX_NAME_CHARACTERS: usize = 80;
+
+pub(super) async fn list(State(shared): State<Shared>) -> Result<impl IntoResponse, Failure> {
+    let trees: Vec<SavedTree> = shared.database.trees().await?.into_iter().map(to_proto).collect();
+    Ok(Json(trees))
+}
+
+pub(super) async fn save(
+    State(shared): State<Shared>,
+    Body(save): Body<SaveTree>,
+) -> Result<impl IntoResponse, Failure> {
+    let name = parse_name(&save.name)?;
+    let thumbnail = save.thumbnail.as_deref().map(thumbnail::parse).transpose()?;
+    let document = sessions::open(&shared, &save.session).await?.read().await?;
+    let id = name::unguessable();
+    let tree = NewTree {
+        id: id.clone(),
+        name,
+        metamers: document.metamers,
+        simulation_version: SIMULATION_VERSION,
+        document: document.bytes,
+        thumbnail,
+    };
+    shared.database.save_tree(tree).await?;
+    Ok((StatusCode::CREATED, Json(find(&shared, &id).await?)))
+}
+
+pub(super) async fn rename(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+    Body(rename): Body<RenameTree>,
+) -> Result<impl IntoResponse, Failure> {
+    let name = parse_name(&rename.name)?;
+    if !shared.database.rename_tree(id.clone(), name).await? {
+        return Err(Failure::not_found("tree"));
+    }
+    Ok(Json(find(&shared, &id).await?))
+}
+
+pub(super) async fn delete(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+) -> Result<StatusCode, Failure> {
+    if shared.database.delete_tree(id).await? {
+        Ok(StatusCode::NO_CONTENT)
+    } else {
+        Err(Failure::not_found("tree"))
+    }
+}
+
+pub(super) async fn thumbnail(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+) -> Result<impl IntoResponse, Failure> {
+    let picture = shared.database.thumbnail(&id).await?.ok_or_else(|| Failure::not_found("picture"))?;
+    let headers = [
+        (header::CONTENT_TYPE, picture.media_type),
+        // A tree keeps its picture for life, and no two trees share an identifier.
+        (header::CACHE_CONTROL, "private, max-age=31536000, immutable".into()),
+    ];
+    Ok((headers, picture.bytes))
+}
+
+async fn find(shared: &Shared, id: &str) -> Result<SavedTree, Failure> {
+    shared.database.tree(id).await?.map(to_proto).ok_or_else(|| Failure::not_found("tree"))
+}
+
+fn to_proto(tree: StoredTree) -> SavedTree {
+    let thumbnail = tree.has_thumbnail.then(|| format!("/api/trees/{}/thumbnail", tree.id));
+    SavedTree { id: tree.id, name: tree.name, metamers: tree.metamers, saved_at: tree.saved_at, thumbnail }
+}
+
+fn parse_name(name: &str) -> Result<String, Problem> {
+    let name = name.trim();
+    let length = name.chars().count();
+    if !(1..=MAX_NAME_CHARACTERS).contains(&length) {
+        let value = format!("{length} characters long");
+        return Err(Problem::out_of_range("name", value, format!("1 to {MAX_NAME_CHARACTERS} characters")));
+    }
+    if name.chars().any(char::is_control) {
+        return Err(Problem::out_of_range("name", "not plain text", "characters one can see"));
+    }
+    Ok(name.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_trimmed_and_counted_in_characters() {
+        assert_eq!(parse_name("  Old oak ").as_deref(), Ok("Old oak"));
+        assert_eq!(parse_name(&"ö".repeat(80)), Ok("ö".repeat(80)));
+        for bad in ["", "   ", "\u{3000}", &"ö".repeat(81), "two\nlines", "bell\u{7}"] {
+            assert_eq!(parse_name(bad).unwrap_err().field.as_deref(), Some("name"), "{bad:?}");
+        }
+        assert_eq!(
+            parse_name("").unwrap_err().message,
+            "name is 0 characters long; allowed: 1 to 80 characters"
+        );
+    }
+}

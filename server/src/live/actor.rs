@@ -1,0 +1,367 @@
+//! One task for each live session: it feeds the state machine and does what the machine asks for.
+
+use std::{
+    collections::BTreeMap,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::Arc,
+    time::Duration,
+};
+
+use espalier_proto::version::CloseCode;
+use espalier_session::{ClientId, Input, JournalEntry, Output, ReadId, Session, Work};
+use tokio::{
+    sync::{mpsc, oneshot},
+    time::{Instant, sleep_until, timeout},
+};
+use tokio_util::sync::CancellationToken;
+
+use super::outbox::{Outbox, Outgoing};
+use crate::{database::Database, pool::SimulationPool};
+
+/// Requests waiting for a session; beyond that, sockets stop reading.
+const MAILBOX: usize = 256;
+/// A session in which nobody has been for so long leaves the memory.
+const IDLE: Duration = Duration::from_secs(60);
+/// How long a session that ends waits for its journal.
+const LAST_WRITES: Duration = Duration::from_secs(8);
+
+/// The document at one moment.
+#[derive(Debug)]
+pub struct DocumentBytes {
+    /// For `Document::from_bytes`.
+    pub bytes: Vec<u8>,
+    /// Living metamers.
+    pub metamers: u32,
+}
+
+#[derive(Debug)]
+pub(super) enum Request {
+    Join(Outbox, oneshot::Sender<ClientId>),
+    Text(ClientId, String),
+    Binary(ClientId),
+    /// So many control messages have gone out.
+    Written(ClientId, usize),
+    Leave(ClientId),
+    Read(oneshot::Sender<DocumentBytes>),
+}
+
+/// What the actor's own errands bring back.
+#[derive(Debug)]
+enum Errand {
+    Journaled(u64),
+    JournalFailed(String),
+    Worked(Box<Work>),
+    WorkFailed,
+    SnapshotKept,
+}
+
+/// Reaches a live session.
+#[derive(Clone, Debug)]
+pub struct SessionHandle {
+    requests: mpsc::Sender<Request>,
+    /// The session has left the memory and may be loaded again.
+    pub(super) gone: CancellationToken,
+}
+
+/// The session has ended meanwhile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ended;
+
+impl SessionHandle {
+    pub(super) fn is_ended(&self) -> bool {
+        self.requests.is_closed()
+    }
+
+    pub(super) async fn send(&self, request: Request) -> Result<(), Ended> {
+        self.requests.send(request).await.map_err(|_| Ended)
+    }
+
+    pub(super) async fn join(&self, outbox: Outbox) -> Result<ClientId, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Join(outbox, answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The document as it is now.
+    pub async fn read(&self) -> Result<DocumentBytes, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Read(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+}
+
+/// Everything a session needs from its surroundings.
+#[derive(Clone, Debug)]
+pub(super) struct Surroundings {
+    pub(super) database: Arc<Database>,
+    pub(super) pool: SimulationPool,
+    pub(super) stop: CancellationToken,
+    pub(super) started: Instant,
+}
+
+pub(super) struct Actor {
+    name: String,
+    session: Session,
+    around: Surroundings,
+    requests: mpsc::Receiver<Request>,
+    errands: mpsc::UnboundedReceiver<Errand>,
+    errand: mpsc::UnboundedSender<Errand>,
+    clients: BTreeMap<ClientId, Outbox>,
+    next_client: u64,
+    reads: BTreeMap<u64, oneshot::Sender<DocumentBytes>>,
+    next_read: u64,
+    wake_at: Option<Instant>,
+    /// When somebody was here last.
+    empty_since: Instant,
+    /// Errands that have not come back, and how many of them write to the database.
+    under_way: usize,
+    writes: usize,
+}
+
+/// Why a session leaves the memory.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    Idle,
+    Stopping,
+    Failed,
+}
+
+impl Actor {
+    pub(super) fn new(name: String, session: Session, around: Surroundings) -> (Self, SessionHandle) {
+        let (sender, requests) = mpsc::channel(MAILBOX);
+        let (errand, errands) = mpsc::unbounded_channel();
+        let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };
+        let actor = Self {
+            name,
+            session,
+            around,
+            requests,
+            errands,
+            errand,
+            clients: BTreeMap::new(),
+            next_client: 1,
+            reads: BTreeMap::new(),
+            next_read: 1,
+            wake_at: None,
+            empty_since: Instant::now(),
+            under_way: 0,
+            writes: 0,
+        };
+        (actor, handle)
+    }
+
+    /// Lives until nobody needs the session, the server stops, or the session fails.
+    pub(super) async fn run(mut self) {
+        let end = match self.live().await {
+            Ok(end) => end,
+            Err(Failed) => End::Failed,
+        };
+        self.requests.close();
+        match end {
+            End::Idle => tracing::info!(session = self.name, "nobody is here any more"),
+            End::Stopping => self.close_all(CloseCode::GoingAway, "The server is stopping."),
+            End::Failed => {
+                tracing::error!(session = self.name, "the session failed and will be loaded again");
+                self.close_all(
+                    CloseCode::InternalError,
+                    "The session failed; it is loaded again when you come back.",
+                );
+            }
+        }
+        if end != End::Failed && !matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(()))) {
+            tracing::warn!(session = self.name, "the last commands may not have been kept");
+        }
+    }
+
+    async fn live(&mut self) -> Result<End, Failed> {
+        self.drain()?;
+        loop {
+            let wake_at = self.wake_at;
+            let was_empty = self.clients.is_empty();
+            let idle_at = self.may_leave().then_some(self.empty_since + IDLE);
+            let input = tokio::select! {
+                biased;
+                () = self.around.stop.cancelled() => return Ok(End::Stopping),
+                Some(errand) = self.errands.recv() => self.returned(errand)?,
+                Some(request) = self.requests.recv() => self.requested(request),
+                () = until(wake_at) => {
+                    self.wake_at = None;
+                    Some(Input::Woken)
+                }
+                () = until(idle_at) => return Ok(End::Idle),
+            };
+            if let Some(input) = input {
+                self.handle(input)?;
+            }
+            if !was_empty || !self.clients.is_empty() {
+                self.empty_since = Instant::now();
+            }
+        }
+    }
+
+    /// Whether nobody is here, and a snapshot holds everything that was done.
+    fn may_leave(&self) -> bool {
+        self.clients.is_empty() && self.under_way == 0 && self.session.is_idle()
+    }
+
+    /// Sees to it that what was accepted is durable. Steps still to be run are run after the next start.
+    async fn finish(&mut self) -> Result<(), Failed> {
+        let clients: Vec<ClientId> = self.clients.keys().copied().collect();
+        self.clients.clear();
+        for client in clients {
+            self.handle(Input::Disconnected(client))?;
+        }
+        while self.writes > 0 {
+            let Some(errand) = self.errands.recv().await else { break };
+            if let Some(input) = self.returned(errand)? {
+                self.handle(input)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn requested(&mut self, request: Request) -> Option<Input> {
+        Some(match request {
+            Request::Join(outbox, answer) => {
+                let client = ClientId(self.next_client);
+                // Without anybody to take it, this number would never leave again.
+                answer.send(client).ok()?;
+                self.next_client += 1;
+                self.clients.insert(client, outbox);
+                Input::Connected(client)
+            }
+            Request::Text(client, text) => Input::Text(client, text),
+            Request::Binary(client) => Input::Binary(client),
+            Request::Written(client, count) => Input::Written(client, count),
+            Request::Leave(client) => {
+                self.clients.remove(&client);
+                Input::Disconnected(client)
+            }
+            Request::Read(answer) => {
+                let read = self.next_read;
+                self.next_read += 1;
+                self.reads.insert(read, answer);
+                Input::Read(ReadId(read))
+            }
+        })
+    }
+
+    fn returned(&mut self, errand: Errand) -> Result<Option<Input>, Failed> {
+        self.under_way -= 1;
+        if !matches!(errand, Errand::Worked(_) | Errand::WorkFailed) {
+            self.writes -= 1;
+        }
+        match errand {
+            Errand::Journaled(through) => Ok(Some(Input::Journaled(through))),
+            Errand::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
+            Errand::Worked(work) => Ok(Some(Input::Worked(work))),
+            Errand::WorkFailed => Err(Failed),
+            Errand::SnapshotKept => Ok(None),
+        }
+    }
+
+    fn handle(&mut self, input: Input) -> Result<(), Failed> {
+        let now = self.around.started.elapsed().as_millis() as u64;
+        // A bug in a session must end this session only.
+        catch_unwind(AssertUnwindSafe(|| self.session.handle(now, input))).map_err(|_| Failed)?;
+        self.drain()
+    }
+
+    fn drain(&mut self) -> Result<(), Failed> {
+        while let Some(output) =
+            catch_unwind(AssertUnwindSafe(|| self.session.poll_output())).map_err(|_| Failed)?
+        {
+            self.fulfil(output);
+        }
+        if self.session.has_failed() { Err(Failed) } else { Ok(()) }
+    }
+
+    fn fulfil(&mut self, output: Output) {
+        match output {
+            Output::Text(client, text) => {
+                if let Some(outbox) = self.clients.get(&client) {
+                    outbox.send(Outgoing::Text(text));
+                }
+            }
+            Output::Frame(client, frame) => {
+                if let Some(outbox) = self.clients.get(&client) {
+                    outbox.send(Outgoing::Frame(frame));
+                }
+            }
+            Output::Close(client, code, sentence) => {
+                if let Some(outbox) = self.clients.remove(&client) {
+                    outbox.close(code, sentence);
+                }
+            }
+            Output::Journal(entries) => self.journal(entries),
+            Output::Work(work) => self.work(work),
+            Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
+            Output::Document { read, bytes, metamers } => {
+                if let Some(answer) = self.reads.remove(&read.0) {
+                    let _ = answer.send(DocumentBytes { bytes, metamers });
+                }
+            }
+            Output::WakeAt(at) => self.wake_at = Some(self.around.started + Duration::from_millis(at)),
+        }
+    }
+
+    fn journal(&mut self, entries: Vec<JournalEntry>) {
+        let Some(last) = entries.last().map(|entry| entry.number) else { return };
+        let (database, session, errand) =
+            (Arc::clone(&self.around.database), self.name.clone(), self.errand.clone());
+        self.under_way += 1;
+        self.writes += 1;
+        tokio::spawn(async move {
+            let _ = errand.send(match database.append_journal(session.clone(), &entries).await {
+                Ok(()) => Errand::Journaled(last),
+                Err(error) => {
+                    tracing::error!(session, %error, "the journal could not be written");
+                    Errand::JournalFailed(error.in_words().into())
+                }
+            });
+        });
+    }
+
+    fn work(&mut self, mut work: Box<Work>) {
+        let (pool, errand) = (self.around.pool.clone(), self.errand.clone());
+        self.under_way += 1;
+        tokio::spawn(async move {
+            let done = pool.run(move || {
+                work.run();
+                work
+            });
+            let _ = errand.send(done.await.map_or(Errand::WorkFailed, Errand::Worked));
+        });
+    }
+
+    fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
+        let (database, session, errand) =
+            (Arc::clone(&self.around.database), self.name.clone(), self.errand.clone());
+        self.under_way += 1;
+        self.writes += 1;
+        tokio::spawn(async move {
+            // Without it the next start replays more, that is all.
+            if let Err(error) = database.keep_snapshot(session.clone(), through, bytes).await {
+                tracing::warn!(session, %error, "a snapshot could not be kept");
+            }
+            let _ = errand.send(Errand::SnapshotKept);
+        });
+    }
+
+    fn close_all(&self, code: CloseCode, sentence: &str) {
+        for outbox in self.clients.values() {
+            outbox.close(code, sentence.into());
+        }
+    }
+}
+
+/// The session must be loaded again from what is durable.
+#[derive(Debug)]
+struct Failed;
+
+async fn until(instant: Option<Instant>) {
+    match instant {
+        Some(instant) => sleep_until(instant).await,
+        None => std::future::pending().await,
+    }
+}

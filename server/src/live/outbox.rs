@@ -1,0 +1,118 @@
+//! What waits to be written to one socket.
+//!
+//! The lane has no bound of its own: the session counts unread control messages (`FL3`) and sends frames only as
+//! far as the client's window reaches (`FL1`).
+
+use std::sync::{Arc, OnceLock};
+
+use espalier_proto::version::CloseCode;
+use tokio::sync::mpsc;
+use tokio_util::sync::CancellationToken;
+
+/// Something to write.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Outgoing {
+    Text(Arc<str>),
+    Frame(Arc<[u8]>),
+}
+
+/// The session's end: never waits.
+#[derive(Clone, Debug)]
+pub(super) struct Outbox {
+    lane: mpsc::UnboundedSender<Outgoing>,
+    closing: Closing,
+}
+
+/// The socket's end.
+#[derive(Debug)]
+pub(super) struct Outgoings {
+    pub(super) lane: mpsc::UnboundedReceiver<Outgoing>,
+    pub(super) closing: Closing,
+}
+
+/// Why and how the socket is to be closed, once that is decided.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Closing {
+    farewell: Arc<OnceLock<Farewell>>,
+    decided: CancellationToken,
+}
+
+/// The last thing a client hears.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Farewell {
+    pub(super) code: CloseCode,
+    pub(super) sentence: String,
+}
+
+pub(super) fn lane() -> (Outbox, Outgoings) {
+    let (sender, receiver) = mpsc::unbounded_channel();
+    let closing = Closing::default();
+    (Outbox { lane: sender, closing: closing.clone() }, Outgoings { lane: receiver, closing })
+}
+
+impl Outbox {
+    pub(super) fn send(&self, outgoing: Outgoing) {
+        // The socket may be gone already; its end tells the session so.
+        let _ = self.lane.send(outgoing);
+    }
+
+    pub(super) fn close(&self, code: CloseCode, sentence: String) {
+        self.closing.decide(Farewell { code, sentence });
+    }
+}
+
+impl Closing {
+    /// The first decision stands.
+    pub(super) fn decide(&self, farewell: Farewell) {
+        let _ = self.farewell.set(farewell);
+        self.decided.cancel();
+    }
+
+    pub(super) fn is_decided(&self) -> bool {
+        self.decided.is_cancelled()
+    }
+
+    pub(super) async fn decided(&self) {
+        self.decided.cancelled().await;
+    }
+
+    /// Without a decision the session vanished.
+    pub(super) fn farewell(&self) -> Farewell {
+        self.farewell.get().cloned().unwrap_or_else(|| Farewell {
+            code: CloseCode::InternalError,
+            sentence: "The session failed; it is loaded again when you come back.".into(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[tokio::test]
+    async fn what_waits_keeps_its_order() {
+        let (outbox, mut outgoings) = lane();
+        let sent = || {
+            [Outgoing::Text("welcome".into()), Outgoing::Frame([1, 2].into()), Outgoing::Text("state".into())]
+        };
+        for outgoing in sent() {
+            outbox.send(outgoing);
+        }
+        drop(outbox);
+        for expected in sent() {
+            assert_eq!(outgoings.lane.recv().await, Some(expected));
+        }
+        assert_eq!(outgoings.lane.recv().await, None);
+        assert_eq!(outgoings.closing.farewell().code, CloseCode::InternalError);
+    }
+
+    #[tokio::test]
+    async fn the_first_reason_to_close_stands() {
+        let (outbox, outgoings) = lane();
+        assert!(!outgoings.closing.is_decided());
+        outbox.close(CloseCode::MessageTooBig, "first".into());
+        outbox.close(CloseCode::TooSlow, "second".into());
+        outgoings.closing.decided().await;
+        assert_eq!(outgoings.closing.farewell().sentence, "first");
+    }
+}

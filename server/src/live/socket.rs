@@ -1,0 +1,191 @@
+//! One WebSocket: what it says goes to its session, what the session says goes out.
+
+use std::{error::Error, pin::pin, time::Duration};
+
+use axum::{
+    body::Bytes,
+    extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket},
+};
+use espalier_proto::version::{CloseCode, MAX_MESSAGE_BYTES};
+use espalier_session::ClientId;
+use futures_util::{
+    SinkExt, StreamExt,
+    stream::{SplitSink, SplitStream},
+};
+use tokio::time::{MissedTickBehavior, interval, sleep, timeout};
+use tokio_tungstenite::tungstenite;
+
+use super::{
+    actor::{Request, SessionHandle},
+    outbox::{self, Closing, Farewell, Outgoing, Outgoings},
+};
+
+/// Above this a message is refused while it arrives. Between [`MAX_MESSAGE_BYTES`] and this it is taken in before
+/// the socket closes, since a connection closed with unread data may lose the close code on its way.
+pub const REFUSED_MESSAGE_BYTES: usize = 4 * MAX_MESSAGE_BYTES;
+
+/// The server asks so often whether the other side is still there,
+const PING_INTERVAL: Duration = Duration::from_secs(20);
+/// and after so long without any sign lets go: a tablet that fell asleep says no goodbye.
+const SILENCE: Duration = Duration::from_secs(60);
+/// How long what waits may take to go out once the socket is to be closed.
+const LAST_WORDS: Duration = Duration::from_secs(2);
+/// How long the other side may take to answer a close.
+const CLOSING: Duration = Duration::from_secs(2);
+
+/// Connects a socket with a session until one of them ends.
+pub async fn serve(socket: WebSocket, session: SessionHandle) {
+    let (outbox, outgoings) = outbox::lane();
+    let closing = outgoings.closing.clone();
+    let Ok(client) = session.join(outbox).await else {
+        return turn_away(socket, CloseCode::GoingAway, "The session is being put away; come back.").await;
+    };
+    let (sink, stream) = socket.split();
+    let mut reading = pin!(read(stream, &session, client, &closing));
+    {
+        let mut writing = pin!(write(sink, outgoings, &session, client));
+        tokio::select! {
+            () = &mut reading => {}
+            () = &mut writing => {
+                // The other side has been told; what it still sends is read, so that it reads our close.
+                let _ = timeout(CLOSING, &mut reading).await;
+            }
+        }
+    }
+    // Fails when the session itself has ended.
+    let _ = session.send(Request::Leave(client)).await;
+}
+
+/// Closes a socket that no session takes.
+pub async fn turn_away(mut socket: WebSocket, code: CloseCode, sentence: &str) {
+    let close = close_message(&Farewell { code, sentence: sentence.into() });
+    let closed = async {
+        if socket.send(close).await.is_ok() {
+            while let Some(Ok(_)) = socket.recv().await {}
+        }
+    };
+    let _ = timeout(CLOSING, closed).await;
+}
+
+async fn read(
+    mut stream: SplitStream<WebSocket>,
+    session: &SessionHandle,
+    client: ClientId,
+    closing: &Closing,
+) {
+    while let Ok(Some(message)) = timeout(SILENCE, stream.next()).await {
+        let request = match message {
+            Ok(Message::Close(_)) => return,
+            Ok(message) if length(&message) > MAX_MESSAGE_BYTES => {
+                refuse_size(closing);
+                continue;
+            }
+            Ok(Message::Text(text)) => Request::Text(client, text.as_str().into()),
+            Ok(Message::Binary(_)) => Request::Binary(client),
+            Ok(Message::Ping(_) | Message::Pong(_)) => continue,
+            Err(error) if is_too_long(&error) => {
+                refuse_size(closing);
+                // Nothing more can be read from this connection; the writing side ends it.
+                return std::future::pending().await;
+            }
+            Err(_) => return,
+        };
+        if !closing.is_decided() {
+            // Fails when the session has ended; then the writing side says goodbye.
+            let _ = session.send(request).await;
+        }
+    }
+}
+
+fn length(message: &Message) -> usize {
+    match message {
+        Message::Text(text) => text.len(),
+        Message::Binary(bytes) => bytes.len(),
+        Message::Ping(_) | Message::Pong(_) | Message::Close(_) => 0,
+    }
+}
+
+fn is_too_long(error: &axum::Error) -> bool {
+    let error = error.source().and_then(|error| error.downcast_ref());
+    matches!(error, Some(tungstenite::Error::Capacity(_)))
+}
+
+fn refuse_size(closing: &Closing) {
+    let sentence = format!("A message may have {} KiB at most.", MAX_MESSAGE_BYTES / 1024);
+    closing.decide(Farewell { code: CloseCode::MessageTooBig, sentence });
+}
+
+async fn write(
+    mut sink: SplitSink<WebSocket, Message>,
+    mut outgoings: Outgoings,
+    session: &SessionHandle,
+    client: ClientId,
+) {
+    let closing = outgoings.closing.clone();
+    let connected = tokio::select! {
+        connected = forward(&mut sink, &mut outgoings, session, client) => connected.is_ok(),
+        () = out_of_patience(&closing) => true,
+    };
+    if connected {
+        let _ = timeout(CLOSING, sink.send(close_message(&closing.farewell()))).await;
+    }
+}
+
+/// Writes until the socket is to be closed and nothing waits any more.
+async fn forward(
+    sink: &mut SplitSink<WebSocket, Message>,
+    outgoings: &mut Outgoings,
+    session: &SessionHandle,
+    client: ClientId,
+) -> Result<(), axum::Error> {
+    let mut pings = interval(PING_INTERVAL);
+    pings.set_missed_tick_behavior(MissedTickBehavior::Delay);
+    loop {
+        tokio::select! {
+            biased;
+            outgoing = outgoings.lane.recv() => match outgoing {
+                Some(Outgoing::Text(text)) => {
+                    sink.send(Message::Text(Utf8Bytes::from(&*text))).await?;
+                    // Fails when the session has ended; then the lane ends too.
+                    let _ = session.send(Request::Written(client, 1)).await;
+                }
+                Some(Outgoing::Frame(frame)) => sink.send(Message::Binary(Bytes::from_owner(frame))).await?,
+                None => return Ok(()),
+            },
+            () = outgoings.closing.decided() => return Ok(()),
+            _ = pings.tick() => sink.send(Message::Ping(Bytes::new())).await?,
+        }
+    }
+}
+
+/// Waits until the socket must be closed whether or not anybody reads.
+async fn out_of_patience(closing: &Closing) {
+    closing.decided().await;
+    if closing.farewell().code != CloseCode::TooSlow {
+        sleep(LAST_WORDS).await;
+    }
+}
+
+fn close_message(farewell: &Farewell) -> Message {
+    Message::Close(Some(CloseFrame {
+        code: farewell.code.into(),
+        reason: shortened(&farewell.sentence).into(),
+    }))
+}
+
+/// The reason of a close has 123 bytes at most (RFC 6455, 5.5).
+fn shortened(sentence: &str) -> &str {
+    &sentence[..sentence.floor_char_boundary(123)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_close_reason_fits_its_frame() {
+        assert_eq!(shortened("Bye."), "Bye.");
+        let long = "é".repeat(100);
+        assert_eq!(shortened(&long), "é".repeat(61));
+    }
+}

@@ -1,0 +1,125 @@
+//! `espalier serve`: start, serve, stop.
+
+use std::{
+    io::{self, IsTerminal, Write},
+    net::SocketAddr,
+    sync::Arc,
+    time::Duration,
+};
+
+use tokio::{net::TcpListener, signal, time::timeout};
+use tokio_util::sync::CancellationToken;
+use tracing_subscriber::{EnvFilter, fmt};
+
+use crate::{
+    announce::{self, Medium},
+    cli,
+    database::{Database, OpenError},
+    http::{self, Shared},
+    listener,
+    live::Sessions,
+    pool::SimulationPool,
+};
+
+/// How long the server waits for sessions and connections when it stops.
+const LAST_WORK: Duration = Duration::from_secs(10);
+
+/// The server cannot start; each message is one sentence.
+#[derive(Debug, thiserror::Error)]
+pub enum ServeError {
+    /// `--log` cannot be read.
+    #[error("The log filter {filter:?} cannot be read ({cause}); info or espalier=debug would do.")]
+    Log {
+        /// What was given.
+        filter: String,
+        /// Why not.
+        cause: tracing_subscriber::filter::ParseError,
+    },
+    /// The runtime or its threads cannot be made.
+    #[error("The server's threads cannot be started: {0}.")]
+    Threads(#[from] io::Error),
+    /// The simulation pool cannot be made.
+    #[error("The simulation's threads cannot be started: {0}.")]
+    Pool(#[from] rayon::ThreadPoolBuildError),
+    /// The database cannot be used.
+    #[error(transparent)]
+    Database(#[from] OpenError),
+    /// The address is taken.
+    #[error("Port {port} on {host} is in use, perhaps by another Espalier; choose another with --port.", host = .0.ip(), port = .0.port())]
+    PortInUse(SocketAddr),
+    /// The address cannot be listened on.
+    #[error("The server cannot listen on {address}: {cause}.")]
+    Listen {
+        /// Where.
+        address: SocketAddr,
+        /// Why not.
+        cause: io::Error,
+    },
+}
+
+/// Serves until the process is told to stop.
+pub fn run(options: &cli::Serve) -> Result<(), ServeError> {
+    let filter = EnvFilter::try_new(&options.log)
+        .map_err(|cause| ServeError::Log { filter: options.log.clone(), cause })?;
+    fmt().with_env_filter(filter).with_writer(io::stderr).with_ansi(io::stderr().is_terminal()).init();
+    let pool = SimulationPool::new(None)?;
+    tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(options, pool))
+}
+
+async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeError> {
+    let address = SocketAddr::new(options.host, options.port);
+    // First the port: two servers started by mistake differ in it, and the sentence about it helps more.
+    let listener = TcpListener::bind(address).await.map_err(|cause| match cause.kind() {
+        io::ErrorKind::AddrInUse => ServeError::PortInUse(address),
+        _ => ServeError::Listen { address, cause },
+    })?;
+    let bound = listener.local_addr().map_err(|cause| ServeError::Listen { address, cause })?;
+    let database = Arc::new(Database::open(&options.database).await?);
+
+    let stop = CancellationToken::new();
+    let sessions = Sessions::new(Arc::clone(&database), pool.clone(), stop.clone());
+    let shared = Shared { database: Arc::clone(&database), sessions: sessions.clone(), pool };
+    let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
+
+    let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
+    // Nobody may be reading; the server works all the same.
+    let _ = writeln!(io::stdout(), "{}", announce::text(bound, medium));
+    told_to_stop().await;
+
+    tracing::info!("stopping");
+    stop.cancel();
+    let ended = async {
+        sessions.ended().await;
+        serving.await
+    };
+    match timeout(LAST_WORK, ended).await {
+        Ok(Ok(())) => {}
+        Ok(Err(error)) => tracing::error!(%error, "the listener ended badly"),
+        Err(_) => tracing::warn!("some connections did not end in time"),
+    }
+    database.close().await;
+    Ok(())
+}
+
+/// Ctrl+C, or SIGTERM as service managers send it.
+async fn told_to_stop() {
+    #[cfg(unix)]
+    let terminated = async {
+        match signal::unix::signal(signal::unix::SignalKind::terminate()) {
+            Ok(mut signal) => drop(signal.recv().await),
+            Err(error) => {
+                tracing::warn!(%error, "SIGTERM is not heard");
+                std::future::pending::<()>().await;
+            }
+        }
+    };
+    #[cfg(not(unix))]
+    let terminated = std::future::pending::<()>();
+    tokio::select! {
+        interrupted = signal::ctrl_c() => if let Err(error) = interrupted {
+            tracing::warn!(%error, "Ctrl+C is not heard");
+            std::future::pending::<()>().await;
+        },
+        () = terminated => {}
+    }
+}
