@@ -19,7 +19,10 @@ pub struct StrokeSample {
 
 /// Something done to a document. Commands of one session have one order; the journal keeps them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[allow(clippy::large_enum_variant, reason = "patches are rare, and a box in every message would be in everyone's way")]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "patches are rare, and a box in every message would be in everyone's way"
+)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Command {
     /// A finger touches down with the brush. One stroke, begin to end, is one operation for undo.

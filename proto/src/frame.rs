@@ -329,7 +329,12 @@ impl Frame {
             _ => (CODEC_RAW, &body),
         };
         let mut out = Vec::with_capacity(HEADER_BYTES + payload.len());
-        out.extend_from_slice(&[VERSION, KIND_MESH_DELTA, codec, if self.catch_up { FLAG_CATCH_UP } else { 0 }]);
+        out.extend_from_slice(&[
+            VERSION,
+            KIND_MESH_DELTA,
+            codec,
+            if self.catch_up { FLAG_CATCH_UP } else { 0 },
+        ]);
         out.extend_from_slice(&self.epoch.to_le_bytes());
         out.extend_from_slice(&self.sequence.to_le_bytes());
         out.extend_from_slice(&(body.len() as u32).to_le_bytes());
@@ -350,7 +355,8 @@ impl Frame {
         if flags & !FLAG_CATCH_UP != 0 {
             return Err(FrameError::Flags(flags));
         }
-        let word = |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
+        let word =
+            |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
         let length = word(12) as usize;
         if length > MAX_BODY_BYTES {
             return Err(FrameError::Length);
@@ -384,7 +390,10 @@ fn deflate(body: &[u8]) -> Option<Vec<u8>> {
 fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
     // One byte more than promised is enough to see that the promise was false.
     let mut out = Vec::new();
-    DeflateDecoder::new(payload).take(length as u64 + 1).read_to_end(&mut out).map_err(|_| FrameError::Length)?;
+    DeflateDecoder::new(payload)
+        .take(length as u64 + 1)
+        .read_to_end(&mut out)
+        .map_err(|_| FrameError::Length)?;
     Ok(out)
 }
 
@@ -422,7 +431,11 @@ fn read_bytes(bytes: &mut &[u8], count: usize) -> Result<Vec<u8>, FrameError> {
     Ok(taken.to_vec())
 }
 
-fn read_column<T>(bytes: &mut &[u8], count: usize, parse: impl Fn(u32) -> Option<T>) -> Result<Vec<T>, FrameError> {
+fn read_column<T>(
+    bytes: &mut &[u8],
+    count: usize,
+    parse: impl Fn(u32) -> Option<T>,
+) -> Result<Vec<T>, FrameError> {
     (0..count).map(|_| parse(read_varint(bytes)?).ok_or(FrameError::Body)).collect()
 }
 

@@ -46,7 +46,11 @@ impl Problem {
     }
 
     /// A value outside its range.
-    pub fn out_of_range(field: impl Into<String>, value: impl std::fmt::Display, allowed: impl Into<String>) -> Self {
+    pub fn out_of_range(
+        field: impl Into<String>,
+        value: impl std::fmt::Display,
+        allowed: impl Into<String>,
+    ) -> Self {
         let (field, allowed) = (field.into(), allowed.into());
         let message = format!("{field} is {value}; allowed: {allowed}");
         Self { code: ProblemCode::OutOfRange, field: Some(field), allowed: Some(allowed), message }

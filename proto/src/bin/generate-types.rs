@@ -9,7 +9,10 @@ fn main() -> ExitCode {
         if std::fs::read_to_string(&path).is_ok_and(|found| found == wanted) {
             return ExitCode::SUCCESS;
         }
-        eprintln!("{} is out of date: run `cargo run -p espalier-proto --bin generate-types`", path.display());
+        eprintln!(
+            "{} is out of date: run `cargo run -p espalier-proto --bin generate-types`",
+            path.display()
+        );
         return ExitCode::FAILURE;
     }
     match std::fs::write(&path, wanted) {

@@ -59,7 +59,7 @@ values! {
     /// Angle by which an axis turns away from a lateral bud (δ).
     deflection_angle: f32 = 5.0, in 0.0, 45.0;
     /// Share of vigor the main axis claims against its laterals (λ).
-    apical_control: f32 = 0.5, in 0.4, 0.7;
+    apical_control: f32 = 0.52, in 0.4, 0.7;
     /// Exponent of a bud's response to light (κ in Q = bL^κ).
     light_sensitivity: f32 = 1.0, in 0.0, 6.0;
     /// Internodes the most vigorous enabled bud adds in a step (n_max).
@@ -97,11 +97,11 @@ values! {
     /// Exponent of da Vinci's rule (n).
     girth_exponent: f32 = 2.5, in 2.0, 3.0;
     /// Diameter of a twig at its tip (d_e).
-    twig_diameter: f32 = 0.1, in 0.02, 0.3;
+    twig_diameter: f32 = 0.07, in 0.02, 0.3;
     /// Leaves at each node of a twig.
-    leaves_per_node: u32 = 3, in 0, 15;
+    leaves_per_node: u32 = 4, in 0, 15;
     /// Length of a leaf.
-    leaf_size: f32 = 0.7, in 0.1, 3.0;
+    leaf_size: f32 = 0.9, in 0.1, 3.0;
 }
 
 /// A value outside its range.

@@ -256,7 +256,8 @@ impl Document {
     }
 
     fn set_parameters(&mut self, author: &str, patch: &ParametersPatch) -> Result<(), Problem> {
-        let wanted = parameters::parse(&self.parameters().patched(patch))?;
+        let wanted =
+            parameters::parse(&self.parameters().patched(patch)).map_err(|p| p.within("parameters"))?;
         self.record(Kind::Parameters, author, None);
         self.simulation.set_parameters(wanted.clone());
         self.history.settle_parameters(Arc::new(wanted));

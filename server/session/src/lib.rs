@@ -1,8 +1,8 @@
 //! One shared document: command order, undo, clients and their windows, without I/O.
 //!
-//! [`Session::handle`] takes what happened, [`Session::poll_output`] gives what is to be done; [`Input`]
-//! and [`Output`] are the whole boundary. There is no clock, thread or socket in here: the caller hands in the time. The rules kept
-//! are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
+//! [`Session::handle`] takes what happened, [`Session::poll_output`] gives what is to be done; [`Input`] and
+//! [`Output`] are the whole boundary. There is no clock, thread or socket in here: the caller hands in the
+//! time. The rules kept are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
 
 mod action;
 mod author;

@@ -14,6 +14,7 @@ use super::stats::{PhaseSeconds, Stats};
 pub struct Bench {
     document: Document,
     table: RingTable,
+    style: Style,
     sequence: u32,
     started: Instant,
     phases: Stopwatch,
@@ -27,6 +28,7 @@ impl Bench {
     /// The clock begins to run.
     pub fn new(document: Document) -> Self {
         Self {
+            style: Style::new(style_options(&document.parameters())),
             document,
             table: RingTable::new(),
             sequence: 0,
@@ -96,9 +98,12 @@ impl Bench {
     /// Makes the frame that a client in step would get.
     fn follow(&mut self) {
         let began = Instant::now();
-        let style = Style::new(style_options(&self.document.parameters()));
+        let options = style_options(&self.document.parameters());
+        if options != *self.style.options() {
+            self.style = Style::new(options);
+        }
         let sequence = self.sequence + 1;
-        let changes = self.table.sync(self.document.plant(), &style, sequence);
+        let changes = self.table.sync(self.document.plant(), &self.style, sequence);
         if !changes.is_empty() {
             self.sequence = sequence;
             self.delta_bytes += delta(&self.table, &changes, 0, sequence).encode().len() as u64;

@@ -15,6 +15,7 @@ use axum::{
     middleware::{from_fn, map_response},
     routing::{get, patch, post},
 };
+use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
 use crate::{database::Database, live::Sessions, pool::SimulationPool};
 
@@ -22,6 +23,8 @@ use crate::{database::Database, live::Sessions, pool::SimulationPool};
 const MAX_SMALL_BODY: usize = 4 * 1024;
 /// A thumbnail of 192 KiB as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = 264 * 1024;
+/// Exports at once: each holds the triangles of a whole scene, hundreds of megabytes at worst.
+const MAX_EXPORTS: usize = 1;
 
 /// What the handlers work with.
 #[derive(Clone, Debug)]
@@ -39,7 +42,10 @@ pub fn router(shared: Shared) -> Router {
     let requests = Router::new()
         .route("/api/sessions", post(sessions::create))
         .route("/api/sessions/{name}", get(sessions::find))
-        .route("/api/sessions/{name}/tree.glb", get(sessions::export))
+        .route(
+            "/api/sessions/{name}/tree.glb",
+            get(sessions::export).layer(GlobalConcurrencyLimitLayer::new(MAX_EXPORTS)),
+        )
         .route("/api/trees/{id}", patch(trees::rename).delete(trees::delete))
         .route("/api/trees/{id}/thumbnail", get(trees::thumbnail))
         .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
@@ -58,7 +64,6 @@ pub fn router(shared: Shared) -> Router {
         .route("/", get(client::page))
         .route("/s/{name}", get(client::page))
         .fallback(client::file)
-        .layer(from_fn(guard::same_origin))
-        .layer(map_response(guard::headers))
+        .layer(ServiceBuilder::new().layer(map_response(guard::headers)).layer(from_fn(guard::same_origin)))
         .with_state(shared)
 }

@@ -71,7 +71,7 @@ fn fl2_the_frame_that_did_not_fit_is_made_up_for() {
 fn fl2_a_catch_up_holds_only_what_is_stale() {
     let mut world = World::new();
     let busy = world.join("birch-01");
-    world.command(busy, 1, grow(18));
+    world.command(busy, 1, grow(27));
     world.settle();
     // One frame larger than the window is on the way, so not even a small one may follow.
     let slow = world.join("maple-01");

@@ -1,0 +1,84 @@
+import { type ChildProcess, spawn } from "node:child_process";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+const program = process.env.ESPALIER_PROGRAM ?? join(import.meta.dirname, "../../../target/debug/espalier");
+/** Only keeps a test from hanging. */
+const GUARD = 60_000;
+
+/** The real server, with a database of its own. */
+export class Server {
+  port = 0;
+  readonly #folder = mkdtempSync(join(tmpdir(), "espalier-browser-"));
+  #child: ChildProcess | null = null;
+
+  get address(): string {
+    return `http://127.0.0.1:${this.port}`;
+  }
+
+  /** Starts it, on the same port as before if there was one. */
+  async start(): Promise<void> {
+    const database = join(this.#folder, "trees.db");
+    const child = spawn(
+      program,
+      ["serve", "--host", "127.0.0.1", "--port", String(this.port), "--database", database],
+      { stdio: ["ignore", "pipe", "pipe"] },
+    );
+    this.#child = child;
+    let printed = "";
+    this.port = await new Promise<number>((resolve, reject) => {
+      const timer = setTimeout(() => reject(new Error(`the server printed no address:\n${printed}`)), GUARD);
+      const read = (chunk: Buffer) => {
+        printed += chunk.toString();
+        const port = /http:\/\/[^\s/]*:(\d+)/.exec(printed)?.[1];
+        if (port) {
+          clearTimeout(timer);
+          resolve(Number(port));
+        }
+      };
+      child.stdout.on("data", read);
+      child.stderr.on("data", read);
+      child.on("error", reject);
+      child.on("exit", (code) => reject(new Error(`the server ended with ${code}:\n${printed}`)));
+    });
+    await until("the server answers", async () => {
+      const health = await fetch(`${this.address}/health`).catch(() => null);
+      return health?.ok === true;
+    });
+  }
+
+  /** A session of its own for a test; returns its address. */
+  async newSession(seed: number): Promise<string> {
+    const answer = await fetch(`${this.address}/api/sessions`, {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: JSON.stringify({ seed }),
+    });
+    const { session } = (await answer.json()) as { session: string };
+    return `${this.address}/s/${session}`;
+  }
+
+  /** As a power cut would. */
+  async kill(): Promise<void> {
+    const child = this.#child;
+    if (!child || child.exitCode !== null || child.signalCode !== null) return;
+    const ended = new Promise((resolve) => child.once("exit", resolve));
+    child.kill("SIGKILL");
+    await ended;
+  }
+
+  async stop(): Promise<void> {
+    await this.kill();
+    rmSync(this.#folder, { recursive: true, force: true });
+  }
+}
+
+/** Asks again and again until the answer is yes. */
+export async function until(what: string, check: () => Promise<boolean> | boolean): Promise<void> {
+  const end = Date.now() + GUARD;
+  while (!(await check())) {
+    if (Date.now() > end) throw new Error(`${what}: not within ${GUARD / 1000} s`);
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}

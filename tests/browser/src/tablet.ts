@@ -1,0 +1,134 @@
+import { mkdir } from "node:fs/promises";
+import { join } from "node:path";
+import type { Browser, BrowserContext, CDPSession, Page } from "playwright-core";
+import { screenshots } from "./browser";
+import type { Darkroom, Picture } from "./picture";
+import { until } from "./server";
+
+export interface Point {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What the page tells about itself on `<html>`. */
+export interface Facts {
+  readonly connection: string;
+  readonly metamers: number;
+  readonly rows: number;
+  readonly sent: number;
+  readonly acknowledged: number;
+  readonly pending: number;
+  readonly step: number;
+}
+
+const LANDSCAPE = { width: 1194, height: 834 };
+
+/** One tablet with the page open: real touch points in, screenshots out. */
+export class Tablet {
+  readonly page: Page;
+  /** What the page wrote to its console as an error. */
+  readonly errors: string[] = [];
+  readonly #context: BrowserContext;
+  readonly #touch: CDPSession;
+  readonly #darkroom: Darkroom;
+
+  private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom) {
+    this.#context = context;
+    this.page = page;
+    this.#touch = touch;
+    this.#darkroom = darkroom;
+    page.on("pageerror", (error) => this.errors.push(String(error)));
+  }
+
+  static async open(browser: Browser, darkroom: Darkroom, address: string, size = LANDSCAPE): Promise<Tablet> {
+    const context = await browser.newContext({ viewport: size, hasTouch: true, isMobile: true, deviceScaleFactor: 1 });
+    const page = await context.newPage();
+    const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom);
+    await page.goto(address);
+    await tablet.untilReady();
+    return tablet;
+  }
+
+  async close(): Promise<void> {
+    await this.#context.close();
+  }
+
+  async facts(): Promise<Facts> {
+    return this.page.evaluate(() => {
+      const { connection = "", metamers, rows, sent, acknowledged, pending, step } = document.documentElement.dataset;
+      const [m, r, s, a, p, t] = [metamers, rows, sent, acknowledged, pending, step].map((text) => Number(text ?? -1));
+      return { connection, metamers: m!, rows: r!, sent: s!, acknowledged: a!, pending: p!, step: t! };
+    });
+  }
+
+  async until(what: string, check: (facts: Facts) => boolean): Promise<Facts> {
+    let facts = await this.facts();
+    await until(what, async () => {
+      facts = await this.facts();
+      return check(facts);
+    }).catch((error) => {
+      throw new Error(`${error}; the page says ${JSON.stringify(facts)}`);
+    });
+    return facts;
+  }
+
+  /** Connected, and rows are there: at least the seed. */
+  async untilReady(): Promise<Facts> {
+    return this.until("the page connects", (facts) => facts.connection === "connected" && facts.rows > 0);
+  }
+
+  /** All commands are durable, all growth is done. */
+  async untilQuiet(): Promise<Facts> {
+    return this.until(
+      "the growth ends",
+      (facts) => facts.connection === "connected" && facts.sent === facts.acknowledged && facts.pending === 0,
+    );
+  }
+
+  /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
+  async swipe(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
+    const length = Math.max(...paths.map((path) => path.length));
+    for (let i = 0; i < length; i++) {
+      await this.touch(
+        i === 0 ? "touchStart" : "touchMove",
+        paths.map((path) => path[Math.min(i, path.length - 1)]!),
+      );
+      await this.page.waitForTimeout(pause);
+    }
+    await this.touch("touchEnd", []);
+  }
+
+  /** One real touch event with all fingers that are down. */
+  async touch(type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Point[]): Promise<void> {
+    const touchPoints = fingers.map(({ x, y }, id) => ({ x, y, id, radiusX: 8, radiusY: 8, force: 0.5 }));
+    await this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+  }
+
+  async tap(label: string): Promise<void> {
+    await this.page.getByLabel(label, { exact: true }).first().tap();
+  }
+
+  /** What is on the screen, kept under a name for people to look at. */
+  async photograph(name: string): Promise<Picture> {
+    await mkdir(screenshots, { recursive: true });
+    // Growth eases in and the camera glides; two pictures that agree are at rest.
+    let last = await this.page.screenshot();
+    await until("the picture comes to rest", async () => {
+      await this.page.waitForTimeout(250);
+      const next = await this.page.screenshot();
+      const rests = next.equals(last);
+      last = next;
+      return rests;
+    }).catch(() => undefined);
+    await this.page.screenshot({ path: join(screenshots, `${name}.png`) });
+    return this.#darkroom.develop(last);
+  }
+}
+
+/** Points on a straight way, ends included. */
+export function way(from: Point, to: Point, count = 24): Point[] {
+  return Array.from({ length: count }, (_, i) => {
+    const t = i / (count - 1);
+    return { x: from.x + (to.x - from.x) * t, y: from.y + (to.y - from.y) * t };
+  });
+}

@@ -1,0 +1,348 @@
+//! A client of the wire: sends commands, keeps what was not acknowledged, takes in frames.
+
+use std::{collections::VecDeque, fmt::Debug, time::Duration};
+
+use espalier_proto::{ClientMessage, Command, DocumentState, Frame, Parameters, Problem, ServerMessage};
+use futures_util::{SinkExt, StreamExt};
+use tokio::{net::TcpStream, time};
+use tokio_tungstenite::{
+    MaybeTlsStream, WebSocketStream, connect_async,
+    tungstenite::{Error, Message, protocol::CloseFrame},
+};
+
+use crate::{
+    server::GUARD,
+    table::{Form, Table},
+};
+
+/// The socket beneath a client.
+pub type Socket = WebSocketStream<MaybeTlsStream<TcpStream>>;
+
+/// Whether a client answers frames, and so opens its window again (`FL1`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Receipts {
+    /// Each frame is answered at once.
+    Sent,
+    /// Frames are taken in without a word.
+    Withheld,
+}
+
+/// One person with the page open.
+#[derive(Debug)]
+pub struct Client {
+    /// `None` while the connection is lost.
+    socket: Option<Socket>,
+    /// The key it keeps.
+    pub key: String,
+    /// The session as the welcome names it.
+    pub session: String,
+    /// The rows.
+    pub table: Table,
+    /// The newest figures.
+    pub state: DocumentState,
+    /// The newest parameters.
+    pub parameters: Parameters,
+    /// The highest durable command.
+    pub acknowledged: u32,
+    /// What was sent and is not known to be durable.
+    pub unacknowledged: VecDeque<(u32, Command)>,
+    /// Whether the last welcome took up the resume.
+    pub resumed: bool,
+    /// Refused commands, in the order they came.
+    pub refused: Vec<(u32, Problem)>,
+    /// Messages that could not be read.
+    pub problems: Vec<Problem>,
+    /// Pongs.
+    pub pongs: Vec<u32>,
+    /// Bytes of all frames.
+    pub frame_bytes: usize,
+    /// Frames.
+    pub frames: usize,
+    /// Whether it answers frames.
+    pub receipts: Receipts,
+    /// Why the server closed the socket.
+    pub closed: Option<CloseFrame>,
+    next: u32,
+}
+
+/// A socket of this session on which nothing has been said.
+pub async fn open(port: u16, session: &str) -> Socket {
+    let url = format!("ws://127.0.0.1:{port}/api/sessions/{session}/socket");
+    let (socket, _) = connect_async(url).await.expect("the socket opens");
+    socket
+}
+
+/// The next message on a bare socket; `None` when it has ended.
+pub async fn next(socket: &mut Socket) -> Option<Message> {
+    loop {
+        match time::timeout(GUARD, socket.next()).await.expect("the server says something") {
+            // The server looks whether anyone is there; the answer goes out by itself.
+            Some(Ok(Message::Ping(_) | Message::Pong(_))) => continue,
+            Some(Ok(message)) => return Some(message),
+            Some(Err(_)) | None => return None,
+        }
+    }
+}
+
+/// The code a bare socket is closed with; other messages before it are passed over.
+pub async fn close_code(socket: &mut Socket) -> Option<u16> {
+    loop {
+        match next(socket).await? {
+            Message::Close(frame) => return frame.map(|frame| frame.code.into()),
+            _ => continue,
+        }
+    }
+}
+
+/// A control message as a socket message.
+pub fn text(message: &ClientMessage) -> Message {
+    Message::text(serde_json::to_string(message).expect("control messages are JSON"))
+}
+
+async fn welcome(socket: &mut Socket) -> String {
+    match next(socket).await {
+        Some(Message::Text(answer)) => answer.to_string(),
+        other => panic!("HS2: a welcome comes first, not {other:?}"),
+    }
+}
+
+impl Client {
+    /// Opens a session under this key, as far as the welcome.
+    pub async fn connect(port: u16, session: &str, key: &str) -> Self {
+        Self::connect_with(port, session, key, Receipts::Sent).await
+    }
+
+    /// The same, with a say in whether frames are answered.
+    pub async fn connect_with(port: u16, session: &str, key: &str, receipts: Receipts) -> Self {
+        let mut socket = open(port, session).await;
+        let hello = ClientMessage::Hello {
+            protocol: espalier_proto::version::PROTOCOL_VERSION,
+            client: key.to_owned(),
+            resume: None,
+        };
+        socket.send(text(&hello)).await.expect("the hello is sent");
+        let answer = welcome(&mut socket).await;
+        let Ok(ServerMessage::Welcome { session, epoch, acknowledged, parameters, state, resumed, .. }) =
+            serde_json::from_str(&answer)
+        else {
+            panic!("HS2: {answer} is no welcome")
+        };
+        Self {
+            socket: Some(socket),
+            key: key.to_owned(),
+            session,
+            table: Table::new(epoch),
+            state,
+            parameters: *parameters,
+            acknowledged,
+            unacknowledged: VecDeque::new(),
+            resumed,
+            refused: Vec::new(),
+            problems: Vec::new(),
+            pongs: Vec::new(),
+            frame_bytes: 0,
+            frames: 0,
+            receipts,
+            closed: None,
+            next: acknowledged + 1,
+        }
+    }
+
+    /// Comes back with what it has (`RS1`) and sends again what is not acknowledged (`CM1`).
+    pub async fn reconnect(&mut self, port: u16) {
+        self.socket = None;
+        self.closed = None;
+        let mut socket = open(port, &self.session).await;
+        let hello = ClientMessage::Hello {
+            protocol: espalier_proto::version::PROTOCOL_VERSION,
+            client: self.key.clone(),
+            resume: Some(self.table.resume()),
+        };
+        socket.send(text(&hello)).await.expect("the hello is sent");
+        let answer = welcome(&mut socket).await;
+        self.socket = Some(socket);
+        let message = serde_json::from_str(&answer).unwrap_or_else(|error| panic!("{error}: {answer}"));
+        self.take_control(message);
+        for (id, command) in self.unacknowledged.clone() {
+            self.send_message(&ClientMessage::Command { id, command }).await;
+        }
+    }
+
+    /// Whether the socket is still open.
+    pub fn is_connected(&self) -> bool {
+        self.socket.is_some()
+    }
+
+    /// Drops the connection without a word.
+    pub fn vanish(&mut self) {
+        self.socket = None;
+    }
+
+    /// Sends a command under the next number, which is returned. A lost connection keeps it for later.
+    pub async fn send(&mut self, command: Command) -> u32 {
+        let id = self.next;
+        self.next += 1;
+        self.unacknowledged.push_back((id, command.clone()));
+        self.send_message(&ClientMessage::Command { id, command }).await;
+        id
+    }
+
+    /// Takes the next number for a command sent by other means.
+    pub fn take_number(&mut self) -> u32 {
+        self.next += 1;
+        self.next - 1
+    }
+
+    /// Sends any control message.
+    pub async fn send_message(&mut self, message: &ClientMessage) {
+        self.send_raw(text(message)).await;
+    }
+
+    /// Sends anything at all; a socket that fails is lost.
+    pub async fn send_raw(&mut self, message: Message) {
+        if let Some(socket) = &mut self.socket
+            && socket.send(message).await.is_err()
+        {
+            self.socket = None;
+        }
+    }
+
+    /// Takes in messages until `done`, or panics after a long time.
+    pub async fn until(&mut self, what: &str, mut done: impl FnMut(&Self) -> bool) {
+        let all = async {
+            while !done(self) {
+                assert!(self.take_in().await, "{what}: the connection ended with {:?}", self.closed);
+            }
+        };
+        if time::timeout(GUARD, all).await.is_err() {
+            panic!(
+                "{what} did not happen; state {:?}, acknowledged {}, {} unacknowledged, {} rows living, refused {:?}",
+                self.state,
+                self.acknowledged,
+                self.unacknowledged.len(),
+                self.table.living(),
+                self.refused,
+            );
+        }
+    }
+
+    /// Waits until everything sent is durable and done, and all that came of it has arrived.
+    ///
+    /// A command that the document must refuse goes last: its refusal says that all before it are done.
+    pub async fn until_settled(&mut self) {
+        let marker = self.send(Command::StrokeEnd { stroke: u32::MAX }).await;
+        let refused = |client: &Self| client.refused.iter().any(|(id, _)| *id == marker);
+        self.until("everything is done", refused).await;
+        self.refused.retain(|(id, _)| *id != marker);
+        self.until("everything is durable", |client| client.acknowledged >= marker).await;
+        self.until("the rows are as many as the state says", |client| {
+            client.state.pending_steps == 0 && client.table.living() == client.state.metamers as usize
+        })
+        .await;
+        // Figures are told at intervals; the last ones may still be due.
+        self.listen(Duration::from_millis(200)).await;
+    }
+
+    /// Takes in messages until the table has this form.
+    pub async fn until_form(&mut self, form: &[Form]) {
+        let all = async {
+            while self.table.form() != form {
+                assert!(self.take_in().await, "the connection ended with {:?}", self.closed);
+            }
+        };
+        if time::timeout(GUARD, all).await.is_err() {
+            panic!("the table stays different: {}", difference(&self.table.form(), form));
+        }
+    }
+
+    /// Takes in whatever comes within this time.
+    pub async fn listen(&mut self, time: Duration) {
+        let all = async { while self.take_in().await {} };
+        // Running out of time is how this ends while the connection lives.
+        let _ = time::timeout(time, all).await;
+    }
+
+    /// Takes in one message; false when the connection has ended.
+    pub async fn take_in(&mut self) -> bool {
+        let Some(socket) = &mut self.socket else { return false };
+        match socket.next().await {
+            Some(Ok(Message::Text(text))) => {
+                let message = serde_json::from_str(&text).unwrap_or_else(|error| panic!("{error}: {text}"));
+                self.take_control(message);
+            }
+            Some(Ok(Message::Binary(bytes))) => self.take_frame(&bytes).await,
+            Some(Ok(Message::Close(frame))) => {
+                self.closed = frame;
+                self.socket = None;
+            }
+            Some(Ok(_)) => {}
+            Some(Err(Error::ConnectionClosed | Error::AlreadyClosed)) | None => self.socket = None,
+            Some(Err(_)) => self.socket = None,
+        }
+        self.socket.is_some()
+    }
+
+    async fn take_frame(&mut self, bytes: &[u8]) {
+        let frame =
+            Frame::decode(bytes).unwrap_or_else(|error| panic!("the server sent a broken frame: {error}"));
+        self.table.apply(&frame).unwrap_or_else(|error| panic!("the server broke the protocol: {error}"));
+        self.frame_bytes += bytes.len();
+        self.frames += 1;
+        if self.receipts == Receipts::Sent {
+            self.send_message(&ClientMessage::Received { sequence: frame.sequence }).await;
+        }
+    }
+
+    fn take_control(&mut self, message: ServerMessage) {
+        match message {
+            ServerMessage::Welcome { epoch, resumed, acknowledged, parameters, state, .. } => {
+                if !resumed {
+                    self.table = Table::new(epoch);
+                }
+                assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
+                self.resumed = resumed;
+                self.parameters = *parameters;
+                self.state = state;
+                self.take_acknowledgement(acknowledged);
+            }
+            ServerMessage::Acknowledged { id } => self.take_acknowledgement(id),
+            ServerMessage::Refused { id, problem } => {
+                self.unacknowledged.retain(|(other, _)| *other != id);
+                self.refused.push((id, problem));
+            }
+            ServerMessage::Problem { problem } => self.problems.push(problem),
+            ServerMessage::State { state } => self.state = state,
+            ServerMessage::Parameters { parameters } => self.parameters = *parameters,
+            ServerMessage::Pong { nonce } => self.pongs.push(nonce),
+        }
+    }
+
+    fn take_acknowledgement(&mut self, id: u32) {
+        assert!(id >= self.acknowledged, "CM2: {id} is acknowledged after {}", self.acknowledged);
+        self.acknowledged = id;
+        self.unacknowledged.retain(|(other, _)| *other > id);
+    }
+}
+
+/// Takes in messages of two clients of one session until their tables are the same, bit for bit.
+pub async fn until_equal(a: &mut Client, b: &mut Client) {
+    let all = async {
+        while a.table.rows != b.table.rows {
+            tokio::select! {
+                alive = a.take_in() => assert!(alive, "the first connection ended: {:?}", a.closed),
+                alive = b.take_in() => assert!(alive, "the second connection ended: {:?}", b.closed),
+            }
+        }
+    };
+    if time::timeout(GUARD, all).await.is_err() {
+        panic!("the tables stay different: {}", difference(&a.table.rows, &b.table.rows));
+    }
+}
+
+/// Where two tables differ, for people.
+fn difference<T: Copy + Debug + PartialEq>(a: &[T], b: &[T]) -> String {
+    let all = a.iter().zip(b).filter(|(a, b)| a != b).count();
+    let first = a.iter().zip(b).position(|(a, b)| a != b);
+    let pair = first.map(|i| (a[i], b[i]));
+    format!("{} and {} rows, {all} differ, first {first:?}: {pair:?}", a.len(), b.len())
+}

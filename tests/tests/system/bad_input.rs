@@ -1,0 +1,318 @@
+use espalier_proto::{ClientMessage, Command, DocumentState, ProblemCode};
+use espalier_tests::{client::Client, scratch::Scratch, server::Server, table::Row};
+use serde_json::{Value, json};
+use tokio_tungstenite::tungstenite::Message;
+
+/// One line of the table of parameters in `PROTOCOL.md`.
+#[derive(Clone, Copy, Debug)]
+pub struct DocumentedParameter {
+    pub name: &'static str,
+    pub default: &'static str,
+    pub range: Option<(f64, f64)>,
+}
+
+/// The table, read from the document itself, so that it cannot say something else than the server does.
+pub fn documented_parameters() -> Vec<DocumentedParameter> {
+    let document = include_str!("../../../proto/PROTOCOL.md");
+    let (_, section) = document.split_once("## Parameters").expect("the document has the section");
+    let mut found = Vec::new();
+    for line in section.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let [names, _, defaults, range] = cells[..] else { panic!("{line}") };
+        let numbers: Vec<f64> =
+            range.split([' ', ',']).filter_map(|word| word.replace('−', "-").parse().ok()).collect();
+        let range = if range.is_empty() { None } else { Some((numbers[0], numbers[1])) };
+        for (name, default) in names.split(", ").zip(defaults.split(", ")) {
+            found.push(DocumentedParameter { name: name.trim_matches('`'), default, range });
+        }
+    }
+    found
+}
+
+/// A session with a small tree, and what it looked like before the bad input.
+struct Patient {
+    client: Client,
+    state: DocumentState,
+    rows: Vec<Row>,
+    _server: Server,
+    _scratch: Scratch,
+}
+
+impl Patient {
+    async fn new() -> Self {
+        let scratch = Scratch::new();
+        let server = Server::start(&scratch.path("trees.db"));
+        let session = server.new_session(7);
+        let mut client = Client::connect(server.port(), &session, "browser-1").await;
+        client.send(Command::Grow { steps: 4, gesture: None }).await;
+        // An open stroke, so that a stroke_move is refused for its samples and not for its stroke.
+        client.send(Command::StrokeBegin { stroke: 1 }).await;
+        client.until_settled().await;
+        let (state, rows) = (client.state.clone(), client.table.rows.clone());
+        Self { client, state, rows, _server: server, _scratch: scratch }
+    }
+
+    /// A ping comes back and nothing has changed.
+    async fn is_unharmed(&mut self, after: &str) {
+        let nonce = self.client.pongs.len() as u32;
+        self.client.send_message(&ClientMessage::Ping { nonce }).await;
+        self.client.until("the session lives on", |client| client.pongs.contains(&nonce)).await;
+        // A command that waits to be refused counts as a step still to be done.
+        self.client.until("the refusal is done", |client| client.state.pending_steps == 0).await;
+        assert_eq!(self.client.state, self.state, "after {after}");
+        assert!(self.client.table.rows == self.rows, "the rows changed after {after}");
+    }
+
+    /// Sends a message that must be answered with a problem, and returns that.
+    async fn problem(&mut self, message: Message, shown: &str) -> espalier_proto::Problem {
+        let before = self.client.problems.len();
+        self.client.send_raw(message).await;
+        self.client
+            .until(&format!("CM8: a problem for {shown}"), |client| client.problems.len() > before)
+            .await;
+        self.is_unharmed(shown).await;
+        self.client.problems[before].clone()
+    }
+
+    /// Sends a command, as JSON, that must be refused, and returns why.
+    async fn refusal(&mut self, command: &Value) -> espalier_proto::Problem {
+        let shown: String = command.to_string().chars().take(120).collect();
+        let id = self.client.take_number();
+        let before = self.client.refused.len();
+        let message = json!({"type": "command", "id": id, "command": command}).to_string();
+        self.client.send_raw(Message::text(message)).await;
+        self.client.until(&format!("CM3: {shown} is refused"), |client| client.refused.len() > before).await;
+        self.is_unharmed(&shown).await;
+        let (refused, problem) = self.client.refused[before].clone();
+        assert_eq!(refused, id, "{shown}");
+        problem
+    }
+
+    /// What follows bad input still works, under the next number (`CM3`).
+    async fn still_grows(mut self) {
+        let step = self.client.state.step;
+        self.client.send(Command::Grow { steps: 1, gesture: None }).await;
+        self.client.until_settled().await;
+        assert_eq!(self.client.state.step, step + 1);
+    }
+}
+
+#[tokio::test]
+async fn cm8_a_message_that_is_no_control_message_is_a_problem() {
+    let mut patient = Patient::new().await;
+    let nested = "[".repeat(100_000);
+    let messages = [
+        "",
+        "{",
+        "null",
+        "42",
+        "\"hello\"",
+        "[]",
+        "{}",
+        r#"{"type":"dance"}"#,
+        r#"{"type":"ping"}"#,
+        r#"{"type":"ping","nonce":-1}"#,
+        r#"{"type":"ping","nonce":4294967296}"#,
+        r#"{"type":"ping","nonce":1,"more":2}"#,
+        r#"{"type":"command","id":4294967296,"command":{"kind":"undo"}}"#,
+        r#"{"type":"command","id":"3","command":{"kind":"undo"}}"#,
+        r#"{"type":"command","id":3,"command":{"kind":"grow","steps":NaN}}"#,
+        r#"{"type":"command","id":3,"command":{"kind":"plant_seed","position":[0,NaN,0]}}"#,
+        r#"{"type":"command","id":3,"command":{"kind":"plant_seed","position":[0,1e999,0]}}"#,
+        &nested,
+        &format!(r#"{{"type":"command","id":3,"command":{nested}"#),
+    ];
+    for message in messages {
+        let shown: String = message.chars().take(120).collect();
+        let problem = patient.problem(Message::text(message.to_owned()), &shown).await;
+        assert_eq!(problem.code, ProblemCode::Malformed, "{shown}: {problem:?}");
+        assert!(problem.message.len() > 10, "{shown}: {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn cm8_what_is_unknown_is_named() {
+    let mut patient = Patient::new().await;
+    for (message, name) in [
+        (r#"{"type":"dance"}"#, "dance"),
+        (r#"{"type":"ping"}"#, "nonce"),
+        (r#"{"type":"ping","nonce":1,"more":2}"#, "more"),
+    ] {
+        let problem = patient.problem(Message::text(message), message).await;
+        assert!(problem.message.contains(name), "{name} in {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn cm8_a_binary_message_is_a_problem() {
+    let mut patient = Patient::new().await;
+    for bytes in [vec![], vec![1, 1, 0, 0], vec![0xff; 60_000]] {
+        let shown = format!("{} bytes", bytes.len());
+        let problem = patient.problem(Message::binary(bytes), &shown).await;
+        assert!(problem.message.contains("inary"), "{problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn cm3_a_command_that_cannot_be_read_is_refused() {
+    let mut patient = Patient::new().await;
+    let cases = [
+        (json!({"kind": "fell"}), "fell"),
+        (json!({"kind": "grow"}), "steps"),
+        (json!({"kind": "grow", "steps": 1.5}), "steps"),
+        (json!({"kind": "grow", "steps": -1}), "steps"),
+        (json!({"kind": "grow", "steps": 1, "speed": 2}), "speed"),
+        (json!({"kind": "plant_seed", "position": [0, 0]}), "position"),
+        (json!({"kind": "plant_seed", "position": [0, "up", 0]}), "position"),
+        (json!({"kind": "stroke_move", "stroke": 1, "samples": [{"position": [0, 0, 0]}]}), "radius"),
+        (json!({"kind": "set_parameters", "parameters": {"height": 3}}), "height"),
+        (json!({"kind": "set_parameters", "parameters": {"leaf_size": "big"}}), "leaf_size"),
+        (json!({}), "kind"),
+        (json!(null), ""),
+    ];
+    for (command, word) in cases {
+        let problem = patient.refusal(&command).await;
+        assert_eq!(problem.code, ProblemCode::Malformed, "{command}: {problem:?}");
+        assert!(problem.message.len() > 10 && problem.message.contains(word), "{command}: {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+fn sample(position: [f64; 3], radius: f64) -> Value {
+    json!({"position": position, "radius": radius})
+}
+
+fn stroke_move(samples: &[Value]) -> Value {
+    json!({"kind": "stroke_move", "stroke": 1, "samples": samples})
+}
+
+#[tokio::test]
+async fn lm2_lm3_out_of_range_names_the_field_and_the_range() {
+    let mut patient = Patient::new().await;
+    let fine = sample([0.0, 1.0, 0.0], 1.0);
+    let cases = [
+        (stroke_move(&[sample([0.0, 1.0, 0.0], 1e9)]), "samples[0].radius", "0 to 40"),
+        (stroke_move(&[fine.clone(), sample([0.0, 1.0, 0.0], 40.01)]), "samples[1].radius", "0 to 40"),
+        (stroke_move(&[sample([0.0, 1.0, 0.0], -0.01)]), "samples[0].radius", "0 to 40"),
+        (stroke_move(&[sample([0.0, 1.0, 0.0], 1e39)]), "samples[0].radius", "0 to 40"),
+        (stroke_move(&[sample([1000.5, 1.0, 0.0], 1.0)]), "samples[0].position", "1000"),
+        (stroke_move(&[sample([0.0, 1000.5, 0.0], 1.0)]), "samples[0].position", "1000"),
+        (stroke_move(&[sample([0.0, -10.5, 0.0], 1.0)]), "samples[0].position", "-10"),
+        (stroke_move(&[sample([0.0, 1.0, -1e39], 1.0)]), "samples[0].position", "1000"),
+        (stroke_move(&[]), "samples", "1 to 256"),
+        (stroke_move(&vec![fine.clone(); 257]), "samples", "1 to 256"),
+        (stroke_move(&vec![fine.clone(); 5000]), "samples", "1 to 256"),
+        (json!({"kind": "grow", "steps": 0}), "steps", "1 to 1000"),
+        (json!({"kind": "grow", "steps": 1001}), "steps", "1 to 1000"),
+        (json!({"kind": "grow", "steps": u32::MAX}), "steps", "1 to 1000"),
+        (json!({"kind": "ungrow", "steps": 0}), "steps", "1 to 1000"),
+        (json!({"kind": "ungrow", "steps": 1001}), "steps", "1 to 1000"),
+        (json!({"kind": "plant_seed", "position": [1e9, 0, 0]}), "position", "1000"),
+        (json!({"kind": "plant_seed", "position": [0, 1e39, 0]}), "position", ""),
+    ];
+    for (command, field, allowed) in cases {
+        let shown: String = command.to_string().chars().take(120).collect();
+        let problem = patient.refusal(&command).await;
+        let said = problem.field.clone().unwrap_or_default();
+        assert!(said.starts_with(field), "{shown}: {problem:?}");
+        let range = problem.allowed.clone().unwrap_or_default().replace('−', "-");
+        assert!(range.contains(allowed) && !range.is_empty(), "{shown}: {problem:?}");
+        assert!(problem.message.contains(&said), "{shown}: {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn cm5_a_stroke_that_was_not_begun_is_refused() {
+    let mut patient = Patient::new().await;
+    let samples = [sample([0.0, 1.0, 0.0], 1.0)];
+    for command in [
+        json!({"kind": "stroke_move", "stroke": 2, "samples": samples}),
+        json!({"kind": "stroke_move", "stroke": u32::MAX, "samples": samples}),
+        json!({"kind": "stroke_end", "stroke": 2}),
+        json!({"kind": "stroke_begin", "stroke": 1}),
+    ] {
+        let problem = patient.refusal(&command).await;
+        assert!(problem.message.contains("stroke"), "{command}: {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn every_parameter_is_refused_beyond_both_ends() {
+    let mut patient = Patient::new().await;
+    for row in documented_parameters() {
+        let Some((low, high)) = row.range else { continue };
+        let whole =
+            serde_json::to_value(&patient.client.parameters).expect("parameters are JSON")[row.name].is_u64();
+        let below = if whole { low - 1.0 } else { low - 0.001 };
+        let above = if whole { high + 1.0 } else { high + 0.001 };
+        for value in [below, above] {
+            if whole && value < 0.0 {
+                continue;
+            }
+            let value = if whole { json!(value as u64) } else { json!(value) };
+            let command = json!({"kind": "set_parameters", "parameters": {row.name: value}});
+            let problem = patient.refusal(&command).await;
+            assert_eq!(problem.code, ProblemCode::OutOfRange, "{command}");
+            assert!(problem.field.clone().unwrap_or_default().contains(row.name), "{command}: {problem:?}");
+            let allowed = problem.allowed.clone().unwrap_or_default();
+            for end in [low, high] {
+                assert!(allowed.replace('−', "-").contains(&end.to_string()), "{command}: {problem:?}");
+            }
+        }
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn every_parameter_is_accepted_at_both_ends() {
+    let mut patient = Patient::new().await;
+    // The three weights have a sum to keep, so they move together.
+    let weights = |heading: f64, tropism: f64, space: f64| json!({"heading_weight": heading, "tropism_weight": tropism, "space_weight": space});
+    let mut patches = vec![weights(1.0, 0.0, 0.0), weights(0.0, 1.0, 0.0), weights(0.0, 0.0, 1.0)];
+    for row in documented_parameters() {
+        match row.range {
+            Some(_) if row.name.ends_with("_weight") => {}
+            Some((low, high)) => {
+                let whole = serde_json::to_value(&patient.client.parameters).expect("parameters are JSON")
+                    [row.name]
+                    .is_u64();
+                for end in [low, high] {
+                    let end = if whole { json!(end as u64) } else { json!(end) };
+                    patches.push(json!({row.name: end}));
+                }
+            }
+            None => patches.extend([json!({row.name: true}), json!({row.name: false})]),
+        }
+    }
+    for patch in patches {
+        let id = patient.client.take_number();
+        let command = json!({"kind": "set_parameters", "parameters": patch});
+        let message = json!({"type": "command", "id": id, "command": command}).to_string();
+        patient.client.send_raw(Message::text(message)).await;
+        patient.client.until(&format!("{patch} is taken"), |client| client.acknowledged >= id).await;
+        assert_eq!(patient.client.refused, [], "{patch}");
+    }
+}
+
+#[tokio::test]
+async fn a_patch_with_one_bad_value_changes_nothing() {
+    let mut patient = Patient::new().await;
+    let parameters = patient.client.parameters.clone();
+    for patch in [
+        json!({"leaf_size": 1.5, "apical_control": 0.9}),
+        json!({"heading_weight": 0.41}),
+        json!({"heading_weight": 1, "tropism_weight": 1, "space_weight": 1}),
+    ] {
+        patient.refusal(&json!({"kind": "set_parameters", "parameters": patch})).await;
+        assert_eq!(patient.client.parameters, parameters, "{patch}");
+    }
+    let key = "browser-2";
+    let session = patient.client.session.clone();
+    let other = Client::connect(patient._server.port(), &session, key).await;
+    assert_eq!(other.parameters, parameters);
+}

@@ -1,0 +1,227 @@
+use std::fs;
+
+use espalier_proto::Command;
+use espalier_tests::{program, scratch::Scratch, strokes::upward};
+use serde_json::{Value, json};
+
+const PHASES: [&str; 7] = ["space", "light", "vigor", "growth", "shedding", "girth", "delta"];
+
+/// Checks a binary glTF file's frame, and that its accessors lie inside its buffer; returns its JSON.
+pub fn is_gltf(bytes: &[u8]) -> Value {
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("four bytes")) as usize;
+    assert_eq!(&bytes[..4], b"glTF");
+    assert_eq!((word(4), word(8)), (2, bytes.len()), "version and length");
+    let json_length = word(12);
+    assert_eq!(&bytes[16..20], b"JSON");
+    let json: Value = serde_json::from_slice(&bytes[20..20 + json_length]).expect("the first chunk is JSON");
+    let binary = 20 + json_length;
+    assert_eq!(&bytes[binary + 4..binary + 8], b"BIN\0");
+    let buffer = word(binary);
+    assert_eq!(binary + 8 + buffer, bytes.len());
+    assert_eq!(json["asset"]["version"], json!("2.0"));
+    let list = |name: &str| json[name].as_array().cloned().unwrap_or_default();
+    let number = |value: &Value| value.as_u64().unwrap_or(0) as usize;
+    let views = list("bufferViews");
+    for view in &views {
+        assert!(number(&view["byteOffset"]) + number(&view["byteLength"]) <= buffer, "{view}");
+    }
+    for accessor in list("accessors") {
+        let size = match accessor["componentType"].as_u64() {
+            Some(5120 | 5121) => 1,
+            Some(5122 | 5123) => 2,
+            Some(5125 | 5126) => 4,
+            other => panic!("component type {other:?}"),
+        };
+        let parts = match accessor["type"].as_str() {
+            Some("SCALAR") => 1,
+            Some("VEC2") => 2,
+            Some("VEC3") => 3,
+            Some("VEC4") => 4,
+            other => panic!("type {other:?}"),
+        };
+        let view = &views[number(&accessor["bufferView"])];
+        let stride = view["byteStride"].as_u64().map_or(size * parts, |stride| stride as usize);
+        let count = number(&accessor["count"]);
+        assert!(count > 0, "{accessor}");
+        let end = number(&accessor["byteOffset"]) + stride * (count - 1) + size * parts;
+        assert!(end <= number(&view["byteLength"]), "{accessor}");
+    }
+    assert!(!list("meshes").is_empty());
+    json
+}
+
+fn script(scratch: &Scratch, name: &str, commands: &[Command]) -> String {
+    let lines: Vec<String> =
+        commands.iter().map(|command| serde_json::to_string(command).expect("a command is JSON")).collect();
+    let path = scratch.path(name);
+    fs::write(&path, lines.join("\n") + "\n").expect("the scratch folder can be written");
+    path.to_str().expect("a plain name").to_owned()
+}
+
+fn tree() -> Vec<Command> {
+    let mut commands = upward(1, 10.0, 2.5);
+    commands.push(Command::Grow { steps: 3, gesture: None });
+    commands
+}
+
+fn stats(arguments: &[&str]) -> Value {
+    let finished = program::run(arguments);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    serde_json::from_str(&finished.stdout)
+        .unwrap_or_else(|error| panic!("one JSON object on standard output: {error}: {}", finished.stdout))
+}
+
+/// What must not differ from run to run.
+fn outcome(stats: &Value) -> Value {
+    let keys = ["metamers_alive", "metamers_grown", "axes", "leaves", "steps", "delta_bytes", "plant_hash"];
+    keys.map(|key| stats[key].clone()).to_vec().into()
+}
+
+#[test]
+fn stats_are_one_object_with_all_its_keys() {
+    let scratch = Scratch::new();
+    let script = script(&scratch, "tree.jsonl", &tree());
+    let out = scratch.path("tree.json");
+    let out = out.to_str().expect("a plain name");
+    for stats in [
+        stats(&["replay", &script, "--export", out, "--stats", "json"]),
+        stats(&["grow", "--metamers", "500", "--seed", "3", "--stats", "json"]),
+    ] {
+        for key in [
+            "metamers_alive",
+            "metamers_grown",
+            "axes",
+            "leaves",
+            "steps",
+            "delta_bytes",
+            "peak_memory_bytes",
+        ] {
+            assert!(stats[key].as_u64().is_some_and(|n| n > 0), "{key} in {stats}");
+        }
+        for key in ["seconds_total", "seconds_last_step"] {
+            assert!(stats[key].as_f64().is_some_and(|n| n >= 0.0), "{key} in {stats}");
+        }
+        for phase in PHASES {
+            assert!(stats["seconds"][phase].as_f64().is_some_and(|n| n >= 0.0), "{phase} in {stats}");
+        }
+        assert!(stats["metamers_grown"].as_u64() >= stats["metamers_alive"].as_u64());
+        assert!(stats["plant_hash"].as_str().is_some_and(|hash| hash.len() >= 16), "{stats}");
+    }
+}
+
+#[test]
+fn grow_reaches_the_number_asked_for() {
+    let stats = stats(&["grow", "--metamers", "2000", "--seed", "3", "--stats", "json"]);
+    assert!(stats["metamers_alive"].as_u64().is_some_and(|n| n >= 2000), "{stats}");
+}
+
+#[test]
+fn the_plant_is_the_same_on_any_number_of_threads() {
+    let scratch = Scratch::new();
+    let script = script(&scratch, "tree.jsonl", &tree());
+    let grow = |threads: &str| {
+        outcome(&stats(&[
+            "grow",
+            "--metamers",
+            "3000",
+            "--seed",
+            "3",
+            "--stats",
+            "json",
+            "--threads",
+            threads,
+        ]))
+    };
+    let replay =
+        |threads: &str| outcome(&stats(&["replay", &script, "--stats", "json", "--threads", threads]));
+    let (grown, replayed) = (grow("1"), replay("1"));
+    for threads in ["1", "2", "8"] {
+        assert_eq!(grow(threads), grown, "{threads} threads");
+        assert_eq!(replay(threads), replayed, "{threads} threads");
+    }
+    let other = stats(&["grow", "--metamers", "3000", "--seed", "4", "--stats", "json"]);
+    assert_ne!(outcome(&other), grown, "another seed is another tree");
+}
+
+#[test]
+fn replay_writes_gltf_with_the_trees_triangles() {
+    let scratch = Scratch::new();
+    let script = script(&scratch, "tree.jsonl", &tree());
+    let out = scratch.path("tree.glb");
+    let finished = program::run(&["replay", &script, "--export", out.to_str().expect("a plain name")]);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    let json = is_gltf(&fs::read(&out).expect("the file was written"));
+    let indices = &json["meshes"][0]["primitives"][0]["indices"];
+    let accessor = &json["accessors"][indices.as_u64().expect("the mesh is indexed") as usize];
+    let count = accessor["count"].as_u64().expect("an accessor counts");
+    assert!(count > 500 && count.is_multiple_of(3), "{count} indices");
+}
+
+#[test]
+fn replay_writes_the_skeleton_as_json() {
+    let scratch = Scratch::new();
+    let script = script(&scratch, "tree.jsonl", &tree());
+    let out = scratch.path("tree.json");
+    let stats =
+        stats(&["replay", &script, "--export", out.to_str().expect("a plain name"), "--stats", "json"]);
+    let json: Value =
+        serde_json::from_slice(&fs::read(&out).expect("the file was written")).expect("it is JSON");
+    let metamers = json["metamers"].as_array().expect("the skeleton lists its metamers");
+    // The seed is in the list, and is no metamer.
+    assert_eq!(metamers.len() as u64, stats["metamers_alive"].as_u64().expect("a number") + 1);
+    for (i, metamer) in metamers.iter().enumerate() {
+        for key in ["parent", "position", "radius", "order", "birth"] {
+            assert!(metamer.get(key).is_some(), "{key} in {metamer}");
+        }
+        assert_eq!(metamer["position"].as_array().map(Vec::len), Some(3));
+        if let Some(parent) = metamer["parent"].as_u64() {
+            assert!((parent as usize) < i, "metamer {i} follows its parent {parent}");
+        }
+    }
+}
+
+#[test]
+fn a_broken_line_is_named_and_nothing_is_written() {
+    let scratch = Scratch::new();
+    let good = serde_json::to_string(&Command::Grow { steps: 1, gesture: None }).expect("a command is JSON");
+    for (bad, word) in [
+        ("{\"kind\":\"grow\",\"steps\":", ""),
+        ("{\"kind\":\"fell\"}", "fell"),
+        ("{\"kind\":\"grow\",\"steps\":100000}", "1 to 1000"),
+        ("{\"kind\":\"stroke_move\",\"stroke\":1,\"samples\":[{\"position\":[0,NaN,0],\"radius\":1}]}", ""),
+        ("{\"kind\":\"set_parameters\",\"parameters\":{\"apical_control\":2}}", "apical_control"),
+        ("{\"kind\":\"undo\"} trailing", ""),
+    ] {
+        let path = scratch.path("broken.jsonl");
+        fs::write(&path, format!("{good}\n\n{bad}\n{good}\n")).expect("the scratch folder can be written");
+        let out = scratch.path("tree.glb");
+        let (path, name) = (path.to_str().expect("a plain name"), out.to_str().expect("a plain name"));
+        let finished = program::run(&["replay", path, "--export", name, "--stats", "json"]);
+        assert_eq!(finished.code, 2, "{bad}: {}", finished.stderr);
+        assert!(finished.stderr.contains("line 3"), "{bad}: {}", finished.stderr);
+        assert!(finished.stderr.contains(word), "{bad}: {}", finished.stderr);
+        assert!(finished.stdout.is_empty(), "{bad}: {}", finished.stdout);
+        assert!(!out.exists(), "{bad}: a file was written all the same");
+    }
+}
+
+#[test]
+fn wrong_arguments_are_refused_with_a_sentence() {
+    let scratch = Scratch::new();
+    let script = script(&scratch, "tree.jsonl", &tree());
+    let odd = scratch.path("tree.dwg");
+    let odd = odd.to_str().expect("a plain name");
+    for arguments in [
+        vec!["replay", &script, "--export", odd],
+        vec!["replay", "/nowhere/tree.jsonl"],
+        vec!["grow", "--metamers", "0"],
+        vec!["grow", "--metamers", "many"],
+        vec!["replay", &script, "--export", "/nowhere/tree.glb"],
+        vec!["prune"],
+    ] {
+        let finished = program::run(&arguments);
+        assert_ne!(finished.code, 0, "{arguments:?}");
+        assert!(finished.code == 1 || finished.code == 2, "{arguments:?}: {}", finished.code);
+        assert!(finished.stderr.len() > 10 && !finished.stderr.contains("panicked"), "{}", finished.stderr);
+    }
+}

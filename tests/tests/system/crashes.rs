@@ -1,0 +1,149 @@
+use std::time::Duration;
+
+use espalier_proto::{Command, ParametersPatch};
+use espalier_tests::{
+    client::Client,
+    scratch::Scratch,
+    server::Server,
+    strokes::{line, stroke},
+};
+
+const KILLS: usize = 20;
+const SEED: u32 = 11;
+
+/// A small generator, so that a failing run can be repeated.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self, sides: u64) -> u64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 33) % sides
+    }
+}
+
+/// Where the strokes go, seen from above.
+const AROUND: [[f32; 2]; 7] =
+    [[6.0, 0.0], [-3.0, 5.0], [1.0, -6.0], [-5.0, -3.0], [4.0, 4.0], [0.0, 6.0], [-6.0, 1.0]];
+
+/// One stroke for each kill, with parameters and undo between them.
+fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
+    (0..KILLS as u32)
+        .map(|number| {
+            let [x, z] = AROUND[number as usize % AROUND.len()];
+            let height = 4.0 + number as f32 * 0.5;
+            let to = [x, height + 4.0, z];
+            let radius = if dice.roll(3) == 0 { 0.0 } else { 1.0 };
+            let mut commands = stroke(number, &line([0.0, height * 0.5, 0.0], to, 24), radius, 2);
+            match dice.roll(4) {
+                0 => commands.push(Command::Undo {}),
+                1 => commands.push(Command::SetParameters {
+                    parameters: ParametersPatch { apical_control: Some(0.48), ..Default::default() },
+                }),
+                2 => commands.push(Command::Grow { steps: 1, gesture: Some(number) }),
+                _ => {}
+            }
+            commands
+        })
+        .collect()
+}
+
+/// The tree these commands grow when nothing goes wrong.
+async fn reference(server: &Server, commands: impl Iterator<Item = Command>) -> Client {
+    let session = server.new_session(SEED);
+    let mut client = Client::connect(server.port(), &session, "reference").await;
+    for command in commands {
+        client.send(command).await;
+    }
+    client.until_settled().await;
+    client
+}
+
+#[tokio::test]
+async fn twenty_kills_lose_and_double_nothing_acknowledged() {
+    let mut dice = Dice(2026);
+    let strokes = script(&mut dice);
+    let commands: Vec<Command> = strokes.iter().flatten().cloned().collect();
+    let scratch = Scratch::new();
+    let mut server = Server::start(&scratch.path("trees.db"));
+    let session = server.new_session(SEED);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    let mut cut_short = 0;
+    for stroke in strokes {
+        // Somewhere in the middle of the stroke, with some of it on its way.
+        let last_words = 2 + dice.roll(stroke.len() as u64 - 3) as usize;
+        for (i, command) in stroke.into_iter().enumerate() {
+            client.send(command).await;
+            if i + 1 == last_words {
+                client.listen(Duration::from_millis(dice.roll(60))).await;
+                cut_short += usize::from(!client.unacknowledged.is_empty());
+                let promised = client.acknowledged;
+                server = server.kill_and_restart();
+                client.reconnect(server.port()).await;
+                assert!(client.acknowledged >= promised, "CM2: {} after {promised}", client.acknowledged);
+            } else {
+                client.listen(Duration::from_millis(2)).await;
+            }
+        }
+    }
+    client.until("all is durable", |client| client.acknowledged as usize == commands.len()).await;
+    client.until_settled().await;
+    assert_eq!(client.refused, []);
+    assert!(cut_short > 0, "some kills came between sending and acknowledging");
+
+    let wanted = reference(&server, commands.into_iter()).await;
+    client.until_form(&wanted.table.form()).await;
+    assert!(client.state.metamers > 100, "the strokes grew {} metamers", client.state.metamers);
+}
+
+#[tokio::test]
+async fn what_was_acknowledged_is_there_even_if_nobody_resends() {
+    let mut dice = Dice(7);
+    let commands: Vec<Command> = script(&mut dice).into_iter().take(4).flatten().collect();
+    let scratch = Scratch::new();
+    let mut server = Server::start(&scratch.path("trees.db"));
+    let session = server.new_session(SEED);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    for command in &commands {
+        client.send(command.clone()).await;
+    }
+    client
+        .until("half of it is acknowledged", |client| client.acknowledged as usize >= commands.len() / 2)
+        .await;
+    let promised = client.acknowledged;
+    server = server.kill_and_restart();
+
+    // The same key without the memory of what it sent.
+    let mut viewer = Client::connect(server.port(), &session, "browser-1").await;
+    let durable = viewer.acknowledged;
+    assert!(durable >= promised, "CM2: {durable} after {promised}");
+    viewer.until_settled().await;
+    let wanted = reference(&server, commands.into_iter().take(durable as usize)).await;
+    viewer.until_form(&wanted.table.form()).await;
+}
+
+#[tokio::test]
+async fn sigterm_stops_cleanly_and_keeps_everything() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start(&database);
+    let session = server.new_session(SEED);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    client.send(Command::Grow { steps: 8, gesture: None }).await;
+    client.until_settled().await;
+    let rows = client.table.form();
+
+    let ending = tokio::task::spawn_blocking(move || server.terminate());
+    while client.take_in().await {}
+    assert_eq!(client.closed.as_ref().map(|frame| u16::from(frame.code)), Some(1001), "going away");
+    assert_eq!(ending.await.expect("the wait ends").code(), Some(0));
+
+    let server = Server::start(&database);
+    client.reconnect(server.port()).await;
+    client.until_form(&rows).await;
+    // The document does not just look the same: it goes on the same.
+    client.send(Command::Grow { steps: 2, gesture: None }).await;
+    client.until_settled().await;
+    let grown = [8, 2].map(|steps| Command::Grow { steps, gesture: None });
+    let wanted = reference(&server, grown.into_iter()).await;
+    client.until_form(&wanted.table.form()).await;
+}

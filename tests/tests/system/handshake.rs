@@ -1,0 +1,139 @@
+use espalier_proto::{ClientMessage, Command, Parameters};
+use espalier_tests::{
+    client::{self, Client},
+    scratch::Scratch,
+    server::Server,
+};
+use futures_util::SinkExt;
+use serde_json::json;
+
+use crate::bad_input::documented_parameters;
+use tokio_tungstenite::tungstenite::Message;
+
+fn server() -> (Server, Scratch) {
+    let scratch = Scratch::new();
+    (Server::start(&scratch.path("trees.db")), scratch)
+}
+
+async fn code_after(server: &Server, session: &str, first: Message) -> Option<u16> {
+    let mut socket = client::open(server.port(), session).await;
+    // The server may close before the message is out; its code is what counts.
+    let _ = socket.send(first).await;
+    client::close_code(&mut socket).await
+}
+
+#[tokio::test]
+async fn hs1_anything_but_a_hello_first_closes_4001() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    let hello = |key: &str| Message::text(json!({"type": "hello", "protocol": 1, "client": key}).to_string());
+    let firsts = [
+        Message::text(r#"{"type":"ping","nonce":1}"#),
+        Message::text("hello"),
+        Message::text(""),
+        Message::binary(vec![1, 2, 3]),
+        Message::text(r#"{"type":"command","id":1,"command":{"kind":"grow","steps":1}}"#),
+        Message::text(r#"{"type":"hello","protocol":1}"#),
+        hello("short"),
+        hello(&"x".repeat(65)),
+        hello("with spaces in it"),
+        hello("mit-Umläuten"),
+    ];
+    for first in firsts {
+        assert_eq!(code_after(&server, &session, first.clone()).await, Some(4001), "{first:?}");
+    }
+}
+
+#[tokio::test]
+async fn hs1_silence_closes_4001() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    let mut socket = client::open(server.port(), &session).await;
+    assert_eq!(client::close_code(&mut socket).await, Some(4001));
+}
+
+#[tokio::test]
+async fn hs1_another_protocol_closes_4000() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    for protocol in [0, 2, u32::MAX] {
+        let hello = json!({"type": "hello", "protocol": protocol, "client": "browser-1"}).to_string();
+        assert_eq!(code_after(&server, &session, Message::text(hello)).await, Some(4000), "{protocol}");
+    }
+}
+
+#[tokio::test]
+async fn hs2_the_welcome_tells_all_of_a_new_session() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    assert_eq!(client.session, session);
+    assert_eq!(client.acknowledged, 0);
+    assert!(!client.resumed);
+    assert_eq!(client.state.people, 1);
+    assert_eq!(client.state.pending_steps, 0);
+    assert!(client.state.metamer_budget > 0);
+    assert!(!client.state.can_undo && !client.state.can_redo);
+    let parameters = serde_json::to_value(&client.parameters).expect("parameters are JSON");
+    let mut names: Vec<&str> =
+        parameters.as_object().expect("they are an object").keys().map(String::as_str).collect();
+    let mut documented: Vec<&str> = documented_parameters().iter().map(|row| row.name).collect();
+    names.sort_unstable();
+    documented.sort_unstable();
+    assert_eq!(documented, names);
+    assert_eq!(client.parameters, documented_defaults(&client.parameters));
+    client.until("the first seed arrives", |client| !client.table.rows.is_empty()).await;
+    assert_eq!(client.table.rows[0].parent, 0, "FR5: the first row is a seed");
+    assert_eq!(client.table.rows[0].position, [0; 3]);
+}
+
+/// The defaults as `PROTOCOL.md` states them.
+fn documented_defaults(actual: &Parameters) -> Parameters {
+    let mut value = serde_json::to_value(actual).expect("parameters are JSON");
+    for row in documented_parameters() {
+        value[row.name] = match row.default {
+            "true" | "false" => json!(row.default == "true"),
+            number if value[row.name].is_u64() => {
+                json!(number.parse::<u32>().expect("a default is a number"))
+            }
+            number => json!(number.parse::<f32>().expect("a default is a number")),
+        };
+    }
+    serde_json::from_value(value).expect("the documented names are the parameters' names")
+}
+
+#[tokio::test]
+async fn hs2_the_welcome_says_what_is_durable() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    let mut client = Client::connect(server.port(), &session, "browser-1").await;
+    for _ in 0..3 {
+        client.send(Command::Grow { steps: 1, gesture: None }).await;
+    }
+    client.until("all three are durable", |client| client.acknowledged == 3).await;
+    client.vanish();
+    assert_eq!(Client::connect(server.port(), &session, "browser-1").await.acknowledged, 3);
+    assert_eq!(Client::connect(server.port(), &session, "browser-2").await.acknowledged, 0);
+}
+
+#[tokio::test]
+async fn hs3_an_unknown_session_closes_4003() {
+    let (server, _scratch) = server();
+    for session in ["nowhere", "%2e%2e", &"x".repeat(500)] {
+        let hello = ClientMessage::Hello { protocol: 1, client: "browser-1".into(), resume: None };
+        assert_eq!(code_after(&server, session, client::text(&hello)).await, Some(4003), "{session}");
+    }
+}
+
+#[tokio::test]
+async fn hs4_a_newer_socket_closes_the_older_with_4004() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    let mut older = Client::connect(server.port(), &session, "browser-1").await;
+    let mut newer = Client::connect(server.port(), &session, "browser-1").await;
+    while older.take_in().await {}
+    assert_eq!(older.closed.map(|frame| u16::from(frame.code)), Some(4004));
+    newer.send(Command::Grow { steps: 1, gesture: None }).await;
+    newer.until_settled().await;
+    assert_eq!(newer.state.people, 1);
+}

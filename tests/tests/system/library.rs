@@ -1,0 +1,176 @@
+use espalier_proto::Command;
+use espalier_tests::{client::Client, http, scratch::Scratch, server::Server, strokes::upward};
+use serde_json::{Value, json};
+
+/// A PNG of one red pixel.
+const PICTURE: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8jx0gAAAABJRU5ErkJggg==";
+
+struct Library {
+    server: Server,
+    client: Client,
+    _scratch: Scratch,
+}
+
+impl Library {
+    /// A server with one session in which something has grown.
+    async fn new() -> Self {
+        let scratch = Scratch::new();
+        let server = Server::start(&scratch.path("trees.db"));
+        let session = server.new_session(7);
+        let mut client = Client::connect(server.port(), &session, "browser-1").await;
+        for command in upward(1, 8.0, 2.0) {
+            client.send(command).await;
+        }
+        client.until_settled().await;
+        Self { server, client, _scratch: scratch }
+    }
+
+    fn ask(&self, method: &str, path: &str, body: Option<Value>) -> http::Answer {
+        http::send(self.server.port(), method, path, body.as_ref()).expect("the server answers")
+    }
+
+    fn save(&self, name: &str) -> Value {
+        let body = json!({"session": self.client.session, "name": name, "thumbnail": PICTURE});
+        let answer = self.ask("POST", "/api/trees", Some(body));
+        assert_eq!(answer.status, 201, "{}", answer.text());
+        answer.json()
+    }
+
+    fn names(&self) -> Vec<String> {
+        let list = self.ask("GET", "/api/trees", None).json();
+        let trees = list.as_array().expect("the library is a list");
+        trees.iter().map(|tree| tree["name"].as_str().expect("a tree has a name").to_owned()).collect()
+    }
+}
+
+#[tokio::test]
+async fn a_saved_tree_is_listed_renamed_and_deleted() {
+    let library = Library::new().await;
+    assert_eq!(library.names(), Vec::<String>::new());
+    let first = library.save("Pear");
+    let second = library.save("Äpfel & Birnen 🌳");
+    assert_eq!(library.names(), ["Äpfel & Birnen 🌳", "Pear"], "newest first");
+    assert_eq!(first["metamers"], json!(library.client.state.metamers));
+    let time = first["saved_at"].as_str().expect("a tree has a time");
+    assert!(
+        time.len() >= 20 && time.as_bytes()[10] == b'T' && time.ends_with('Z'),
+        "RFC 3339 in UTC: {time}"
+    );
+
+    let path = format!("/api/trees/{}", first["id"].as_str().expect("a tree has an id"));
+    let renamed = library.ask("PATCH", &path, Some(json!({"name": "Quince"})));
+    assert_eq!((renamed.status, renamed.json()["name"].clone()), (200, json!("Quince")));
+    assert_eq!(library.names(), ["Äpfel & Birnen 🌳", "Quince"]);
+    assert_eq!(library.ask("DELETE", &path, None).status, 204);
+    assert_eq!(library.names(), ["Äpfel & Birnen 🌳"]);
+    for (method, body) in [("DELETE", None), ("PATCH", Some(json!({"name": "Gone"})))] {
+        assert_eq!(library.ask(method, &path, body).status, 404, "{method}");
+    }
+    assert_eq!(second["name"], json!("Äpfel & Birnen 🌳"));
+}
+
+#[tokio::test]
+async fn a_thumbnail_comes_back_as_it_was() {
+    let library = Library::new().await;
+    let tree = library.save("Pear");
+    let id = tree["id"].as_str().expect("a tree has an id");
+    let link = tree["thumbnail"].as_str().expect("a tree with a picture has a link to it");
+    assert_eq!(link, format!("/api/trees/{id}/thumbnail"));
+    let picture = library.ask("GET", link, None);
+    assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
+    assert!(picture.body.starts_with(b"\x89PNG\r\n\x1a\n") && picture.body.ends_with(b"IEND\xaeB`\x82"));
+}
+
+#[tokio::test]
+async fn a_reopened_tree_is_the_same_and_another_document() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"]})));
+    assert_eq!(answer.status, 201, "{}", answer.text());
+    let session = answer.json()["session"].as_str().expect("a session has a name").to_owned();
+    assert_ne!(session, library.client.session);
+    let port = library.server.port();
+    let mut reopened = Client::connect(port, &session, "browser-2").await;
+    reopened.until_form(&library.client.table.form()).await;
+
+    // Both go on alike, each for itself.
+    reopened.send(Command::Grow { steps: 3, gesture: None }).await;
+    reopened.until_settled().await;
+    assert_ne!(reopened.table.form(), library.client.table.form());
+    library.client.send(Command::Grow { steps: 3, gesture: None }).await;
+    library.client.until_settled().await;
+    reopened.until_form(&library.client.table.form()).await;
+}
+
+#[tokio::test]
+async fn the_library_outlives_a_kill() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    library.server = library.server.kill_and_restart();
+    assert_eq!(library.names(), ["Pear"]);
+    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"]})));
+    assert_eq!(answer.status, 201, "{}", answer.text());
+}
+
+#[tokio::test]
+async fn bad_requests_name_what_is_wrong() {
+    let library = Library::new().await;
+    let session = library.client.session.clone();
+    let long = "x".repeat(81);
+    let heavy = format!("data:image/png;base64,{}", "A".repeat(300 * 1024));
+    let cases = [
+        ("POST", "/api/trees", json!({"session": session, "name": ""}), 400, "name"),
+        ("POST", "/api/trees", json!({"session": session, "name": long}), 400, "name"),
+        ("POST", "/api/trees", json!({"session": session}), 400, "name"),
+        (
+            "POST",
+            "/api/trees",
+            json!({"session": session, "name": "a", "thumbnail": "javascript:1"}),
+            400,
+            "thumbnail",
+        ),
+        ("POST", "/api/trees", json!({"session": session, "name": "a", "thumbnail": heavy}), 413, ""),
+        ("POST", "/api/trees", json!({"session": "nowhere", "name": "a"}), 404, "session"),
+        ("POST", "/api/sessions", json!({"tree": "nothing"}), 404, "tree"),
+        ("POST", "/api/sessions", json!({"seed": -1}), 400, "seed"),
+        ("POST", "/api/sessions", json!({"sead": 1}), 400, "sead"),
+    ];
+    for (method, path, body, status, word) in cases {
+        let shown: String = body.to_string().chars().take(100).collect();
+        let answer = library.ask(method, path, Some(body));
+        assert_eq!(answer.status, status, "{path} {shown}: {}", answer.text());
+        let problem: espalier_proto::Problem = serde_json::from_slice(&answer.body)
+            .unwrap_or_else(|error| panic!("{shown}: {error} in {}", answer.text()));
+        let said = format!("{} {}", problem.field.unwrap_or_default(), problem.message);
+        assert!(said.contains(word), "{shown}: {said}");
+    }
+    assert_eq!(library.ask("GET", "/api/sessions/nowhere", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/trees/nothing/thumbnail", None).status, 404);
+    assert_eq!(library.names(), Vec::<String>::new());
+}
+
+#[tokio::test]
+async fn tree_glb_is_binary_gltf() {
+    let library = Library::new().await;
+    let answer = library.ask("GET", &format!("/api/sessions/{}/tree.glb", library.client.session), None);
+    assert_eq!((answer.status, answer.header("content-type")), (200, Some("model/gltf-binary")));
+    crate::command_line::is_gltf(&answer.body);
+    assert_eq!(library.ask("GET", "/api/sessions/nowhere/tree.glb", None).status, 404);
+}
+
+#[tokio::test]
+async fn the_page_is_served_at_its_links() {
+    let library = Library::new().await;
+    for path in ["/".to_owned(), format!("/s/{}", library.client.session)] {
+        let page = library.ask("GET", &path, None);
+        assert_eq!(page.status, 200, "{path}");
+        assert!(
+            page.header("content-type").is_some_and(|kind| kind.starts_with("text/html")),
+            "{}",
+            page.headers
+        );
+        assert!(page.text().contains("<script"), "{path}");
+    }
+    let health = library.ask("GET", "/health", None);
+    assert_eq!((health.status, health.text().trim().to_owned()), (200, "ok".to_owned()));
+}

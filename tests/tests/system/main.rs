@@ -1,0 +1,11 @@
+//! The system from outside: the real program, a real socket, a real database.
+
+mod bad_input;
+mod command_line;
+mod commands;
+mod crashes;
+mod handshake;
+mod library;
+mod shared_tree;
+mod slow_clients;
+mod startup;
