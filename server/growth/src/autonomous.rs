@@ -21,36 +21,42 @@ use crate::{
     space::{Contest, Space},
 };
 
-/// Markers of each bud known to be occupied, one bit each.
+/// What earlier looks around have taught about each bud. Forgetting it changes nothing but the time it takes.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct ClosedMarkers {
-    /// Only valid for the node the bud was at when it was written.
-    closed: Vec<Closed>,
+pub(crate) struct Memory {
+    memories: Vec<Remembered>,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Closed {
+/// What is remembered of one bud.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Remembered {
+    /// The node the bud was at; elsewhere its other markers make this worthless.
     node: u32,
-    markers: u32,
+    /// Markers known to be occupied, one bit each.
+    pub closed: u32,
+    /// The bud that last took a marker away, for it will often take the next.
+    pub rival: Option<AxisId>,
 }
 
-impl ClosedMarkers {
-    /// The markers known to be occupied of a bud at a node.
-    pub(crate) fn of(&self, axis: AxisId, node: u32) -> u32 {
-        self.closed.get(axis.index()).filter(|closed| closed.node == node).map_or(0, |closed| closed.markers)
+impl Memory {
+    /// What is remembered of a bud at a node.
+    pub(crate) fn of(&self, axis: AxisId, node: u32) -> Remembered {
+        let nothing = Remembered { node, closed: 0, rival: None };
+        self.memories.get(axis.index()).filter(|memory| memory.node == node).copied().unwrap_or(nothing)
     }
 
-    /// Notes them.
-    pub(crate) fn set(&mut self, axis: AxisId, node: u32, markers: u32) {
-        if axis.index() >= self.closed.len() {
-            self.closed.resize(axis.index() + 1, Closed::default());
+    /// Remembers it.
+    pub(crate) fn set(&mut self, axis: AxisId, memory: Remembered) {
+        if axis.index() >= self.memories.len() {
+            let nothing = Remembered { node: u32::MAX, closed: 0, rival: None };
+            self.memories.resize(axis.index() + 1, nothing);
         }
-        self.closed[axis.index()] = Closed { node, markers };
+        self.memories[axis.index()] = memory;
     }
 
     /// Forgets everything: some node has gone, or parameters are others.
-    pub(crate) fn reopen(&mut self) {
-        self.closed.clear();
+    pub(crate) fn forget(&mut self) {
+        self.memories.clear();
     }
 }
 
@@ -59,43 +65,36 @@ pub(crate) fn all_markers(parameters: &Parameters) -> u32 {
     u32::MAX >> (32 - parameters.markers_per_bud)
 }
 
-/// What a bud finds around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Finding {
-    /// The direction E towards the free space it has won, if any.
-    pub space: Option<Vec3>,
-    /// The markers known to be occupied.
-    pub closed: u32,
-}
-
-/// Lets a bud at a node look at those of its markers that are not known to be occupied.
+/// Lets a bud look at those of its markers that are not known to be occupied. Returns the direction E towards
+/// the free space it has won, if any, and what it has learnt.
 pub(crate) fn look_around(
     axis: AxisId,
-    node: u32,
-    closed: u32,
+    memory: Remembered,
     space: &Space,
     parameters: &ParameterTable,
     seed: u32,
-) -> Finding {
-    let mut finding = Finding { space: None, closed };
-    let Some(bud) = space.bud(axis) else { return finding };
+) -> (Option<Vec3>, Remembered) {
+    let (closed, mut memory) = (memory.closed, memory);
+    let Some(bud) = space.bud(axis) else { return (None, memory) };
     let own = parameters.of(axis);
-    let draw = Draw::new(seed, Purpose::Autonomous, axis.raw(), node);
+    let draw = Draw::new(seed, Purpose::Autonomous, axis.raw(), memory.node);
     let (u, w) = bud.direction.any_orthonormal_pair();
     let mut sum = Vec3::ZERO;
     for marker in (0..own.markers_per_bud).filter(|marker| closed >> marker & 1 == 0) {
         let [across, along, aside] = offset(own, draw, marker);
         let offset = u * across + bud.direction * along + w * aside;
         let place = bud.position + offset;
+        if memory.rival.is_some_and(|rival| space.outdoes(rival, axis, place, own)) {
+            continue;
+        }
         let contest = if place.y > 0.0 { space.contest(axis, place, own) } else { Contest::Occupied };
         match contest {
             Contest::Won => sum += offset.normalize(),
-            Contest::Lost => {}
-            Contest::Occupied => finding.closed |= 1 << marker,
+            Contest::LostTo(rival) => memory.rival = Some(rival),
+            Contest::Occupied => memory.closed |= 1 << marker,
         }
     }
-    finding.space = sum.try_normalize();
-    finding
+    (sum.try_normalize(), memory)
 }
 
 /// A marker uniform in the perception volume, a truncated cone with spherical base, as coordinates across the
@@ -135,8 +134,9 @@ mod tests {
         let mut space = Space::new();
         let axis = AxisId::new(0);
         space.place_bud(axis, Vec3::Y * 20.0, Vec3::Y);
-        let look = |space: &Space| look_around(axis, 1, 0, space, &parameters, 1);
-        assert!(look(&space).space.is_some() && look(&space).closed == 0);
+        let blank = Memory::default().of(axis, 1);
+        let look = |space: &Space| look_around(axis, blank, space, &parameters, 1);
+        assert!(look(&space).0.is_some() && look(&space).1 == blank);
         let mut next = 0;
         for x in -4..=4 {
             for y in 0..=6 {
@@ -147,6 +147,7 @@ mod tests {
                 }
             }
         }
-        assert_eq!(look(&space), Finding { space: None, closed: all_markers(parameters.scene()) });
+        let (found, memory) = look(&space);
+        assert_eq!((found, memory.closed), (None, all_markers(parameters.scene())));
     }
 }

@@ -135,6 +135,9 @@ impl PlaceGrid {
         let limit = radius * radius;
         let mut visit_block = |block: &Block| {
             let squares = block.distances_squared(place);
+            if squares.iter().fold(f32::INFINITY, |least, &square| least.min(square)) > limit {
+                return Visit::Go;
+            }
             for (lane, &square) in squares.iter().enumerate() {
                 if square <= limit && visit(block.number[lane], square) == Visit::Stop {
                     return Visit::Stop;

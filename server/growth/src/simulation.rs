@@ -7,7 +7,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    autonomous::{self, ClosedMarkers, Finding},
+    autonomous::{self, Memory, Remembered},
     brush::{BrushPiece, StrokeId},
     gravimorphism::propensity,
     guide::Guide,
@@ -74,7 +74,7 @@ struct Scratch {
     /// Q of each bud.
     input: Vec<f32>,
     flow: VigorFlow,
-    closed: ClosedMarkers,
+    memory: Memory,
 }
 
 /// Work smaller than this is not worth handing to other threads.
@@ -161,7 +161,7 @@ impl Simulation {
 
     /// Changes the parameters; growth from here on uses them.
     pub fn set_parameters(&mut self, parameters: Parameters) {
-        self.scratch.closed.reopen();
+        self.scratch.memory.forget();
         let same_shadows = self.parameters().casts_like(&parameters);
         self.parameters = ParameterTable::new(parameters);
         if !same_shadows {
@@ -226,7 +226,7 @@ impl Simulation {
     /// Goes to a recorded step, back or forth; shadows and buds follow exactly.
     pub fn go_to(&mut self, step: u32) {
         self.drop_guidance();
-        self.scratch.closed.reopen();
+        self.scratch.memory.forget();
         let shift = self.plant.go_to(step);
         // First in, then out: a long way back revives what was shed before it unmakes it.
         for &id in &shift.metamers_in {
@@ -309,7 +309,7 @@ impl Simulation {
             if !self.plant.is_axis_alive(axis) {
                 continue;
             }
-            self.scratch.closed.reopen();
+            self.scratch.memory.forget();
             let (_, axes) = self.plant.branch(axis);
             for axis in axes {
                 self.space.remove_bud(axis);
@@ -322,13 +322,13 @@ impl Simulation {
 
     /// Lets buds look for room, the most vigorous first, until no internode can come of it.
     fn find_free_space(&mut self, enabled: &mut BTreeMap<AxisId, Vec3>) {
-        let mut closed = core::mem::take(&mut self.scratch.closed);
+        let mut memory = core::mem::take(&mut self.scratch.memory);
         let node_of = |axis| self.plant.bud_node(axis).raw();
         let mut candidates: Vec<(f64, AxisId)> = (0..self.plant.axis_count())
             .map(AxisId::new)
             .filter(|&axis| self.plant.is_axis_alive(axis))
             .filter(|&axis| {
-                closed.of(axis, node_of(axis)) != autonomous::all_markers(self.parameters.of(axis))
+                memory.of(axis, node_of(axis)).closed != autonomous::all_markers(self.parameters.of(axis))
             })
             .map(|axis| (self.bud_vigor(axis), axis))
             .filter(|&(vigor, _)| vigor > 0.0)
@@ -340,20 +340,20 @@ impl Simulation {
                 break;
             }
             let ask = |&(_, axis): &(f64, AxisId)| {
-                let node = node_of(axis);
-                let known = closed.of(axis, node);
-                autonomous::look_around(axis, node, known, &self.space, &self.parameters, self.seed)
+                let remembered = memory.of(axis, node_of(axis));
+                autonomous::look_around(axis, remembered, &self.space, &self.parameters, self.seed)
             };
-            let findings: Vec<Finding> = block.par_iter().with_min_len(64).map(ask).collect();
-            for (&(vigor, axis), finding) in block.iter().zip(findings) {
-                closed.set(axis, node_of(axis), finding.closed);
-                if let Some(space) = finding.space {
+            let findings: Vec<(Option<Vec3>, Remembered)> =
+                block.par_iter().with_min_len(64).map(ask).collect();
+            for (&(vigor, axis), (space, remembered)) in block.iter().zip(findings) {
+                memory.set(axis, remembered);
+                if let Some(space) = space {
                     greatest = greatest.max(vigor);
                     enabled.entry(axis).or_insert(space);
                 }
             }
         }
-        self.scratch.closed = closed;
+        self.scratch.memory = memory;
     }
 
     fn bud_vigor(&self, axis: AxisId) -> f64 {

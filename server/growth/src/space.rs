@@ -11,9 +11,9 @@ use crate::{
     place_grid::{PlaceGrid, Visit},
 };
 
-/// Edges of the cells: about as wide as what is searched for.
-const NODE_CELL: f32 = 1.5;
-const BUD_CELL: f32 = 2.5;
+/// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
+const NODE_CELL: f32 = 3.0;
+const BUD_CELL: f32 = 4.0;
 
 /// All living nodes and buds by place. A bud is named by its axis.
 #[derive(Clone, Debug)]
@@ -38,8 +38,8 @@ pub struct Bud {
 pub(crate) enum Contest {
     /// It is the bud's.
     Won,
-    /// A nearer bud perceives it.
-    Lost,
+    /// This nearer bud perceives it.
+    LostTo(AxisId),
     /// It lies in an occupancy zone.
     Occupied,
 }
@@ -109,18 +109,27 @@ impl Space {
         if self.is_occupied(place, parameters.occupancy_radius, |_| true) {
             return Contest::Occupied;
         }
-        let Some(own) = self.bud(axis) else { return Contest::Lost };
+        let Some(own) = self.bud(axis) else { return Contest::Occupied };
         let own_distance = own.position.distance_squared(place);
         let mut outcome = Contest::Won;
-        self.bud_places.visit_near(place, own_distance.sqrt(), |number, distance_squared| {
+        // A hair farther than needed: a rival at the very same node must not be lost to rounding.
+        self.bud_places.visit_near(place, own_distance.sqrt() * 1.0001, |number, distance_squared| {
             let is_nearer = (distance_squared, number) < (own_distance, axis.raw());
             if is_nearer && self.buds[number as usize].perceives(place, distance_squared, parameters) {
-                outcome = Contest::Lost;
+                outcome = Contest::LostTo(AxisId::new(number as usize));
                 return Visit::Stop;
             }
             Visit::Go
         });
         outcome
+    }
+
+    /// Whether one bud perceives a place and is nearer to it than another.
+    pub(crate) fn outdoes(&self, rival: AxisId, axis: AxisId, place: Vec3, parameters: &Parameters) -> bool {
+        let (Some(near), Some(own)) = (self.bud(rival), self.bud(axis)) else { return false };
+        let distance_squared = near.position.distance_squared(place);
+        (distance_squared, rival) < (own.position.distance_squared(place), axis)
+            && near.perceives(place, distance_squared, parameters)
     }
 
     /// The nearest bud whose perception volume holds a place; of equally near ones the oldest.

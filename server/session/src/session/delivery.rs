@@ -31,6 +31,8 @@ impl Session {
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }
+        // The steps a refused command was thought to take are no longer to be done.
+        self.upkeep.state_changed |= !refused.is_empty();
         for refusal in refused {
             // The session's own commands have number 0, and nobody waits for their answer.
             let client = self.authors.get(&refusal.author).and_then(|author| author.client);
