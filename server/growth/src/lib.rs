@@ -20,6 +20,7 @@ mod shedding;
 mod shoot;
 mod simulation;
 mod space;
+mod step;
 mod vigor;
 mod voxel_grid;
 
@@ -31,8 +32,9 @@ pub use markers::{Marker, Markers};
 pub use observer::{NoObserver, Observer, Phase};
 pub use parameter_table::ParameterTable;
 pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES};
-pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, StepInput, WORLD_EXTENT};
+pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
 pub use space::Space;
+pub use step::StepInput;
 
 /// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
 pub const SIMULATION_VERSION: u32 = 1;

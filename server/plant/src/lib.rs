@@ -13,6 +13,7 @@ pub mod id;
 pub mod metamers;
 pub mod parts;
 pub mod plant;
+pub mod time_travel;
 pub mod timeline;
 
 pub use axes::Axes;
@@ -21,3 +22,4 @@ pub use id::{AxisId, MetamerId};
 pub use metamers::{Appearance, Metamers};
 pub use parts::{BrokenPlant, PlantParts};
 pub use plant::{Internode, Plant};
+pub use time_travel::TimeShift;
