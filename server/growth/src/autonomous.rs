@@ -81,8 +81,8 @@ pub(crate) fn look_around(
     let (u, w) = bud.direction.any_orthonormal_pair();
     let mut sum = Vec3::ZERO;
     for marker in (0..own.markers_per_bud).filter(|marker| closed >> marker & 1 == 0) {
-        let [across, along, aside] = offset(own, draw, marker);
-        let offset = u * across + bud.direction * along + w * aside;
+        let drawn = own.marker_offsets[draw.below(marker, OFFSETS as u32) as usize];
+        let offset = u * drawn.x + bud.direction * drawn.y + w * drawn.z;
         let place = bud.position + offset;
         if memory.rival.is_some_and(|rival| space.outdoes(rival, axis, place, own)) {
             continue;
@@ -97,17 +97,25 @@ pub(crate) fn look_around(
     (sum.try_normalize(), memory)
 }
 
-/// A marker uniform in the perception volume, a truncated cone with spherical base, as coordinates across the
-/// bud's direction, along it, and across both.
-fn offset(parameters: &Parameters, draw: Draw, marker: u32) -> [f32; 3] {
-    let unit = |i| draw.unit(3 * marker + i);
-    let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
+/// Markers to choose from. A power of two; so many that no two buds look alike.
+const OFFSETS: usize = 2048;
+
+/// Points uniform in the perception volume, a truncated cone with spherical base around the y axis.
+///
+/// Each bud draws its markers from these: a draw is then a look into a table instead of a cube root and a sine.
+pub(crate) fn marker_offsets(near: f32, far: f32, cos_half_angle: f32) -> Vec<Vec3> {
+    let draw = Draw::new(0, Purpose::Autonomous, 0, 0);
     let (near_cubed, far_cubed) = (near * near * near, far * far * far);
-    let distance = libm::cbrtf(near_cubed + (far_cubed - near_cubed) * unit(0));
-    let cos = 1.0 - (1.0 - parameters.cos_half_perception) * unit(1);
-    let sin = (1.0 - cos * cos).max(0.0).sqrt();
-    let (sin_azimuth, cos_azimuth) = libm::sincosf(TAU * unit(2));
-    [distance * sin * cos_azimuth, distance * cos, distance * sin * sin_azimuth]
+    (0..OFFSETS as u32)
+        .map(|marker| {
+            let unit = |i| draw.unit(3 * marker + i);
+            let distance = libm::cbrtf(near_cubed + (far_cubed - near_cubed) * unit(0));
+            let cos = 1.0 - (1.0 - cos_half_angle) * unit(1);
+            let sin = (1.0 - cos * cos).max(0.0).sqrt();
+            let (sin_azimuth, cos_azimuth) = libm::sincosf(TAU * unit(2));
+            Vec3::new(distance * sin * cos_azimuth, distance * cos, distance * sin * sin_azimuth)
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -120,9 +128,7 @@ mod tests {
     fn markers_lie_in_the_perception_volume() {
         let parameters = Parameters::default();
         let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
-        let draw = Draw::new(3, Purpose::Autonomous, 0, 1);
-        for marker in 0..500 {
-            let place = Vec3::from(offset(&parameters, draw, marker));
+        for place in parameters.marker_offsets.iter() {
             assert!((near - 1e-3..=far + 1e-3).contains(&place.length()));
             assert!(place.y / place.length() > parameters.cos_half_perception - 1e-4);
         }

@@ -1,6 +1,10 @@
 //! The parameters of growth: their ranges, their defaults, and what follows from them.
 
-use std::ops::Deref;
+use std::{ops::Deref, sync::Arc};
+
+use glam::Vec3;
+
+use crate::autonomous::marker_offsets;
 
 /// Declares a plain set of values, their ranges and their defaults in one table.
 macro_rules! values {
@@ -130,6 +134,8 @@ pub struct Parameters {
     pub(crate) setpoint: (f32, f32),
     /// Sine and cosine of the phyllotactic angle (φ).
     pub(crate) phyllotaxis: (f32, f32),
+    /// Places in the perception volume that buds draw their own markers from, around the y axis.
+    pub(crate) marker_offsets: Arc<[Vec3]>,
 }
 
 const WEIGHT_TOLERANCE: f32 = 1e-3;
@@ -149,8 +155,11 @@ impl Parameters {
                 allowed: "heading_weight + tropism_weight + space_weight = 1".to_owned(),
             });
         }
+        let cos_half_perception = libm::cosf((0.5 * values.perception_angle).to_radians());
+        let (near, depth) = (values.occupancy_radius, values.perception_depth);
         Ok(Self {
-            cos_half_perception: libm::cosf((0.5 * values.perception_angle).to_radians()),
+            cos_half_perception,
+            marker_offsets: marker_offsets(near, near + depth, cos_half_perception).into(),
             branching: sin_cos(values.branching_angle),
             deflection: sin_cos(values.deflection_angle),
             setpoint: sin_cos(values.setpoint_angle),

@@ -7,26 +7,93 @@ use crate::voxel_grid::{VoxelGrid, voxel_of};
 /// Points in one block: as many as the processor compares at once.
 const LANES: usize = 8;
 
-/// Numbered points in cubic cells.
+/// What a block holds beside its points, lane by lane.
+pub(crate) trait Lanes: Clone + core::fmt::Debug {
+    /// What belongs to one point.
+    type Item: Copy;
+    /// A block's worth of nothing.
+    const EMPTY: Self;
+    /// What stands in a lane.
+    fn get(&self, lane: usize) -> Self::Item;
+    /// Writes a lane.
+    fn set(&mut self, lane: usize, item: Self::Item);
+}
+
+/// Points alone.
+impl Lanes for () {
+    type Item = ();
+    const EMPTY: Self = ();
+    fn get(&self, _: usize) {}
+    fn set(&mut self, _: usize, (): ()) {}
+}
+
+/// One vector for each lane, coordinate by coordinate.
+#[derive(Clone, Debug)]
+pub(crate) struct Vectors {
+    x: [f32; LANES],
+    y: [f32; LANES],
+    z: [f32; LANES],
+}
+
+impl Vectors {
+    /// The vectors less `from`, dotted with themselves.
+    #[inline(always)]
+    fn distances_squared(&self, from: Vec3) -> [f32; LANES] {
+        let mut squares = [0.0; LANES];
+        for (lane, square) in squares.iter_mut().enumerate() {
+            let (dx, dy, dz) = (self.x[lane] - from.x, self.y[lane] - from.y, self.z[lane] - from.z);
+            *square = dx * dx + dy * dy + dz * dz;
+        }
+        squares
+    }
+
+    /// `place` less each of `points`, dotted with these vectors.
+    #[inline(always)]
+    fn dots(&self, place: Vec3, points: &Self) -> [f32; LANES] {
+        let mut dots = [0.0; LANES];
+        for (lane, dot) in dots.iter_mut().enumerate() {
+            let (dx, dy, dz) = (place.x - points.x[lane], place.y - points.y[lane], place.z - points.z[lane]);
+            *dot = dx * self.x[lane] + dy * self.y[lane] + dz * self.z[lane];
+        }
+        dots
+    }
+}
+
+impl Lanes for Vectors {
+    type Item = Vec3;
+    /// Infinitely far from everywhere.
+    const EMPTY: Self =
+        Self { x: [f32::INFINITY; LANES], y: [f32::INFINITY; LANES], z: [f32::INFINITY; LANES] };
+
+    fn get(&self, lane: usize) -> Vec3 {
+        Vec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    fn set(&mut self, lane: usize, item: Vec3) {
+        [self.x[lane], self.y[lane], self.z[lane]] = item.to_array();
+    }
+}
+
+/// Numbered points in cubic cells, each with an item of its own.
 ///
 /// Each cell holds its points in a chain of blocks, of which only the first may have room left: a search reads
 /// positions side by side instead of hopping from point to point.
 #[derive(Clone, Debug)]
-pub(crate) struct PlaceGrid {
+pub(crate) struct PlaceGrid<L = ()> {
     /// Edge of a cell.
     cell: f32,
     /// In each cell its first block, plus one; 0 for none.
     heads: VoxelGrid<u32>,
-    blocks: Vec<Block>,
+    blocks: Vec<Block<L>>,
     /// Blocks to use again.
     spare: Vec<u32>,
 }
 
+/// Points that are read together. A lane without a point is infinitely far away.
 #[derive(Clone, Debug)]
-struct Block {
-    x: [f32; LANES],
-    y: [f32; LANES],
-    z: [f32; LANES],
+pub(crate) struct Block<L> {
+    places: Vectors,
+    items: L,
     number: [u32; LANES],
     len: u32,
     /// The next block of the cell, plus one.
@@ -40,55 +107,61 @@ pub(crate) enum Visit {
     Stop,
 }
 
-impl Block {
-    /// A lane that holds no point is infinitely far from everywhere.
-    const EMPTY: Self = Self {
-        x: [f32::INFINITY; LANES],
-        y: [f32::INFINITY; LANES],
-        z: [f32::INFINITY; LANES],
-        number: [0; LANES],
-        len: 0,
-        next: 0,
-    };
+impl<L: Lanes> Block<L> {
+    const EMPTY: Self = Self { places: Vectors::EMPTY, items: L::EMPTY, number: [0; LANES], len: 0, next: 0 };
 
-    #[inline(always)]
-    fn distances_squared(&self, place: Vec3) -> [f32; LANES] {
-        let mut squares = [0.0; LANES];
-        for (lane, square) in squares.iter_mut().enumerate() {
-            let (dx, dy, dz) = (self.x[lane] - place.x, self.y[lane] - place.y, self.z[lane] - place.z);
-            *square = dx * dx + dy * dy + dz * dz;
-        }
-        squares
-    }
-
-    fn set(&mut self, lane: usize, place: Vec3, number: u32) {
-        [self.x[lane], self.y[lane], self.z[lane]] = place.to_array();
+    fn set(&mut self, lane: usize, place: Vec3, number: u32, item: L::Item) {
+        self.places.set(lane, place);
+        self.items.set(lane, item);
         self.number[lane] = number;
     }
 
-    fn push(&mut self, place: Vec3, number: u32) {
-        self.set(self.len as usize, place, number);
-        self.len += 1;
-    }
-
     /// Takes out the last point.
-    fn pop(&mut self) -> (Vec3, u32) {
+    fn pop(&mut self) -> (Vec3, u32, L::Item) {
         self.len -= 1;
         let lane = self.len as usize;
-        let last = (Vec3::new(self.x[lane], self.y[lane], self.z[lane]), self.number[lane]);
-        self.set(lane, Vec3::INFINITY, 0);
+        let last = (self.places.get(lane), self.number[lane], self.items.get(lane));
+        self.places.set(lane, Vec3::INFINITY);
         last
     }
 }
 
-impl PlaceGrid {
+impl Block<Vectors> {
+    /// The number of a point no farther than `limit` (squared) from `place` that sees it in the cone around its
+    /// own direction, if one counts.
+    #[inline(always)]
+    pub(crate) fn seen_by(
+        &self,
+        place: Vec3,
+        limit: f32,
+        cos: f32,
+        counts: impl Fn(u32, f32) -> bool,
+    ) -> Option<u32> {
+        let squares = self.places.distances_squared(place);
+        let dots = self.items.dots(place, &self.places);
+        let mut seen = [false; LANES];
+        let mut any = false;
+        for lane in 0..LANES {
+            seen[lane] = squares[lane] <= limit && dots[lane] >= cos * squares[lane].sqrt();
+            any |= seen[lane];
+        }
+        if !any {
+            return None;
+        }
+        (0..LANES)
+            .find(|&lane| seen[lane] && counts(self.number[lane], squares[lane]))
+            .map(|lane| self.number[lane])
+    }
+}
+
+impl<L: Lanes> PlaceGrid<L> {
     /// No points yet.
     pub(crate) fn new(cell: f32) -> Self {
         Self { cell, heads: VoxelGrid::new(), blocks: Vec::new(), spare: Vec::new() }
     }
 
     /// Enters a point.
-    pub(crate) fn insert(&mut self, number: u32, place: Vec3) {
+    pub(crate) fn insert(&mut self, number: u32, place: Vec3, item: L::Item) {
         let cell = self.cell_of(place);
         let head = self.heads.get_mut(cell);
         let has_room = *head != 0 && (self.blocks[*head as usize - 1].len as usize) < LANES;
@@ -100,7 +173,9 @@ impl PlaceGrid {
             self.blocks[block as usize].next = *head;
             *head = block + 1;
         }
-        self.blocks[*head as usize - 1].push(place, number);
+        let first = &mut self.blocks[*head as usize - 1];
+        first.set(first.len as usize, place, number, item);
+        first.len += 1;
     }
 
     /// Takes out a point that was entered at this place.
@@ -110,13 +185,13 @@ impl PlaceGrid {
         debug_assert!(*head != 0, "point {number} was never entered");
         let first = *head as usize - 1;
         // The first block's last point takes the place of the one that goes.
-        let (moved_place, moved) = self.blocks[first].pop();
+        let (moved_place, moved, item) = self.blocks[first].pop();
         if moved != number {
             let mut at = first;
             loop {
                 let block = &mut self.blocks[at];
                 if let Some(lane) = block.number[..block.len as usize].iter().position(|&n| n == number) {
-                    block.set(lane, moved_place, moved);
+                    block.set(lane, moved_place, moved, item);
                     break;
                 }
                 at = block.next as usize - 1;
@@ -133,8 +208,8 @@ impl PlaceGrid {
     #[inline]
     pub(crate) fn visit_near(&self, place: Vec3, radius: f32, mut visit: impl FnMut(u32, f32) -> Visit) {
         let limit = radius * radius;
-        let mut visit_block = |block: &Block| {
-            let squares = block.distances_squared(place);
+        self.visit_blocks(place, radius, |block| {
+            let squares = block.places.distances_squared(place);
             if squares.iter().fold(f32::INFINITY, |least, &square| least.min(square)) > limit {
                 return Visit::Go;
             }
@@ -144,11 +219,17 @@ impl PlaceGrid {
                 }
             }
             Visit::Go
-        };
+        });
+    }
+
+    /// Calls `visit` with every block of every cell within `radius` of `place`, until it says stop.
+    #[inline]
+    pub(crate) fn visit_blocks(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> Visit) {
+        let limit = radius * radius;
         let (low, centre) = (self.cell_of(place - radius), self.cell_of(place));
         let high = self.cell_of(place + radius);
         // The place's own cell first: what stops a search is mostly near.
-        if self.visit_cell(centre, &mut visit_block) == Visit::Stop {
+        if self.visit_cell(centre, &mut visit) == Visit::Stop {
             return;
         }
         let gap_squared = |cell: i32, at: f32| {
@@ -163,9 +244,7 @@ impl PlaceGrid {
                 for x in low[0]..=high[0] {
                     // A hair wider than the limit, for the gap itself is rounded.
                     let beyond = gap_yz + gap_squared(x, place.x) > limit * 1.0001;
-                    if !beyond
-                        && [x, y, z] != centre
-                        && self.visit_cell([x, y, z], &mut visit_block) == Visit::Stop
+                    if !beyond && [x, y, z] != centre && self.visit_cell([x, y, z], &mut visit) == Visit::Stop
                     {
                         return;
                     }
@@ -185,7 +264,7 @@ impl PlaceGrid {
     }
 
     #[inline(always)]
-    fn visit_cell(&self, cell: [i32; 3], visit: &mut impl FnMut(&Block) -> Visit) -> Visit {
+    fn visit_cell(&self, cell: [i32; 3], visit: &mut impl FnMut(&Block<L>) -> Visit) -> Visit {
         let mut at = self.heads.get(cell);
         while at != 0 {
             let block = &self.blocks[at as usize - 1];

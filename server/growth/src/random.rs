@@ -30,8 +30,16 @@ impl Draw {
 
     /// Number `count` of the stream, uniform in [0, 1).
     pub fn unit(self, count: u32) -> f32 {
-        let bits = mix(self.0.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15)));
-        (bits >> 40) as f32 * (1.0 / 16_777_216.0)
+        (self.bits(count) >> 40) as f32 * (1.0 / 16_777_216.0)
+    }
+
+    /// Number `count` of the stream, uniform among the whole numbers below `bound`.
+    pub fn below(self, count: u32, bound: u32) -> u32 {
+        ((self.bits(count) >> 32) * u64::from(bound) >> 32) as u32
+    }
+
+    fn bits(self, count: u32) -> u64 {
+        mix(self.0.wrapping_add(u64::from(count).wrapping_mul(0x9e37_79b9_7f4a_7c15)))
     }
 }
 

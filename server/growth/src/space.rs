@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::{
     parameters::Parameters,
-    place_grid::{PlaceGrid, Visit},
+    place_grid::{PlaceGrid, Vectors, Visit},
 };
 
 /// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
@@ -19,7 +19,7 @@ const BUD_CELL: f32 = 4.0;
 #[derive(Clone, Debug)]
 pub struct Space {
     nodes: PlaceGrid,
-    bud_places: PlaceGrid,
+    bud_places: PlaceGrid<Vectors>,
     buds: Vec<Bud>,
 }
 
@@ -52,7 +52,7 @@ impl Space {
 
     /// Enters a node.
     pub fn occupy(&mut self, id: MetamerId, position: Vec3) {
-        self.nodes.insert(id.raw(), position);
+        self.nodes.insert(id.raw(), position, ());
     }
 
     /// Takes a node out that was entered at this place.
@@ -71,7 +71,7 @@ impl Space {
         if held.present {
             self.bud_places.remove(axis.raw(), held.position);
         }
-        self.bud_places.insert(axis.raw(), position);
+        self.bud_places.insert(axis.raw(), position, direction);
     }
 
     /// Takes a bud out, if it is there.
@@ -113,13 +113,16 @@ impl Space {
         let own_distance = own.position.distance_squared(place);
         let mut outcome = Contest::Won;
         // A hair farther than needed: a rival at the very same node must not be lost to rounding.
-        self.bud_places.visit_near(place, own_distance.sqrt() * 1.0001, |number, distance_squared| {
-            let is_nearer = (distance_squared, number) < (own_distance, axis.raw());
-            if is_nearer && self.buds[number as usize].perceives(place, distance_squared, parameters) {
-                outcome = Contest::LostTo(AxisId::new(number as usize));
-                return Visit::Stop;
+        self.bud_places.visit_blocks(place, own_distance.sqrt() * 1.0001, |block| {
+            let is_nearer =
+                |number, distance_squared| (distance_squared, number) < (own_distance, axis.raw());
+            match block.seen_by(place, own_distance, parameters.cos_half_perception, is_nearer) {
+                Some(rival) => {
+                    outcome = Contest::LostTo(AxisId::new(rival as usize));
+                    Visit::Stop
+                }
+                None => Visit::Go,
             }
-            Visit::Go
         });
         outcome
     }
