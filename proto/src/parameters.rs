@@ -1,7 +1,12 @@
 //! The parameters of growth as they travel. Names, ranges and defaults stand in `PROTOCOL.md`.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use ts_rs::TS;
+
+/// A field that is there holds a value; `null` is none.
+fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
+    T::deserialize(deserializer).map(Some)
+}
 
 /// Declares the full set and the patch together, so that they cannot differ.
 macro_rules! parameters {
@@ -19,7 +24,7 @@ macro_rules! parameters {
         pub struct ParametersPatch {
             $(
                 $(#[doc = $doc])+
-                #[serde(default, skip_serializing_if = "Option::is_none")]
+                #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
                 #[ts(optional)]
                 pub $name: Option<$type>,
             )+

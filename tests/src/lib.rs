@@ -3,6 +3,7 @@
 //! Nothing here knows how the server works; it knows the wire, the command line and the operating system.
 
 pub mod client;
+pub mod dice;
 pub mod http;
 pub mod program;
 pub mod scratch;

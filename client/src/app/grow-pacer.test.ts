@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { GrowPacer, growthRate } from "./grow-pacer";
+import { deflectionFor, GrowPacer, growthRate, KEY_RATE } from "./grow-pacer";
 
 const free = { unsettled: 0, pendingSteps: 0 };
 
@@ -19,22 +19,28 @@ function hold(deflection: (time: number) => number, milliseconds: number, backlo
 const total = (steps: number[]) => steps.reduce((sum, step) => sum + step, 0);
 
 describe("grow pacer", () => {
-  it("rests at the centre, 2 to 30 steps a second beside it", () => {
+  it("rests at the centre, 1 to 8 steps a second beside it", () => {
     expect(growthRate(0)).toBe(0);
     expect(growthRate(0.1)).toBe(0);
-    expect(growthRate(0.121)).toBeCloseTo(2, 1);
-    expect(growthRate(1)).toBeCloseTo(30);
-    expect(growthRate(-3)).toBeCloseTo(-30);
+    expect(growthRate(0.121)).toBeCloseTo(1, 1);
+    expect(growthRate(1)).toBeCloseTo(8);
+    expect(growthRate(-3)).toBeCloseTo(-8);
+  });
+
+  it("a key asks for 3 steps a second", () => {
+    expect(growthRate(deflectionFor(KEY_RATE))).toBeCloseTo(3);
+    expect(total(hold(() => deflectionFor(KEY_RATE), 3000))).toBeGreaterThanOrEqual(9);
+    expect(total(hold(() => deflectionFor(KEY_RATE), 3000))).toBeLessThanOrEqual(10);
   });
 
   it("asks for as many steps as the deflection says", () => {
-    expect(total(hold(() => 1, 3000))).toBeGreaterThan(85);
-    expect(total(hold(() => 1, 3000))).toBeLessThan(93);
-    expect(total(hold(() => 0.125, 3000))).toBeLessThan(9);
+    expect(total(hold(() => 1, 3000))).toBeGreaterThan(22);
+    expect(total(hold(() => 1, 3000))).toBeLessThan(27);
+    expect(total(hold(() => 0.125, 3000))).toBeLessThan(6);
   });
 
   it("pulling down takes growth back", () => {
-    expect(total(hold(() => -1, 1000))).toBeLessThan(-28);
+    expect(total(hold(() => -1, 1000))).toBeLessThan(-7);
   });
 
   it("a short push is one step", () => {
@@ -53,7 +59,7 @@ describe("grow pacer", () => {
       pacer.tick(time, 1, { unsettled: 2, pendingSteps: 0 });
     }
     const command = pacer.tick(5000, 1, free);
-    expect(command?.kind === "grow" ? command.steps : 0).toBeLessThanOrEqual(9);
+    expect(command?.kind === "grow" ? command.steps : 0).toBeLessThanOrEqual(2);
   });
 
   it("CM5: all steps of one push carry one gesture", () => {

@@ -1,8 +1,10 @@
 import type { Command } from "../wire/generated";
 
 /** Steps per second just off the centre, and at the end of the way. */
-const SLOWEST = 2;
-const FASTEST = 30;
+const SLOWEST = 1;
+export const FASTEST = 8;
+/** Steps per second while a key is held. */
+export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
 /** Commands that may be under way. */
@@ -22,6 +24,11 @@ export interface Backlog {
 export function growthRate(deflection: number): number {
   const way = (Math.min(1, Math.abs(deflection)) - DEAD_ZONE) / (1 - DEAD_ZONE);
   return way < 0 ? 0 : Math.sign(deflection) * SLOWEST * (FASTEST / SLOWEST) ** way;
+}
+
+/** The deflection that gives so many steps per second. */
+export function deflectionFor(rate: number): number {
+  return DEAD_ZONE + ((1 - DEAD_ZONE) * Math.log(rate / SLOWEST)) / Math.log(FASTEST / SLOWEST);
 }
 
 /** Turns a held control into `grow` and `ungrow` commands, no faster than the server follows. */

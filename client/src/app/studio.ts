@@ -9,9 +9,10 @@ import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { browserClock, Connection } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
 import type { Gesture } from "./gestures";
-import { GrowPacer, growthRate } from "./grow-pacer";
+import { deflectionFor, GrowPacer, growthRate, KEY_RATE } from "./grow-pacer";
 import { listenToKeys } from "./keyboard";
 import { createSession, sessionExists, socketAddress } from "./library-api";
+import { pace } from "./pacing";
 import { listenToPointers } from "./pointer-source";
 import type { BrushView } from "./ports";
 import { mayReload } from "./reload-guard";
@@ -25,8 +26,6 @@ export type SheetName = "save" | "library" | "share" | "help";
 /** What keeps the workspace from being used, with a way on. */
 export type Obstacle = "unknown-session" | "version" | "no-server" | "no-webgl";
 
-/** How far the keys G and U push the grow control. */
-const KEY_DEFLECTION = 0.6;
 /** How long the brush stays visible after its radius changed. */
 const RADIUS_SHOWN_FOR = 900;
 const RETRY_START = 2000;
@@ -56,7 +55,7 @@ export class Studio {
   #connection: Connection<Frame> | null = null;
   #pacer = new GrowPacer();
   #growLoop = 0;
-  #strokeTimer = 0;
+  #stopSending = () => {};
   #radiusTimer = 0;
   #hoverFrame = 0;
   #framed = false;
@@ -80,7 +79,9 @@ export class Studio {
       view,
       submit: (command) => this.#submit(command),
       newStroke: () => this.#connection?.next ?? 1,
-      unsettledMoves: () => this.#connection?.unsettled("stroke_move") ?? 0,
+      // What is durable may still have to grow: a heavy tree must not fall behind the finger.
+      unsettledMoves: () =>
+        Math.max(this.#connection?.unsettled("stroke_move") ?? 0, this.document.peek()?.pending_steps ?? 0),
       radius: () => this.settings.radius.peek(),
       pressureWidens: () => this.settings.pressureWidens.peek(),
       base: (x, y) => nearestBase(this.#table, view, x, y),
@@ -93,7 +94,7 @@ export class Studio {
         this.sheet.value = "help";
       },
       widen: (notches) => this.setRadius(stepRadius(this.settings.radius.peek(), notches)),
-      grow: (direction) => (direction === 0 ? this.growRelease() : this.growTo(direction * KEY_DEFLECTION)),
+      grow: (direction) => (direction === 0 ? this.growRelease() : this.growTo(direction * deflectionFor(KEY_RATE))),
       busy: () => this.sheet.peek() !== null,
     });
     const stopPointers = listenToPointers(canvas, {
@@ -190,10 +191,14 @@ export class Studio {
     if (!held) {
       this.#pacer.press(this.#connection?.next ?? 1);
       this.#growLoop = requestAnimationFrame(this.#grow);
+      this.#viewport?.hold(true);
     }
   }
 
   growRelease(): void {
+    if (this.#growLoop !== 0) {
+      this.#viewport?.hold(false);
+    }
     cancelAnimationFrame(this.#growLoop);
     this.#growLoop = 0;
     this.growing.value = 0;
@@ -242,7 +247,9 @@ export class Studio {
           clearTimeout(this.#radiusTimer);
           this.#brush?.begin(gesture.point);
           this.drawing.value = true;
-          this.#strokeTimer = window.setInterval(() => this.#brush?.tick(), SEND_EVERY);
+          this.#stopSending();
+          this.#stopSending = pace(SEND_EVERY, () => this.#brush?.tick());
+          viewport?.hold(true);
         }
         break;
       case "stroke-move":
@@ -264,8 +271,9 @@ export class Studio {
   }
 
   #endStroke(): void {
-    clearInterval(this.#strokeTimer);
+    this.#stopSending();
     if (this.drawing.peek()) {
+      this.#viewport?.hold(false);
       this.#brush?.end();
       this.drawing.value = false;
       this.settings.hasDrawn.value = true;
@@ -273,7 +281,8 @@ export class Studio {
   }
 
   #abandonStroke(): void {
-    clearInterval(this.#strokeTimer);
+    this.#stopSending();
+    this.#viewport?.hold(false);
     this.#brush?.abandon();
     this.drawing.value = false;
   }
@@ -356,6 +365,14 @@ export class Studio {
   }
 
   #onProblem(problem: Problem): void {
+    if (problem.code === "not_found" && problem.field === "stroke") {
+      // Someone went back in time, which ends every stroke; what was still under way of this one is refused.
+      if (this.drawing.peek()) {
+        this.toasts.show("The tree went back in time; your stroke ended there.");
+      }
+      this.#abandonStroke();
+      return;
+    }
     this.toasts.show(problem.message);
     console.warn("The server refused:", problem);
   }

@@ -9,11 +9,13 @@ interface Detail {
   from: number;
   sides: number;
   rings: number;
+  /** Sides and rings of what casts the shadow, and of what is seen while frames must be quick. */
+  coarse: readonly [sides: number, rings: number];
 }
 
-const THICK: Detail = { from: 0.28, sides: 16, rings: 5 };
-const MEDIUM: Detail = { from: 0.09, sides: 8, rings: 3 };
-const TWIG: Detail = { from: 0, sides: 5, rings: 2 };
+const THICK: Detail = { from: 0.28, sides: 16, rings: 5, coarse: [8, 3] };
+const MEDIUM: Detail = { from: 0.09, sides: 8, rings: 3, coarse: [5, 2] };
+const TWIG: Detail = { from: 0, sides: 5, rings: 2, coarse: [3, 2] };
 
 const BEGINS_AXIS = 1;
 const FROM_SEED = 2;
@@ -31,8 +33,8 @@ export class Branches {
 
   constructor(materials: Materials) {
     this.sizes = [new Size(THICK), new Size(MEDIUM), new Size(TWIG)];
-    this.meshes = this.sizes.map((size, i) => mesh(size, i < 2 ? materials.bark : materials.twig));
-    this.casters = this.sizes.map((size) => mesh(size, materials.branchDepth));
+    this.meshes = this.sizes.map((size, i) => mesh(size.fine, i < 2 ? materials.bark : materials.twig));
+    this.casters = this.sizes.map((size) => mesh(size.coarse, materials.branchDepth));
   }
 
   /** Rows from `rows` on are gone. */
@@ -61,6 +63,11 @@ export class Branches {
     this.sizes[this.sizeOf[row]!]!.write(row, parent, origin, flags);
   }
 
+  /** Whether branches are as round and smooth as they can be. */
+  detail(detailed: boolean): void {
+    for (const [i, size] of this.sizes.entries()) this.meshes[i]!.geometry = detailed ? size.fine : size.coarse;
+  }
+
   /** Has three.js upload what was written since the last call. */
   upload(): void {
     for (const size of this.sizes) size.upload();
@@ -71,7 +78,7 @@ export class Branches {
   }
 
   dispose(): void {
-    for (const size of this.sizes) size.geometry.dispose();
+    for (const size of this.sizes) size.dispose();
   }
 
   private place(row: number, size: number): void {
@@ -92,7 +99,8 @@ export class Branches {
 
 /** The metamers drawn with one level of detail, in no order. */
 class Size {
-  readonly geometry: InstancedBufferGeometry;
+  readonly fine: InstancedBufferGeometry;
+  readonly coarse: InstancedBufferGeometry;
   count = 0;
   private instances = new Uint32Array(256 * STRIDE);
   private attribute = this.allocate();
@@ -101,8 +109,9 @@ class Size {
   private changedTo = 0;
 
   constructor(readonly detail: Detail) {
-    this.geometry = tube(detail.sides, detail.rings);
-    this.geometry.setAttribute("metamer", this.attribute);
+    this.fine = tube(detail.sides, detail.rings);
+    this.coarse = tube(...detail.coarse);
+    this.bind();
   }
 
   add(row: number): void {
@@ -110,9 +119,9 @@ class Size {
     this.count += 1;
     if (this.count * STRIDE > this.instances.length) {
       this.instances = grown(this.instances, 2 * this.instances.length);
-      this.geometry.dispose();
+      this.dispose();
       this.attribute = this.allocate();
-      this.geometry.setAttribute("metamer", this.attribute);
+      this.bind();
     }
     this.slotOf.set(row, slot);
     this.instances[slot * STRIDE] = row;
@@ -145,13 +154,22 @@ class Size {
   }
 
   upload(): void {
-    this.geometry.instanceCount = this.count;
+    for (const geometry of [this.fine, this.coarse]) geometry.instanceCount = this.count;
     if (this.changedTo === 0) return;
     this.attribute.clearUpdateRanges();
     this.attribute.addUpdateRange(this.changedFrom * STRIDE, (this.changedTo - this.changedFrom) * STRIDE);
     this.attribute.needsUpdate = true;
     this.changedFrom = Number.POSITIVE_INFINITY;
     this.changedTo = 0;
+  }
+
+  dispose(): void {
+    this.fine.dispose();
+    this.coarse.dispose();
+  }
+
+  private bind(): void {
+    for (const geometry of [this.fine, this.coarse]) geometry.setAttribute("metamer", this.attribute);
   }
 
   private touch(slot: number): void {
@@ -166,8 +184,8 @@ class Size {
   }
 }
 
-function mesh(size: Size, material: Materials[keyof Materials]): Mesh {
-  const made = new Mesh(size.geometry, material);
+function mesh(geometry: InstancedBufferGeometry, material: Materials[keyof Materials]): Mesh {
+  const made = new Mesh(geometry, material);
   made.frustumCulled = false;
   return made;
 }

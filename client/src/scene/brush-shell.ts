@@ -17,7 +17,7 @@ export class BrushShell {
     this.mesh = new Mesh(new SphereGeometry(1, 48, 32), materials.brush);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
-    this.mesh.renderOrder = 1;
+    this.mesh.renderOrder = 3;
   }
 
   show(point: Vec3, radius: number, distance: number): void {

@@ -16,8 +16,10 @@ export class Environment {
     uniforms.uCrown = { value: this.crown };
     const sky = new Mesh(new BufferGeometry(), materials.sky);
     sky.geometry.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-    sky.renderOrder = -1;
     const ground = new Mesh(new CircleGeometry(GROUND_RADIUS, 64).rotateX(-Math.PI / 2), materials.ground);
+    // After the tree and in this order, so that what is hidden is never shaded.
+    ground.renderOrder = 1;
+    sky.renderOrder = 2;
     this.meshes = [sky, ground];
     for (const mesh of this.meshes) mesh.frustumCulled = false;
   }

@@ -28,6 +28,7 @@ export class Foliage {
   private readonly placed = new Float32Array(LEAF_NUMBERS);
   private changedFrom = Number.POSITIVE_INFINITY;
   private changedTo = 0;
+  private fine = true;
   private readonly detailed = blade([0.1, 0.28, 0.52, 0.78], [0.15, 0.29, 0.29, 0.15]);
   private readonly plain = blade([0.42], [0.3]);
   private readonly geometry: { near: InstancedBufferGeometry; far: InstancedBufferGeometry };
@@ -77,10 +78,16 @@ export class Foliage {
     this.touch(first, count);
   }
 
+  /** Whether each leaf has all its triangles, as far as there are not too many leaves. */
+  detail(detailed: boolean): void {
+    this.fine = detailed;
+    this.mesh.geometry = detailed && this.slots.end <= MANY_LEAVES ? this.geometry.near : this.geometry.far;
+  }
+
   /** Has three.js upload what was written since the last call. */
   upload(): void {
     for (const geometry of [this.geometry.near, this.geometry.far]) geometry.instanceCount = this.slots.end;
-    this.mesh.geometry = this.slots.end > MANY_LEAVES ? this.geometry.far : this.geometry.near;
+    this.detail(this.fine);
     this.mesh.visible = this.slots.end > 0;
     this.caster.visible = this.slots.end > 0;
     if (this.changedTo === 0) return;

@@ -25,7 +25,7 @@ export function makeMaterials(uniforms: Uniforms) {
     branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide, colorWrite: false }),
     leaf: shader(LEAF_VERTEX, LEAF_FRAGMENT, { side: DoubleSide }),
     leafDepth: shader(LEAF_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide, colorWrite: false }),
-    sky: shader(SKY_VERTEX, SKY_FRAGMENT, { depthTest: false, depthWrite: false }),
+    sky: shader(SKY_VERTEX, SKY_FRAGMENT, { depthWrite: false }),
     ground: shader(GROUND_VERTEX, GROUND_FRAGMENT),
     brush: shader(BRUSH_VERTEX, BRUSH_FRAGMENT, { transparent: true, depthTest: false, depthWrite: false }),
   };

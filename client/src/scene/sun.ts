@@ -40,6 +40,7 @@ export class Sun {
     uniforms.uSun = { value: this.direction };
     uniforms.uSunFromWorld = { value: new Matrix4() };
     uniforms.uShadow = { value: depth };
+    uniforms.uShadowTaps = { value: 3 };
     uniforms.uShadowTexel = { value: 1 / MAP_SIZE };
   }
 

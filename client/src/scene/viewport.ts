@@ -6,7 +6,10 @@ import { Environment } from "./environment";
 import { Foliage } from "./foliage";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import { NodeTexture } from "./node-texture";
+import { NoiseTextures } from "./noise-texture";
 import { type Pick, type Projection, pickBranch } from "./picking";
+import { QualityControl } from "./quality";
+import { Screen } from "./screen";
 import { Sun } from "./sun";
 import { encodePicture } from "./thumbnail";
 import { Dirty, type TreeTable } from "./tree-table";
@@ -27,11 +30,14 @@ export class Viewport {
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
   private readonly nodes = new NodeTexture();
+  private readonly noise = new NoiseTextures();
   private readonly branches: Branches;
   private readonly foliage: Foliage;
   private readonly environment: Environment;
   private readonly sun: Sun;
   private readonly brush: BrushShell;
+  private readonly screen: Screen;
+  private readonly control = new QualityControl();
   private readonly resizing: ResizeObserver;
   private readonly worldFromClip = new Matrix4();
   private width = 1;
@@ -41,16 +47,25 @@ export class Viewport {
   private lastFrame: number | null = null;
   private tableChanged = true;
   private shadowStale = true;
+  private shadowDrawn = Number.NEGATIVE_INFINITY;
+  /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
+  private requested = 0;
+  private began: number | null = null;
+  private restTimer = 0;
+  private held = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly table: TreeTable,
   ) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
+    this.screen = new Screen(this.renderer);
     this.uniforms.uTime = { value: 0 };
     this.uniforms.uLeafSize = { value: 0.7 };
     this.uniforms.uNodes = this.nodes.uniform;
+    this.uniforms.uNoise = { value: this.noise.space };
+    this.uniforms.uFlatNoise = { value: this.noise.plane };
     this.uniforms.uWorldFromClip = { value: this.worldFromClip };
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
@@ -83,25 +98,25 @@ export class Viewport {
   /** Turns around the target. */
   orbit(dxPixels: number, dyPixels: number): void {
     this.rig.orbit(dxPixels, dyPixels);
-    this.invalidate();
+    this.stir();
   }
 
   /** Moves the picture with the fingers. */
   pan(dxPixels: number, dyPixels: number): void {
     this.rig.pan(dxPixels, dyPixels, this.height);
-    this.invalidate();
+    this.stir();
   }
 
   /** Brings what is under a place on the canvas nearer (factor above 1) or further away. */
   zoom(factor: number, x: number, y: number): void {
     this.rig.zoom(factor, (2 * x - this.width) / this.height, 1 - (2 * y) / this.height);
-    this.invalidate();
+    this.stir();
   }
 
   /** Eases the camera to a view of the whole tree. */
   frameTree(): void {
     this.rig.frame(this.table.bounds(), this.width / this.height);
-    this.invalidate();
+    this.stir();
   }
 
   /** From the eye through a place on the canvas, in CSS pixels. */
@@ -136,38 +151,54 @@ export class Viewport {
     return (2 * depth * Math.tan(FIELD_OF_VIEW / 2)) / this.height;
   }
 
+  /** A finger is down or a lever is held: the picture is not the one at rest until it is let go. */
+  hold(held: boolean): void {
+    this.held = held;
+    this.stir();
+  }
+
   /** Shows the brush around a point. */
   showBrush(point: Vec3, radius: number): void {
     const eye = this.rig.eye();
     this.brush.show(point, radius, Math.hypot(point[0] - eye[0], point[1] - eye[1], point[2] - eye[2]));
-    this.invalidate();
+    this.stir();
   }
 
   hideBrush(): void {
     this.brush.hide();
-    this.invalidate();
+    this.stir();
   }
 
-  /** A picture of the whole tree as a data URL of at most 192 KiB. */
+  /** A picture of the whole tree as a data URL of at most 192 KiB; too small for every detail to be seen. */
   async thumbnail(width: number, height: number): Promise<string> {
     const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
     const brushShown = this.brush.mesh.visible;
     this.brush.hide();
     this.sync();
-    this.drawShadow();
+    this.detail(false);
+    if (this.shadowStale) this.drawShadow();
     this.aim(pose, width / height);
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
     this.brush.mesh.visible = brushShown;
-    this.invalidate();
     return picture;
   }
 
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
     cancelAnimationFrame(this.request);
+    clearTimeout(this.restTimer);
     this.resizing.disconnect();
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
-    for (const part of [this.branches, this.foliage, this.environment, this.brush, this.nodes, this.sun])
+    for (const part of [
+      this.branches,
+      this.foliage,
+      this.environment,
+      this.brush,
+      this.screen,
+      this.nodes,
+      this.noise,
+      this.sun,
+    ])
       part.dispose();
     for (const material of Object.values(this.materials)) material.dispose();
     this.renderer.dispose();
@@ -175,11 +206,21 @@ export class Viewport {
 
   private invalidate(): void {
     if (this.request !== 0) return;
+    this.requested = performance.now();
     this.request = requestAnimationFrame(this.draw);
   }
 
+  /** Draws again, as part of a movement. */
+  private stir(): void {
+    this.control.moved(performance.now());
+    this.invalidate();
+  }
+
   private readonly draw = (milliseconds: number): void => {
+    const began = performance.now();
+    const { control } = this;
     this.request = 0;
+    if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
     const step = this.lastFrame === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastFrame) / 1000);
     this.lastFrame = null;
     this.sync();
@@ -187,15 +228,51 @@ export class Viewport {
     this.uniforms.uTime!.value = now;
     const growing = now < this.table.settledAt + AFTERGROWTH_SECONDS;
     const moving = this.rig.step(step);
-    if (this.shadowStale || growing) this.drawShadow();
+    if (growing || moving) control.moved(began);
+    const { quality } = control;
+    this.detail(quality.detailed);
+    this.shadowStale ||= growing;
+    if (this.shadowStale && began - this.shadowDrawn >= quality.shadowEvery) {
+      this.drawShadow();
+      this.shadowDrawn = began;
+      // One more frame after the last growth shows everything full grown.
+      this.shadowStale = growing;
+    }
     this.aim(this.rig.pose, this.width / this.height);
-    this.drawScene();
-    // One more frame after the last growth shows everything full grown.
-    this.shadowStale = growing;
+    this.screen.draw(this.scene, this.camera, quality.scale, quality.smooth);
+    // A frame at rest is followed by a pause, which tells nothing.
+    this.began = control.resting ? null : began;
+    this.awaitRest();
     if (!growing && !moving) return;
     this.lastFrame = milliseconds;
     this.invalidate();
+    this.requested = began;
   };
+
+  /** Has the picture at rest drawn once nothing has moved for a while. */
+  private awaitRest(): void {
+    clearTimeout(this.restTimer);
+    const wait = this.control.restIn(performance.now());
+    if (wait !== null && !this.held) this.restTimer = window.setTimeout(this.rest, wait);
+  }
+
+  private readonly rest = (): void => {
+    if (this.held) return;
+    if (this.request !== 0 || this.control.restIn(performance.now()) !== 0) {
+      this.awaitRest();
+      return;
+    }
+    const reduced = this.control.quality.scale < 1 || this.shadowStale;
+    this.control.rest();
+    this.began = null;
+    if (reduced) this.invalidate();
+  };
+
+  private detail(detailed: boolean): void {
+    this.branches.detail(detailed);
+    this.foliage.detail(detailed);
+    this.uniforms.uShadowTaps!.value = detailed ? 3 : 1;
+  }
 
   /** Takes over what changed in the table. */
   private sync(): void {
@@ -264,8 +341,7 @@ export class Viewport {
     if (width === 0 || height === 0) return;
     this.width = width;
     this.height = height;
-    this.renderer.setPixelRatio(Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
-    this.renderer.setSize(width, height, false);
+    this.screen.resize(width, height, Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
     this.invalidate();
   }
 

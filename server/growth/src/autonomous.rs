@@ -84,10 +84,10 @@ pub(crate) fn look_around(
         let drawn = own.marker_offsets[draw.below(marker, OFFSETS as u32) as usize];
         let offset = u * drawn.x + bud.direction * drawn.y + w * drawn.z;
         let place = bud.position + offset;
-        if memory.rival.is_some_and(|rival| space.outdoes(rival, axis, place, own)) {
+        if memory.rival.is_some_and(|rival| space.outdoes(rival, axis, place, parameters)) {
             continue;
         }
-        let contest = if place.y > 0.0 { space.contest(axis, place, own) } else { Contest::Occupied };
+        let contest = if place.y > 0.0 { space.contest(axis, place, parameters) } else { Contest::Occupied };
         match contest {
             Contest::Won => sum += offset.normalize(),
             Contest::LostTo(rival) => memory.rival = Some(rival),

@@ -63,12 +63,12 @@ impl BrushPiece {
     }
 
     /// Sows markers evenly in the volume the brush sweeps, above ground.
-    pub(crate) fn sow(&self, markers: &mut Markers, seed: u32, step: u32, parameters: &Parameters) {
+    pub(crate) fn sow(&self, markers: &mut Markers, seed: u32, tick: u32, parameters: &Parameters) {
         let radius = self.samples.iter().map(|s| s.radius).sum::<f32>() / self.samples.len() as f32;
         let length = self.length();
         let disc = core::f32::consts::PI * radius * radius;
         let expected = (parameters.marker_density * disc * (4.0 / 3.0 * radius + length)).min(MAX_MARKERS);
-        let draw = Draw::new(seed, Purpose::Brush, self.stroke.0, step);
+        let draw = Draw::new(seed, Purpose::Brush, self.stroke.0, tick);
         let count = (expected + draw.unit(0)) as u32;
         for marker in 0..count {
             let unit = |i| draw.unit(1 + 4 * marker + i);
@@ -76,7 +76,7 @@ impl BrushPiece {
             let offset = sphere_point(unit(1), unit(2)) * (centre.radius * libm::cbrtf(unit(3)));
             let position = centre.position + offset;
             if position.y > 0.0 {
-                markers.sow(Marker { position, born: step });
+                markers.sow(Marker { position, born: tick });
             }
         }
     }

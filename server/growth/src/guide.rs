@@ -36,6 +36,8 @@ const ARRIVED: f32 = 0.5;
 const LEAST_SPACING: f32 = 0.05;
 /// Path needed before a stroke's direction is known, in internodes.
 const ASSURED_LENGTH: f32 = 0.5;
+/// Points remembered at most: a leader that cannot follow is not waited for.
+const MAX_WAYPOINTS: usize = 4096;
 
 impl Guide {
     /// How strongly a brush of this radius leads.
@@ -49,6 +51,9 @@ impl Guide {
         let apart =
             self.path.back().is_none_or(|last| last.position.distance(sample.position) > LEAST_SPACING);
         if weight > 0.0 && apart {
+            if self.path.len() == MAX_WAYPOINTS {
+                self.path.pop_front();
+            }
             self.path.push_back(Waypoint { position: sample.position, weight });
         }
     }
@@ -69,6 +74,17 @@ impl Guide {
             }
         });
         self.leader = best.map(|(_, axis)| axis);
+        if self.leader.is_none() {
+            // Nothing is near: the stroke leads from where it first passes a bud.
+            self.restart();
+        }
+    }
+
+    /// Gives up the leader and all of the path but its end.
+    pub(crate) fn restart(&mut self) {
+        self.leader = None;
+        let behind = self.path.len().saturating_sub(1);
+        self.path.drain(..behind);
     }
 
     /// The next node of a leader whose tip is at `tip`: the point one internode away on the path ahead, or on

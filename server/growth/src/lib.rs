@@ -34,7 +34,7 @@ pub use parameter_table::ParameterTable;
 pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES};
 pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
 pub use space::Space;
-pub use step::StepInput;
+pub use step::{StepInput, StepOutcome};
 
 /// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
 pub const SIMULATION_VERSION: u32 = 1;

@@ -5,9 +5,9 @@ use glam::Vec3;
 /// A point that says: here is room to grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
-    /// Where.
+    /// Where, in internodes.
     pub position: Vec3,
-    /// The step in which it was sown.
+    /// The tick in which it was sown.
     pub born: u32,
 }
 
@@ -33,9 +33,9 @@ impl Markers {
         self.markers.push(marker);
     }
 
-    /// Keeps those for which `free` holds and that are not older than `max_age` steps.
-    pub(crate) fn clear(&mut self, step: u32, max_age: u32, free: impl Fn(Vec3) -> bool) {
-        self.markers.retain(|marker| step - marker.born <= max_age && free(marker.position));
+    /// Keeps those for which `free` holds and that are not older than `max_age` ticks.
+    pub(crate) fn clear(&mut self, tick: u32, max_age: u32, free: impl Fn(Vec3) -> bool) {
+        self.markers.retain(|marker| tick.wrapping_sub(marker.born) <= max_age && free(marker.position));
     }
 
     /// Removes all.

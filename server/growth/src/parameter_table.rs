@@ -23,6 +23,16 @@ impl ParameterTable {
         &self.shared
     }
 
+    /// The farthest any bud perceives.
+    pub(crate) fn farthest_perception(&self) -> f32 {
+        self.shared.perception_radius()
+    }
+
+    /// Cosine of half the widest perception angle of any bud.
+    pub(crate) fn widest_perception(&self) -> f32 {
+        self.shared.cos_half_perception
+    }
+
     /// Those of one axis: everything about its buds and shoots.
     pub fn of(&self, _axis: AxisId) -> &Parameters {
         &self.shared

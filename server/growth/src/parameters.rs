@@ -105,7 +105,7 @@ values! {
     /// Leaves at each node of a twig.
     leaves_per_node: u32 = 4, in 0, 15;
     /// Length of a leaf.
-    leaf_size: f32 = 0.9, in 0.1, 3.0;
+    leaf_size: f32 = 1.0, in 0.1, 3.0;
 }
 
 /// A value outside its range.

@@ -35,7 +35,7 @@ impl Draw {
 
     /// Number `count` of the stream, uniform among the whole numbers below `bound`.
     pub fn below(self, count: u32, bound: u32) -> u32 {
-        ((self.bits(count) >> 32) * u64::from(bound) >> 32) as u32
+        (((self.bits(count) >> 32) * u64::from(bound)) >> 32) as u32
     }
 
     fn bits(self, count: u32) -> u64 {

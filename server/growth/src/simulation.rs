@@ -34,6 +34,8 @@ pub struct SimulationState {
     pub guides: BTreeMap<StrokeId, Guide>,
     /// Metamers the scene may hold.
     pub metamer_budget: u32,
+    /// Steps ever begun, those included in which nothing grew: the age of markers and the key of their sowing.
+    pub tick: u32,
 }
 
 /// A scene that grows.
@@ -46,6 +48,7 @@ pub struct Simulation {
     pub(crate) space: Space,
     pub(crate) metamer_budget: u32,
     pub(crate) budget_reached: bool,
+    pub(crate) tick: u32,
     pub(crate) markers: Markers,
     pub(crate) guides: BTreeMap<StrokeId, Guide>,
     pub(crate) scratch: Scratch,
@@ -60,6 +63,7 @@ impl Simulation {
             markers: Vec::new(),
             guides: BTreeMap::new(),
             metamer_budget: DEFAULT_METAMER_BUDGET,
+            tick: 0,
         };
         Self::from_state(Plant::new(Vec3::ZERO), state)
     }
@@ -74,6 +78,7 @@ impl Simulation {
             space: Space::new(),
             metamer_budget: state.metamer_budget,
             budget_reached: false,
+            tick: state.tick,
             markers: Markers::from_vec(state.markers),
             guides: state.guides,
             scratch: Scratch::default(),
@@ -90,6 +95,7 @@ impl Simulation {
             markers: self.markers.as_slice().to_vec(),
             guides: self.guides.clone(),
             metamer_budget: self.metamer_budget,
+            tick: self.tick,
         }
     }
 
@@ -158,9 +164,14 @@ impl Simulation {
         self.guides.remove(&stroke);
     }
 
-    /// Whether another step of settling may still find something to grow towards.
+    /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
     pub fn has_guidance(&self) -> bool {
-        !self.markers.as_slice().is_empty() || self.guides.values().any(|guide| !guide.path.is_empty())
+        let is_led = |guide: &Guide| {
+            guide
+                .leader
+                .is_some_and(|leader| guide.clone().next_node(self.plant.bud_position(leader)).is_some())
+        };
+        !self.markers.as_slice().is_empty() || self.guides.values().any(is_led)
     }
 
     /// Goes to a recorded step, back or forth; shadows and buds follow exactly.

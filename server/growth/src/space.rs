@@ -7,6 +7,7 @@ use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
 
 use crate::{
+    parameter_table::ParameterTable,
     parameters::Parameters,
     place_grid::{PlaceGrid, Vectors, Visit},
 };
@@ -105,8 +106,8 @@ impl Space {
     ///
     /// The same as asking [`Space::is_occupied`] and [`Space::nearest_perceiving`], but it looks for other
     /// perceivers no farther than the bud itself is away.
-    pub(crate) fn contest(&self, axis: AxisId, place: Vec3, parameters: &Parameters) -> Contest {
-        if self.is_occupied(place, parameters.occupancy_radius, |_| true) {
+    pub(crate) fn contest(&self, axis: AxisId, place: Vec3, parameters: &ParameterTable) -> Contest {
+        if self.is_occupied(place, parameters.of(axis).occupancy_radius, |_| true) {
             return Contest::Occupied;
         }
         let Some(own) = self.bud(axis) else { return Contest::Occupied };
@@ -114,9 +115,12 @@ impl Space {
         let mut outcome = Contest::Won;
         // A hair farther than needed: a rival at the very same node must not be lost to rounding.
         self.bud_places.visit_blocks(place, own_distance.sqrt() * 1.0001, |block| {
-            let is_nearer =
-                |number, distance_squared| (distance_squared, number) < (own_distance, axis.raw());
-            match block.seen_by(place, own_distance, parameters.cos_half_perception, is_nearer) {
+            let is_rival = |number: u32, distance_squared| {
+                let rival = AxisId::new(number as usize);
+                (distance_squared, rival) < (own_distance, axis)
+                    && self.buds[rival.index()].perceives(place, distance_squared, parameters.of(rival))
+            };
+            match block.seen_by(place, own_distance, parameters.widest_perception(), is_rival) {
                 Some(rival) => {
                     outcome = Contest::LostTo(AxisId::new(rival as usize));
                     Visit::Stop
@@ -128,19 +132,25 @@ impl Space {
     }
 
     /// Whether one bud perceives a place and is nearer to it than another.
-    pub(crate) fn outdoes(&self, rival: AxisId, axis: AxisId, place: Vec3, parameters: &Parameters) -> bool {
+    pub(crate) fn outdoes(
+        &self,
+        rival: AxisId,
+        axis: AxisId,
+        place: Vec3,
+        parameters: &ParameterTable,
+    ) -> bool {
         let (Some(near), Some(own)) = (self.bud(rival), self.bud(axis)) else { return false };
         let distance_squared = near.position.distance_squared(place);
         (distance_squared, rival) < (own.position.distance_squared(place), axis)
-            && near.perceives(place, distance_squared, parameters)
+            && near.perceives(place, distance_squared, parameters.of(rival))
     }
 
     /// The nearest bud whose perception volume holds a place; of equally near ones the oldest.
-    pub fn nearest_perceiving(&self, place: Vec3, parameters: &Parameters) -> Option<AxisId> {
+    pub fn nearest_perceiving(&self, place: Vec3, parameters: &ParameterTable) -> Option<AxisId> {
         let mut best: Option<(f32, AxisId)> = None;
-        self.visit_buds(place, parameters.perception_radius(), |axis, bud, distance_squared| {
+        self.visit_buds(place, parameters.farthest_perception(), |axis, bud, distance_squared| {
             let nearer = best.is_none_or(|(d, a)| (distance_squared, axis) < (d, a));
-            if nearer && bud.perceives(place, distance_squared, parameters) {
+            if nearer && bud.perceives(place, distance_squared, parameters.of(axis)) {
                 best = Some((distance_squared, axis));
             }
         });
@@ -155,8 +165,12 @@ impl Default for Space {
 }
 
 impl Bud {
-    /// Whether a place at this squared distance, not beyond the perception radius, lies in the cone.
+    /// Whether a place at this squared distance lies in the perception volume or the zone before it.
     pub(crate) fn perceives(&self, place: Vec3, distance_squared: f32, parameters: &Parameters) -> bool {
+        let far = parameters.perception_radius();
+        if distance_squared > far * far {
+            return false;
+        }
         (place - self.position).dot(self.direction)
             >= parameters.cos_half_perception * distance_squared.sqrt()
     }
@@ -196,7 +210,8 @@ mod tests {
             removed in prop::collection::vec(0usize..80, 0..10),
             place in vector(-9.0..9.0),
         ) {
-            let parameters = Parameters::default();
+            let table = ParameterTable::default();
+            let parameters = table.scene().clone();
             let mut plain: Vec<(Vec3, Vec3)> =
                 buds.iter().map(|(p, d)| (*p, d.try_normalize().unwrap_or(Vec3::Y))).collect();
             let mut grid = Space::new();
@@ -213,7 +228,7 @@ mod tests {
                 plain[i].0 = Vec3::splat(1e6);
                 grid.remove_bud(AxisId::new(i));
             }
-            prop_assert_eq!(grid.nearest_perceiving(place, &parameters), nearest_by_definition(&plain, place, &parameters));
+            prop_assert_eq!(grid.nearest_perceiving(place, &table), nearest_by_definition(&plain, place, &parameters));
             for (i, node) in nodes.iter().enumerate() {
                 grid.occupy(MetamerId::new(i), *node);
             }
@@ -230,7 +245,7 @@ mod tests {
                     && (place - *p).dot(*d) >= parameters.cos_half_perception * d2.sqrt();
                 if perceives {
                     let won = free && nearest_by_definition(&plain, place, &parameters) == Some(AxisId::new(i));
-                    let contest = grid.contest(AxisId::new(i), place, &parameters);
+                    let contest = grid.contest(AxisId::new(i), place, &table);
                     prop_assert_eq!(contest == Contest::Won, won);
                     prop_assert_eq!(contest == Contest::Occupied, !free);
                 }

@@ -27,6 +27,15 @@ pub struct StepInput {
     pub autonomous: bool,
 }
 
+/// What a step brought about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StepOutcome {
+    /// Metamers added.
+    pub metamers_grown: u32,
+    /// Buds that had markers to grow towards.
+    pub buds_enabled: u32,
+}
+
 /// Columns that live only within a step, kept for their memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
@@ -44,9 +53,10 @@ const PARALLEL_FROM: usize = 4096;
 const BLOCK: usize = 512;
 
 impl Simulation {
-    /// One step, in the order of TreeSketch §3.2. Returns how many metamers it added.
-    pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> u32 {
+    /// One step, in the order of TreeSketch §3.2. A step in which nothing grows or is shed leaves no trace.
+    pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
         self.budget_reached = false;
+        self.tick = self.tick.wrapping_add(1);
         self.plant.begin_step();
         let before = self.plant.metamer_count();
 
@@ -65,19 +75,20 @@ impl Simulation {
         if input.autonomous {
             self.find_free_space(&mut enabled);
         }
+        let buds_enabled = enabled.len() as u32;
         observer.enter(Phase::Growth);
         self.grow(enabled, stroke);
         observer.enter(Phase::Girth);
         self.plant.end_step();
         self.write_appearance();
-        (self.plant.metamer_count() - before) as u32
+        StepOutcome { metamers_grown: (self.plant.metamer_count() - before) as u32, buds_enabled }
     }
 
     fn sow_and_clear_markers(&mut self, input: &StepInput) {
-        let step = self.plant.step();
+        let tick = self.tick;
         let parameters = self.parameters.scene();
         for piece in &input.pieces {
-            piece.sow(&mut self.markers, self.seed, step, parameters);
+            piece.sow(&mut self.markers, self.seed, tick, parameters);
             let guide = self.guides.entry(piece.stroke).or_default();
             for &sample in &piece.samples {
                 guide.follow(sample, parameters.occupancy_radius);
@@ -86,14 +97,14 @@ impl Simulation {
         }
         let (space, radius) = (&self.space, parameters.occupancy_radius);
         self.markers
-            .clear(step, parameters.marker_max_age, |place| !space.is_occupied(place, radius, |_| true));
+            .clear(tick, parameters.marker_max_age, |place| !space.is_occupied(place, radius, |_| true));
     }
 
     /// Gives each marker to the nearest bud that perceives it; returns those buds with their direction E.
     fn associate_markers(&self) -> BTreeMap<AxisId, Vec3> {
         let mut claims: BTreeMap<AxisId, Vec3> = BTreeMap::new();
         for marker in self.markers.as_slice() {
-            if let Some(axis) = self.space.nearest_perceiving(marker.position, self.parameters.scene()) {
+            if let Some(axis) = self.space.nearest_perceiving(marker.position, &self.parameters) {
                 let towards = (marker.position - self.plant.bud_position(axis)).normalize();
                 *claims.entry(axis).or_insert(Vec3::ZERO) += towards;
             }
@@ -164,6 +175,7 @@ impl Simulation {
             .filter(|&(vigor, _)| vigor > 0.0)
             .collect();
         candidates.sort_unstable_by(by_vigor);
+        let mut found: Vec<(f64, AxisId, Vec3)> = Vec::new();
         let mut greatest = enabled.keys().map(|&axis| self.bud_vigor(axis)).fold(0.0, f64::max);
         for block in candidates.chunks(BLOCK) {
             if self.shoot_length(block[0].0, greatest, block[0].1) == 0 {
@@ -179,11 +191,17 @@ impl Simulation {
                 memory.set(axis, remembered);
                 if let Some(space) = space {
                     greatest = greatest.max(vigor);
-                    enabled.entry(axis).or_insert(space);
+                    found.push((vigor, axis, space));
                 }
             }
         }
         self.scratch.memory = memory;
+        // The last block holds some that are too weak; which ones must not depend on where blocks end.
+        for (vigor, axis, space) in found {
+            if self.shoot_length(vigor, greatest, axis) > 0 {
+                enabled.entry(axis).or_insert(space);
+            }
+        }
     }
 
     fn bud_vigor(&self, axis: AxisId) -> f64 {
@@ -202,9 +220,11 @@ impl Simulation {
     fn grow(&mut self, mut enabled: BTreeMap<AxisId, Vec3>, stroke: Option<Vec3>) {
         let mut guides = core::mem::take(&mut self.guides);
         for guide in guides.values_mut() {
-            let Some(leader) = guide.leader.filter(|&leader| self.plant.is_axis_alive(leader)) else {
+            let Some(leader) = guide.leader else { continue };
+            if !self.plant.is_axis_alive(leader) {
+                guide.restart();
                 continue;
-            };
+            }
             let aim = Aim { space: enabled.get(&leader).copied(), stroke };
             let longest = self.parameters.of(leader).max_shoot_length;
             if self.grow_guided(leader, longest, aim, |tip| guide.next_node(tip)) > 0 {

@@ -164,19 +164,26 @@ impl Plant {
         self.timeline.recording = true;
     }
 
-    /// Ends the step: girth follows from what has grown.
-    pub fn end_step(&mut self) {
+    /// Ends the step: girth follows from what has grown. A step in which nothing happened is not recorded, so
+    /// that going back one step always shows; returns whether it was.
+    pub fn end_step(&mut self) -> bool {
         debug_assert!(self.timeline.recording, "end_step follows begin_step");
+        let end = StepEnd {
+            metamers: self.metamers.parent.len() as u32,
+            axes: self.axes.bearer.len() as u32,
+            losses: self.timeline.losses.len() as u32,
+        };
+        self.timeline.recording = false;
+        if self.timeline.now > 0 && end == self.timeline.before(self.timeline.now) {
+            self.timeline.now -= 1;
+            return false;
+        }
         let born = self.timeline.before(self.timeline.now).metamers as usize;
         for index in born..self.metamers.parent.len() {
             self.carry(MetamerId::new(index));
         }
-        self.timeline.ends.push(StepEnd {
-            metamers: self.metamers.parent.len() as u32,
-            axes: self.axes.bearer.len() as u32,
-            losses: self.timeline.losses.len() as u32,
-        });
-        self.timeline.recording = false;
+        self.timeline.ends.push(end);
+        true
     }
 
     /// Plants a seed, within a step.

@@ -9,7 +9,7 @@ mod tests;
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_growth::{NoObserver, Observer, Parameters, Simulation, StepInput, StrokeId};
+use espalier_growth::{NoObserver, Observer, Parameters, Simulation, StepInput, StepOutcome, StrokeId};
 use espalier_plant::{Plant, hash::StableHash};
 use espalier_proto::{ParametersPatch, Problem, ProblemCode};
 use glam::Vec3;
@@ -117,18 +117,26 @@ impl Document {
                 }
             }
             Pending::Settle(stroke, left) => {
-                if left > 0 && self.simulation.has_guidance() {
-                    self.simulation.step(&StepInput::default(), observer);
-                    self.pending.push_front(Pending::Settle(stroke, left - 1));
+                let outcome = if left > 0 && self.simulation.has_guidance() {
+                    self.simulation.step(&StepInput::default(), observer)
                 } else {
+                    StepOutcome::default()
+                };
+                // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
+                if outcome == StepOutcome::default() {
                     self.simulation.end_stroke(stroke);
                     if self.strokes.is_empty() {
                         self.simulation.drop_guidance();
                     }
+                } else {
+                    self.pending.push_front(Pending::Settle(stroke, left - 1));
                 }
             }
         }
         self.history.reach(self.simulation.plant().step());
+        if self.pending.is_empty() && self.strokes.is_empty() {
+            self.history.forget_idle();
+        }
         true
     }
 
@@ -216,10 +224,7 @@ impl Document {
     }
 
     fn begin_growth(&mut self, author: &str, steps: u32, gesture: Option<u32>) -> Result<(), Problem> {
-        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.metamer_budget());
-        if held >= budget {
-            return Err(refused(format!("the document holds {held} metamers, its budget is {budget}")));
-        }
+        self.require_room()?;
         let continues = self.history.continues(author, gesture, self.plant().step());
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, author, gesture);
@@ -258,6 +263,9 @@ impl Document {
     fn set_parameters(&mut self, author: &str, patch: &ParametersPatch) -> Result<(), Problem> {
         let wanted =
             parameters::parse(&self.parameters().patched(patch)).map_err(|p| p.within("parameters"))?;
+        if wanted == *self.simulation.parameters() {
+            return Ok(());
+        }
         self.record(Kind::Parameters, author, None);
         self.simulation.set_parameters(wanted.clone());
         self.history.settle_parameters(Arc::new(wanted));
@@ -268,10 +276,25 @@ impl Document {
         if position.y != 0.0 {
             return Err(Problem::out_of_range("position[1]", position.y, "0, the ground"));
         }
+        self.require_room()?;
         self.record(Kind::Seed, author, None);
         self.simulation.sow(position);
         self.history.reach(self.plant().step());
         Ok(())
+    }
+
+    /// Ends all strokes where they are: whoever drew them is not there any more.
+    pub fn lift_brushes(&mut self) {
+        self.strokes.close_all();
+        self.simulation.drop_guidance();
+    }
+
+    fn require_room(&self) -> Result<(), Problem> {
+        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.metamer_budget());
+        if held < budget {
+            return Ok(());
+        }
+        Err(refused(format!("the document holds {held} metamers, its budget is {budget}")))
     }
 
     /// Starts an operation at the present; what was undone before it cannot be redone any more.

@@ -1,6 +1,6 @@
 //! Sentences for messages that cannot be read, naming the field at fault where it can be found.
 
-use espalier_proto::{ParametersPatch, Problem, ProblemCode, StrokeSample};
+use espalier_proto::{ParametersPatch, Problem, ProblemCode, StrokeSample, version::MAX_STEPS_PER_COMMAND};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -8,7 +8,10 @@ use serde_json::Value;
 pub(crate) fn message(error: &serde_json::Error) -> Problem {
     let text = without_place(&error.to_string());
     if error.is_syntax() || error.is_eof() {
-        let place = format!("line {}, column {}", error.line(), error.column());
+        let place = match error.line() {
+            1 => format!("column {}", error.column()),
+            line => format!("line {line}, column {}", error.column()),
+        };
         return Problem::new(ProblemCode::Malformed, format!("the message is not JSON ({place}): {text}"));
     }
     Problem {
@@ -21,7 +24,7 @@ pub(crate) fn message(error: &serde_json::Error) -> Problem {
 
 /// The number and the problem of a command message whose command cannot be read.
 pub(crate) fn numbered_command(text: &str, error: &serde_json::Error) -> Option<(u32, Problem)> {
-    let value = serde_json::from_str::<Value>(text).ok()?;
+    let value = readable(text)?;
     if value.get("type")?.as_str()? != "command" {
         return None;
     }
@@ -33,7 +36,7 @@ pub(crate) fn numbered_command(text: &str, error: &serde_json::Error) -> Option<
 
 /// A command given as JSON text that is no known command.
 pub(crate) fn command(text: &str, error: &serde_json::Error) -> Problem {
-    serde_json::from_str(text).map_or_else(|_| message(error), |value| command_value(&value, error))
+    readable(text).map_or_else(|| message(error), |value| command_value(&value, error))
 }
 
 /// A command given as a JSON value that is no known command; `error` is what reading it said.
@@ -52,6 +55,9 @@ pub(crate) fn command_value(value: &Value, error: &serde_json::Error) -> Problem
 /// Serde loses the path of an error inside a tagged enum; this goes through the fields one by one again.
 fn locate(command: &Value) -> Option<Problem> {
     let fields = command.as_object()?;
+    if let Some(problem) = fields.get("kind").and_then(|kind| wrong_kind(kind)) {
+        return Some(problem);
+    }
     for (name, value) in fields {
         let found = match name.as_str() {
             "stroke" | "steps" => wrong::<u32>(name, value),
@@ -97,7 +103,136 @@ fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
     let error = T::deserialize(value).err()?;
     let text = without_place(&error.to_string());
     let message = format!("{field} cannot be read: {text}");
-    Some(Problem { code: ProblemCode::Malformed, field: Some(field.into()), allowed: None, message })
+    let allowed = allowed(field);
+    let message =
+        allowed.as_ref().map_or(message.clone(), |allowed| format!("{message}; allowed: {allowed}"));
+    Some(Problem { code: ProblemCode::Malformed, field: Some(field.into()), allowed, message })
+}
+
+/// Every kind of command.
+const KINDS: &str =
+    "stroke_begin, stroke_move, stroke_end, grow, ungrow, undo, redo, set_parameters, plant_seed";
+
+fn wrong_kind(kind: &Value) -> Option<Problem> {
+    let known = kind.as_str().is_some_and(|kind| KINDS.split(", ").any(|known| known == kind));
+    (!known).then(|| Problem {
+        code: ProblemCode::Malformed,
+        field: Some("kind".into()),
+        allowed: Some(KINDS.into()),
+        message: format!("kind is {kind}; allowed: {KINDS}"),
+    })
+}
+
+/// What may stand in a field, for values so wrong that they never come to the range checks.
+fn allowed(field: &str) -> Option<String> {
+    let (outer, name) = field.rsplit_once('.').unwrap_or(("", field));
+    if outer == "parameters" {
+        let range = espalier_growth::RANGES.iter().find(|(range, ..)| *range == name);
+        return range.map(|(_, low, high)| format!("{low} to {high}"));
+    }
+    Some(match name {
+        "stroke" | "gesture" => format!("a whole number from 0 to {}", u32::MAX),
+        "steps" => format!("1 to {MAX_STEPS_PER_COMMAND}"),
+        "position" => "three numbers, x and z -1000 to 1000, y -10 to 1000".into(),
+        "radius" => "0 to 40".into(),
+        _ => return None,
+    })
+}
+
+/// The text as JSON; numbers that JSON does not have, such as NaN or 1e999, stand in it as texts, so that the
+/// field that holds one can be named.
+fn readable(text: &str) -> Option<Value> {
+    serde_json::from_str(text).ok().or_else(|| serde_json::from_str(&quoted_non_numbers(text)).ok())
+}
+
+fn quoted_non_numbers(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let is_word = |c: char| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.');
+        let end = match first {
+            '"' => string_end(rest),
+            c if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+            c => c.len_utf8(),
+        };
+        let (token, after) = rest.split_at(end);
+        let is_number = token.parse::<f64>().is_ok();
+        if first != '"' && is_number && serde_json::from_str::<f64>(token).is_err() {
+            out.push('"');
+            out.push_str(token);
+            out.push('"');
+        } else {
+            out.push_str(token);
+        }
+        rest = after;
+    }
+    out
+}
+
+/// Where the JSON string that `text` begins with ends.
+fn string_end(text: &str) -> usize {
+    let mut escaped = false;
+    for (at, c) in text.char_indices().skip(1) {
+        match c {
+            _ if escaped => escaped = false,
+            '\\' => escaped = true,
+            '"' => return at + 1,
+            _ => {}
+        }
+    }
+    text.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::action::Action;
+
+    #[test]
+    fn every_unreadable_value_names_field_and_range() {
+        for (text, field, allowed) in [
+            (r#"{"kind":"grow","steps":-1}"#, "steps", "1 to 1000"),
+            (r#"{"kind":"grow","steps":1.5}"#, "steps", "1 to 1000"),
+            (
+                r#"{"kind":"stroke_move","stroke":1,"samples":[{"position":[0,1,0],"radius":NaN}]}"#,
+                "samples[0].radius",
+                "0 to 40",
+            ),
+            (
+                r#"{"kind":"stroke_move","stroke":1,"samples":[{"position":[0,1e999,0],"radius":1}]}"#,
+                "samples[0].position",
+                "three numbers, x and z -1000 to 1000, y -10 to 1000",
+            ),
+            (
+                r#"{"kind":"set_parameters","parameters":{"apical_control":null}}"#,
+                "parameters.apical_control",
+                "0.4 to 0.7",
+            ),
+            (
+                r#"{"kind":"set_parameters","parameters":{"max_shoot_length":-3}}"#,
+                "parameters.max_shoot_length",
+                "1 to 20",
+            ),
+            (r#"{"kind":"fell"}"#, "kind", KINDS),
+        ] {
+            let problem = Action::from_json(text).expect_err(text);
+            assert_eq!(
+                (problem.field.as_deref(), problem.allowed.as_deref()),
+                (Some(field), Some(allowed)),
+                "{text}"
+            );
+            assert!(problem.message.contains(allowed), "{}", problem.message);
+        }
+    }
+
+    #[test]
+    fn kinds_are_those_of_the_wire() {
+        let error = serde_json::from_str::<espalier_proto::Command>(r#"{"kind":"?"}"#).expect_err("unknown");
+        for kind in KINDS.split(", ") {
+            assert!(error.to_string().contains(&format!("`{kind}`")), "{kind} is not on the wire: {error}");
+        }
+        assert_eq!(error.to_string().matches('`').count() / 2, KINDS.split(", ").count() + 1, "{error}");
+    }
 }
 
 /// The field in "missing field `steps`" or "unknown field `x`, expected …".

@@ -89,8 +89,10 @@ impl Session {
     /// The first snapshot of a session that opens a saved tree, from the bytes a [`Input::Read`] gave.
     /// Keep it with `through` 0 and restore the session from it.
     pub fn first_snapshot(document: &[u8]) -> Result<Vec<u8>, RestoreError> {
-        Document::from_bytes(document)?;
-        Ok(snapshot::to_bytes(0, &BTreeMap::new(), document))
+        let mut document = Document::from_bytes(document)?;
+        // Whoever was drawing when the tree was saved draws elsewhere.
+        document.lift_brushes();
+        Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document.to_bytes()))
     }
 
     fn with_document(

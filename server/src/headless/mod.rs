@@ -67,11 +67,11 @@ pub enum HeadlessError {
 
 /// `espalier replay`.
 pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
-    let text =
+    let bytes =
         read(&options.script).map_err(|cause| HeadlessError::Read { path: options.script.clone(), cause })?;
     let name = options.script.display().to_string();
     // All lines are read before the first is done: a typo at the end should not cost the time of the rest.
-    let script = script::parse(&name, &text)?;
+    let script = script::parse(&name, &bytes)?;
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         let mut bench = Bench::new(Document::new(options.seed));
         for (line, action) in &script {
@@ -107,13 +107,13 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
     finish(bench, &options.results)
 }
 
-fn read(path: &Path) -> io::Result<String> {
+fn read(path: &Path) -> io::Result<Vec<u8>> {
     if path == Path::new("-") {
-        let mut text = String::new();
-        io::stdin().read_to_string(&mut text)?;
-        return Ok(text);
+        let mut bytes = Vec::new();
+        io::stdin().read_to_end(&mut bytes)?;
+        return Ok(bytes);
     }
-    fs::read_to_string(path)
+    fs::read(path)
 }
 
 fn finish(bench: Bench, results: &Results) -> Result<(), HeadlessError> {

@@ -1,6 +1,6 @@
 //! Scripts: one command in JSON on each line.
 
-use espalier_proto::Problem;
+use espalier_proto::{Problem, ProblemCode};
 use espalier_session::Action;
 
 /// A line that cannot be read or done.
@@ -16,14 +16,20 @@ pub struct ScriptError {
 }
 
 /// The actions of a script, each with its line; empty lines are none.
-pub fn parse(name: &str, text: &str) -> Result<Vec<(usize, Action)>, ScriptError> {
-    let numbered = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+pub fn parse(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Action)>, ScriptError> {
+    let numbered = (1..).zip(bytes.split(|&byte| byte == b'\n'));
     numbered
-        .map(|(line, text)| match Action::from_json(text) {
+        .filter(|(_, line)| !line.trim_ascii().is_empty())
+        .map(|(line, bytes)| match read(bytes) {
             Ok(action) => Ok((line, action)),
             Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem }),
         })
         .collect()
+}
+
+fn read(line: &[u8]) -> Result<Action, Problem> {
+    let not_text = |_| Problem::new(ProblemCode::Malformed, "the line is not UTF-8 text");
+    Action::from_json(std::str::from_utf8(line).map_err(not_text)?)
 }
 
 #[cfg(test)]
@@ -32,9 +38,10 @@ mod tests {
 
     #[test]
     fn empty_lines_count_but_do_nothing() {
-        let script = parse("s", "\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").unwrap();
+        let script = parse("s", b"\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").unwrap();
         assert_eq!(script, [(2, Action::Undo), (4, Action::Redo)]);
-        assert_eq!(parse("s", ""), Ok(vec![]));
+        assert_eq!(parse("s", b""), Ok(vec![]));
+        assert_eq!(parse("s", b"{\"kind\":\"undo\"}\n\xff").unwrap_err().line, 2);
     }
 
     #[test]
@@ -44,7 +51,7 @@ mod tests {
         let text = format!(
             "{{\"kind\":\"stroke_begin\",\"stroke\":1}}\n{{\"kind\":\"stroke_move\",\"stroke\":1,\"samples\":[{samples}]}}"
         );
-        let error = parse("script.jsonl", &text).unwrap_err();
+        let error = parse("script.jsonl", text.as_bytes()).unwrap_err();
         assert_eq!(error.to_string(), "script.jsonl line 2: samples[3].radius is 99; allowed: 0 to 40");
     }
 

@@ -3,7 +3,7 @@ import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
 import { launchBrowser } from "./browser";
 import { type Box, becameTree, changed, colours, Darkroom } from "./picture";
 import { Server } from "./server";
-import { Tablet, way } from "./tablet";
+import { LANDSCAPE, type Screen, Tablet, way } from "./tablet";
 
 /** Where the first seed stands in a fresh view, and a stroke up from there. */
 const base = { x: 597, y: 750 };
@@ -34,15 +34,15 @@ afterAll(async () => {
   await server.stop();
 });
 
-async function open(address: string, size?: { width: number; height: number }): Promise<Tablet> {
-  const tablet = await Tablet.open(browser, darkroom, address, size);
+async function open(address: string, screen?: Screen): Promise<Tablet> {
+  const tablet = await Tablet.open(browser, darkroom, address, screen);
   tablets.push(tablet);
   return tablet;
 }
 
-async function fresh(seed = 5): Promise<{ tablet: Tablet; address: string }> {
-  const address = await server.newSession(seed);
-  return { tablet: await open(address), address };
+async function fresh(screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
+  const address = await server.newSession(5);
+  return { tablet: await open(address, screen), address };
 }
 
 /** A tablet on which a tree was drawn. */
@@ -55,7 +55,7 @@ async function drawn(): Promise<{ tablet: Tablet; address: string; metamers: num
 }
 
 test("a finger draws a tree that grows during the stroke", async () => {
-  const { tablet } = await fresh();
+  const { tablet } = await fresh(LANDSCAPE);
   const before = await tablet.photograph("1-seedling");
   expect(colours(before), "ground and sky are there").toBeGreaterThan(8);
 
@@ -215,7 +215,7 @@ test("a tree is saved, found in the library and opened again", async () => {
 
 test("the page fits an upright tablet", async () => {
   const address = await server.newSession(5);
-  const tablet = await open(address, { width: 834, height: 1194 });
+  const tablet = await open(address, { width: 834, height: 1194, detail: 1 });
   const before = await tablet.photograph("12-upright-seedling");
   await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 500 })]);
   await tablet.untilQuiet();

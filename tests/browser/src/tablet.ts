@@ -21,7 +21,17 @@ export interface Facts {
   readonly step: number;
 }
 
-const LANDSCAPE = { width: 1194, height: 834 };
+export interface Screen {
+  readonly width: number;
+  readonly height: number;
+  /** Device pixels per pixel of the page. */
+  readonly detail: number;
+}
+
+/** A tablet on its side, as people see it. */
+export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 1 };
+/** The same with coarse pixels, because the processor draws each of them; for tests that are not about looks. */
+export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
 
 /** One tablet with the page open: real touch points in, screenshots out. */
 export class Tablet {
@@ -40,8 +50,10 @@ export class Tablet {
     page.on("pageerror", (error) => this.errors.push(String(error)));
   }
 
-  static async open(browser: Browser, darkroom: Darkroom, address: string, size = LANDSCAPE): Promise<Tablet> {
-    const context = await browser.newContext({ viewport: size, hasTouch: true, isMobile: true, deviceScaleFactor: 1 });
+  static async open(browser: Browser, darkroom: Darkroom, address: string, screen = COARSE): Promise<Tablet> {
+    const { width, height, detail } = screen;
+    const viewport = { width, height };
+    const context = await browser.newContext({ viewport, hasTouch: true, isMobile: true, deviceScaleFactor: detail });
     const page = await context.newPage();
     const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom);
     await page.goto(address);

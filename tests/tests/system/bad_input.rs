@@ -1,5 +1,5 @@
 use espalier_proto::{ClientMessage, Command, DocumentState, ProblemCode};
-use espalier_tests::{client::Client, scratch::Scratch, server::Server, table::Row};
+use espalier_tests::{client::Client, dice::Dice, scratch::Scratch, server::Server, table::Row};
 use serde_json::{Value, json};
 use tokio_tungstenite::tungstenite::Message;
 
@@ -315,4 +315,38 @@ async fn a_patch_with_one_bad_value_changes_nothing() {
     let session = patient.client.session.clone();
     let other = Client::connect(patient._server.port(), &session, key).await;
     assert_eq!(other.parameters, parameters);
+}
+
+#[tokio::test]
+async fn mutilated_messages_never_end_the_session() {
+    let mut patient = Patient::new().await;
+    let mut dice = Dice::new(41);
+    let whole = [
+        r#"{"type":"ping","nonce":7}"#,
+        r#"{"type":"received","sequence":1}"#,
+        r#"{"type":"hello","protocol":1,"client":"browser-1","resume":{"epoch":1,"generations":[1,2],"rows":300}}"#,
+        r#"{"type":"command","id":900,"command":{"kind":"stroke_move","stroke":3,"samples":[{"position":[0,1.5,0],"radius":2}]}}"#,
+        r#"{"type":"command","id":900,"command":{"kind":"set_parameters","parameters":{"leaf_size":1.5,"trunk_upward":true}}}"#,
+        r#"{"type":"command","id":900,"command":{"kind":"plant_seed","position":[1e1,0,-2]}}"#,
+    ];
+    let debris =
+        ["\"", "{", "}", "[", "]", ",", ":", "-", "1e400", "null", "\\u0000", "\u{fffd}", "99999999999", ""];
+    for _ in 0..1500 {
+        let mut message = whole[dice.roll(whole.len())].to_owned();
+        for _ in 0..=dice.roll(3) {
+            let start = dice.roll(message.len() + 1);
+            let end = (start + dice.roll(4)).min(message.len());
+            message.replace_range(start..end, debris[dice.roll(debris.len())]);
+            // Every piece is ASCII or stands whole, but a cut may go through the one that is not.
+            if !message.is_ascii() {
+                break;
+            }
+        }
+        patient.client.send_raw(Message::text(message)).await;
+        // Answers are read as they come, or this client would be a slow one.
+        patient.client.listen(std::time::Duration::from_micros(200)).await;
+    }
+    assert!(patient.client.is_connected(), "{:?}", patient.client.closed);
+    patient.is_unharmed("1500 mutilated messages").await;
+    patient.still_grows().await;
 }

@@ -3,6 +3,7 @@ use std::time::Duration;
 use espalier_proto::{Command, ParametersPatch};
 use espalier_tests::{
     client::Client,
+    dice::Dice,
     scratch::Scratch,
     server::Server,
     strokes::{line, stroke},
@@ -10,16 +11,6 @@ use espalier_tests::{
 
 const KILLS: usize = 20;
 const SEED: u32 = 11;
-
-/// A small generator, so that a failing run can be repeated.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self, sides: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (self.0 >> 33) % sides
-    }
-}
 
 /// Where the strokes go, seen from above.
 const AROUND: [[f32; 2]; 7] =
@@ -60,7 +51,7 @@ async fn reference(server: &Server, commands: impl Iterator<Item = Command>) -> 
 
 #[tokio::test]
 async fn twenty_kills_lose_and_double_nothing_acknowledged() {
-    let mut dice = Dice(2026);
+    let mut dice = Dice::new(2026);
     let strokes = script(&mut dice);
     let commands: Vec<Command> = strokes.iter().flatten().cloned().collect();
     let scratch = Scratch::new();
@@ -70,11 +61,11 @@ async fn twenty_kills_lose_and_double_nothing_acknowledged() {
     let mut cut_short = 0;
     for stroke in strokes {
         // Somewhere in the middle of the stroke, with some of it on its way.
-        let last_words = 2 + dice.roll(stroke.len() as u64 - 3) as usize;
+        let last_words = 2 + dice.roll(stroke.len() - 3);
         for (i, command) in stroke.into_iter().enumerate() {
             client.send(command).await;
             if i + 1 == last_words {
-                client.listen(Duration::from_millis(dice.roll(60))).await;
+                client.listen(Duration::from_millis(dice.roll(60) as u64)).await;
                 cut_short += usize::from(!client.unacknowledged.is_empty());
                 let promised = client.acknowledged;
                 server = server.kill_and_restart();
@@ -97,7 +88,7 @@ async fn twenty_kills_lose_and_double_nothing_acknowledged() {
 
 #[tokio::test]
 async fn what_was_acknowledged_is_there_even_if_nobody_resends() {
-    let mut dice = Dice(7);
+    let mut dice = Dice::new(7);
     let commands: Vec<Command> = script(&mut dice).into_iter().take(4).flatten().collect();
     let scratch = Scratch::new();
     let mut server = Server::start(&scratch.path("trees.db"));

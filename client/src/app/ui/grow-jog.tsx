@@ -1,8 +1,8 @@
 import { useRef } from "preact/hooks";
-import { growthRate } from "../grow-pacer";
+import { deflectionFor, FASTEST, growthRate, KEY_RATE } from "../grow-pacer";
 import type { Studio } from "../studio";
 
-const KEY_PUSH = 0.6;
+const KEY_PUSH = deflectionFor(KEY_RATE);
 
 /** A lever that springs back: pushed up the tree grows, pulled down it grows backwards, further is faster. */
 export function GrowJog({ studio }: { studio: Studio }) {
@@ -27,7 +27,9 @@ export function GrowJog({ studio }: { studio: Studio }) {
   };
   const pushed = (key: string) => ({ ArrowUp: KEY_PUSH, PageUp: 1, ArrowDown: -KEY_PUSH, PageDown: -1 })[key];
   const speech =
-    rate === 0 ? "at rest" : `${rate > 0 ? "growing" : "growing backwards"}, ${Math.abs(rate)} steps a second`;
+    rate === 0
+      ? "at rest"
+      : `${rate > 0 ? "growing" : "growing backwards"}, ${Math.abs(rate)} ${Math.abs(rate) === 1 ? "step" : "steps"} a second`;
 
   return (
     <div
@@ -37,8 +39,8 @@ export function GrowJog({ studio }: { studio: Studio }) {
       tabIndex={0}
       aria-label="Grow"
       aria-orientation="vertical"
-      aria-valuemin={-30}
-      aria-valuemax={30}
+      aria-valuemin={-FASTEST}
+      aria-valuemax={FASTEST}
       aria-valuenow={rate}
       aria-valuetext={speech}
       data-moving={deflection !== 0}

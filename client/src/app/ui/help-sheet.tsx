@@ -8,7 +8,7 @@ const GESTURES: readonly (readonly [string, string])[] = [
   ["Two fingers, middle button", "Move and zoom"],
   ["Three fingers, right button", "Turn around the tree"],
   ["Radius at the bottom", "Sketch: one limb, exactly along the stroke"],
-  ["Grow, pushed up or pulled down", "Grow on alone, or backwards"],
+  ["Grow, pushed up or pulled down", "Grow on alone, or backwards; further is faster"],
 ];
 
 const KEYS: readonly (readonly [string, string])[] = [

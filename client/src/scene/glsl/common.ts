@@ -1,9 +1,12 @@
+import { FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
+
 /** Start of every shader: precision, and the uniforms that all of them share. */
 export const HEAD = /* glsl */ `
 precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp sampler2DShadow;
+precision highp sampler3D;
 uniform mat4 projectionMatrix;
 uniform mat4 viewMatrix;
 uniform vec3 cameraPosition;
@@ -43,21 +46,21 @@ float radiusNow(Node node) {
 }
 `;
 
-/** Hashes and gradient noise. */
+/** Smooth noise from the lattices of \`noise-texture.ts\`, one fetch each; the curve between their values is made here. */
 export const NOISE = /* glsl */ `
-float hash3(vec3 p) {
-  p = fract(p * vec3(0.1031, 0.1030, 0.0973));
-  p += dot(p, p.yxz + 33.33);
-  return fract((p.x + p.y) * p.z);
-}
+uniform sampler3D uNoise;
+uniform sampler2D uFlatNoise;
 float noise(vec3 p) {
   vec3 i = floor(p);
-  vec3 f = fract(p);
-  f = f * f * (3.0 - 2.0 * f);
-  return mix(
-    mix(mix(hash3(i), hash3(i + vec3(1, 0, 0)), f.x), mix(hash3(i + vec3(0, 1, 0)), hash3(i + vec3(1, 1, 0)), f.x), f.y),
-    mix(mix(hash3(i + vec3(0, 0, 1)), hash3(i + vec3(1, 0, 1)), f.x),
-        mix(hash3(i + vec3(0, 1, 1)), hash3(i + vec3(1, 1, 1)), f.x), f.y), f.z);
+  vec3 f = p - i;
+  return texture(uNoise, (i + f * f * (3.0 - 2.0 * f) + 0.5) / ${NOISE_SIDE}.0).r;
+}
+/** Noise in a plane; planes of different seeds have nothing in common. */
+float noise(vec2 p, float seed) {
+  p += seed * vec2(17.13, 31.71);
+  vec2 i = floor(p);
+  vec2 f = p - i;
+  return texture(uFlatNoise, (i + f * f * (3.0 - 2.0 * f) + 0.5) / ${FLAT_NOISE_SIDE}.0).r;
 }
 `;
 
@@ -67,6 +70,7 @@ uniform vec3 uSun;
 uniform mat4 uSunFromWorld;
 uniform sampler2DShadow uShadow;
 uniform float uShadowTexel;
+uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges
 const vec3 SUN_COLOUR = vec3(1.0, 0.88, 0.70) * 3.3;
 const vec3 SKY_COLOUR = vec3(0.42, 0.58, 0.82);
 const vec3 BOUNCE_COLOUR = vec3(0.42, 0.40, 0.26);
@@ -77,6 +81,7 @@ float sunlit(vec3 world, vec3 normal, float softness) {
   vec3 p = at.xyz * 0.5 + 0.5;
   if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
   p.z = min(p.z, 1.0) - 0.0012;
+  if (uShadowTaps == 1) return texture(uShadow, p);
   float sum = 0.0;
   for (int i = 0; i < 9; i++) {
     vec2 offset = vec2(float(i % 3) - 1.0, float(i / 3) - 1.0) * uShadowTexel * softness;

@@ -19,8 +19,8 @@ out vec4 colour;
 /** Colour of a range of hills where its crest is above the line of sight, else what is behind it. */
 vec3 hills(vec3 behind, vec3 sight, float seed, float low, float high, vec3 hue) {
   vec2 towards = normalize(sight.xz);
-  float crest = noise(vec3(towards * 2.3, seed)) * 0.6 + noise(vec3(towards * 6.0, seed + 5.0)) * 0.28
-    + noise(vec3(towards * 17.0, seed + 9.0)) * 0.12;
+  float crest = noise(towards * 2.3, seed) * 0.6 + noise(towards * 6.0, seed + 5.0) * 0.28
+    + noise(towards * 17.0, seed + 9.0) * 0.12;
   float top = mix(low, high, crest);
   float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y);
   // Mist gathers at the feet of the hills.
@@ -37,8 +37,8 @@ void main() {
   float glow = max(dot(sight, uSun), 0.0);
   sky += vec3(1.0, 0.82, 0.55) * (0.10 * pow(glow, 6.0) + 0.25 * pow(glow, 60.0));
   vec2 plane = sight.xz / (up + 0.22);
-  float cloud = noise(vec3(plane * 1.2, 1.0)) * 0.52 + noise(vec3(plane * 2.9, 4.0)) * 0.28
-    + noise(vec3(plane * 6.1, 9.0)) * 0.13 + noise(vec3(plane * 13.0, 2.0)) * 0.07;
+  float cloud = noise(plane * 1.2, 1.0) * 0.52 + noise(plane * 2.9, 4.0) * 0.28
+    + noise(plane * 6.1, 9.0) * 0.13 + noise(plane * 13.0, 2.0) * 0.07;
   sky = mix(sky, vec3(1.45, 1.38, 1.28), smoothstep(0.46, 0.82, cloud) * smoothstep(0.02, 0.22, up) * 0.62);
   sky = hills(sky, sight, 3.0, 0.030, 0.085, vec3(0.50, 0.63, 0.70));
   sky = hills(sky, sight, 8.0, 0.006, 0.050, vec3(0.36, 0.49, 0.42));
@@ -66,9 +66,9 @@ void main() {
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   float near = exp(-away * 0.012);
-  float patches = noise(vec3(vWorld.xz * 0.05, 0.5)) * 0.55 + noise(vec3(vWorld.xz * 0.23, 3.0)) * 0.45;
-  float tufts = noise(vec3(vWorld.xz * vec2(1.1, 0.8), 8.0));
-  float blades = noise(vec3(vWorld.xz * vec2(4.1, 2.6), 8.0)) * 0.5 + noise(vec3(vWorld.zx * vec2(7.0, 11.0), 5.0)) * 0.5;
+  float patches = noise(vWorld.xz * 0.05, 0.5) * 0.55 + noise(vWorld.xz * 0.23, 3.0) * 0.45;
+  float tufts = noise(vWorld.xz * vec2(1.1, 0.8), 8.0);
+  float blades = noise(vWorld.xz * vec2(4.1, 2.6), 8.0) * 0.5 + noise(vWorld.zx * vec2(7.0, 11.0), 5.0) * 0.5;
   vec3 albedo = mix(vec3(0.075, 0.120, 0.030), vec3(0.150, 0.175, 0.055), patches);
   albedo *= 1.0 + near * ((blades - 0.5) * 0.7 + (tufts - 0.5) * 0.45);
   vec3 normal = normalize(vec3((blades - 0.5) * 0.3 * near, 1.0, (patches - 0.5) * 0.2));
@@ -76,7 +76,7 @@ void main() {
   float bare = 0.0;
   for (int i = 0; i < 8; i++) {
     float thick = uFeet[i].w;
-    if (thick <= 0.0) continue;
+    if (thick <= 0.0) break;
     float from = distance(vWorld.xz, uFeet[i].xz);
     open *= 1.0 - 0.75 * exp(-max(0.0, from - thick * 0.8) / (thick * 1.1 + 0.12));
     bare = max(bare, exp(-from / (thick * 2.2 + 0.3)) * (0.6 + 0.6 * blades));

@@ -161,6 +161,7 @@ fn read_plant(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
 fn write_state(out: &mut Writer, state: &SimulationState) {
     out.u32(state.seed);
     out.u32(state.metamer_budget);
+    out.u32(state.tick);
     out.parameters(&state.parameters);
     out.list(&state.markers, |out, marker| {
         out.vector(marker.position);
@@ -179,12 +180,9 @@ fn write_state(out: &mut Writer, state: &SimulationState) {
 }
 
 fn read_state(reader: &mut Reader<'_>, plant: &Plant) -> Result<SimulationState, DocumentError> {
-    let (seed, metamer_budget) = (reader.u32()?, reader.u32()?);
+    let (seed, metamer_budget, tick) = (reader.u32()?, reader.u32()?, reader.u32()?);
     let parameters = reader.parameters()?;
     let markers = reader.list(|r| Ok(Marker { position: r.vector()?, born: r.u32()? }))?;
-    if markers.iter().any(|marker| marker.born > plant.step()) {
-        return Err(damaged("a marker comes from the future"));
-    }
     let guides = reader.list(|r| {
         let stroke = StrokeId(r.u32()?);
         let leader = r.option()?.map(|axis| axis as usize);
@@ -194,7 +192,14 @@ fn read_state(reader: &mut Reader<'_>, plant: &Plant) -> Result<SimulationState,
         let path = r.list(|r| Ok(Waypoint { position: r.vector()?, weight: r.f32()? }))?;
         Ok((stroke, Guide { leader: leader.map(AxisId::new), path: path.into() }))
     })?;
-    Ok(SimulationState { seed, parameters, markers, guides: BTreeMap::from_iter(guides), metamer_budget })
+    Ok(SimulationState {
+        seed,
+        parameters,
+        markers,
+        guides: BTreeMap::from_iter(guides),
+        metamer_budget,
+        tick,
+    })
 }
 
 fn write_history(out: &mut Writer, history: &History) {

@@ -68,6 +68,9 @@ impl History {
         if let Some(last) = self.operations.last_mut() {
             last.last = last.last.min(now);
         }
+        // Most operations change no parameters: they share one set.
+        let shared = self.operations.last().map(|last| &last.after).filter(|after| **after == parameters);
+        let parameters = shared.map_or(parameters, Arc::clone);
         self.operations.push(Operation {
             kind,
             author: author.to_owned(),
@@ -85,6 +88,16 @@ impl History {
         self.operations.truncate(self.done);
         if let Some(last) = self.operations.last_mut() {
             last.last = now;
+        }
+    }
+
+    /// Forgets the last operation if it neither grew nor changed anything: undoing it would show nothing.
+    pub fn forget_idle(&mut self) {
+        let idle =
+            |last: &Operation| last.first == last.last && matches!(last.kind, Kind::Stroke | Kind::Growth);
+        if self.done == self.operations.len() && self.current().is_some_and(idle) {
+            self.operations.pop();
+            self.done -= 1;
         }
     }
 

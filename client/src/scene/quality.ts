@@ -1,0 +1,113 @@
+/** How much work goes into one frame. */
+export interface Quality {
+  /** Pixels drawn along each side, as a share of those the canvas shows. */
+  readonly scale: number;
+  /** Whether edges are antialiased. */
+  readonly smooth: boolean;
+  /** Milliseconds between two drawings of a shadow map that keeps changing. */
+  readonly shadowEvery: number;
+  /** Whether leaves have all their triangles and shadows soft edges. */
+  readonly detailed: boolean;
+}
+
+/** From the picture at rest to the quickest one. */
+export const QUALITIES: readonly [Quality, ...Quality[]] = [
+  { scale: 1, smooth: true, shadowEvery: 0, detailed: true },
+  { scale: 0.7, smooth: true, shadowEvery: 200, detailed: true },
+  { scale: 0.5, smooth: false, shadowEvery: 800, detailed: false },
+  { scale: 0.35, smooth: false, shadowEvery: Number.POSITIVE_INFINITY, detailed: false },
+];
+
+/** How long nothing moves before the whole quality comes back, in milliseconds. */
+export const REST_AFTER = 250;
+/** Frames that take longer than this are slow; a display that shows only 30 a second is not. */
+const SLOW = 45;
+/** A better picture is tried while frames are quicker than this. */
+const QUICK = 22;
+/** So much slower than this that no third frame is waited for. */
+const VERY_SLOW = 120;
+/** Quick frames in a row before a better picture is tried. */
+const TRUSTED = 45;
+const JUDGED = 3;
+
+/** Chooses the quality of frames while something moves, from how long they take. */
+export class QualityControl {
+  private level = 0;
+  /** Where the next movement begins: a slow device need not find out again. */
+  private first = 0;
+  private moving = false;
+  private lastMoved = Number.NEGATIVE_INFINITY;
+  private recent: number[] = [];
+  private quickInRow = 0;
+  /** The best level this movement may use; a failed try is not repeated before the next rest. */
+  private best = 0;
+
+  /** What the next frame is worth. */
+  get quality(): Quality {
+    return QUALITIES[this.moving ? this.level : 0] ?? QUALITIES[0];
+  }
+
+  get resting(): boolean {
+    return !this.moving;
+  }
+
+  /** Something moves, grows or is touched. */
+  moved(now: number): void {
+    this.lastMoved = now;
+    if (this.moving) return;
+    this.moving = true;
+    this.level = this.first;
+    this.best = 0;
+    this.recent = [];
+    this.quickInRow = 0;
+  }
+
+  /** A frame of the movement took this many milliseconds. */
+  measured(duration: number): void {
+    if (!this.moving) return;
+    this.recent.push(duration);
+    if (this.recent.length > JUDGED) this.recent.shift();
+    this.quickInRow = duration <= QUICK ? this.quickInRow + 1 : 0;
+    const cost = this.judged();
+    if (cost > SLOW && this.level < QUALITIES.length - 1) {
+      this.best = Math.max(this.best, this.level + 1);
+      this.go(this.quickEnough(cost));
+    } else if (this.quickInRow >= TRUSTED && this.level > this.best) {
+      this.go(this.level - 1);
+    }
+  }
+
+  /** Milliseconds until the picture at rest is due; null if it is shown already. */
+  restIn(now: number): number | null {
+    return this.moving ? Math.max(0, this.lastMoved + REST_AFTER - now) : null;
+  }
+
+  /** Nothing moves any more. */
+  rest(): void {
+    if (!this.moving) return;
+    this.moving = false;
+    // Where frames were quick throughout, the next movement may begin one better.
+    this.first = Math.max(0, this.level - (this.quickInRow >= JUDGED ? 1 : 0));
+  }
+
+  /** The middle of the last few durations: one frame that stumbles means nothing. */
+  private judged(): number {
+    const sorted = [...this.recent].sort((a, b) => a - b);
+    if (sorted.length === JUDGED) return sorted[1]!;
+    return sorted.length === 2 && sorted[0]! > VERY_SLOW ? sorted[0]! : 0;
+  }
+
+  /** The first level below that should be quick enough if time goes with the number of pixels. */
+  private quickEnough(cost: number): number {
+    const pixels = (level: number) => QUALITIES[level]!.scale ** 2;
+    let level = this.level + 1;
+    while (level < QUALITIES.length - 1 && (cost * pixels(level)) / pixels(this.level) > SLOW) level += 1;
+    return level;
+  }
+
+  private go(level: number): void {
+    this.level = level;
+    this.recent = [];
+    this.quickInRow = 0;
+  }
+}
