@@ -65,7 +65,7 @@ mod tests {
             "{\"kind\":\"grow\",\"steps\":-1}",
             "{\"kind\":\"undo\"} x",
         ] {
-            let error = parse("s", bad).unwrap_err();
+            let error = parse("s", bad.as_bytes()).unwrap_err();
             assert!(error.to_string().starts_with("s line 1: "), "{error}");
         }
     }
