@@ -76,10 +76,15 @@ impl Patient {
 
     /// Sends a command, as JSON, that must be refused, and returns why.
     async fn refusal(&mut self, command: &Value) -> espalier_proto::Problem {
-        let shown: String = command.to_string().chars().take(120).collect();
+        self.refusal_of(&command.to_string()).await
+    }
+
+    /// The same for a command as text, which may be no JSON.
+    async fn refusal_of(&mut self, command: &str) -> espalier_proto::Problem {
+        let shown: String = command.chars().take(120).collect();
         let id = self.client.take_number();
         let before = self.client.refused.len();
-        let message = json!({"type": "command", "id": id, "command": command}).to_string();
+        let message = format!(r#"{{"type":"command","id":{id},"command":{command}}}"#);
         self.client.send_raw(Message::text(message)).await;
         self.client.until(&format!("CM3: {shown} is refused"), |client| client.refused.len() > before).await;
         self.is_unharmed(&shown).await;
@@ -116,9 +121,6 @@ async fn cm8_a_message_that_is_no_control_message_is_a_problem() {
         r#"{"type":"ping","nonce":1,"more":2}"#,
         r#"{"type":"command","id":4294967296,"command":{"kind":"undo"}}"#,
         r#"{"type":"command","id":"3","command":{"kind":"undo"}}"#,
-        r#"{"type":"command","id":3,"command":{"kind":"grow","steps":NaN}}"#,
-        r#"{"type":"command","id":3,"command":{"kind":"plant_seed","position":[0,NaN,0]}}"#,
-        r#"{"type":"command","id":3,"command":{"kind":"plant_seed","position":[0,1e999,0]}}"#,
         &nested,
         &format!(r#"{{"type":"command","id":3,"command":{nested}"#),
     ];
@@ -221,6 +223,36 @@ async fn lm2_lm3_out_of_range_names_the_field_and_the_range() {
         let range = problem.allowed.clone().unwrap_or_default().replace('−', "-");
         assert!(range.contains(allowed) && !range.is_empty(), "{shown}: {problem:?}");
         assert!(problem.message.contains(&said), "{shown}: {problem:?}");
+    }
+    patient.still_grows().await;
+}
+
+#[tokio::test]
+async fn numbers_that_json_does_not_have_name_their_field() {
+    let mut patient = Patient::new().await;
+    for (command, field, allowed) in [
+        (r#"{"kind":"grow","steps":NaN}"#, "steps", "1 to 1000"),
+        (r#"{"kind":"plant_seed","position":[0,NaN,0]}"#, "position", "1000"),
+        (r#"{"kind":"plant_seed","position":[0,1e999,0]}"#, "position", "1000"),
+        (
+            r#"{"kind":"set_parameters","parameters":{"apical_control":NaN}}"#,
+            "parameters.apical_control",
+            "0.4 to 0.7",
+        ),
+        (
+            r#"{"kind":"stroke_move","stroke":1,"samples":[{"position":[0,1,0],"radius":NaN}]}"#,
+            "samples[0].radius",
+            "0 to 40",
+        ),
+        (
+            r#"{"kind":"stroke_move","stroke":1,"samples":[{"position":[0,1,0],"radius":-Infinity}]}"#,
+            "samples[0].radius",
+            "0 to 40",
+        ),
+    ] {
+        let problem = patient.refusal_of(command).await;
+        assert_eq!(problem.field.as_deref(), Some(field), "{command}: {problem:?}");
+        assert!(problem.allowed.clone().unwrap_or_default().contains(allowed), "{command}: {problem:?}");
     }
     patient.still_grows().await;
 }

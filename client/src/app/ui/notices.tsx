@@ -78,6 +78,7 @@ export function Hint({ studio }: { studio: Studio }) {
   const visible =
     studio.obstacle.value === null &&
     !studio.settings.hasDrawn.value &&
+    studio.document.value?.metamers === 0 &&
     studio.phase.value === "connected" &&
     !studio.drawing.value;
   return (

@@ -127,7 +127,7 @@ void main() {
   albedo = mix(albedo, vec3(0.150, 0.170, 0.105), lichen * 0.5);
   cavity = mix(1.0, mix(0.5, 1.0, height), depth);
 #endif
-  float exposure = mix(0.3, 1.0, vLight);
+  float exposure = mix(0.6, 1.3, vLight);
   float facing = dot(normal, uSun);
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
   // Soil and moss climb the foot of the trunk, and the ground keeps the sky from it.

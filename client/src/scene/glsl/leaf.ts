@@ -58,7 +58,7 @@ void main() {
   float vigor = vTint.y;
   float exposure = vTint.z;
 
-  vec3 deep = vec3(0.035, 0.085, 0.022);
+  vec3 deep = vec3(0.052, 0.115, 0.030);
   vec3 fresh = vec3(0.115, 0.190, 0.032);
   float freshness = clamp(0.1 + 0.4 * vigor + 0.7 * (random - 0.5) + 0.3 * exposure, 0.0, 1.0);
   vec3 albedo = mix(deep, fresh, freshness);
@@ -69,12 +69,13 @@ void main() {
   albedo *= 1.0 + detail * (0.32 * rib + 0.10 * (smoothstep(0.7, 1.0, veins) - 0.2) + 0.12 * (0.5 - abs(vBlade.x)));
 
   float facing = dot(normal, uSun);
-  float sun = sunlit(vWorld, uSun * 3.0, 1.4);
+  // Some sun always finds its way through a crown, from leaf to leaf.
+  float sun = mix(0.14, 1.0, sunlit(vWorld, uSun * 3.0, 1.4));
   float reflected = max(0.0, (facing + 0.2) / 1.2);
   float through = max(0.0, -facing + 0.1) * 0.62 + 0.35 * pow(max(0.0, -dot(sight, uSun)), 4.0);
   vec3 transmitted = albedo * vec3(1.35, 1.25, 0.5);
-  float open = mix(0.25, 1.0, exposure * exposure);
-  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * reflected * sun) + transmitted * SUN_COLOUR * through * sun;
+  float open = mix(0.55, 1.0, exposure);
+  vec3 lit = albedo * (ambient(normal) * 1.5 * open + SUN_COLOUR * reflected * sun) + transmitted * SUN_COLOUR * through * sun;
   float gloss = pow(max(0.0, dot(normal, normalize(sight + uSun))), 20.0);
   lit += SUN_COLOUR * gloss * sun * 0.035;
   colour = vec4(finished(hazed(lit, away)), 1.0);
