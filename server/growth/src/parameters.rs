@@ -75,9 +75,9 @@ values! {
     /// Weight of the present heading (α in H′ = αH + βT + γE).
     heading_weight: f32 = 0.5, in 0.0, 1.0;
     /// Weight of tropism (β).
-    tropism_weight: f32 = 0.15, in 0.0, 1.0;
+    tropism_weight: f32 = 0.25, in 0.0, 1.0;
     /// Weight of the direction towards free space (γ).
-    space_weight: f32 = 0.35, in 0.0, 1.0;
+    space_weight: f32 = 0.25, in 0.0, 1.0;
     /// Gravitropic set-point angle from the vertical (θ).
     setpoint_angle: f32 = 0.0, in 0.0, 180.0;
     /// Vertical half-axis of the gravimorphism ellipse (s_v, TreeSketch Figure 10).

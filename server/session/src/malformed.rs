@@ -55,7 +55,7 @@ pub(crate) fn command_value(value: &Value, error: &serde_json::Error) -> Problem
 /// Serde loses the path of an error inside a tagged enum; this goes through the fields one by one again.
 fn locate(command: &Value) -> Option<Problem> {
     let fields = command.as_object()?;
-    if let Some(problem) = fields.get("kind").and_then(|kind| wrong_kind(kind)) {
+    if let Some(problem) = fields.get("kind").and_then(wrong_kind) {
         return Some(problem);
     }
     for (name, value) in fields {
@@ -183,6 +183,17 @@ fn string_end(text: &str) -> usize {
     text.len()
 }
 
+/// The field in "missing field `steps`" or "unknown field `x`, expected …".
+fn named_field(text: &str) -> Option<String> {
+    let rest = text.strip_prefix("missing field `").or_else(|| text.strip_prefix("unknown field `"))?;
+    rest.split_once('`').map(|(field, _)| field.to_owned())
+}
+
+/// Serde's "at line 1 column 20" counts inside a message that people never see.
+fn without_place(text: &str) -> String {
+    text.rsplit_once(" at line ").map_or(text, |(sentence, _)| sentence).to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,15 +244,4 @@ mod tests {
         }
         assert_eq!(error.to_string().matches('`').count() / 2, KINDS.split(", ").count() + 1, "{error}");
     }
-}
-
-/// The field in "missing field `steps`" or "unknown field `x`, expected …".
-fn named_field(text: &str) -> Option<String> {
-    let rest = text.strip_prefix("missing field `").or_else(|| text.strip_prefix("unknown field `"))?;
-    rest.split_once('`').map(|(field, _)| field.to_owned())
-}
-
-/// Serde's "at line 1 column 20" counts inside a message that people never see.
-fn without_place(text: &str) -> String {
-    text.rsplit_once(" at line ").map_or(text, |(sentence, _)| sentence).to_owned()
 }

@@ -31,8 +31,6 @@ impl Session {
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }
-        // The steps a refused command was thought to take are no longer to be done.
-        self.upkeep.state_changed |= !refused.is_empty();
         for refusal in refused {
             // The session's own commands have number 0, and nobody waits for their answer.
             let client = self.authors.get(&refusal.author).and_then(|author| author.client);
@@ -49,14 +47,12 @@ impl Session {
         self.queue.came_back(&work.orders);
         self.take_figures(&work);
         self.home = Some(work);
+        // Steps that were expected and not taken count as well: a refused command leaves no other trace.
+        self.upkeep.state_changed |= self.state() != self.upkeep.told;
     }
 
     fn take_figures(&mut self, work: &Work) {
-        let (figures, leaves) = (work.document.figures(), work.table.leaves());
-        if (figures, leaves) != (self.figures, self.leaves) {
-            (self.figures, self.leaves) = (figures, leaves);
-            self.upkeep.state_changed = true;
-        }
+        (self.figures, self.leaves) = (work.document.figures(), work.table.leaves());
         let parameters = work.document.parameters();
         if parameters != self.parameters {
             self.parameters = parameters.clone();

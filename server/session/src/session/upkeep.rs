@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use espalier_proto::{Command, ServerMessage, version::CloseCode};
+use espalier_proto::{Command, DocumentState, ServerMessage, version::CloseCode};
 
 use super::Session;
 use crate::{
@@ -36,6 +36,8 @@ pub(super) struct Upkeep {
     pub(super) overdue: BTreeSet<Arc<str>>,
     /// Whether figures differ from what clients were told.
     pub(super) state_changed: bool,
+    /// What clients were told last.
+    pub(super) told: DocumentState,
     state_due: u64,
     pub(super) last_command_at: u64,
     /// The last entry in a snapshot that was handed out.
@@ -54,6 +56,7 @@ impl Upkeep {
             absences: VecDeque::new(),
             overdue: BTreeSet::new(),
             state_changed: false,
+            told: DocumentState::default(),
             state_due: 0,
             last_command_at: 0,
             snapshotted,
@@ -129,7 +132,8 @@ impl Session {
         if self.upkeep.state_changed && self.now >= self.upkeep.state_due {
             self.upkeep.state_changed = false;
             self.upkeep.state_due = self.now + STATE_MS;
-            self.broadcast(&ServerMessage::State { state: self.state() });
+            self.upkeep.told = self.state();
+            self.broadcast(&ServerMessage::State { state: self.upkeep.told.clone() });
         }
     }
 

@@ -71,14 +71,18 @@ fn fl2_the_frame_that_did_not_fit_is_made_up_for() {
 fn fl2_a_catch_up_holds_only_what_is_stale() {
     let mut world = World::new();
     let busy = world.join("birch-01");
-    world.command(busy, 1, grow(27));
-    world.settle();
+    let mut commands = 0;
+    while world.peer(busy).mirror.generations.len() < 240 {
+        commands += 1;
+        world.command(busy, commands, grow(3));
+        world.settle();
+    }
     // One frame larger than the window is on the way, so not even a small one may follow.
     let slow = world.join("maple-01");
     world.peer_mut(slow).slow = true;
     world.settle();
     assert!(world.peer(slow).most_in_flight > 256 * 1024);
-    world.command(busy, 2, Command::PlantSeed { position: [9.0, 0.0, 0.0] });
+    world.command(busy, commands + 1, Command::PlantSeed { position: [9.0, 0.0, 0.0] });
     world.settle();
     assert_eq!(world.peer(slow).frames.len(), 1);
     world.peer_mut(slow).slow = false;
