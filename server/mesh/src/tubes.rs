@@ -173,7 +173,7 @@ mod tests {
         }
         let girth_at = |height: f32| {
             let ring = mesh.positions.iter().filter(|p| (p.y - height).abs() < 1e-5);
-            ring.map(|p| p.x.hypot(p.z)).fold(0.0, f32::max)
+            ring.map(|p| Vec3::new(p.x, 0.0, p.z).length()).fold(0.0, f32::max)
         };
         // The roots spread by 0.65; the tip is slim.
         assert!((girth_at(0.0) - 0.05 * 1.65).abs() < 1e-5);

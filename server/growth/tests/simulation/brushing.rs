@@ -112,7 +112,7 @@ fn passing_from_brush_to_pencil_is_gradual() {
         let mut simulation = simulation(8);
         brush(&mut simulation, 1, &[(Vec3::ZERO, radius), (Vec3::Y * 30.0, radius)]);
         let nodes = nodes(&simulation);
-        nodes.iter().map(|n| n.x.hypot(n.z)).sum::<f32>() / nodes.len() as f32
+        nodes.iter().map(|n| Vec3::new(n.x, 0.0, n.z).length()).sum::<f32>() / nodes.len() as f32
     };
     let widths = [0.0, 1.0, 2.5, 5.0].map(spread);
     assert!(widths[0] < 0.1, "a pencil draws a line: {widths:?}");
