@@ -91,10 +91,16 @@ export class Tablet {
 
   /** All commands are durable, all growth is done. */
   async untilQuiet(): Promise<Facts> {
-    return this.until(
-      "the growth ends",
-      (facts) => facts.connection === "connected" && facts.sent === facts.acknowledged && facts.pending === 0,
-    );
+    // A command is acknowledged before the figures tell of it, so quiet must last to count.
+    for (;;) {
+      const facts = await this.until(
+        "the growth ends",
+        (facts) => facts.connection === "connected" && facts.sent === facts.acknowledged && facts.pending === 0,
+      );
+      await this.page.waitForTimeout(400);
+      const later = await this.facts();
+      if (JSON.stringify(later) === JSON.stringify(facts)) return later;
+    }
   }
 
   /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
