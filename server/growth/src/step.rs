@@ -1,4 +1,5 @@
-//! One step of the simulation, phase by phase, in the order of TreeSketch §3.2.
+//! One step of the simulation, phase by phase, in the order of TreeSketch §3.2, but that buds growing without
+//! guidance look for room after vigor is known (see `autonomous.rs`).
 
 use std::collections::BTreeMap;
 
@@ -53,7 +54,7 @@ const PARALLEL_FROM: usize = 4096;
 const BLOCK: usize = 512;
 
 impl Simulation {
-    /// One step, in the order of TreeSketch §3.2. A step in which nothing grows or is shed leaves no trace.
+    /// One step. A step in which nothing grows or is shed leaves no trace.
     pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
         self.budget_reached = false;
         self.tick = self.tick.wrapping_add(1);

@@ -2,12 +2,21 @@
 
 use std::ops::Range;
 
-use espalier_mesh::{Changes, RingTable, StyleOptions};
+use espalier_mesh::{Changes, RingTable, StyleOptions, radius_code, ring_table};
 use espalier_proto::{
-    ChunkChange, DocumentState, Frame, Parameters, Resume, Rows, Values, frame::CHUNK_ROWS,
+    ChunkChange, DocumentState, Frame, Parameters, Resume, Rows, Values,
+    frame::{self, CHUNK_ROWS},
 };
 
 use crate::document::Figures;
+
+// The mesh must not know the wire, so the two say these for themselves; here, where they meet, they must agree.
+const _: () = assert!(
+    ring_table::CHUNK_ROWS == CHUNK_ROWS
+        && ring_table::POSITION_STEPS == frame::POSITION_STEPS
+        && radius_code::MIN_RADIUS == frame::MIN_RADIUS
+        && radius_code::LOG_STEP == frame::RADIUS_LOG_STEP
+);
 
 /// Rows in a chunk, as row numbers are counted.
 const CHUNK: u32 = CHUNK_ROWS as u32;
