@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::parameters::ParametersPatch;
+use crate::{
+    obstacle::{Obstacle, Pose},
+    parameters::ParametersPatch,
+};
 
 /// One place of the brush, in internode lengths.
 ///
@@ -15,6 +18,23 @@ pub struct StrokeSample {
     pub position: [f32; 3],
     /// The radius of the brush; 0 sketches one limb exactly.
     pub radius: f32,
+}
+
+/// A plane in space that an outline is drawn on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct DrawingPlane {
+    /// The point that is (0, 0) on the plane, in internode lengths.
+    pub origin: [f32; 3],
+    /// Unit direction of the plane's x axis.
+    pub right: [f32; 3],
+    /// Unit direction of the plane's y axis, perpendicular to `right`.
+    pub up: [f32; 3],
+}
+
+/// A lasso is as deep as it is wide unless it says otherwise.
+fn whole_depth() -> f32 {
+    1.0
 }
 
 /// Something done to a document. Commands of one session have one order; the journal keeps them.
@@ -29,6 +49,10 @@ pub enum Command {
     StrokeBegin {
         /// The client's own number for this stroke.
         stroke: u32,
+        /// The row of a metamer: only the axis at its node, and what grows from it, follows the brush (`SG1`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        bud: Option<u32>,
     },
     /// The brush moves, or rests: a resting brush keeps sowing markers, so it is sent again and again.
     /// Each message grows the plants by at least one step.
@@ -51,6 +75,34 @@ pub enum Command {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]
         gesture: Option<u32>,
+        /// The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        bud: Option<u32>,
+    },
+    /// Fill an outline with growth: it becomes a body in space, full of markers, and plants grow into it
+    /// until they find no more of them (`LA1`).
+    Lasso {
+        /// 3 to 4096 points on the plane, in internode lengths; the last is joined to the first.
+        outline: Vec<[f32; 2]>,
+        /// Where the outline lies.
+        plane: DrawingPlane,
+        /// How deep the body is, 0.1 to 1: at 1 it is as deep as it is wide, everywhere.
+        #[serde(default = "whole_depth")]
+        #[ts(as = "Option<f32>", optional)]
+        depth: f32,
+        /// The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        bud: Option<u32>,
+    },
+    /// End the growth that is under way or waits, and keep what has grown (`ST1`).
+    Stop {
+        /// Written by the server into its journal: no step beyond this one is run for what came before.
+        /// What a client says here counts for nothing.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(skip)]
+        tick: Option<u32>,
     },
     /// Go back in time, step by step, through whatever made the plants grow.
     Ungrow {
@@ -70,5 +122,22 @@ pub enum Command {
     PlantSeed {
         /// Where, in internode lengths.
         position: [f32; 3],
+    },
+    /// Put something into the scene that takes space and light away.
+    PlaceObstacle {
+        /// What, and where.
+        obstacle: Obstacle,
+    },
+    /// Put an obstacle elsewhere.
+    MoveObstacle {
+        /// Its id, as in `obstacles`.
+        id: u32,
+        /// Where it goes.
+        pose: Pose,
+    },
+    /// Take an obstacle away.
+    RemoveObstacle {
+        /// Its id, as in `obstacles`.
+        id: u32,
     },
 }

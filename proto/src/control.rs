@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::{command::Command, parameters::Parameters, problem::Problem};
+use crate::{command::Command, obstacle::PlacedObstacle, parameters::Parameters, problem::Problem};
 
 /// What a returning client still has (`RS1`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
@@ -19,6 +19,7 @@ pub struct Resume {
 
 /// From a client.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[allow(clippy::large_enum_variant, reason = "nearly all messages are commands, the largest of them")]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ClientMessage {
     /// The first message (`HS1`).
@@ -65,11 +66,14 @@ pub struct DocumentState {
     pub leaves: u32,
     /// The most metamers, dead ones included, this document may hold.
     pub metamer_budget: u32,
+    /// Whether it holds that many: nothing grows any more until something is undone (`LM4`).
+    pub budget_reached: bool,
     /// Whether there is an operation to undo.
     pub can_undo: bool,
     /// Whether there is something to redo.
     pub can_redo: bool,
-    /// Simulation steps still to be run for commands already accepted.
+    /// Simulation steps still to be run for commands already accepted; a lasso, whose steps nobody knows
+    /// before, counts as one until it is done.
     pub pending_steps: u32,
     /// Clients connected, this one included.
     pub people: u32,
@@ -122,6 +126,11 @@ pub enum ServerMessage {
     Parameters {
         /// The parameters in force.
         parameters: Box<Parameters>,
+    },
+    /// The obstacles in the scene, all of them: after the welcome if there are any, and when they change (`OB3`).
+    Obstacles {
+        /// In order of their ids.
+        obstacles: Vec<PlacedObstacle>,
     },
     /// The answer to a ping.
     Pong {

@@ -3,6 +3,17 @@
 use serde::{Deserialize, Deserializer, Serialize};
 use ts_rs::TS;
 
+/// How vigor is shared out among the branches of a plant.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum VigorModel {
+    /// At each node between the axis and its laterals (the extended Borchert-Honda model).
+    #[default]
+    BorchertHonda,
+    /// Along each axis by rank: what has more light for each bud weighs more.
+    Priority,
+}
+
 /// A field that is there holds a value; `null` is none.
 fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     T::deserialize(deserializer).map(Some)
@@ -28,6 +39,13 @@ macro_rules! parameters {
                 #[ts(optional)]
                 pub $name: Option<$type>,
             )+
+        }
+
+        impl From<Parameters> for ParametersPatch {
+            /// Sets every parameter.
+            fn from(all: Parameters) -> Self {
+                Self { $($name: Some(all.$name),)+ }
+            }
         }
 
         impl Parameters {
@@ -59,6 +77,12 @@ parameters! {
     deflection_angle: f32,
     /// Share of vigor the main axis claims against its laterals (λ).
     apical_control: f32,
+    /// Share of vigor the main axis claims when its plant is mature.
+    mature_apical_control: f32,
+    /// Steps after a plant's seed at which its apical control begins to change.
+    maturity_start: u32,
+    /// Steps over which apical control turns into that of maturity; 0 if it never does.
+    maturity_steps: u32,
     /// Exponent of a bud's response to light (κ in Q = bL^κ).
     light_sensitivity: f32,
     /// Internodes the most vigorous enabled bud adds in one step (n_max).
@@ -67,12 +91,20 @@ parameters! {
     shedding_threshold: f32,
     /// Vigor the whole plant receives per unit of light at its base (α of Borchert-Honda).
     vigor_gain: f32,
+    /// How vigor is shared out among branches.
+    vigor_model: VigorModel,
+    /// Least weight of the priority model, that of what ranks last on an axis (w_min).
+    priority_least_weight: f32,
+    /// Share of the ranking over which weight falls from 1 to the least (κ_p of the priority model).
+    priority_decline: f32,
     /// Weight of an axis' present heading (α in H′ = αH + βT + γE).
     heading_weight: f32,
     /// Weight of tropism (β).
     tropism_weight: f32,
     /// Weight of the direction towards free space (γ).
     space_weight: f32,
+    /// How far the direction of growth turns from free space towards the light, 0 to 1.
+    phototropism: f32,
     /// Gravitropic set-point angle from the vertical, in degrees (θ).
     setpoint_angle: f32,
     /// The trunk tends upwards whatever the set-point angle is.

@@ -2,7 +2,7 @@
 
 use ts_rs::{Config, TS};
 
-use crate::{command, control, frame, library, parameters, problem, version};
+use crate::{command, control, frame, library, obstacle, parameters, problem, species, version};
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
 pub fn declarations() -> String {
@@ -15,6 +15,12 @@ pub fn declarations() -> String {
     constant("MAX_MESSAGE_BYTES", version::MAX_MESSAGE_BYTES.to_string());
     constant("MAX_STROKE_SAMPLES", version::MAX_STROKE_SAMPLES.to_string());
     constant("MAX_STEPS_PER_COMMAND", version::MAX_STEPS_PER_COMMAND.to_string());
+    constant("MIN_OUTLINE_POINTS", version::MIN_OUTLINE_POINTS.to_string());
+    constant("MAX_OUTLINE_POINTS", version::MAX_OUTLINE_POINTS.to_string());
+    constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
+    constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
+    constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
+    constant("MAX_GLB_BYTES", version::MAX_GLB_BYTES.to_string());
     constant("CHUNK_ROWS", frame::CHUNK_ROWS.to_string());
     constant("POSITION_STEPS", frame::POSITION_STEPS.to_string());
     constant("MIN_RADIUS", frame::MIN_RADIUS.to_string());
@@ -37,9 +43,20 @@ pub fn declarations() -> String {
     out.push_str("} as const;\n");
     for declaration in [
         command::StrokeSample::decl(&config),
+        parameters::VigorModel::decl(&config),
         parameters::Parameters::decl(&config),
         parameters::ParametersPatch::decl(&config),
+        command::DrawingPlane::decl(&config),
+        obstacle::Pose::decl(&config),
+        obstacle::Shape::decl(&config),
+        obstacle::Obstacle::decl(&config),
+        obstacle::PlacedShape::decl(&config),
+        obstacle::PlacedObstacle::decl(&config),
         command::Command::decl(&config),
+        species::LeafKind::decl(&config),
+        species::BarkKind::decl(&config),
+        species::Fruit::decl(&config),
+        species::Species::decl(&config),
         problem::ProblemCode::decl(&config),
         problem::Problem::decl(&config),
         control::Resume::decl(&config),

@@ -12,6 +12,24 @@ pub const MAX_STROKE_SAMPLES: usize = 256;
 /// The largest number of steps in one `grow` or `ungrow` (`LM3`).
 pub const MAX_STEPS_PER_COMMAND: u32 = 1000;
 
+/// The fewest points of a lasso's outline (`LM5`).
+pub const MIN_OUTLINE_POINTS: usize = 3;
+
+/// The most points of a lasso's outline (`LM5`).
+pub const MAX_OUTLINE_POINTS: usize = 4096;
+
+/// The most obstacles in a scene (`LM6`).
+pub const MAX_OBSTACLES: usize = 64;
+
+/// The most vertices of one mesh (`LM6`).
+pub const MAX_MESH_VERTICES: usize = 65_536;
+
+/// The most triangles of one mesh (`LM6`).
+pub const MAX_MESH_TRIANGLES: usize = 131_072;
+
+/// The largest glTF file that can be posted as an obstacle, in bytes (`LM6`).
+pub const MAX_GLB_BYTES: usize = 16 * 1024 * 1024;
+
 /// Why the server closes a socket. Standard codes below 4000 keep their meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u16)]

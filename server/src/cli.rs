@@ -3,16 +3,22 @@
 use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
+use espalier_proto::ParametersPatch;
 
 const EXAMPLES: &str = "\
 Examples:
   espalier                                   serve on port 7700; the tree is drawn in a browser
   espalier serve --port 8080 --database trees.db
   espalier grow --metamers 20000 --seed 3 --export tree.glb
+  espalier grow --species scots-pine --export pine.png
   espalier replay strokes.jsonl --export tree.json --stats json
 
 Without a command, espalier serves. Every option of `serve` can be set by the environment variable named in
 `espalier serve --help`.";
+
+/// Budgets of metamers; ids of metamers must fit many times over.
+const BUDGETS: std::ops::RangeInclusive<i64> = 1..=100_000_000;
 
 const SERVE_NOTES: &str = "\
 The server prints its address, the address for tablets in the same network, and a QR code of it.
@@ -47,6 +53,8 @@ pub enum Command {
     Replay(Replay),
     /// Grow a tree on its own, without a server.
     Grow(Grow),
+    /// List the species, or draw them all on one sheet.
+    Species(Species),
 }
 
 /// Options of `serve`.
@@ -62,6 +70,15 @@ pub struct Serve {
     /// SQLite file; made together with its folder if it does not exist.
     #[arg(long, env = "ESPALIER_DATABASE", default_value = "./data/espalier.db", value_name = "FILE")]
     pub database: PathBuf,
+    /// Metamers that a session begun from now on may hold, dead ones included; growth stops there.
+    #[arg(
+        long,
+        env = "ESPALIER_METAMER_BUDGET",
+        default_value_t = DEFAULT_METAMER_BUDGET,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(BUDGETS)
+    )]
+    pub metamer_budget: u32,
     /// What to log to stderr: error, warn, info, debug, trace, or a filter such as espalier=debug,sqlx=warn.
     #[arg(long, env = "ESPALIER_LOG", default_value = "info", value_name = "LEVEL")]
     pub log: String,
@@ -77,6 +94,8 @@ pub struct Replay {
     #[arg(long, default_value_t = 1)]
     pub seed: u32,
     #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
     pub results: Results,
 }
 
@@ -84,19 +103,49 @@ pub struct Replay {
 #[derive(Debug, Args)]
 pub struct Grow {
     /// Grow until so many metamers are alive.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
-    pub metamers: u32,
+    #[arg(long, required_unless_present = "species", value_parser = clap::value_parser!(u32).range(1..))]
+    pub metamers: Option<u32>,
+    /// Grow a tree of a species to its age; `espalier species` lists them.
+    #[arg(long, value_name = "NAME", value_parser = parse_species)]
+    pub species: Option<&'static species::Species>,
     /// Seed of all randomness.
     #[arg(long, default_value_t = 1)]
     pub seed: u32,
     #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
     pub results: Results,
+}
+
+/// Options of `species`.
+#[derive(Debug, Args)]
+pub struct Species {
+    /// Grow every species to its age and draw all of them into a PNG file.
+    #[arg(long, value_name = "OUT")]
+    pub sheet: Option<PathBuf>,
+    /// Seed of all randomness.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u32,
+    /// Threads; one for each core if not given.
+    #[arg(long)]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// What a scene starts with.
+#[derive(Debug, Args)]
+pub struct Start {
+    /// Set a parameter of growth, as in docs/command-line.md; may be given again.
+    #[arg(long = "parameter", value_name = "NAME=VALUE", value_parser = parse_parameter)]
+    pub parameters: Vec<ParametersPatch>,
+    /// Metamers the scene may hold, dead ones included; a million for `replay` and without bound for `grow` if not given.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(BUDGETS))]
+    pub budget: Option<u32>,
 }
 
 /// What comes out, and with how many threads.
 #[derive(Debug, Args)]
 pub struct Results {
-    /// Write the plants to a file: .glb (triangles for any glTF viewer) or .json (the skeleton).
+    /// Write the plants to a file: .glb (triangles for any glTF viewer), .json (the skeleton) or .png (a picture).
     #[arg(long, value_name = "OUT", value_parser = parse_export)]
     pub export: Option<Export>,
     /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
@@ -130,6 +179,8 @@ pub enum Format {
     Glb,
     /// The skeleton as JSON.
     Skeleton,
+    /// A picture as PNG.
+    Picture,
 }
 
 fn parse_export(path: &str) -> Result<Export, String> {
@@ -138,9 +189,22 @@ fn parse_export(path: &str) -> Result<Export, String> {
     let format = match extension.as_deref() {
         Some("glb") => Format::Glb,
         Some("json") => Format::Skeleton,
-        _ => return Err("the name must end in .glb (triangles) or .json (skeleton)".into()),
+        Some("png") => Format::Picture,
+        _ => return Err("the name must end in .glb (triangles), .json (skeleton) or .png (picture)".into()),
     };
     Ok(Export { path, format })
+}
+
+fn parse_species(slug: &str) -> Result<&'static species::Species, String> {
+    species::find(slug).ok_or_else(|| "there is no such species; `espalier species` lists them".into())
+}
+
+fn parse_parameter(text: &str) -> Result<ParametersPatch, String> {
+    let (name, value) = text.split_once('=').ok_or("write it as NAME=VALUE")?;
+    // Numbers and switches are JSON as they stand; a choice is a text.
+    let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
+    let fields = serde_json::Map::from_iter([(name.to_owned(), value)]);
+    serde_json::from_value(fields.into()).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -171,9 +235,19 @@ mod tests {
     }
 
     #[test]
+    fn parameters_are_numbers_switches_and_choices() {
+        let patch = |text| parse_parameter(text).unwrap();
+        assert_eq!(patch("apical_control=0.6").apical_control, Some(0.6));
+        assert_eq!(patch("trunk_upward=false").trunk_upward, Some(false));
+        assert_eq!(patch("vigor_model=priority").vigor_model, Some(espalier_proto::VigorModel::Priority));
+        assert!(parse_parameter("vigor_model=luck").unwrap_err().contains("borchert_honda"));
+    }
+
+    #[test]
     fn the_extension_chooses_the_format() {
         assert_eq!(parse_export("a/tree.GLB").unwrap().format, Format::Glb);
         assert_eq!(parse_export("tree.json").unwrap().format, Format::Skeleton);
+        assert_eq!(parse_export("tree.png").unwrap().format, Format::Picture);
         for bad in ["tree", "tree.obj", "glb", ".json"] {
             assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
         }
@@ -186,6 +260,12 @@ mod tests {
             ("espalier --host example", ErrorKind::ValueValidation),
             ("espalier grow", ErrorKind::MissingRequiredArgument),
             ("espalier grow --metamers 0", ErrorKind::ValueValidation),
+            ("espalier grow --species triffid", ErrorKind::ValueValidation),
+            ("espalier --metamer-budget 0", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --budget 0", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --parameter leaf_size", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --parameter sap=1", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --parameter leaf_size=big", ErrorKind::ValueValidation),
             ("espalier grow --metamers 9 --stats xml", ErrorKind::InvalidValue),
             ("espalier grow --metamers 9 --threads 0", ErrorKind::ValueValidation),
             ("espalier replay a.jsonl --export a.txt", ErrorKind::ValueValidation),

@@ -1,10 +1,16 @@
 //! What the shell does with whole documents: makes files of them.
 
-use espalier_export::ExportError;
+use espalier_export::{
+    ExportError,
+    picture::{self, Look},
+};
 use espalier_mesh::Style;
 use espalier_session::{Document, DocumentError, style_options};
 
 use crate::cli::Format;
+
+/// Pixels of a picture across and down.
+const PICTURE: (usize, usize) = (1000, 1000);
 
 /// A document cannot be made a file.
 #[derive(Debug, thiserror::Error)]
@@ -19,15 +25,16 @@ pub enum FileError {
 
 /// The plants of a stored document as glTF binary.
 pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
-    Ok(file(&Document::from_bytes(bytes)?, Format::Glb)?)
+    Ok(file(&Document::from_bytes(bytes)?, &Look::default(), Format::Glb)?)
 }
 
 /// The plants of a document in a file format.
-pub fn file(document: &Document, format: Format) -> Result<Vec<u8>, ExportError> {
+pub fn file(document: &Document, look: &Look, format: Format) -> Result<Vec<u8>, ExportError> {
     let parameters = document.parameters();
     let style = Style::new(style_options(&parameters));
     match format {
         Format::Glb => espalier_export::glb(document.plant(), &style, parameters.internode_length),
         Format::Skeleton => Ok(espalier_export::skeleton_json(document.plant(), &style)),
+        Format::Picture => Ok(picture::draw(document.plant(), &style, look, PICTURE.0, PICTURE.1).png()),
     }
 }

@@ -4,6 +4,7 @@ mod announce;
 mod cli;
 mod database;
 mod document;
+mod glb_mesh;
 mod headless;
 mod http;
 mod listener;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Some(Command::Serve(options)) => served(serve::run(&options)),
         Some(Command::Replay(options)) => done(headless::replay(&options)),
         Some(Command::Grow(options)) => done(headless::grow(&options)),
+        Some(Command::Species(options)) => done(headless::species(&options)),
     }
 }
 
@@ -47,7 +49,9 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("{error}");
     match error {
-        HeadlessError::Script(_) | HeadlessError::Read { .. } => ExitCode::from(USAGE),
+        HeadlessError::Script(_) | HeadlessError::Read { .. } | HeadlessError::Parameters(_) => {
+            ExitCode::from(USAGE)
+        }
         _ => ExitCode::FAILURE,
     }
 }

@@ -78,7 +78,12 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
 
     let stop = CancellationToken::new();
     let sessions = Sessions::new(Arc::clone(&database), pool.clone(), stop.clone());
-    let shared = Shared { database: Arc::clone(&database), sessions: sessions.clone(), pool };
+    let shared = Shared {
+        database: Arc::clone(&database),
+        sessions: sessions.clone(),
+        pool,
+        metamer_budget: options.metamer_budget,
+    };
     let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
 
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };

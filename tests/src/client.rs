@@ -2,7 +2,9 @@
 
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
-use espalier_proto::{ClientMessage, Command, DocumentState, Frame, Parameters, Problem, ServerMessage};
+use espalier_proto::{
+    ClientMessage, Command, DocumentState, Frame, Parameters, PlacedObstacle, Problem, ServerMessage,
+};
 use futures_util::{SinkExt, StreamExt};
 use tokio::{net::TcpStream, time};
 use tokio_tungstenite::{
@@ -42,6 +44,8 @@ pub struct Client {
     pub state: DocumentState,
     /// The newest parameters.
     pub parameters: Parameters,
+    /// The newest list of obstacles.
+    pub obstacles: Vec<PlacedObstacle>,
     /// The highest durable command.
     pub acknowledged: u32,
     /// What was sent and is not known to be durable.
@@ -134,6 +138,7 @@ impl Client {
             table: Table::new(epoch),
             state,
             parameters: *parameters,
+            obstacles: Vec::new(),
             acknowledged,
             unacknowledged: VecDeque::new(),
             resumed,
@@ -302,6 +307,8 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
+                // A list follows if there are any (`OB3`).
+                self.obstacles.clear();
                 self.state = state;
                 self.take_acknowledgement(acknowledged);
             }
@@ -313,6 +320,7 @@ impl Client {
             ServerMessage::Problem { problem } => self.problems.push(problem),
             ServerMessage::State { state } => self.state = state,
             ServerMessage::Parameters { parameters } => self.parameters = *parameters,
+            ServerMessage::Obstacles { obstacles } => self.obstacles = obstacles,
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }

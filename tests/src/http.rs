@@ -48,15 +48,21 @@ pub fn get(port: u16, path: &str) -> io::Result<Answer> {
 /// Any request, with or without a JSON body.
 pub fn send(port: u16, method: &str, path: &str, body: Option<&Value>) -> io::Result<Answer> {
     let body = body.map(Value::to_string).unwrap_or_default();
+    send_bytes(port, method, path, "application/json", body.as_bytes())
+}
+
+/// Any request with a body of any type; an empty one is none.
+pub fn send_bytes(port: u16, method: &str, path: &str, kind: &str, body: &[u8]) -> io::Result<Answer> {
     let mut request = format!("{method} {path} HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\nconnection: close\r\n");
     if !body.is_empty() {
-        request += &format!("content-type: application/json\r\ncontent-length: {}\r\n", body.len());
+        request += &format!("content-type: {kind}\r\ncontent-length: {}\r\n", body.len());
     }
     request += "\r\n";
-    request += &body;
+    let mut request = request.into_bytes();
+    request.extend_from_slice(body);
     let mut stream = TcpStream::connect(("127.0.0.1", port))?;
     stream.set_read_timeout(Some(GUARD))?;
-    stream.write_all(request.as_bytes())?;
+    stream.write_all(&request)?;
     let mut bytes = Vec::new();
     stream.read_to_end(&mut bytes)?;
     parse(&bytes).ok_or_else(|| io::Error::other("the answer is not HTTP"))

@@ -34,9 +34,15 @@ impl Server {
 
     /// Starts a server on this port.
     pub fn start_on(database: &Path, port: u16) -> Self {
+        Self::start_with(database, port, &[])
+    }
+
+    /// Starts a server with more options.
+    pub fn start_with(database: &Path, port: u16, options: &[&str]) -> Self {
         let mut child = program::command()
             .args(["serve", "--host", "127.0.0.1", "--port", &port.to_string(), "--database"])
             .arg(database)
+            .args(options)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()

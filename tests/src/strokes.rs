@@ -4,7 +4,7 @@ use espalier_proto::{Command, StrokeSample};
 
 /// A stroke through `points`, in messages of `per_message` samples, with a constant radius.
 pub fn stroke(number: u32, points: &[[f32; 3]], radius: f32, per_message: usize) -> Vec<Command> {
-    let mut commands = vec![Command::StrokeBegin { stroke: number }];
+    let mut commands = vec![Command::StrokeBegin { stroke: number, bud: None }];
     for points in points.chunks(per_message) {
         let samples = points.iter().map(|&position| StrokeSample { position, radius }).collect();
         commands.push(Command::StrokeMove { stroke: number, samples });

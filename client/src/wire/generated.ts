@@ -4,6 +4,12 @@ export const PROTOCOL_VERSION = 1;
 export const MAX_MESSAGE_BYTES = 262144;
 export const MAX_STROKE_SAMPLES = 256;
 export const MAX_STEPS_PER_COMMAND = 1000;
+export const MIN_OUTLINE_POINTS = 3;
+export const MAX_OUTLINE_POINTS = 4096;
+export const MAX_OBSTACLES = 64;
+export const MAX_MESH_VERTICES = 65536;
+export const MAX_MESH_TRIANGLES = 131072;
+export const MAX_GLB_BYTES = 16777216;
 export const CHUNK_ROWS = 256;
 export const POSITION_STEPS = 256;
 export const MIN_RADIUS = 0.001;
@@ -31,6 +37,8 @@ position: [number, number, number],
  * The radius of the brush; 0 sketches one limb exactly.
  */
 radius: number, };
+
+export type VigorModel = "borchert_honda" | "priority";
 
 export type Parameters = { 
 /**
@@ -70,6 +78,18 @@ deflection_angle: number,
  */
 apical_control: number, 
 /**
+ * Share of vigor the main axis claims when its plant is mature.
+ */
+mature_apical_control: number, 
+/**
+ * Steps after a plant's seed at which its apical control begins to change.
+ */
+maturity_start: number, 
+/**
+ * Steps over which apical control turns into that of maturity; 0 if it never does.
+ */
+maturity_steps: number, 
+/**
  * Exponent of a bud's response to light (κ in Q = bL^κ).
  */
 light_sensitivity: number, 
@@ -86,6 +106,18 @@ shedding_threshold: number,
  */
 vigor_gain: number, 
 /**
+ * How vigor is shared out among branches.
+ */
+vigor_model: VigorModel, 
+/**
+ * Least weight of the priority model, that of what ranks last on an axis (w_min).
+ */
+priority_least_weight: number, 
+/**
+ * Share of the ranking over which weight falls from 1 to the least (κ_p of the priority model).
+ */
+priority_decline: number, 
+/**
  * Weight of an axis' present heading (α in H′ = αH + βT + γE).
  */
 heading_weight: number, 
@@ -97,6 +129,10 @@ tropism_weight: number,
  * Weight of the direction towards free space (γ).
  */
 space_weight: number, 
+/**
+ * How far the direction of growth turns from free space towards the light, 0 to 1.
+ */
+phototropism: number, 
 /**
  * Gravitropic set-point angle from the vertical, in degrees (θ).
  */
@@ -200,6 +236,18 @@ deflection_angle?: number,
  */
 apical_control?: number, 
 /**
+ * Share of vigor the main axis claims when its plant is mature.
+ */
+mature_apical_control?: number, 
+/**
+ * Steps after a plant's seed at which its apical control begins to change.
+ */
+maturity_start?: number, 
+/**
+ * Steps over which apical control turns into that of maturity; 0 if it never does.
+ */
+maturity_steps?: number, 
+/**
  * Exponent of a bud's response to light (κ in Q = bL^κ).
  */
 light_sensitivity?: number, 
@@ -216,6 +264,18 @@ shedding_threshold?: number,
  */
 vigor_gain?: number, 
 /**
+ * How vigor is shared out among branches.
+ */
+vigor_model?: VigorModel, 
+/**
+ * Least weight of the priority model, that of what ranks last on an axis (w_min).
+ */
+priority_least_weight?: number, 
+/**
+ * Share of the ranking over which weight falls from 1 to the least (κ_p of the priority model).
+ */
+priority_decline?: number, 
+/**
  * Weight of an axis' present heading (α in H′ = αH + βT + γE).
  */
 heading_weight?: number, 
@@ -227,6 +287,10 @@ tropism_weight?: number,
  * Weight of the direction towards free space (γ).
  */
 space_weight?: number, 
+/**
+ * How far the direction of growth turns from free space towards the light, 0 to 1.
+ */
+phototropism?: number, 
 /**
  * Gravitropic set-point angle from the vertical, in degrees (θ).
  */
@@ -292,11 +356,103 @@ leaves_per_node?: number,
  */
 leaf_size?: number, };
 
+export type DrawingPlane = { 
+/**
+ * The point that is (0, 0) on the plane, in internode lengths.
+ */
+origin: [number, number, number], 
+/**
+ * Unit direction of the plane's x axis.
+ */
+right: [number, number, number], 
+/**
+ * Unit direction of the plane's y axis, perpendicular to `right`.
+ */
+up: [number, number, number], };
+
+export type Pose = { 
+/**
+ * Where its own origin lies, in internode lengths.
+ */
+position: [number, number, number], 
+/**
+ * A quaternion x, y, z, w; of unit length, within a hundredth.
+ */
+rotation?: [number, number, number, number], };
+
+export type Shape = { "kind": "box", 
+/**
+ * Its whole width, height and depth, each 0.1 to 1000.
+ */
+size: [number, number, number], } | { "kind": "sphere", 
+/**
+ * 0.1 to 500.
+ */
+radius: number, } | { "kind": "plane", } | { "kind": "mesh", 
+/**
+ * The mesh in base64 (`OB4`).
+ */
+mesh: string, 
+/**
+ * 0.001 to 1000: coordinates are multiplied by this.
+ */
+scale?: number, };
+
+export type Obstacle = { 
+/**
+ * What it is.
+ */
+shape: Shape, 
+/**
+ * Where it stands.
+ */
+pose: Pose, };
+
+export type PlacedShape = { "kind": "box", 
+/**
+ * Its whole width, height and depth.
+ */
+size: [number, number, number], } | { "kind": "sphere", 
+/**
+ * Its radius.
+ */
+radius: number, } | { "kind": "plane", } | { "kind": "mesh", 
+/**
+ * How many vertices it has.
+ */
+vertices: number, 
+/**
+ * How many triangles it has.
+ */
+triangles: number, 
+/**
+ * Coordinates are multiplied by this.
+ */
+scale: number, };
+
+export type PlacedObstacle = { 
+/**
+ * Names it; never used again for another one of the same session.
+ */
+id: number, 
+/**
+ * What it is.
+ */
+shape: PlacedShape, 
+/**
+ * Where it stands.
+ */
+pose: Pose, };
+
 export type Command = { "kind": "stroke_begin", 
 /**
  * The client's own number for this stroke.
  */
-stroke: number, } | { "kind": "stroke_move", 
+stroke: number, 
+/**
+ * The row of a metamer: only the axis at its node, and what grows from it, follows the brush (`SG1`).
+ */
+bud?: number, } | { "kind": "stroke_move", 
 /**
  * The number given in `stroke_begin`.
  */
@@ -316,7 +472,27 @@ steps: number,
 /**
  * Commands of one client that follow each other with the same gesture are one operation for undo.
  */
-gesture?: number, } | { "kind": "ungrow", 
+gesture?: number, 
+/**
+ * The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+ */
+bud?: number, } | { "kind": "lasso", 
+/**
+ * 3 to 4096 points on the plane, in internode lengths; the last is joined to the first.
+ */
+outline: Array<[number, number]>, 
+/**
+ * Where the outline lies.
+ */
+plane: DrawingPlane, 
+/**
+ * How deep the body is, 0.1 to 1: at 1 it is as deep as it is wide, everywhere.
+ */
+depth?: number, 
+/**
+ * The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+ */
+bud?: number, } | { "kind": "stop", } | { "kind": "ungrow", 
 /**
  * 1 to 1000 simulation steps.
  */
@@ -328,7 +504,83 @@ parameters: ParametersPatch, } | { "kind": "plant_seed",
 /**
  * Where, in internode lengths.
  */
-position: [number, number, number], };
+position: [number, number, number], } | { "kind": "place_obstacle", 
+/**
+ * What, and where.
+ */
+obstacle: Obstacle, } | { "kind": "move_obstacle", 
+/**
+ * Its id, as in `obstacles`.
+ */
+id: number, 
+/**
+ * Where it goes.
+ */
+pose: Pose, } | { "kind": "remove_obstacle", 
+/**
+ * Its id, as in `obstacles`.
+ */
+id: number, };
+
+export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale" | "blossom";
+
+export type BarkKind = "smooth" | "furrowed" | "plated" | "papery" | "flaking" | "banded" | "stringy";
+
+export type Fruit = { 
+/**
+ * Red, green and blue in sRGB.
+ */
+tint: [number, number, number], 
+/**
+ * Diameter in internodes.
+ */
+size: number, 
+/**
+ * Fruits to a leaf.
+ */
+share: number, };
+
+export type Species = { 
+/**
+ * Its short name, as the command line takes it.
+ */
+slug: string, 
+/**
+ * Its name.
+ */
+name: string, 
+/**
+ * Its botanical name, or that of the style.
+ */
+botanical: string, 
+/**
+ * What tells it from others, in one sentence.
+ */
+sentence: string, 
+/**
+ * What its leaves look like.
+ */
+leaf: LeafKind, 
+/**
+ * Colour of the leaves: red, green and blue in sRGB.
+ */
+leaf_tint: [number, number, number], 
+/**
+ * The fruit it bears, if any is to be seen.
+ */
+fruit: Fruit | null, 
+/**
+ * What its bark looks like.
+ */
+bark: BarkKind, 
+/**
+ * Colour of the bark: red, green and blue in sRGB.
+ */
+bark_tint: [number, number, number], 
+/**
+ * What `set_parameters` is given when it is picked.
+ */
+parameters: Parameters, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "unavailable";
 
@@ -386,6 +638,10 @@ leaves: number,
  */
 metamer_budget: number, 
 /**
+ * Whether it holds that many: nothing grows any more until something is undone (`LM4`).
+ */
+budget_reached: boolean, 
+/**
  * Whether there is an operation to undo.
  */
 can_undo: boolean, 
@@ -394,7 +650,8 @@ can_undo: boolean,
  */
 can_redo: boolean, 
 /**
- * Simulation steps still to be run for commands already accepted.
+ * Simulation steps still to be run for commands already accepted; a lasso, whose steps nobody knows
+ * before, counts as one until it is done.
  */
 pending_steps: number, 
 /**
@@ -484,7 +741,11 @@ state: DocumentState, } | { "type": "parameters",
 /**
  * The parameters in force.
  */
-parameters: Parameters, } | { "type": "pong", 
+parameters: Parameters, } | { "type": "obstacles", 
+/**
+ * In order of their ids.
+ */
+obstacles: Array<PlacedObstacle>, } | { "type": "pong", 
 /**
  * The ping's.
  */

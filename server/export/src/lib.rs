@@ -2,6 +2,7 @@
 
 pub mod glb;
 mod gltf;
+pub mod picture;
 pub mod skeleton;
 
 pub use glb::{ExportError, glb};

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::{
-    markers::{Marker, Markers},
+    markers::{Marker, MarkerSource, Markers},
     parameters::Parameters,
     random::{Draw, Purpose},
 };
@@ -76,7 +76,7 @@ impl BrushPiece {
             let offset = sphere_point(unit(1), unit(2)) * (centre.radius * libm::cbrtf(unit(3)));
             let position = centre.position + offset;
             if position.y > 0.0 {
-                markers.sow(Marker { position, born: tick });
+                markers.sow(Marker { position, born: tick, source: MarkerSource::Brush });
             }
         }
     }

@@ -1,14 +1,16 @@
 //! The direction of each new internode (TreeSketch §3.2, Figure 11): H′ = αH + βT + γE.
 
+use core::f32::consts::TAU;
+
 use glam::Vec3;
 
-use crate::parameters::Parameters;
+use crate::{parameters::Parameters, random::Draw};
 
 /// The tropic direction T of an axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Tropism {
-    /// Keep the set-point angle to the vertical; `azimuth` says where to bend from the vertical itself.
-    SetPoint { azimuth: Vec3 },
+    /// Keep the set-point angle to the vertical; `chance` says where to bend from the vertical itself.
+    SetPoint { chance: Draw },
     /// Go this way: upwards for a forced trunk, or along a stroke.
     Towards(Vec3),
 }
@@ -18,15 +20,21 @@ impl Tropism {
     fn vector(self, heading: Vec3, parameters: &Parameters) -> Vec3 {
         match self {
             Self::Towards(direction) => direction,
-            Self::SetPoint { azimuth } => {
+            Self::SetPoint { chance } => {
                 let (sin, cos) = parameters.setpoint;
                 let level = Vec3::new(heading.x, 0.0, heading.z);
                 // Near the vertical the plane of bending is a matter of chance, but of one chance per axis.
-                let outward = if level.length_squared() < 1e-4 { azimuth } else { level.normalize() };
+                let outward = if level.length_squared() < 1e-4 { azimuth(chance) } else { level.normalize() };
                 Vec3::Y * cos + outward * sin
             }
         }
     }
+}
+
+/// The horizontal direction that chance gives an axis.
+pub(crate) fn azimuth(chance: Draw) -> Vec3 {
+    let (sin, cos) = libm::sincosf(TAU * chance.unit(0));
+    Vec3::new(cos, 0.0, sin)
 }
 
 /// H′ from the heading H, tropism, and the direction E to free space where there is one.
@@ -69,7 +77,7 @@ pub(crate) fn across(vector: Vec3, heading: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::ParameterValues;
+    use crate::{parameters::ParameterValues, random::Purpose};
 
     fn settled(theta: f32) -> f32 {
         let values = ParameterValues {
@@ -82,7 +90,8 @@ mod tests {
         let parameters = Parameters::new(values).expect("in range");
         let mut heading = Vec3::new(0.6, 0.8, 0.0);
         for _ in 0..60 {
-            heading = next_heading(heading, Tropism::SetPoint { azimuth: Vec3::X }, None, &parameters);
+            let chance = Draw::new(1, Purpose::Azimuth, 0, 0);
+            heading = next_heading(heading, Tropism::SetPoint { chance }, None, &parameters);
         }
         heading.y
     }

@@ -58,8 +58,8 @@ impl Guide {
         }
     }
 
-    /// Chooses the leader once the stroke's direction is known: a near bud that points along it.
-    pub(crate) fn choose_leader(&mut self, space: &Space, reach: f32) {
+    /// Chooses the leader once the stroke's direction is known: a near bud that may lead and points along it.
+    pub(crate) fn choose_leader(&mut self, space: &Space, reach: f32, may_lead: impl Fn(AxisId) -> bool) {
         let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
         if self.leader.is_some() || first.position.distance(last.position) < ASSURED_LENGTH {
             return;
@@ -69,7 +69,7 @@ impl Guide {
         space.visit_buds(first.position, reach, |axis, bud, distance_squared| {
             let turn = 1.0 - bud.direction.dot(towards);
             let cost = distance_squared.sqrt() + 0.75 * turn;
-            if best.is_none_or(|(c, a)| (cost, axis) < (c, a)) {
+            if may_lead(axis) && best.is_none_or(|(c, a)| (cost, axis) < (c, a)) {
                 best = Some((cost, axis));
             }
         });
@@ -88,10 +88,14 @@ impl Guide {
     }
 
     /// The next node of a leader whose tip is at `tip`: the point one internode away on the path ahead, or on
-    /// the way to it. None once the path is followed. Points passed are forgotten.
-    pub(crate) fn next_node(&mut self, tip: Vec3) -> Option<Waypoint> {
+    /// the way to it. None once the path is followed. Points passed are forgotten, and those that no wood can
+    /// reach while there are others beyond.
+    pub(crate) fn next_node(&mut self, tip: Vec3, is_blocked: impl Fn(Vec3) -> bool) -> Option<Waypoint> {
         // The path leaves the unit sphere around the tip for good behind the last point inside.
         while self.path.len() >= 2 && self.path[1].position.distance(tip) < 1.0 {
+            self.path.pop_front();
+        }
+        while self.path.len() >= 2 && is_blocked(self.path[0].position) {
             self.path.pop_front();
         }
         let front = *self.path.front()?;
@@ -138,7 +142,7 @@ mod tests {
     /// Nodes of a leader that starts at `tip` and obeys fully.
     fn nodes(mut guide: Guide, mut tip: Vec3) -> Vec<Vec3> {
         let mut nodes = Vec::new();
-        while let Some(target) = guide.next_node(tip) {
+        while let Some(target) = guide.next_node(tip, |_| false) {
             tip += (target.position - tip).normalize();
             nodes.push(tip);
             assert!(nodes.len() < 1000, "the path has an end");

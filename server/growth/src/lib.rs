@@ -4,22 +4,32 @@
 //! the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
 //! so the same inputs give the same plant bit for bit, on any number of threads.
 
-mod autonomous;
 mod brush;
+mod canopy;
+mod cells;
+mod claims;
 mod direction;
+mod directory;
+mod field;
 mod gravimorphism;
 mod guide;
+mod lasso;
 mod light;
 mod markers;
 mod observer;
+mod obstacles;
 mod parameter_table;
 mod parameters;
 mod place_grid;
 pub mod random;
+#[cfg(test)]
+mod reference;
+mod selection;
 mod shedding;
 mod shoot;
 mod simulation;
 mod space;
+pub mod species;
 mod step;
 mod vigor;
 mod voxel_grid;
@@ -27,11 +37,13 @@ mod voxel_grid;
 pub use brush::{BrushPiece, BrushSample, StrokeId};
 pub use gravimorphism::propensity;
 pub use guide::{Guide, Waypoint};
+pub use lasso::{Envelope, LassoError, MAX_OUTLINE, Plane};
 pub use light::ShadowGrid;
-pub use markers::{Marker, Markers};
+pub use markers::{Marker, MarkerSource, Markers};
 pub use observer::{NoObserver, Observer, Phase};
+pub use obstacles::{MAX_TRIANGLES, Obstacle, ObstacleError, Obstacles, Shape, TriangleMesh};
 pub use parameter_table::ParameterTable;
-pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES};
+pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorModel};
 pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
 pub use space::Space;
 pub use step::{StepInput, StepOutcome};

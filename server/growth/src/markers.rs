@@ -1,6 +1,15 @@
-//! Markers of free space that outlive a step: those the brush has sown (TreeSketch §3.2).
+//! Markers of free space that outlive a step: those of the brush and of the lasso (TreeSketch §3.2).
 
 use glam::Vec3;
+
+/// What sowed a marker, which says how long it stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MarkerSource {
+    /// The brush: gone once it is older than `marker_max_age`.
+    Brush,
+    /// The lasso: stays until it is occupied or guidance is dropped.
+    Lasso,
+}
 
 /// A point that says: here is room to grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,9 +18,11 @@ pub struct Marker {
     pub position: Vec3,
     /// The tick in which it was sown.
     pub born: u32,
+    /// What sowed it.
+    pub source: MarkerSource,
 }
 
-/// All brush markers, oldest first.
+/// All markers of the brush and the lasso, oldest first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Markers {
     markers: Vec<Marker>,
@@ -33,9 +44,25 @@ impl Markers {
         self.markers.push(marker);
     }
 
-    /// Keeps those for which `free` holds and that are not older than `max_age` ticks.
+    /// How many came from this source.
+    pub(crate) fn count(&self, source: MarkerSource) -> usize {
+        self.markers.iter().filter(|marker| marker.source == source).count()
+    }
+
+    /// Keeps those for which `free` holds, of the brush's only those not older than `max_age` ticks.
     pub(crate) fn clear(&mut self, tick: u32, max_age: u32, free: impl Fn(Vec3) -> bool) {
-        self.markers.retain(|marker| tick.wrapping_sub(marker.born) <= max_age && free(marker.position));
+        self.markers.retain(|marker| {
+            let lasts = match marker.source {
+                MarkerSource::Brush => tick.wrapping_sub(marker.born) <= max_age,
+                MarkerSource::Lasso => true,
+            };
+            lasts && free(marker.position)
+        });
+    }
+
+    /// Removes those that came from this source.
+    pub(crate) fn remove(&mut self, source: MarkerSource) {
+        self.markers.retain(|marker| marker.source != source);
     }
 
     /// Removes all.

@@ -28,9 +28,9 @@ impl ParameterTable {
         self.shared.perception_radius()
     }
 
-    /// Cosine of half the widest perception angle of any bud.
-    pub(crate) fn widest_perception(&self) -> f32 {
-        self.shared.cos_half_perception
+    /// Those with the widest perception angle of all.
+    pub(crate) fn widest_perception(&self) -> &Parameters {
+        &self.shared
     }
 
     /// Those of one axis: everything about its buds and shoots.

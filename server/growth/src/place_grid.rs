@@ -127,30 +127,30 @@ impl<L: Lanes> Block<L> {
 }
 
 impl Block<Vectors> {
-    /// The number of a point no farther than `limit` (squared) from `place` that sees it in the cone around its
-    /// own direction, if one counts.
+    /// Calls `visit` with number, squared distance and cosine-times-distance of every point no farther than
+    /// `limit` (squared) from `place` that sees it in the cone around its own direction (see [`crate::space::Cone`]).
     #[inline(always)]
-    pub(crate) fn seen_by(
+    pub(crate) fn visit_seeing(
         &self,
         place: Vec3,
         limit: f32,
-        cos: f32,
-        counts: impl Fn(u32, f32) -> bool,
-    ) -> Option<u32> {
+        signed_cos_squared: f32,
+        mut visit: impl FnMut(u32, f32, f32),
+    ) {
         let squares = self.places.distances_squared(place);
         let dots = self.items.dots(place, &self.places);
         let mut seen = [false; LANES];
         let mut any = false;
         for lane in 0..LANES {
-            seen[lane] = squares[lane] <= limit && dots[lane] >= cos * squares[lane].sqrt();
+            seen[lane] =
+                squares[lane] <= limit && dots[lane] * dots[lane].abs() >= signed_cos_squared * squares[lane];
             any |= seen[lane];
         }
-        if !any {
-            return None;
+        if any {
+            for lane in (0..LANES).filter(|&lane| seen[lane]) {
+                visit(self.number[lane], squares[lane], dots[lane]);
+            }
         }
-        (0..LANES)
-            .find(|&lane| seen[lane] && counts(self.number[lane], squares[lane]))
-            .map(|lane| self.number[lane])
     }
 }
 
@@ -224,33 +224,51 @@ impl<L: Lanes> PlaceGrid<L> {
 
     /// Calls `visit` with every block of every cell within `radius` of `place`, until it says stop.
     #[inline]
-    pub(crate) fn visit_blocks(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> Visit) {
+    fn visit_blocks(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> Visit) {
         let limit = radius * radius;
+        self.visit_nearing(place, radius, |block| match visit(block) {
+            Visit::Go => limit,
+            Visit::Stop => -1.0,
+        });
+    }
+
+    /// Calls `visit` with every block of every cell that is near enough to `place`: nearer than `radius`, and
+    /// then than the root of what `visit` last returned.
+    #[inline]
+    pub(crate) fn visit_nearing(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> f32) {
+        let mut limit = radius * radius;
         let (low, centre) = (self.cell_of(place - radius), self.cell_of(place));
         let high = self.cell_of(place + radius);
-        // The place's own cell first: what stops a search is mostly near.
-        if self.visit_cell(centre, &mut visit) == Visit::Stop {
-            return;
-        }
+        // The place's own cell first: what ends a search is mostly near.
+        self.visit_cell(centre, &mut limit, &mut visit);
         let gap_squared = |cell: i32, at: f32| {
             let from = cell as f32 * self.cell;
             let gap = (from - at).max(at - (from + self.cell)).max(0.0);
-            gap * gap
+            // A hair less than it is, for the gap itself is rounded.
+            gap * gap * 0.9999
         };
         for y in low[1]..=high[1] {
             let gap_y = gap_squared(y, place.y);
             for z in low[2]..=high[2] {
                 let gap_yz = gap_y + gap_squared(z, place.z);
+                if gap_yz > limit {
+                    continue;
+                }
                 for x in low[0]..=high[0] {
-                    // A hair wider than the limit, for the gap itself is rounded.
-                    let beyond = gap_yz + gap_squared(x, place.x) > limit * 1.0001;
-                    if !beyond && [x, y, z] != centre && self.visit_cell([x, y, z], &mut visit) == Visit::Stop
-                    {
-                        return;
+                    if gap_yz + gap_squared(x, place.x) <= limit && [x, y, z] != centre {
+                        self.visit_cell([x, y, z], &mut limit, &mut visit);
                     }
                 }
             }
         }
+    }
+
+    /// Calls `visit` with every point in a cell.
+    pub(crate) fn visit_in_cell(&self, cell: [i32; 3], mut visit: impl FnMut(u32)) {
+        self.visit_cell(cell, &mut 0.0, &mut |block| {
+            block.number[..block.len as usize].iter().for_each(|&number| visit(number));
+            0.0
+        });
     }
 
     /// Whether some point within `radius` of a place counts.
@@ -264,16 +282,13 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     #[inline(always)]
-    fn visit_cell(&self, cell: [i32; 3], visit: &mut impl FnMut(&Block<L>) -> Visit) -> Visit {
+    fn visit_cell(&self, cell: [i32; 3], limit: &mut f32, visit: &mut impl FnMut(&Block<L>) -> f32) {
         let mut at = self.heads.get(cell);
-        while at != 0 {
+        while at != 0 && *limit >= 0.0 {
             let block = &self.blocks[at as usize - 1];
-            if visit(block) == Visit::Stop {
-                return Visit::Stop;
-            }
+            *limit = visit(block);
             at = block.next;
         }
-        Visit::Go
     }
 
     #[inline]

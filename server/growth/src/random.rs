@@ -15,6 +15,8 @@ pub enum Purpose {
     Azimuth = 3,
     /// How the first node of a trunk is turned.
     Phyllotaxis = 4,
+    /// Markers sown in a lasso's envelope.
+    Lasso = 5,
 }
 
 /// A stream of numbers for one purpose.

@@ -2,14 +2,17 @@
 
 use espalier_plant::{AxisId, Plant};
 
-use crate::{parameter_table::ParameterTable, vigor::VigorFlow};
+use crate::{canopy::Canopy, parameter_table::ParameterTable};
 
 /// Steps a branch is given before it is judged: a shoot of the last step has had no light yet.
 const GRACE: u32 = 3;
 
 /// Axes whose branches do not pay, bearers before what they bear; branches inside others are left out by the
 /// caller, who sheds in this order.
-pub(crate) fn condemned(plant: &Plant, flow: &VigorFlow, parameters: &ParameterTable) -> Vec<AxisId> {
+pub(crate) fn condemned(plant: &Plant, canopy: &Canopy, parameters: &ParameterTable) -> Vec<AxisId> {
+    if parameters.scene().shedding_threshold == 0.0 {
+        return Vec::new();
+    }
     let gain = f64::from(parameters.scene().vigor_gain);
     let axes = (0..plant.axis_count()).map(AxisId::new);
     axes.filter(|&axis| plant.is_axis_alive(axis) && plant.axes().order(axis) > 0)
@@ -17,7 +20,7 @@ pub(crate) fn condemned(plant: &Plant, flow: &VigorFlow, parameters: &ParameterT
             plant.axes().first(axis).is_some_and(|first| {
                 let threshold = gain * f64::from(parameters.of(axis).shedding_threshold);
                 let age = plant.step() - plant.metamers().birth(first);
-                age >= GRACE && flow.of_metamer(first) < threshold * f64::from(flow.size(first))
+                age >= GRACE && canopy.starves(first, threshold)
             })
         })
         .collect()

@@ -6,16 +6,16 @@ use espalier_plant::{AxisId, Internode, MetamerId};
 use glam::Vec3;
 
 use crate::{
-    direction::{Tropism, across, next_heading, transport, turn},
+    direction::{Tropism, across, azimuth, next_heading, transport, turn},
     guide::Waypoint,
+    obstacles::CLEARANCE,
+    parameters::MAX_LATERALS,
     random::{Draw, Purpose},
     simulation::{Simulation, WORLD_EXTENT},
 };
 
 /// Nodes keep this far above the ground.
 const GROUND_CLEARANCE: f32 = 0.2;
-/// Lateral buds at one node at most.
-const MAX_LATERALS: usize = 4;
 
 /// What draws a shoot.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,14 +26,19 @@ pub(crate) struct Aim {
     pub stroke: Option<Vec3>,
 }
 
+/// Whether a leader turned aside by an obstacle still follows its path: neither straight past it nor back along
+/// the surface it came by, or it would wander there for ever.
+fn follows(turned: Vec3, heading: Vec3, before: Vec3) -> bool {
+    turned.dot(heading) > 0.05 && turned.dot(before) > -0.2
+}
+
 impl Simulation {
-    /// Lets a bud grow up to `count` internodes; fewer where it runs into another's zone. Returns how many.
-    pub(crate) fn grow_shoot(&mut self, axis: AxisId, count: u32, aim: Aim) -> u32 {
+    /// Lets a bud grow up to `count` internodes; fewer where it runs into another's zone.
+    pub(crate) fn grow_shoot(&mut self, axis: AxisId, count: u32, aim: Aim) {
         let mut grown = 0;
         while grown < count && self.grow_internode(axis, aim, None) {
             grown += 1;
         }
-        grown
     }
 
     /// Lets a leader grow along the path of its stroke, up to `count` internodes. Returns how many.
@@ -42,11 +47,12 @@ impl Simulation {
         axis: AxisId,
         count: u32,
         aim: Aim,
-        mut next: impl FnMut(Vec3) -> Option<Waypoint>,
+        mut next: impl FnMut(Vec3, &dyn Fn(Vec3) -> bool) -> Option<Waypoint>,
     ) -> u32 {
         let mut grown = 0;
         while grown < count {
-            let Some(waypoint) = next(self.plant.bud_position(axis)) else { break };
+            let is_blocked = |place| self.obstacles.blocks(place, place, CLEARANCE);
+            let Some(waypoint) = next(self.plant.bud_position(axis), &is_blocked) else { break };
             if !self.grow_internode(axis, aim, Some(waypoint)) {
                 break;
             }
@@ -69,31 +75,27 @@ impl Simulation {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
         }
+        let is_led = waypoint.is_some_and(|waypoint| waypoint.weight >= 1.0);
+        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis)));
+        let is_free = |free: &Vec3| {
+            *free == heading || waypoint.is_none() || follows(*free, heading, self.plant.bud_direction(axis))
+        };
+        let Some(heading) = free.filter(is_free) else { return false };
         let end = base + heading;
         let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
-        let is_led = waypoint.is_some_and(|waypoint| waypoint.weight >= 1.0);
         if !in_world || (!is_led && self.is_taken(axis, end)) {
             return false;
         }
 
         let normal = self.next_normal(axis, node, heading);
-        let parameters = self.parameters.of(axis);
         let (sin, cos) = parameters.branching;
         let mut laterals = [Vec3::ZERO; MAX_LATERALS];
         let buds = parameters.buds_per_node as usize;
-        for (i, lateral) in laterals.iter_mut().enumerate().take(buds) {
-            let around = libm::sincosf(TAU * i as f32 / buds as f32);
+        for (lateral, &around) in laterals.iter_mut().zip(&parameters.whorl).take(buds) {
             *lateral = (heading * cos + turn(normal, heading, around) * sin).normalize();
         }
-        let first_bud = self.plant.axis_count();
         let id = self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] });
-        self.shadows.cast(end);
         self.space.occupy(id, end);
-        for (i, &direction) in laterals.iter().enumerate().take(buds) {
-            self.space.place_bud(AxisId::new(first_bud + i), end, direction);
-        }
-        // The plant's own answer, not `heading`: rounded alike whether grown just now or read from a file.
-        self.space.place_bud(axis, end, self.plant.bud_direction(axis));
         true
     }
 
@@ -117,9 +119,12 @@ impl Simulation {
         if let Some(direction) = aim.stroke.filter(|_| parameters.tropism_from_stroke) {
             return Tropism::Towards(direction);
         }
-        let angle = TAU * Draw::new(self.seed, Purpose::Azimuth, axis.raw(), 0).unit(0);
-        let (sin, cos) = libm::sincosf(angle);
-        Tropism::SetPoint { azimuth: Vec3::new(cos, 0.0, sin) }
+        Tropism::SetPoint { chance: self.chance(axis) }
+    }
+
+    /// What decides where an axis turns if nothing else does.
+    fn chance(&self, axis: AxisId) -> Draw {
+        Draw::new(self.seed, Purpose::Azimuth, axis.raw(), 0)
     }
 
     /// The normal of a new internode: its axis' last one, carried along and turned by the phyllotactic angle.

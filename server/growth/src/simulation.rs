@@ -7,19 +7,28 @@ use glam::Vec3;
 
 use crate::{
     brush::StrokeId,
+    canopy::{Canopy, Surroundings},
+    claims::Claims,
+    field::MarkerField,
     guide::Guide,
+    lasso::Envelope,
     light::ShadowGrid,
-    markers::{Marker, Markers},
+    markers::{Marker, MarkerSource, Markers},
+    observer::{NoObserver, Observer, Phase},
+    obstacles::{CLEARANCE, Obstacle, Obstacles},
     parameter_table::ParameterTable,
     parameters::Parameters,
+    random::{Draw, Purpose},
     space::Space,
-    step::Scratch,
 };
 
 /// Growth stays within this distance of the origin on each axis, in internodes.
 pub const WORLD_EXTENT: f32 = 1000.0;
 /// Metamers a scene may hold, dead ones and the undone future included, unless told otherwise.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
+
+/// Lasso markers a scene holds at most; a larger envelope is filled more thinly.
+const MAX_LASSO_MARKERS: usize = 200_000;
 
 /// Everything the next step depends on beside the plant.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,10 +37,12 @@ pub struct SimulationState {
     pub seed: u32,
     /// The parameters.
     pub parameters: Parameters,
-    /// Brush markers still alive.
+    /// Markers of brush and lasso still alive.
     pub markers: Vec<Marker>,
     /// Paths of strokes in progress.
     pub guides: BTreeMap<StrokeId, Guide>,
+    /// What stands in the way.
+    pub obstacles: Vec<Obstacle>,
     /// Metamers the scene may hold.
     pub metamer_budget: u32,
     /// Steps ever begun, those included in which nothing grew: the age of markers and the key of their sowing.
@@ -51,7 +62,11 @@ pub struct Simulation {
     pub(crate) tick: u32,
     pub(crate) markers: Markers,
     pub(crate) guides: BTreeMap<StrokeId, Guide>,
-    pub(crate) scratch: Scratch,
+    pub(crate) obstacles: Obstacles,
+    /// Markers for growth without guidance; made when they are needed.
+    pub(crate) field: Option<MarkerField>,
+    pub(crate) canopy: Canopy,
+    pub(crate) claims: Claims,
 }
 
 impl Simulation {
@@ -62,6 +77,7 @@ impl Simulation {
             parameters,
             markers: Vec::new(),
             guides: BTreeMap::new(),
+            obstacles: Vec::new(),
             metamer_budget: DEFAULT_METAMER_BUDGET,
             tick: 0,
         };
@@ -81,7 +97,10 @@ impl Simulation {
             tick: state.tick,
             markers: Markers::from_vec(state.markers),
             guides: state.guides,
-            scratch: Scratch::default(),
+            obstacles: Obstacles::new(state.obstacles),
+            field: None,
+            canopy: Canopy::default(),
+            claims: Claims::default(),
         };
         simulation.rebuild();
         simulation
@@ -94,6 +113,7 @@ impl Simulation {
             parameters: self.parameters.scene().clone(),
             markers: self.markers.as_slice().to_vec(),
             guides: self.guides.clone(),
+            obstacles: self.obstacles.as_slice().to_vec(),
             metamer_budget: self.metamer_budget,
             tick: self.tick,
         }
@@ -114,7 +134,7 @@ impl Simulation {
         self.seed
     }
 
-    /// Brush markers still alive.
+    /// Markers of brush and lasso still alive.
     pub fn markers(&self) -> &[Marker] {
         self.markers.as_slice()
     }
@@ -136,10 +156,14 @@ impl Simulation {
 
     /// Changes the parameters; growth from here on uses them.
     pub fn set_parameters(&mut self, parameters: Parameters) {
-        self.scratch.memory.forget();
         let same_shadows = self.parameters().casts_like(&parameters);
         self.parameters = ParameterTable::new(parameters);
-        if !same_shadows {
+        self.field = None;
+        self.canopy.forget();
+        if same_shadows {
+            self.see_light(&[], &mut NoObserver);
+            self.show();
+        } else {
             self.rebuild();
         }
     }
@@ -149,14 +173,66 @@ impl Simulation {
         self.plant.begin_step();
         let axis = self.plant.sow(position);
         self.plant.end_step();
-        self.space.place_bud(axis, position, Vec3::Y);
+        self.field = None;
         self.enter(self.plant.bud_node(axis));
+        self.replace_bud(axis);
+        self.see_light(&[position], &mut NoObserver);
+        self.show();
     }
 
     /// Forgets what guided growth so far: markers and strokes. Time travel and stroke ends call for it.
     pub fn drop_guidance(&mut self) {
         self.markers.remove_all();
         self.guides.clear();
+    }
+
+    /// Sows lasting markers in an envelope, as densely as the brush does and above ground.
+    pub fn enclose(&mut self, envelope: &Envelope) {
+        let wanted = envelope.volume() * f64::from(self.parameters().marker_density);
+        let room = MAX_LASSO_MARKERS.saturating_sub(self.markers.count(MarkerSource::Lasso));
+        // At least one: a speck of an envelope still says where to grow.
+        let count = (wanted.round() as usize).max(1).min(room);
+        if count == 0 {
+            return;
+        }
+        // A second envelope in the same tick must not repeat the pattern of the first.
+        let draw = Draw::new(self.seed, Purpose::Lasso, self.tick, self.markers.as_slice().len() as u32);
+        for position in envelope.places(count, draw) {
+            if position.y > 0.0 && !self.obstacles.contains(position) {
+                let marker = Marker { position, born: self.tick, source: MarkerSource::Lasso };
+                self.markers.sow(marker);
+            }
+        }
+    }
+
+    /// Forgets the markers of envelopes, for nothing grows into them any more.
+    pub fn drop_envelopes(&mut self) {
+        self.markers.remove(MarkerSource::Lasso);
+    }
+
+    /// The axis that a living metamer belongs to: what to choose when a finger holds the metamer.
+    pub fn axis_at(&self, metamer: MetamerId) -> Option<AxisId> {
+        let is_alive = metamer.index() < self.plant.metamer_count() && self.plant.is_alive(metamer);
+        is_alive.then(|| self.plant.metamers().axis(metamer))
+    }
+
+    /// What stands in the way of growth and light.
+    pub fn obstacles(&self) -> &[Obstacle] {
+        self.obstacles.as_slice()
+    }
+
+    /// Puts obstacles in place of those there were. Wood that has grown where they stand stays.
+    pub fn set_obstacles(&mut self, obstacles: Vec<Obstacle>) {
+        self.obstacles = Obstacles::new(obstacles);
+        self.field = None;
+        for id in (0..self.plant.metamer_count()).map(MetamerId::new) {
+            if self.plant.is_alive(id) {
+                self.obstacles.survey_sky(self.plant.metamers().end(id));
+            }
+        }
+        self.canopy.forget();
+        self.see_light(&[], &mut NoObserver);
+        self.show();
     }
 
     /// Forgets the path of one stroke.
@@ -166,10 +242,11 @@ impl Simulation {
 
     /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
     pub fn has_guidance(&self) -> bool {
+        let is_blocked = |place| self.obstacles.blocks(place, place, CLEARANCE);
         let is_led = |guide: &Guide| {
-            guide
-                .leader
-                .is_some_and(|leader| guide.clone().next_node(self.plant.bud_position(leader)).is_some())
+            guide.leader.is_some_and(|leader| {
+                guide.clone().next_node(self.plant.bud_position(leader), is_blocked).is_some()
+            })
         };
         !self.markers.as_slice().is_empty() || self.guides.values().any(is_led)
     }
@@ -177,7 +254,8 @@ impl Simulation {
     /// Goes to a recorded step, back or forth; shadows and buds follow exactly.
     pub fn go_to(&mut self, step: u32) {
         self.drop_guidance();
-        self.scratch.memory.forget();
+        self.field = None;
+        let before = self.plant.metamer_count();
         let shift = self.plant.go_to(step);
         // First in, then out: a long way back revives what was shed before it unmakes it.
         for &id in &shift.metamers_in {
@@ -189,15 +267,41 @@ impl Simulation {
         for &axis in &shift.axes {
             self.replace_bud(axis);
         }
-        self.read_light();
-        self.distribute_vigor();
-        self.write_appearance();
+        let after = self.plant.metamer_count();
+        let unmade = shift.metamers_in.is_empty() && shift.metamers_out.iter().all(|id| id.index() >= after);
+        let made = shift.metamers_out.is_empty() && shift.metamers_in.iter().all(|id| id.index() >= before);
+        if unmade {
+            self.canopy.retreat(&self.plant, &self.parameters);
+        } else if !made {
+            self.canopy.forget();
+        }
+        let moved = shift.metamers_in.iter().chain(&shift.metamers_out);
+        let changed: Vec<Vec3> = moved.map(|&id| self.plant.metamers().end(id)).collect();
+        self.see_light(&changed, &mut NoObserver);
+        self.show();
+    }
+
+    /// Makes light and vigor those of the present, after shadows have come or gone at these nodes. Where the
+    /// canopy was forgotten, everything is read.
+    pub(crate) fn see_light(&mut self, changed: &[Vec3], observer: &mut impl Observer) {
+        let Self { plant, space, shadows, obstacles, canopy, parameters, .. } = self;
+        observer.enter(Phase::Light);
+        canopy.follow(plant, parameters);
+        canopy.read_light(&Surroundings { plant, space, shadows, obstacles }, changed);
+        observer.enter(Phase::Vigor);
+        canopy.distribute_vigor(plant, parameters);
+    }
+
+    /// Hands light and vigor on to whoever draws the plant.
+    pub(crate) fn show(&mut self) {
+        self.canopy.write_appearance(&mut self.plant);
     }
 
     /// Casts the shadow of a living metamer and occupies its node.
     fn enter(&mut self, id: MetamerId) {
         let node = self.plant.metamers().end(id);
         self.space.occupy(id, node);
+        self.obstacles.survey_sky(node);
         if !self.plant.is_seed(id) {
             self.shadows.cast(node);
         }
@@ -207,13 +311,17 @@ impl Simulation {
     pub(crate) fn leave(&mut self, id: MetamerId) {
         let node = self.plant.metamers().end(id);
         self.space.vacate(id, node);
+        if let Some(field) = &mut self.field {
+            let radius = self.parameters.scene().occupancy_radius;
+            field.vacate(node, radius, &self.space, &self.obstacles);
+        }
         if !self.plant.is_seed(id) {
             self.shadows.uncast(node);
         }
     }
 
     /// Makes everything that follows from the plant afresh.
-    fn rebuild(&mut self) {
+    pub(crate) fn rebuild(&mut self) {
         self.shadows = ShadowGrid::new(self.parameters.scene());
         self.space = Space::new();
         for index in 0..self.plant.metamer_count() {
@@ -225,6 +333,9 @@ impl Simulation {
         for index in 0..self.plant.axis_count() {
             self.replace_bud(AxisId::new(index));
         }
+        self.canopy.forget();
+        self.see_light(&[], &mut NoObserver);
+        self.show();
     }
 
     /// Puts the bud of an axis where the plant says it is now, or nowhere.

@@ -7,13 +7,14 @@ use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
 
 use crate::{
+    cells::CellSet,
     parameter_table::ParameterTable,
     parameters::Parameters,
     place_grid::{PlaceGrid, Vectors, Visit},
 };
 
 /// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
-const NODE_CELL: f32 = 3.0;
+const NODE_CELL: f32 = 4.0;
 const BUD_CELL: f32 = 4.0;
 
 /// All living nodes and buds by place. A bud is named by its axis.
@@ -34,17 +35,6 @@ pub struct Bud {
     present: bool,
 }
 
-/// What becomes of a place that a bud would like to have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Contest {
-    /// It is the bud's.
-    Won,
-    /// This nearer bud perceives it.
-    LostTo(AxisId),
-    /// It lies in an occupancy zone.
-    Occupied,
-}
-
 impl Space {
     /// Empty space.
     pub fn new() -> Self {
@@ -56,13 +46,28 @@ impl Space {
         self.nodes.insert(id.raw(), position, ());
     }
 
+    /// Nodes in and around a set of boxes: those of all cells that meet one.
+    pub(crate) fn nodes_around(
+        &self,
+        boxes: impl Iterator<Item = (Vec3, Vec3)>,
+        mut visit: impl FnMut(MetamerId),
+    ) {
+        let mut cells = CellSet::new();
+        for (low, high) in boxes {
+            cells.insert(low * (1.0 / NODE_CELL), high * (1.0 / NODE_CELL));
+        }
+        for cell in cells.iter() {
+            self.nodes.visit_in_cell(cell, |number| visit(MetamerId::new(number as usize)));
+        }
+    }
+
     /// Takes a node out that was entered at this place.
     pub fn vacate(&mut self, id: MetamerId, position: Vec3) {
         self.nodes.remove(id.raw(), position);
     }
 
     /// Enters a bud, or moves it if it is there already.
-    pub fn place_bud(&mut self, axis: AxisId, position: Vec3, direction: Vec3) {
+    pub fn place_bud(&mut self, axis: AxisId, position: Vec3, direction: Vec3) -> &Bud {
         let index = axis.index();
         if index >= self.buds.len() {
             let nowhere = Bud { position: Vec3::ZERO, direction: Vec3::Y, present: false };
@@ -73,6 +78,7 @@ impl Space {
             self.bud_places.remove(axis.raw(), held.position);
         }
         self.bud_places.insert(axis.raw(), position, direction);
+        &self.buds[index]
     }
 
     /// Takes a bud out, if it is there.
@@ -102,59 +108,33 @@ impl Space {
         self.nodes.any_near(place, radius, |number| counts(MetamerId::new(number as usize)))
     }
 
-    /// What becomes of a place in a bud's own perception volume.
-    ///
-    /// The same as asking [`Space::is_occupied`] and [`Space::nearest_perceiving`], but it looks for other
-    /// perceivers no farther than the bud itself is away.
-    pub(crate) fn contest(&self, axis: AxisId, place: Vec3, parameters: &ParameterTable) -> Contest {
-        if self.is_occupied(place, parameters.of(axis).occupancy_radius, |_| true) {
-            return Contest::Occupied;
-        }
-        let Some(own) = self.bud(axis) else { return Contest::Occupied };
-        let own_distance = own.position.distance_squared(place);
-        let mut outcome = Contest::Won;
-        // A hair farther than needed: a rival at the very same node must not be lost to rounding.
-        self.bud_places.visit_blocks(place, own_distance.sqrt() * 1.0001, |block| {
-            let is_rival = |number: u32, distance_squared| {
-                let rival = AxisId::new(number as usize);
-                (distance_squared, rival) < (own_distance, axis)
-                    && self.buds[rival.index()].perceives(place, distance_squared, parameters.of(rival))
-            };
-            match block.seen_by(place, own_distance, parameters.widest_perception(), is_rival) {
-                Some(rival) => {
-                    outcome = Contest::LostTo(AxisId::new(rival as usize));
-                    Visit::Stop
-                }
-                None => Visit::Go,
-            }
-        });
-        outcome
-    }
-
-    /// Whether one bud perceives a place and is nearer to it than another.
-    pub(crate) fn outdoes(
+    /// The nearest bud that counts and whose perception volume holds a place, and its squared distance;
+    /// of equally near ones the oldest.
+    pub(crate) fn nearest_perceiving(
         &self,
-        rival: AxisId,
-        axis: AxisId,
         place: Vec3,
         parameters: &ParameterTable,
-    ) -> bool {
-        let (Some(near), Some(own)) = (self.bud(rival), self.bud(axis)) else { return false };
-        let distance_squared = near.position.distance_squared(place);
-        (distance_squared, rival) < (own.position.distance_squared(place), axis)
-            && near.perceives(place, distance_squared, parameters.of(rival))
-    }
-
-    /// The nearest bud whose perception volume holds a place; of equally near ones the oldest.
-    pub fn nearest_perceiving(&self, place: Vec3, parameters: &ParameterTable) -> Option<AxisId> {
+        counts: impl Fn(AxisId, Vec3) -> bool,
+    ) -> Option<(AxisId, f32)> {
+        let mut limit = parameters.farthest_perception() * parameters.farthest_perception();
         let mut best: Option<(f32, AxisId)> = None;
-        self.visit_buds(place, parameters.farthest_perception(), |axis, bud, distance_squared| {
-            let nearer = best.is_none_or(|(d, a)| (distance_squared, axis) < (d, a));
-            if nearer && bud.perceives(place, distance_squared, parameters.of(axis)) {
-                best = Some((distance_squared, axis));
-            }
+        let widest = Cone::new(parameters.widest_perception()).signed_cos_squared;
+        self.bud_places.visit_nearing(place, parameters.farthest_perception(), |block| {
+            block.visit_seeing(place, limit, widest, |number, distance_squared, dot| {
+                let axis = AxisId::new(number as usize);
+                let nearer = best.is_none_or(|(d, a)| (distance_squared, axis) < (d, a));
+                let cone = Cone::new(parameters.of(axis));
+                if nearer
+                    && cone.holds(distance_squared, dot)
+                    && counts(axis, self.buds[axis.index()].position)
+                {
+                    best = Some((distance_squared, axis));
+                    limit = distance_squared;
+                }
+            });
+            limit
         });
-        best.map(|(_, axis)| axis)
+        best.map(|(distance_squared, axis)| (axis, distance_squared))
     }
 }
 
@@ -164,15 +144,28 @@ impl Default for Space {
     }
 }
 
-impl Bud {
-    /// Whether a place at this squared distance lies in the perception volume or the zone before it.
-    pub(crate) fn perceives(&self, place: Vec3, distance_squared: f32, parameters: &Parameters) -> bool {
-        let far = parameters.perception_radius();
-        if distance_squared > far * far {
-            return false;
-        }
-        (place - self.position).dot(self.direction)
-            >= parameters.cos_half_perception * distance_squared.sqrt()
+/// The form of a perception volume, with the zone before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cone {
+    /// Its reach, squared.
+    pub far_squared: f32,
+    /// Cosine of half its opening angle times its own magnitude: squares keep order and sign, and need no root.
+    pub signed_cos_squared: f32,
+}
+
+impl Cone {
+    /// That of buds with these parameters.
+    pub(crate) fn new(parameters: &Parameters) -> Self {
+        let (far, cos) = (parameters.perception_radius(), parameters.cos_half_perception);
+        Self { far_squared: far * far, signed_cos_squared: cos * cos.abs() }
+    }
+
+    /// Whether it holds a place at this squared distance from the bud, whose difference to the bud's place has
+    /// this dot product with the bud's direction.
+    #[inline(always)]
+    pub(crate) fn holds(self, distance_squared: f32, dot: f32) -> bool {
+        (distance_squared <= self.far_squared)
+            & (dot * dot.abs() >= self.signed_cos_squared * distance_squared)
     }
 }
 
@@ -188,8 +181,7 @@ mod tests {
             .enumerate()
             .map(|(i, (position, direction))| (position.distance_squared(place), i, *position, *direction))
             .filter(|(d2, _, position, direction)| {
-                d2.sqrt() <= parameters.perception_radius()
-                    && (place - *position).dot(*direction) >= parameters.cos_half_perception * d2.sqrt()
+                Cone::new(parameters).holds(*d2, (place - *position).dot(*direction))
             })
             .map(|(d2, i, ..)| (d2, i))
             .collect();
@@ -228,7 +220,7 @@ mod tests {
                 plain[i].0 = Vec3::splat(1e6);
                 grid.remove_bud(AxisId::new(i));
             }
-            prop_assert_eq!(grid.nearest_perceiving(place, &table), nearest_by_definition(&plain, place, &parameters));
+            prop_assert_eq!(grid.nearest_perceiving(place, &table, |_, _| true).map(|(axis, _)| axis), nearest_by_definition(&plain, place, &parameters));
             for (i, node) in nodes.iter().enumerate() {
                 grid.occupy(MetamerId::new(i), *node);
             }
@@ -239,17 +231,6 @@ mod tests {
             let zone = parameters.occupancy_radius * parameters.occupancy_radius;
             let free = kept.clone().all(|p| p.distance_squared(place) > zone);
             prop_assert_eq!(grid.is_occupied(place, parameters.occupancy_radius, |_| true), !free);
-            for (i, (p, d)) in plain.iter().enumerate().filter(|(_, (p, _))| p.x < 1e5) {
-                let d2 = p.distance_squared(place);
-                let perceives = d2.sqrt() <= parameters.perception_radius()
-                    && (place - *p).dot(*d) >= parameters.cos_half_perception * d2.sqrt();
-                if perceives {
-                    let won = free && nearest_by_definition(&plain, place, &parameters) == Some(AxisId::new(i));
-                    let contest = grid.contest(AxisId::new(i), place, &table);
-                    prop_assert_eq!(contest == Contest::Won, won);
-                    prop_assert_eq!(contest == Contest::Occupied, !free);
-                }
-            }
         }
     }
 }

@@ -1,22 +1,24 @@
-//! One step of the simulation, phase by phase, in the order of TreeSketch §3.2, but that buds growing without
-//! guidance look for room after vigor is known (see `autonomous.rs`).
+//! One step of the simulation, phase by phase.
+//!
+//! The order is that of TreeSketch §3.2, turned so that a step ends where the paper's begins anew: light and
+//! vigor are read last. They are then always those of the plant as it is, for whoever draws it and for the
+//! next step alike.
 
-use std::collections::BTreeMap;
+use core::cmp::Reverse;
+use std::collections::BTreeSet;
 
-use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
+use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
-use rayon::prelude::*;
 
 use crate::{
-    autonomous::{self, Memory, Remembered},
     brush::BrushPiece,
-    gravimorphism::propensity,
+    directory::nearness,
+    field::MarkerField,
     observer::{Observer, Phase},
-    parameters::Parameters,
+    selection::Selection,
     shedding,
     shoot::Aim,
     simulation::Simulation,
-    vigor::VigorFlow,
 };
 
 /// What guides one step.
@@ -26,6 +28,9 @@ pub struct StepInput {
     pub pieces: Vec<BrushPiece>,
     /// Whether buds also look for room on their own.
     pub autonomous: bool,
+    /// Selective growth: only the bud of this axis and those borne on it, however far up, grow; every bud
+    /// still keeps its zone free.
+    pub chosen: Option<AxisId>,
 }
 
 /// What a step brought about.
@@ -37,21 +42,15 @@ pub struct StepOutcome {
     pub buds_enabled: u32,
 }
 
-/// Columns that live only within a step, kept for their memory.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Scratch {
-    /// Light at each metamer's node.
-    pub light: Vec<f32>,
-    /// Q of each bud.
-    pub input: Vec<f32>,
-    pub flow: VigorFlow,
-    pub memory: Memory,
+/// A bud that will grow, and how.
+#[derive(Clone, Copy, Debug)]
+struct Shoot {
+    axis: AxisId,
+    /// Internodes.
+    length: u32,
+    /// The direction E to free space.
+    space: Vec3,
 }
-
-/// Work smaller than this is not worth handing to other threads.
-const PARALLEL_FROM: usize = 4096;
-/// Candidates asked at once; a constant, so that the answer never depends on the number of threads.
-const BLOCK: usize = 512;
 
 impl Simulation {
     /// One step. A step in which nothing grows or is shed leaves no trace.
@@ -59,166 +58,119 @@ impl Simulation {
         self.budget_reached = false;
         self.tick = self.tick.wrapping_add(1);
         self.plant.begin_step();
-        let before = self.plant.metamer_count();
+        let born = self.plant.metamer_count();
 
-        observer.enter(Phase::Space);
-        self.sow_and_clear_markers(input);
-        let mut enabled = self.associate_markers();
-        observer.enter(Phase::Light);
-        self.read_light();
-        observer.enter(Phase::Vigor);
-        self.distribute_vigor();
         observer.enter(Phase::Shedding);
-        self.shed();
-
+        let mut changed = self.shed();
         observer.enter(Phase::Space);
-        let stroke = input.pieces.iter().find_map(BrushPiece::direction);
-        if input.autonomous {
-            self.find_free_space(&mut enabled);
-        }
+        let selection = Selection::new(&self.plant, input.chosen);
+        self.sow_and_clear_markers(input, &selection);
+        self.claim_markers(input, &selection);
+        let enabled: Vec<(AxisId, Vec3)> = self.claims.directions().collect();
         let buds_enabled = enabled.len() as u32;
+
         observer.enter(Phase::Growth);
-        self.grow(enabled, stroke);
+        let stroke = input.pieces.iter().find_map(BrushPiece::direction);
+        self.grow(enabled, stroke, &selection);
         observer.enter(Phase::Girth);
         self.plant.end_step();
-        self.write_appearance();
-        StepOutcome { metamers_grown: (self.plant.metamer_count() - before) as u32, buds_enabled }
+        observer.enter(Phase::Space);
+        changed.extend(self.settle(born));
+        self.see_light(&changed, observer);
+        self.show();
+        StepOutcome { metamers_grown: (self.plant.metamer_count() - born) as u32, buds_enabled }
     }
 
-    fn sow_and_clear_markers(&mut self, input: &StepInput) {
+    fn sow_and_clear_markers(&mut self, input: &StepInput, selection: &Selection) {
         let tick = self.tick;
         let parameters = self.parameters.scene();
         for piece in &input.pieces {
             piece.sow(&mut self.markers, self.seed, tick, parameters);
             let guide = self.guides.entry(piece.stroke).or_default();
             for &sample in &piece.samples {
-                guide.follow(sample, parameters.occupancy_radius);
+                if !self.obstacles.contains(sample.position) {
+                    guide.follow(sample, parameters.occupancy_radius);
+                }
             }
-            guide.choose_leader(&self.space, 2.0 * parameters.perception_radius());
+            let reach = 2.0 * parameters.perception_radius();
+            guide.choose_leader(&self.space, reach, |axis| selection.includes(axis));
         }
-        let (space, radius) = (&self.space, parameters.occupancy_radius);
-        self.markers
-            .clear(tick, parameters.marker_max_age, |place| !space.is_occupied(place, radius, |_| true));
+        let (space, obstacles, radius) = (&self.space, &self.obstacles, parameters.occupancy_radius);
+        self.markers.clear(tick, parameters.marker_max_age, |place| {
+            !obstacles.contains(place) && !space.is_occupied(place, radius, |_| true)
+        });
     }
 
-    /// Gives each marker to the nearest bud that perceives it; returns those buds with their direction E.
-    fn associate_markers(&self) -> BTreeMap<AxisId, Vec3> {
-        let mut claims: BTreeMap<AxisId, Vec3> = BTreeMap::new();
-        for marker in self.markers.as_slice() {
-            if let Some(axis) = self.space.nearest_perceiving(marker.position, &self.parameters) {
-                let towards = (marker.position - self.plant.bud_position(axis)).normalize();
-                *claims.entry(axis).or_insert(Vec3::ZERO) += towards;
+    /// Gives each marker to the nearest bud that perceives it.
+    fn claim_markers(&mut self, input: &StepInput, selection: &Selection) {
+        if input.autonomous {
+            self.refresh_field();
+        }
+        let Self { plant, space, markers, claims, parameters, field, obstacles, .. } = self;
+        claims.clear(plant.axis_count());
+        for marker in markers.as_slice().iter().map(|marker| marker.position) {
+            let counts = |axis, bud| selection.includes(axis) && !obstacles.hides(bud, marker);
+            if let Some((axis, _)) = space.nearest_perceiving(marker, parameters, counts) {
+                claims.add(axis, marker - plant.bud_position(axis));
             }
         }
-        claims.into_iter().filter_map(|(axis, sum)| Some((axis, sum.try_normalize()?))).collect()
-    }
-
-    pub(crate) fn read_light(&mut self) {
-        let (plant, shadows) = (&self.plant, &self.shadows);
-        let count = plant.metamer_count();
-        let light = &mut self.scratch.light;
-        light.resize(count, 0.0);
-        let read = |(index, light): (usize, &mut f32)| {
-            let id = MetamerId::new(index);
-            if plant.is_alive(id) {
-                *light = shadows.exposure(plant.metamers().end(id));
-            }
-        };
-        if count < PARALLEL_FROM {
-            light.iter_mut().enumerate().for_each(read);
+        let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
+        let claim = |marker, axis| claims.add(axis, marker - plant.bud_position(axis));
+        if selection.is_everyone() {
+            field.claims(claim);
         } else {
-            light.par_iter_mut().with_min_len(PARALLEL_FROM / 2).enumerate().for_each(read);
+            let axes = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| selection.includes(axis));
+            let buds = axes.filter_map(|axis| Some((axis, space.bud(axis)?)));
+            field.claims_among(buds, parameters, obstacles, claim);
         }
     }
 
-    pub(crate) fn distribute_vigor(&mut self) {
-        let Scratch { light, input, flow, .. } = &mut self.scratch;
-        let plant = &self.plant;
-        input.resize(plant.axis_count(), 0.0);
-        for (index, input) in input.iter_mut().enumerate() {
-            let axis = AxisId::new(index);
-            if plant.is_axis_alive(axis) {
-                let node = plant.bud_node(axis);
-                *input = bud_input(plant, axis, node, light[node.index()], self.parameters.of(axis));
+    /// Brings the field up to date, or makes it.
+    fn refresh_field(&mut self) {
+        let Self { plant, space, parameters, obstacles, seed, .. } = self;
+        let field = self.field.get_or_insert_with(|| {
+            let mut field = MarkerField::new(*seed, parameters.scene());
+            let radius = parameters.scene().occupancy_radius;
+            for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
+                field.occupy(plant.metamers().end(id), radius, obstacles);
             }
-        }
-        flow.compute(plant, input, &self.parameters);
+            for axis in (0..plant.axis_count()).map(AxisId::new) {
+                if let Some(bud) = space.bud(axis) {
+                    field.place_bud(axis, bud, parameters.of(axis), obstacles);
+                }
+            }
+            field
+        });
+        field.resolve(space, parameters, obstacles);
     }
 
-    fn shed(&mut self) {
-        let condemned = shedding::condemned(&self.plant, &self.scratch.flow, &self.parameters);
+    /// Sheds what does not pay; returns the nodes that went.
+    fn shed(&mut self) -> Vec<Vec3> {
+        let mut gone = Vec::new();
+        let condemned = shedding::condemned(&self.plant, &self.canopy, &self.parameters);
+        if condemned.is_empty() {
+            return gone;
+        }
         for axis in condemned {
             if !self.plant.is_axis_alive(axis) {
                 continue;
             }
-            self.scratch.memory.forget();
             let (_, axes) = self.plant.branch(axis);
             for axis in axes {
                 self.space.remove_bud(axis);
             }
             for id in self.plant.shed(axis) {
                 self.leave(id);
+                gone.push(self.plant.metamers().end(id));
             }
         }
+        self.canopy.bury(&self.plant);
+        gone
     }
 
-    /// Lets buds look for room, the most vigorous first, until no internode can come of it.
-    fn find_free_space(&mut self, enabled: &mut BTreeMap<AxisId, Vec3>) {
-        let mut memory = core::mem::take(&mut self.scratch.memory);
-        let node_of = |axis| self.plant.bud_node(axis).raw();
-        let mut candidates: Vec<(f64, AxisId)> = (0..self.plant.axis_count())
-            .map(AxisId::new)
-            .filter(|&axis| self.plant.is_axis_alive(axis))
-            .filter(|&axis| {
-                memory.of(axis, node_of(axis)).closed != autonomous::all_markers(self.parameters.of(axis))
-            })
-            .map(|axis| (self.bud_vigor(axis), axis))
-            .filter(|&(vigor, _)| vigor > 0.0)
-            .collect();
-        candidates.sort_unstable_by(by_vigor);
-        let mut found: Vec<(f64, AxisId, Vec3)> = Vec::new();
-        let mut greatest = enabled.keys().map(|&axis| self.bud_vigor(axis)).fold(0.0, f64::max);
-        for block in candidates.chunks(BLOCK) {
-            if self.shoot_length(block[0].0, greatest, block[0].1) == 0 {
-                break;
-            }
-            let ask = |&(_, axis): &(f64, AxisId)| {
-                let remembered = memory.of(axis, node_of(axis));
-                autonomous::look_around(axis, remembered, &self.space, &self.parameters, self.seed)
-            };
-            let findings: Vec<(Option<Vec3>, Remembered)> =
-                block.par_iter().with_min_len(64).map(ask).collect();
-            for (&(vigor, axis), (space, remembered)) in block.iter().zip(findings) {
-                memory.set(axis, remembered);
-                if let Some(space) = space {
-                    greatest = greatest.max(vigor);
-                    found.push((vigor, axis, space));
-                }
-            }
-        }
-        self.scratch.memory = memory;
-        // The last block holds some that are too weak; which ones must not depend on where blocks end.
-        for (vigor, axis, space) in found {
-            if self.shoot_length(vigor, greatest, axis) > 0 {
-                enabled.entry(axis).or_insert(space);
-            }
-        }
-    }
-
-    fn bud_vigor(&self, axis: AxisId) -> f64 {
-        self.scratch.flow.of_bud(&self.plant, axis, self.scratch.input[axis.index()], &self.parameters)
-    }
-
-    /// n = ⌊v / v_max · n_max⌋; the whole n_max while no bud is known to be enabled.
-    fn shoot_length(&self, vigor: f64, greatest: f64, axis: AxisId) -> u32 {
-        let longest = self.parameters.of(axis).max_shoot_length;
-        if greatest <= 0.0 {
-            return longest;
-        }
-        (vigor / greatest * f64::from(longest)).min(f64::from(longest)) as u32
-    }
-
-    fn grow(&mut self, mut enabled: BTreeMap<AxisId, Vec3>, stroke: Option<Vec3>) {
+    /// Lets buds grow: leaders of strokes along their paths, others into the space they have claimed.
+    fn grow(&mut self, enabled: Vec<(AxisId, Vec3)>, stroke: Option<Vec3>, selection: &Selection) {
+        let mut led = BTreeSet::new();
         let mut guides = core::mem::take(&mut self.guides);
         for guide in guides.values_mut() {
             let Some(leader) = guide.leader else { continue };
@@ -226,61 +178,86 @@ impl Simulation {
                 guide.restart();
                 continue;
             }
-            let aim = Aim { space: enabled.get(&leader).copied(), stroke };
+            if !selection.includes(leader) {
+                continue;
+            }
+            let space = enabled.iter().find(|(axis, _)| *axis == leader).map(|&(_, space)| space);
             let longest = self.parameters.of(leader).max_shoot_length;
-            if self.grow_guided(leader, longest, aim, |tip| guide.next_node(tip)) > 0 {
-                enabled.remove(&leader);
+            let aim = Aim { space, stroke };
+            if self.grow_guided(leader, longest, aim, |tip, is_blocked| guide.next_node(tip, is_blocked)) > 0
+            {
+                led.insert(leader);
             }
         }
         self.guides = guides;
+        for shoot in self.shoots(enabled.into_iter().filter(|(axis, _)| !led.contains(axis))) {
+            let aim = Aim { space: Some(self.lit_side(shoot.axis, shoot.space)), stroke };
+            self.grow_shoot(shoot.axis, shoot.length, aim);
+        }
+    }
 
-        let mut shoots: Vec<(f64, AxisId, Vec3)> = enabled
+    /// E, turned towards the light as far as phototropism has it.
+    pub(crate) fn lit_side(&self, axis: AxisId, space: Vec3) -> Vec3 {
+        let weight = self.parameters.of(axis).phototropism;
+        if weight == 0.0 {
+            return space;
+        }
+        let Some(light) = self.shadows.towards_light(self.plant.bud_position(axis)) else { return space };
+        (space * (1.0 - weight) + light * weight).try_normalize().unwrap_or(space)
+    }
+
+    /// What enabled buds will grow: n = ⌊v / v_max · n_max⌋ internodes, the longest shoot first, of equally long
+    /// ones the oldest.
+    fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Vec3)>) -> Vec<Shoot> {
+        let vigors: Vec<(AxisId, Vec3, f64)> = enabled
+            .map(|(axis, space)| (axis, space, self.canopy.bud_vigor(&self.plant, axis, &self.parameters)))
+            .collect();
+        let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
+        let length = |axis, vigor: f64| {
+            let longest = f64::from(self.parameters.of(axis).max_shoot_length);
+            (vigor / greatest * longest).min(longest) as u32
+        };
+        let mut shoots: Vec<Shoot> = vigors
             .into_iter()
-            .filter(|&(axis, _)| self.plant.is_axis_alive(axis))
-            .map(|(axis, space)| (self.bud_vigor(axis), axis, space))
+            .filter(|&(.., vigor)| vigor > 0.0)
+            .map(|(axis, space, vigor)| Shoot { axis, length: length(axis, vigor), space })
+            .filter(|shoot| shoot.length > 0)
             .collect();
-        shoots.sort_unstable_by(|a, b| by_vigor(&(a.0, a.1), &(b.0, b.1)));
-        let greatest = shoots.first().map_or(0.0, |shoot| shoot.0);
-        let lengths: Vec<u32> = shoots
-            .iter()
-            .map(
-                |&(vigor, axis, _)| if greatest > 0.0 { self.shoot_length(vigor, greatest, axis) } else { 0 },
-            )
+        shoots.sort_unstable_by_key(|shoot| (Reverse(shoot.length), shoot.axis));
+        shoots
+    }
+
+    /// Tells light and space what has grown: the rows from `born` on. Returns their nodes.
+    fn settle(&mut self, born: usize) -> Vec<Vec3> {
+        let Self { plant, space, parameters, field, shadows, obstacles, .. } = self;
+        // What lies together is told together: all that is written to is larger than a cache, and neighbours
+        // write to the same places.
+        let mut new: Vec<(u64, MetamerId)> = (born..plant.metamer_count())
+            .map(MetamerId::new)
+            .map(|id| (nearness(plant.metamers().end(id)), id))
             .collect();
-        for ((_, axis, space), length) in shoots.into_iter().zip(lengths) {
-            self.grow_shoot(axis, length, Aim { space: Some(space), stroke });
-        }
+        new.sort_unstable();
+        let nodes = || new.iter().map(|&(_, id)| (id, plant.metamers().end(id)));
+        nodes().for_each(|(_, node)| obstacles.survey_sky(node));
+        let obstacles = &*obstacles;
+        let cast = || nodes().for_each(|(_, node)| shadows.cast(node));
+        let place = || {
+            if let Some(field) = field {
+                let radius = parameters.scene().occupancy_radius;
+                nodes().for_each(|(_, node)| field.occupy(node, radius, obstacles));
+            }
+            for (id, node) in nodes() {
+                let axis = plant.metamers().axis(id);
+                let tip = (plant.axes().last(axis) == Some(id)).then_some(axis);
+                for axis in tip.into_iter().chain(plant.laterals(id)) {
+                    let bud = space.place_bud(axis, node, plant.bud_direction(axis));
+                    if let Some(field) = field {
+                        field.place_bud(axis, bud, parameters.of(axis), obstacles);
+                    }
+                }
+            }
+        };
+        rayon::join(cast, place);
+        new.into_iter().map(|(_, id)| self.plant.metamers().end(id)).collect()
     }
-
-    /// Hands light and vigor on to whoever draws the plant; this step's shoots look like they are in full light.
-    pub(crate) fn write_appearance(&mut self) {
-        let Scratch { light, flow, .. } = &self.scratch;
-        let vigor_per_tip =
-            |plant: &Plant, id| flow.of_metamer(id) / f64::from(plant.metamers().tips(id).max(1));
-        let known = light.len().min(self.plant.metamer_count());
-        let greatest =
-            (0..known).map(MetamerId::new).map(|id| vigor_per_tip(&self.plant, id)).fold(0.0, f64::max);
-        let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
-        for (index, &light) in light.iter().enumerate().take(known) {
-            let id = MetamerId::new(index);
-            // By way of u32: LLVM 22 crashes on a vectorised f64-to-u8 conversion.
-            let vigor = (vigor_per_tip(&self.plant, id) * scale) as u32 as u8;
-            self.plant.set_appearance(id, Appearance { light: (light * 255.0) as u32 as u8, vigor });
-        }
-    }
-}
-
-/// The most vigorous first; of equally vigorous ones the oldest.
-fn by_vigor(a: &(f64, AxisId), b: &(f64, AxisId)) -> core::cmp::Ordering {
-    b.0.total_cmp(&a.0).then(a.1.cmp(&b.1))
-}
-
-/// Q = bL^κ of a bud (TreeSketch §3.2). Gravimorphism concerns lateral buds that have not grown yet.
-fn bud_input(plant: &Plant, axis: AxisId, node: MetamerId, light: f32, parameters: &Parameters) -> f32 {
-    let kappa = parameters.light_sensitivity;
-    let response = if kappa == 1.0 { light } else { libm::powf(light, kappa) };
-    if plant.axes().last(axis).is_some() {
-        return response;
-    }
-    response * propensity(plant.heading(node), plant.axes().direction(axis), parameters)
 }

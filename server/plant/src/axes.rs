@@ -32,6 +32,11 @@ impl Axes {
         id
     }
 
+    /// The axis that will be laid down next.
+    pub(crate) fn next(&self) -> AxisId {
+        AxisId::new(self.bearer.len())
+    }
+
     pub(crate) fn truncate(&mut self, len: usize) {
         self.bearer.truncate(len);
         self.first.truncate(len);

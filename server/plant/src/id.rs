@@ -35,6 +35,11 @@ id! {
     AxisId
 }
 
+impl AxisId {
+    /// Stands for "no such row" inside the columns.
+    pub(crate) const NONE: Self = Self(u32::MAX);
+}
+
 impl MetamerId {
     /// Stands for "no such row" inside the columns; public functions return `Option` instead.
     pub(crate) const NONE: Self = Self(u32::MAX);

@@ -27,6 +27,8 @@ pub struct Metamers {
     pub(crate) normal: Vec<Vec3>,
     pub(crate) tips: Vec<u32>,
     pub(crate) appearance: Vec<Appearance>,
+    /// The first lateral axis at each node, if it bears any; the others follow it.
+    pub(crate) lateral: Vec<AxisId>,
 }
 
 /// One row of [`Metamers`], to append.
@@ -36,6 +38,8 @@ pub(crate) struct Row {
     pub birth: u32,
     pub end: Vec3,
     pub normal: Vec3,
+    /// The first of its laterals, which are to be laid down next.
+    pub lateral: AxisId,
 }
 
 impl Metamers {
@@ -49,6 +53,7 @@ impl Metamers {
         self.normal.push(row.normal);
         self.tips.push(0);
         self.appearance.push(Appearance { light: 255, vigor: 255 });
+        self.lateral.push(row.lateral);
         id
     }
 
@@ -61,6 +66,7 @@ impl Metamers {
         self.normal.truncate(len);
         self.tips.truncate(len);
         self.appearance.truncate(len);
+        self.lateral.truncate(len);
     }
 
     /// The metamer this one grows from; none for a seed.

@@ -84,6 +84,12 @@ impl Plant {
             let below = (bearer != u32::MAX).then(|| order[parts.axis[bearer as usize] as usize]);
             order.push(below.map_or(0, |below: u32| below + 1));
         }
+        let mut lateral = vec![AxisId::NONE; metamers];
+        for (axis, &bearer) in
+            parts.bearer.iter().enumerate().rev().filter(|(_, bearer)| **bearer != u32::MAX)
+        {
+            lateral[bearer as usize] = AxisId::new(axis);
+        }
         let mut plant = Self {
             metamers: Metamers {
                 parent: parts.parent.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),
@@ -96,6 +102,7 @@ impl Plant {
                 appearance: (parts.light.iter().zip(&parts.vigor))
                     .map(|(&light, &vigor)| Appearance { light, vigor })
                     .collect(),
+                lateral,
             },
             axes: Axes {
                 bearer: parts.bearer.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),

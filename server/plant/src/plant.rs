@@ -22,6 +22,9 @@ pub struct Plant {
     pub(crate) living: u32,
 }
 
+/// Metamers on the way from a tip to its seed, roughly: only speed depends on it.
+const TYPICAL_DEPTH: usize = 32;
+
 /// What the bud of an axis adds to it.
 #[derive(Clone, Copy, Debug)]
 pub struct Internode<'a> {
@@ -126,6 +129,14 @@ impl Plant {
         if last == MetamerId::NONE { self.axes.bearer[id.index()] } else { last }
     }
 
+    /// The lateral axes that a metamer's node has borne, the dead included.
+    pub fn laterals(&self, id: MetamerId) -> impl Iterator<Item = AxisId> + use<> {
+        let first = self.metamers.lateral[id.index()];
+        let from = if first == AxisId::NONE { self.axes.bearer.len() } else { first.index() };
+        let borne = self.axes.bearer[from..].iter().take_while(|&&bearer| bearer == id).count();
+        (from..from + borne).map(AxisId::new)
+    }
+
     /// Where the bud of an axis is.
     pub fn bud_position(&self, id: AxisId) -> Vec3 {
         self.metamers.end(self.bud_node(id))
@@ -179,9 +190,7 @@ impl Plant {
             return false;
         }
         let born = self.timeline.before(self.timeline.now).metamers as usize;
-        for index in born..self.metamers.parent.len() {
-            self.carry(MetamerId::new(index));
-        }
+        self.carry_from(born, self.metamers.parent.len());
         self.timeline.ends.push(end);
         true
     }
@@ -196,6 +205,7 @@ impl Plant {
             birth: self.timeline.now,
             end: position,
             normal: Vec3::X,
+            lateral: AxisId::NONE,
         });
         self.axes.first[axis.index()] = seed;
         self.axes.last[axis.index()] = seed;
@@ -214,6 +224,7 @@ impl Plant {
             birth: step,
             end: internode.end,
             normal: internode.normal,
+            lateral: if internode.laterals.is_empty() { AxisId::NONE } else { self.axes.next() },
         });
         self.link(id);
         self.living = self.living.wrapping_add(1);
@@ -279,8 +290,35 @@ impl Plant {
         self.axes.last[axis.index()] = id;
     }
 
+    /// Enters the metamers of a range of rows, the last of the present, which have no tips yet, into the girth of those below them.
+    pub(crate) fn carry_from(&mut self, born: usize, count: usize) {
+        // Each new axis is a path down to the roots; where there are many, one pass over all wood is shorter.
+        if (count - born) * TYPICAL_DEPTH < count {
+            for index in born..count {
+                self.carry(MetamerId::new(index));
+            }
+            return;
+        }
+        let mut gained = vec![0u32; count];
+        for index in (0..count).rev() {
+            let id = MetamerId::new(index);
+            if index >= born && !self.is_seed(id) {
+                self.metamers.tips[index] = 1;
+                let begins = self.begins_wood(id);
+                gained[self.metamers.parent[index].index()] += u32::from(begins);
+            }
+            let (gain, parent) = (gained[index], self.metamers.parent[index]);
+            if gain > 0 {
+                self.metamers.tips[index] = self.metamers.tips[index].wrapping_add(gain);
+                if parent != MetamerId::NONE {
+                    gained[parent.index()] += gain;
+                }
+            }
+        }
+    }
+
     /// Enters a metamer into the girth of those below it.
-    pub(crate) fn carry(&mut self, id: MetamerId) {
+    fn carry(&mut self, id: MetamerId) {
         if self.is_seed(id) {
             return;
         }

@@ -40,9 +40,9 @@ impl Plant {
         for index in 0..self.timeline.present().metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
-            self.carry(id);
             self.living += u32::from(!self.is_seed(id));
         }
+        self.carry_from(0, self.metamer_count());
         self.go_to(now);
     }
 
@@ -82,13 +82,13 @@ impl Plant {
         for index in before.metamers..end.metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
-            self.carry(id);
             shift.axes.push(self.metamers.axis(id));
             shift.metamers_in.push(id);
             if !self.is_seed(id) {
                 self.living = self.living.wrapping_add(1);
             }
         }
+        self.carry_from(before.metamers as usize, end.metamers as usize);
     }
 
     /// Notes the axes that were born or died in a step.

@@ -1,12 +1,18 @@
 //! What can be done to a document: commands whose form has been checked.
 
+mod outline;
+
 use espalier_proto::{
     Command, ParametersPatch, Problem, ProblemCode, StrokeSample,
     version::{MAX_STEPS_PER_COMMAND, MAX_STROKE_SAMPLES},
 };
 use glam::Vec3;
 
-use crate::malformed;
+pub use self::outline::Lasso;
+use crate::{
+    malformed,
+    obstacle::{Obstacle, Pose},
+};
 
 /// The farthest a position may lie from the origin on any axis, in internodes (`LM2`).
 const FARTHEST: f32 = 1000.0;
@@ -31,6 +37,8 @@ pub enum Action {
     StrokeBegin {
         /// The author's number for it.
         stroke: u32,
+        /// The row whose axis alone grows; all of them without one.
+        bud: Option<u32>,
     },
     /// The brush moves or rests.
     StrokeMove {
@@ -50,6 +58,20 @@ pub enum Action {
         steps: u32,
         /// Neighbours with the same gesture are one operation for undo.
         gesture: Option<u32>,
+        /// The row whose axis alone grows; all of them without one.
+        bud: Option<u32>,
+    },
+    /// Growth into an outline.
+    Lasso {
+        /// The outline.
+        lasso: Box<Lasso>,
+        /// The row whose axis alone grows; all of them without one.
+        bud: Option<u32>,
+    },
+    /// An end to growth that was asked for before.
+    Stop {
+        /// Steps ever begun beyond which none is run for what came before.
+        tick: Option<u32>,
     },
     /// Back in time.
     Ungrow {
@@ -67,18 +89,36 @@ pub enum Action {
         /// Where.
         position: Vec3,
     },
+    /// Something that stands in the way.
+    PlaceObstacle(Box<Obstacle>),
+    /// An obstacle elsewhere.
+    MoveObstacle {
+        /// Which.
+        id: u32,
+        /// Where to.
+        pose: Pose,
+    },
+    /// An obstacle gone.
+    RemoveObstacle {
+        /// Which.
+        id: u32,
+    },
 }
 
 impl Action {
     /// Checks a command's form; a problem names the field at fault.
     pub fn parse(command: &Command) -> Result<Self, Problem> {
         Ok(match command {
-            &Command::StrokeBegin { stroke } => Self::StrokeBegin { stroke },
+            &Command::StrokeBegin { stroke, bud } => Self::StrokeBegin { stroke, bud },
             Command::StrokeMove { stroke, samples } => {
                 Self::StrokeMove { stroke: *stroke, samples: parse_samples(samples)? }
             }
             &Command::StrokeEnd { stroke } => Self::StrokeEnd { stroke },
-            &Command::Grow { steps, gesture } => Self::Grow { steps: parse_steps(steps)?, gesture },
+            &Command::Grow { steps, gesture, bud } => Self::Grow { steps: parse_steps(steps)?, gesture, bud },
+            Command::Lasso { outline, plane, depth, bud } => {
+                Self::Lasso { lasso: Box::new(Lasso::parse(outline, plane, *depth)?), bud: *bud }
+            }
+            &Command::Stop { tick } => Self::Stop { tick },
             &Command::Ungrow { steps } => Self::Ungrow { steps: parse_steps(steps)? },
             Command::Undo {} => Self::Undo,
             Command::Redo {} => Self::Redo,
@@ -87,6 +127,15 @@ impl Action {
                 Self::SetParameters(Box::new(parameters.clone()))
             }
             Command::PlantSeed { position } => Self::PlantSeed { position: parse_position(position)? },
+            Command::PlaceObstacle { obstacle } => {
+                let obstacle = Obstacle::parse(obstacle).map_err(|problem| problem.within("obstacle"))?;
+                Self::PlaceObstacle(Box::new(obstacle))
+            }
+            Command::MoveObstacle { id, pose } => {
+                let pose = Pose::parse(pose).map_err(|problem| problem.within("pose"))?;
+                Self::MoveObstacle { id: *id, pose }
+            }
+            &Command::RemoveObstacle { id } => Self::RemoveObstacle { id },
         })
     }
 
@@ -100,7 +149,7 @@ impl Action {
     pub(crate) fn least_steps(&self) -> u32 {
         match self {
             Self::Grow { steps, .. } => *steps,
-            Self::StrokeMove { .. } => 1,
+            Self::StrokeMove { .. } | Self::Lasso { .. } => 1,
             _ => 0,
         }
     }
@@ -132,7 +181,8 @@ fn parse_sample(sample: &StrokeSample) -> Result<Sample, Problem> {
     Ok(Sample { position, radius })
 }
 
-fn parse_position(position: &[f32; 3]) -> Result<Vec3, Problem> {
+/// A position within the world (`LM2`).
+pub(crate) fn parse_position(position: &[f32; 3]) -> Result<Vec3, Problem> {
     for (axis, &value) in position.iter().enumerate() {
         let lowest = if axis == 1 { DEEPEST } else { -FARTHEST };
         if !(lowest..=FARTHEST).contains(&value) {

@@ -1,7 +1,9 @@
 //! One shared document: the plants, their simulation, and the timeline of what was done to them.
 
 mod bytes;
+mod growing;
 mod history;
+mod obstacles;
 mod parameters;
 mod strokes;
 #[cfg(test)]
@@ -9,16 +11,19 @@ mod tests;
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_growth::{NoObserver, Observer, Parameters, Simulation, StepInput, StepOutcome, StrokeId};
+use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{Plant, hash::StableHash};
 use espalier_proto::{ParametersPatch, Problem, ProblemCode};
 use glam::Vec3;
 
 pub use self::bytes::DocumentError;
 use self::{
-    history::{History, Kind},
+    growing::Pending,
+    history::{History, Kind, Setting},
+    obstacles::Obstacles,
     strokes::OpenStrokes,
 };
+pub(crate) use self::{obstacles::ObstaclesMark, parameters::to_proto as wire_parameters};
 use crate::action::Action;
 
 /// Plants, the simulation that grows them, and every operation done so far.
@@ -29,18 +34,11 @@ pub struct Document {
     simulation: Simulation,
     history: History,
     strokes: OpenStrokes,
+    obstacles: Obstacles,
     pending: VecDeque<Pending>,
-}
-
-/// Steps still to be run for an action taken on.
-#[derive(Clone, Debug, PartialEq)]
-enum Pending {
-    /// One step of brushing.
-    Brush(StepInput),
-    /// So many steps without guidance.
-    Autonomous(u32),
-    /// At most so many steps for a lifted brush, while buds find what it left.
-    Settle(StrokeId, u32),
+    steps_begun: u32,
+    /// Where growth ends, as counted by `steps_begun`.
+    stop_at: Option<u32>,
 }
 
 /// Figures of a document as a whole. Leaves are counted by whoever draws it.
@@ -54,22 +52,38 @@ pub struct Figures {
     pub axes: u32,
     /// Metamers the document may hold.
     pub metamer_budget: u32,
+    /// Whether it holds as many.
+    pub budget_reached: bool,
     /// Whether there is an operation to undo.
     pub can_undo: bool,
     /// Whether there is something to redo.
     pub can_redo: bool,
     /// Steps still to be run.
     pub pending_steps: u32,
+    /// Steps begun up to now, whatever was taken back since.
+    pub steps_begun: u32,
 }
 
 impl Document {
     /// A seedling.
     pub fn new(seed: u32) -> Self {
+        Self::of(seed, Parameters::default())
+    }
+
+    /// A seedling that starts with these parameters.
+    pub fn with_parameters(seed: u32, wanted: &espalier_proto::Parameters) -> Result<Self, Problem> {
+        Ok(Self::of(seed, parameters::parse(wanted)?))
+    }
+
+    fn of(seed: u32, parameters: Parameters) -> Self {
         Self {
-            simulation: Simulation::new(seed, Parameters::default()),
+            simulation: Simulation::new(seed, parameters),
             history: History::default(),
             strokes: OpenStrokes::default(),
+            obstacles: Obstacles::default(),
             pending: VecDeque::new(),
+            steps_begun: 0,
+            stop_at: None,
         }
     }
 
@@ -77,7 +91,7 @@ impl Document {
     pub fn begin(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
         while self.advance() {}
         match action {
-            Action::StrokeBegin { stroke } => self.begin_stroke(author, *stroke),
+            Action::StrokeBegin { stroke, bud } => self.begin_stroke(author, *stroke, *bud),
             Action::StrokeMove { stroke, samples } => {
                 let longest = self.simulation.parameters().max_shoot_length;
                 let steps = self.strokes.extend(author, *stroke, samples, longest)?;
@@ -85,59 +99,24 @@ impl Document {
                 Ok(())
             }
             Action::StrokeEnd { stroke } => {
-                let id = self.strokes.close(author, *stroke)?;
-                self.pending.push_back(Pending::Settle(id, self.simulation.parameters().marker_max_age));
+                let (stroke, chosen) = self.strokes.close(author, *stroke)?;
+                let left = self.simulation.parameters().marker_max_age;
+                self.pending.push_back(Pending::Settle { stroke, left, chosen });
                 Ok(())
             }
-            Action::Grow { steps, gesture } => self.begin_growth(author, *steps, *gesture),
+            Action::Grow { steps, gesture, bud } => self.begin_growth(author, *steps, *gesture, *bud),
+            Action::Lasso { lasso, bud } => self.begin_lasso(author, lasso, *bud),
+            // What it ends was begun before, and has ended by now.
+            Action::Stop { .. } => Ok(()),
             Action::Ungrow { steps } => self.ungrow(*steps),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
             Action::SetParameters(patch) => self.set_parameters(author, patch),
             Action::PlantSeed { position } => self.plant_seed(author, *position),
+            Action::PlaceObstacle(obstacle) => self.place_obstacle(author, obstacle),
+            Action::MoveObstacle { id, pose } => self.move_obstacle(author, *id, *pose),
+            Action::RemoveObstacle { id } => self.remove_obstacle(author, *id),
         }
-    }
-
-    /// Runs one pending step; false when none is pending.
-    pub fn advance(&mut self) -> bool {
-        self.advance_observed(&mut NoObserver)
-    }
-
-    /// Runs one pending step under the eyes of someone with a clock; false when none is pending.
-    pub fn advance_observed(&mut self, observer: &mut impl Observer) -> bool {
-        let Some(pending) = self.pending.pop_front() else { return false };
-        match pending {
-            Pending::Brush(input) => {
-                self.simulation.step(&input, observer);
-            }
-            Pending::Autonomous(left) => {
-                self.simulation.step(&StepInput { autonomous: true, ..StepInput::default() }, observer);
-                if left > 1 && !self.simulation.is_out_of_budget() {
-                    self.pending.push_front(Pending::Autonomous(left - 1));
-                }
-            }
-            Pending::Settle(stroke, left) => {
-                let outcome = if left > 0 && self.simulation.has_guidance() {
-                    self.simulation.step(&StepInput::default(), observer)
-                } else {
-                    StepOutcome::default()
-                };
-                // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
-                if outcome == StepOutcome::default() {
-                    self.simulation.end_stroke(stroke);
-                    if self.strokes.is_empty() {
-                        self.simulation.drop_guidance();
-                    }
-                } else {
-                    self.pending.push_front(Pending::Settle(stroke, left - 1));
-                }
-            }
-        }
-        self.history.reach(self.simulation.plant().step());
-        if self.pending.is_empty() && self.strokes.is_empty() {
-            self.history.forget_idle();
-        }
-        true
     }
 
     /// Takes an action on and runs all its steps.
@@ -160,25 +139,17 @@ impl Document {
             metamers: plant.living_count(),
             axes: plant.living_axes_count(),
             metamer_budget: self.simulation.metamer_budget(),
+            budget_reached: self.require_room().is_err(),
             can_undo: self.history.can_undo(),
             can_redo: self.history.can_redo(plant.step()),
             pending_steps: self.pending_steps(),
+            steps_begun: self.steps_begun,
         }
     }
 
     /// Living metamers.
     pub fn metamers(&self) -> u32 {
         self.simulation.plant().living_count()
-    }
-
-    /// Steps still to be run.
-    pub fn pending_steps(&self) -> u32 {
-        let steps = |pending: &Pending| match pending {
-            Pending::Brush(_) => 1,
-            Pending::Autonomous(left) => *left,
-            Pending::Settle(..) => 0,
-        };
-        self.pending.iter().map(steps).sum()
     }
 
     /// The parameters in force.
@@ -210,27 +181,9 @@ impl Document {
         }
         self.history.hash(&mut hash);
         self.strokes.hash(&mut hash);
+        self.obstacles.hash(&mut hash);
+        hash.word(u64::from(self.steps_begun));
         hash.finish()
-    }
-
-    fn begin_stroke(&mut self, author: &str, stroke: u32) -> Result<(), Problem> {
-        let joins = !self.strokes.is_empty();
-        self.strokes.open(author, stroke)?;
-        // Strokes that overlap in time are one operation: their steps cannot be told apart.
-        if !joins {
-            self.record(Kind::Stroke, author, None);
-        }
-        Ok(())
-    }
-
-    fn begin_growth(&mut self, author: &str, steps: u32, gesture: Option<u32>) -> Result<(), Problem> {
-        self.require_room()?;
-        let continues = self.history.continues(author, gesture, self.plant().step());
-        if self.strokes.is_empty() && !continues {
-            self.record(Kind::Growth, author, gesture);
-        }
-        self.pending.push_back(Pending::Autonomous(steps));
-        Ok(())
     }
 
     fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
@@ -245,18 +198,18 @@ impl Document {
 
     fn undo(&mut self) -> Result<(), Problem> {
         let operation = self.history.undo().ok_or_else(|| refused("there is nothing to undo"))?;
-        let (step, parameters) = (operation.first, Arc::clone(&operation.before));
+        let (step, setting) = (operation.first, operation.before.clone());
         self.go_to(step);
-        self.simulation.set_parameters(Parameters::clone(&parameters));
+        self.set(&setting);
         Ok(())
     }
 
     fn redo(&mut self) -> Result<(), Problem> {
         let now = self.plant().step();
         let operation = self.history.redo(now).ok_or_else(|| refused("there is nothing to redo"))?;
-        let (step, parameters) = (operation.last, Arc::clone(&operation.after));
+        let (step, setting) = (operation.last, operation.after.clone());
         self.go_to(step);
-        self.simulation.set_parameters(Parameters::clone(&parameters));
+        self.set(&setting);
         Ok(())
     }
 
@@ -267,8 +220,9 @@ impl Document {
             return Ok(());
         }
         self.record(Kind::Parameters, author, None);
-        self.simulation.set_parameters(wanted.clone());
-        self.history.settle_parameters(Arc::new(wanted));
+        let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
+        self.set(&setting);
+        self.history.settle(setting);
         Ok(())
     }
 
@@ -289,18 +243,10 @@ impl Document {
         self.simulation.drop_guidance();
     }
 
-    fn require_room(&self) -> Result<(), Problem> {
-        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.metamer_budget());
-        if held < budget {
-            return Ok(());
-        }
-        Err(refused(format!("the document holds {held} metamers, its budget is {budget}")))
-    }
-
     /// Starts an operation at the present; what was undone before it cannot be redone any more.
     fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) {
-        let parameters = Arc::new(self.simulation.parameters().clone());
-        self.history.record(kind, author, gesture, self.simulation.plant().step(), parameters);
+        let setting = self.setting();
+        self.history.record(kind, author, gesture, self.simulation.plant().step(), setting);
     }
 
     /// Travels in time; strokes in progress end where they are.

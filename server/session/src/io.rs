@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use espalier_proto::version::CloseCode;
+use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 
 use crate::work::Work;
 
@@ -13,6 +13,10 @@ pub struct ClientId(pub u64);
 /// Names one request for the document's bytes; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadId(pub u64);
+
+/// Names one command from outside; the shell numbers them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActId(pub u64);
 
 /// Something happened.
 #[derive(Debug)]
@@ -38,6 +42,8 @@ pub enum Input {
     Worked(Box<Work>),
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
+    /// Someone outside, who is no client, wants something done (an uploaded mesh placed).
+    Act(ActId, Box<Command>),
     /// The time asked for by `WakeAt` has come.
     Woken,
 }
@@ -70,6 +76,13 @@ pub enum Output {
         bytes: Vec<u8>,
         /// Living metamers, for lists.
         metamers: u32,
+    },
+    /// What became of an `Act`: done and durable, with the obstacle it placed if it placed one, or refused.
+    Acted {
+        /// Whose answer this is.
+        act: ActId,
+        /// What came of it.
+        outcome: Result<Option<PlacedObstacle>, Problem>,
     },
     /// Answer with `Woken` at this time, in milliseconds of the clock handed to `handle`.
     /// A later `WakeAt` takes the place of an earlier one.

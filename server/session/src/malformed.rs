@@ -1,6 +1,9 @@
 //! Sentences for messages that cannot be read, naming the field at fault where it can be found.
 
-use espalier_proto::{ParametersPatch, Problem, ProblemCode, StrokeSample, version::MAX_STEPS_PER_COMMAND};
+use espalier_proto::{
+    DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape, StrokeSample,
+    version::MAX_STEPS_PER_COMMAND,
+};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 
@@ -60,14 +63,22 @@ fn locate(command: &Value) -> Option<Problem> {
     }
     for (name, value) in fields {
         let found = match name.as_str() {
-            "stroke" | "steps" => wrong::<u32>(name, value),
-            "gesture" => wrong::<Option<u32>>(name, value),
+            "stroke" | "steps" | "id" => wrong::<u32>(name, value),
+            "gesture" | "bud" => wrong::<Option<u32>>(name, value),
             "position" => wrong::<[f32; 3]>(name, value),
             "samples" => wrong::<Vec<Value>>(name, value).or_else(|| {
                 let samples = value.as_array()?.iter().enumerate();
                 samples.into_iter().find_map(|(index, sample)| locate_in_sample(index, sample))
             }),
             "parameters" => locate_in_parameters(value),
+            "outline" => wrong::<Vec<Value>>(name, value).or_else(|| {
+                let mut points = value.as_array()?.iter().enumerate();
+                points.find_map(|(index, point)| wrong::<[f32; 2]>(&format!("outline[{index}]"), point))
+            }),
+            "plane" => locate_in_plane(value),
+            "depth" => wrong::<f32>(name, value),
+            "obstacle" => locate_in_obstacle(value),
+            "pose" => locate_in_pose("pose", value),
             _ => None,
         };
         if found.is_some() {
@@ -87,6 +98,38 @@ fn locate_in_sample(index: usize, sample: &Value) -> Option<Problem> {
         })
     });
     part.or_else(|| wrong::<StrokeSample>(&whole, sample))
+}
+
+fn locate_in_plane(plane: &Value) -> Option<Problem> {
+    let part = plane.as_object().and_then(|fields| {
+        fields.iter().find_map(|(name, value)| match name.as_str() {
+            "origin" | "right" | "up" => wrong::<[f32; 3]>(&format!("plane.{name}"), value),
+            _ => None,
+        })
+    });
+    part.or_else(|| wrong::<DrawingPlane>("plane", plane))
+}
+
+fn locate_in_obstacle(obstacle: &Value) -> Option<Problem> {
+    let part = obstacle.as_object().and_then(|fields| {
+        fields.iter().find_map(|(name, value)| match name.as_str() {
+            "shape" => wrong::<Shape>("obstacle.shape", value),
+            "pose" => locate_in_pose("obstacle.pose", value),
+            _ => None,
+        })
+    });
+    part.or_else(|| wrong::<Obstacle>("obstacle", obstacle))
+}
+
+fn locate_in_pose(field: &str, pose: &Value) -> Option<Problem> {
+    let part = pose.as_object().and_then(|fields| {
+        fields.iter().find_map(|(name, value)| match name.as_str() {
+            "position" => wrong::<[f32; 3]>(&format!("{field}.position"), value),
+            "rotation" => wrong::<[f32; 4]>(&format!("{field}.rotation"), value),
+            _ => None,
+        })
+    });
+    part.or_else(|| wrong::<Pose>(field, pose))
 }
 
 fn locate_in_parameters(parameters: &Value) -> Option<Problem> {
@@ -110,8 +153,8 @@ fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
 }
 
 /// Every kind of command.
-const KINDS: &str =
-    "stroke_begin, stroke_move, stroke_end, grow, ungrow, undo, redo, set_parameters, plant_seed";
+const KINDS: &str = "stroke_begin, stroke_move, stroke_end, grow, lasso, stop, ungrow, undo, redo, \
+     set_parameters, plant_seed, place_obstacle, move_obstacle, remove_obstacle";
 
 fn wrong_kind(kind: &Value) -> Option<Problem> {
     let known = kind.as_str().is_some_and(|kind| KINDS.split(", ").any(|known| known == kind));
@@ -127,13 +170,20 @@ fn wrong_kind(kind: &Value) -> Option<Problem> {
 fn allowed(field: &str) -> Option<String> {
     let (outer, name) = field.rsplit_once('.').unwrap_or(("", field));
     if outer == "parameters" {
+        if name == "vigor_model" {
+            return Some("borchert_honda, priority".into());
+        }
         let range = espalier_growth::RANGES.iter().find(|(range, ..)| *range == name);
         return range.map(|(_, low, high)| format!("{low} to {high}"));
     }
     Some(match name {
-        "stroke" | "gesture" => format!("a whole number from 0 to {}", u32::MAX),
+        "stroke" | "gesture" | "bud" | "id" => format!("a whole number from 0 to {}", u32::MAX),
         "steps" => format!("1 to {MAX_STEPS_PER_COMMAND}"),
-        "position" => "three numbers, x and z -1000 to 1000, y -10 to 1000".into(),
+        "depth" => "0.1 to 1".into(),
+        "right" | "up" => "three numbers of length 1".into(),
+        "rotation" => "four numbers that make a quaternion of length 1".into(),
+        name if name.starts_with("outline[") => "two numbers, -1000 to 1000".into(),
+        "position" | "origin" => "three numbers, x and z -1000 to 1000, y -10 to 1000".into(),
         "radius" => "0 to 40".into(),
         _ => return None,
     })
@@ -223,6 +273,26 @@ mod tests {
                 r#"{"kind":"set_parameters","parameters":{"max_shoot_length":-3}}"#,
                 "parameters.max_shoot_length",
                 "1 to 20",
+            ),
+            (
+                r#"{"kind":"set_parameters","parameters":{"vigor_model":"priory"}}"#,
+                "parameters.vigor_model",
+                "borchert_honda, priority",
+            ),
+            (
+                r#"{"kind":"lasso","outline":[[0,1],[NaN,1]],"plane":{}}"#,
+                "outline[1]",
+                "two numbers, -1000 to 1000",
+            ),
+            (
+                r#"{"kind":"lasso","outline":[],"plane":{"right":[1,0]}}"#,
+                "plane.right",
+                "three numbers of length 1",
+            ),
+            (
+                r#"{"kind":"move_obstacle","id":1,"pose":{"position":[0,"x",0]}}"#,
+                "pose.position",
+                "three numbers, x and z -1000 to 1000, y -10 to 1000",
             ),
             (r#"{"kind":"fell"}"#, "kind", KINDS),
         ] {

@@ -1,5 +1,6 @@
 //! The state machine of one session: what happened goes in, what is to be done comes out.
 
+mod acts;
 mod commands;
 mod delivery;
 mod greeting;
@@ -11,7 +12,7 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, Parameters, Problem, ProblemCode, ServerMessage,
+    ClientMessage, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 
@@ -19,16 +20,18 @@ use crate::{
     action::Action,
     author::{Authors, LastCommand, note_last},
     clients::{Client, Clients},
-    document::{Document, Figures},
+    document::{Document, Figures, ObstaclesMark},
     io::{ClientId, Input, JournalEntry, Output, ReadId},
     journal::Journal,
     malformed,
+    obstacle::Mesh,
     snapshot::{self, RestoreError, Snapshot},
+    stops::Stops,
     window::MAX_UNREAD,
     work::Work,
 };
 
-use self::{commands::Queue, upkeep::Upkeep};
+use self::{acts::Act, commands::Queue, upkeep::Upkeep};
 
 /// One shared document with its clients. Feed it with [`Session::handle`], then drain [`Session::poll_output`].
 #[derive(Debug)]
@@ -44,14 +47,32 @@ pub struct Session {
     /// The document, unless it is away on the simulation pool.
     home: Option<Box<Work>>,
     reads: Vec<ReadId>,
+    acts: Vec<Act>,
     /// The newest frame and the rows the table has since.
     newest: (u32, u32),
     figures: Figures,
     leaves: u32,
     parameters: Parameters,
+    scenery: Scenery,
     upkeep: Upkeep,
     failed: bool,
     outputs: VecDeque<Output>,
+}
+
+/// The obstacles as clients are told them.
+#[derive(Debug)]
+struct Scenery {
+    /// Those of the document when this was made.
+    mark: ObstaclesMark,
+    obstacles: Vec<PlacedObstacle>,
+    meshes: BTreeMap<u32, Arc<Mesh>>,
+}
+
+impl Scenery {
+    fn of(document: &Document) -> Self {
+        let (mark, obstacles) = (document.obstacles_mark(), document.obstacles());
+        Self { mark, obstacles, meshes: document.meshes() }
+    }
 }
 
 impl Session {
@@ -71,6 +92,8 @@ impl Session {
             None => Snapshot { through: 0, last_commands: BTreeMap::new(), document: Document::new(seed) },
         };
         let mut last = through;
+        let mut orders = Vec::new();
+        let mut stops = Stops::default();
         for entry in entries.into_iter().skip_while(|entry| entry.number <= through) {
             if entry.number != last + 1 {
                 return Err(RestoreError::Gap { expected: last + 1, found: entry.number });
@@ -78,18 +101,31 @@ impl Session {
             last = entry.number;
             let action = Action::from_json(&entry.command)
                 .map_err(|problem| RestoreError::Entry { number: entry.number, problem })?;
+            stops.note(entry.number, &action);
+            orders.push((entry.number, entry.client, entry.id, action));
+        }
+        for (number, client, id, action) in orders {
+            stops.forget_through(number);
+            document.stop_at(stops.end_of(number));
             // What the document refuses now it refused the first time as well.
-            let _refused_again = document.apply(&entry.client, &action);
-            let key = Arc::from(entry.client);
-            note_last(&mut last_commands, &key, LastCommand { id: entry.id, entry: entry.number });
+            let _refused_again = document.apply(&client, &action);
+            note_last(&mut last_commands, &Arc::from(client), LastCommand { id, entry: number });
         }
         Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
     }
 
-    /// The first snapshot of a session that opens a saved tree, from the bytes a [`Input::Read`] gave.
+    /// The first snapshot of a session that starts from a seed and may hold so many metamers (`LM4`).
     /// Keep it with `through` 0 and restore the session from it.
-    pub fn first_snapshot(document: &[u8]) -> Result<Vec<u8>, RestoreError> {
+    pub fn seedling(seed: u32, metamer_budget: u32) -> Vec<u8> {
+        let mut document = Document::new(seed);
+        document.set_metamer_budget(metamer_budget);
+        snapshot::to_bytes(0, &BTreeMap::new(), &document.to_bytes())
+    }
+
+    /// The same for a session that opens a saved tree, from the bytes a [`Input::Read`] gave.
+    pub fn first_snapshot(document: &[u8], metamer_budget: u32) -> Result<Vec<u8>, RestoreError> {
         let mut document = Document::from_bytes(document)?;
+        document.set_metamer_budget(metamer_budget);
         // Whoever was drawing when the tree was saved draws elsewhere.
         document.lift_brushes();
         Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document.to_bytes()))
@@ -117,10 +153,12 @@ impl Session {
             journal: Journal::new(last),
             queue: Queue::default(),
             reads: Vec::new(),
+            acts: Vec::new(),
             newest: (work.sequence, work.table.rows() as u32),
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
+            scenery: Scenery::of(&work.document),
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
             failed: false,
@@ -152,9 +190,11 @@ impl Session {
             Input::JournalFailed(reason) => self.fail(&reason),
             Input::Worked(work) => self.worked(work),
             Input::Read(read) => self.reads.push(read),
+            Input::Act(act, command) => self.act(act, *command),
             Input::Woken => self.upkeep.woken(),
         }
         if !self.failed {
+            self.answer_acts();
             self.keep_up();
             self.dispatch();
             self.ask_to_be_woken();
@@ -175,12 +215,23 @@ impl Session {
     pub fn is_idle(&self) -> bool {
         let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
         let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
-        self.clients.is_empty() && self.outputs.is_empty() && self.reads.is_empty() && settled && kept
+        let answered = self.reads.is_empty() && self.acts.is_empty();
+        self.clients.is_empty() && self.outputs.is_empty() && answered && settled && kept
     }
 
     /// The document, unless it is away on the simulation pool.
     pub fn document(&self) -> Option<&Document> {
         self.home.as_ref().map(|work| &work.document)
+    }
+
+    /// The parameters in force, as of the last slice of work.
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The mesh of an obstacle in the scene, as of the last slice of work (`OB5`).
+    pub fn mesh(&self, obstacle: u32) -> Option<Arc<Mesh>> {
+        self.scenery.meshes.get(&obstacle).cloned()
     }
 
     /// Clients that have said hello.

@@ -104,6 +104,7 @@ pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) 
         axes: figures.axes,
         leaves,
         metamer_budget: figures.metamer_budget,
+        budget_reached: figures.budget_reached,
         can_undo: figures.can_undo,
         can_redo: figures.can_redo,
         pending_steps: figures.pending_steps.saturating_add(queued),

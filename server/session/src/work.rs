@@ -6,19 +6,20 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::Problem;
+use espalier_proto::{PlacedObstacle, Problem};
 
 use crate::{
     action::Action,
     author::{LastCommand, note_last},
     document::Document,
-    io::{ClientId, ReadId},
+    io::{ActId, ClientId, ReadId},
     snapshot,
+    stops::Stops,
     to_proto::{self, Held},
 };
 
-/// After so many steps a slice ends, so that long growth is seen while it goes on.
-const SLICE_STEPS: u32 = 4;
+/// After so many steps a slice ends, so that long growth is seen while it goes on; stopping counts on it (`ST1`).
+pub(crate) const SLICE_STEPS: u32 = 4;
 /// After so many new metamers a slice ends.
 const SLICE_METAMERS: u32 = 2000;
 /// After so many commands a slice ends.
@@ -37,6 +38,8 @@ pub(crate) struct Order {
     pub(crate) action: Action,
     /// The length of its journal text, for bounds.
     pub(crate) bytes: usize,
+    /// Who waits for its outcome, if it came from outside.
+    pub(crate) act: Option<ActId>,
 }
 
 /// A client that needs a frame of its own.
@@ -61,6 +64,8 @@ pub(crate) struct Report {
     pub(crate) delta: Option<Arc<[u8]>>,
     pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
     pub(crate) refused: Vec<Refusal>,
+    /// What became of commands from outside: the obstacle they placed.
+    pub(crate) acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     /// The document as bytes with its living metamers, for each read.
     pub(crate) documents: Vec<(ReadId, Vec<u8>, u32)>,
     /// A snapshot and the last entry it contains.
@@ -81,6 +86,8 @@ pub struct Work {
     /// The last command of each author up to there.
     pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
     pub(crate) orders: VecDeque<Order>,
+    /// Where growth that was begun before certain entries ends (`ST1`).
+    pub(crate) stops: Stops,
     pub(crate) catch_ups: Vec<CatchUp>,
     pub(crate) reads: Vec<ReadId>,
     pub(crate) snapshot_wanted: bool,
@@ -112,6 +119,7 @@ impl Work {
             applied,
             last_commands,
             orders: VecDeque::new(),
+            stops: Stops::default(),
             catch_ups: Vec::new(),
             reads: Vec::new(),
             snapshot_wanted: false,
@@ -152,6 +160,7 @@ impl Work {
         let mut steps = 0;
         let mut commands = 0;
         let start = self.document.metamers();
+        self.document.stop_at(self.stops.end_of(self.applied));
         loop {
             if self.busy {
                 if self.document.advance() {
@@ -177,8 +186,15 @@ impl Work {
 
     fn begin(&mut self, order: Order) {
         self.applied = order.number;
+        self.stops.forget_through(order.number);
+        self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
-        match self.document.begin(&order.author, &order.action) {
+        let begun = self.document.begin(&order.author, &order.action);
+        if let Some(act) = order.act {
+            let placed = begun.clone().map(|()| self.document.obstacles().pop());
+            self.report.acts.push((act, placed));
+        }
+        match begun {
             Ok(()) => self.busy = true,
             Err(problem) => self.report.refused.push(Refusal { author: order.author, id: order.id, problem }),
         }

@@ -146,7 +146,7 @@ mod tests {
 
     fn grown(steps: u32) -> Bench {
         let mut bench = Bench::new(Document::new(3));
-        bench.act("me", &Action::Grow { steps, gesture: None }).unwrap();
+        bench.act("me", &Action::Grow { steps, gesture: None, bud: None }).unwrap();
         bench
     }
 

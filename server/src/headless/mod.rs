@@ -2,6 +2,7 @@
 
 mod bench;
 mod script;
+mod species;
 mod stats;
 
 use std::{
@@ -10,12 +11,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use espalier_export::ExportError;
+use espalier_export::{ExportError, picture::Look};
+use espalier_growth::DEFAULT_METAMER_BUDGET;
+use espalier_proto::Problem;
 use espalier_session::{Action, Document};
 
+pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
 use crate::{
-    cli::{Grow, Replay, Results},
+    cli::{Grow, Replay, Results, Start},
     document,
     pool::SimulationPool,
 };
@@ -41,6 +45,9 @@ pub enum HeadlessError {
         /// Why not.
         cause: io::Error,
     },
+    /// The parameters given are out of range.
+    #[error("A parameter cannot be set: {0}.")]
+    Parameters(Problem),
     /// The result cannot be written.
     #[error("The export {} cannot be written: {cause}.", path.display())]
     Write {
@@ -73,7 +80,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
     // All lines are read before the first is done: a typo at the end should not cost the time of the rest.
     let script = script::parse(&name, &bytes)?;
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
-        let mut bench = Bench::new(Document::new(options.seed));
+        let mut bench = Bench::new(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?);
         for (line, action) in &script {
             bench.act(AUTHOR, action).map_err(|problem| ScriptError {
                 name: name.clone(),
@@ -81,30 +88,49 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
                 problem,
             })?;
         }
-        Ok::<_, ScriptError>(bench)
+        Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, &options.results)
+    finish(bench, &Look::default(), &options.results)
 }
 
 /// `espalier grow`.
 pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
-        let mut document = Document::new(options.seed);
         // Dead metamers count as well, and how many will die is not known before.
-        document.set_metamer_budget(u32::MAX);
-        let mut bench = Bench::new(document);
+        let mut bench = match options.species {
+            Some(species) => {
+                let budget = Start { parameters: Vec::new(), budget: options.start.budget };
+                let mut bench = Bench::new(started(options.seed, &budget, u32::MAX)?);
+                species::raise(&mut bench, species, &options.start.parameters)?;
+                bench
+            }
+            None => Bench::new(started(options.seed, &options.start, u32::MAX)?),
+        };
+        let wanted = options.metamers.unwrap_or(0);
         let (mut most, mut idle) = (0, 0);
-        while bench.document().metamers() < options.metamers {
+        while bench.document().metamers() < wanted {
             let alive = bench.document().metamers();
             (most, idle) = if alive > most { (alive, 0) } else { (most, idle + 1) };
-            let stalled = HeadlessError::Stalled { alive, wanted: options.metamers };
-            if idle == PATIENCE || bench.act(AUTHOR, &Action::Grow { steps: 1, gesture: GESTURE }).is_err() {
+            let stalled = HeadlessError::Stalled { alive, wanted };
+            if idle == PATIENCE
+                || bench.act(AUTHOR, &Action::Grow { steps: 1, gesture: GESTURE, bud: None }).is_err()
+            {
                 return Err(stalled);
             }
         }
         Ok(bench)
     })?;
-    finish(bench, &options.results)
+    let look = options.species.map(Look::from).unwrap_or_default();
+    finish(bench, &look, &options.results)
+}
+
+/// A seedling as the options want it.
+fn started(seed: u32, start: &Start, budget: u32) -> Result<Document, HeadlessError> {
+    let defaults = Document::new(seed).parameters();
+    let wanted = start.parameters.iter().fold(defaults, |all, patch| all.patched(patch));
+    let mut document = Document::with_parameters(seed, &wanted).map_err(HeadlessError::Parameters)?;
+    document.set_metamer_budget(start.budget.unwrap_or(budget));
+    Ok(document)
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
@@ -116,10 +142,10 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-fn finish(bench: Bench, results: &Results) -> Result<(), HeadlessError> {
+fn finish(bench: Bench, look: &Look, results: &Results) -> Result<(), HeadlessError> {
     let stats = bench.stats();
     if let Some(export) = &results.export {
-        let bytes = document::file(bench.document(), export.format)?;
+        let bytes = document::file(bench.document(), look, export.format)?;
         fs::write(&export.path, bytes)
             .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
     }

@@ -3,7 +3,9 @@
 mod client;
 mod failure;
 mod guard;
+mod obstacles;
 mod sessions;
+mod species;
 mod thumbnail;
 mod trees;
 
@@ -15,6 +17,7 @@ use axum::{
     middleware::{from_fn, map_response},
     routing::{get, patch, post},
 };
+use espalier_proto::version::MAX_GLB_BYTES;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
 use crate::{database::Database, live::Sessions, pool::SimulationPool};
@@ -23,6 +26,8 @@ use crate::{database::Database, live::Sessions, pool::SimulationPool};
 const MAX_SMALL_BODY: usize = 4 * 1024;
 /// A thumbnail of 192 KiB as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = 264 * 1024;
+/// Uploads at once: each holds a file and its triangles.
+const MAX_UPLOADS: usize = 2;
 /// Exports at once: each holds the triangles of a whole scene, hundreds of megabytes at worst.
 const MAX_EXPORTS: usize = 1;
 
@@ -35,6 +40,8 @@ pub struct Shared {
     pub sessions: Sessions,
     /// For what takes long.
     pub pool: SimulationPool,
+    /// Metamers that each session begun here may hold.
+    pub metamer_budget: u32,
 }
 
 /// Everything the server answers.
@@ -46,6 +53,8 @@ pub fn router(shared: Shared) -> Router {
             "/api/sessions/{name}/tree.glb",
             get(sessions::export).layer(GlobalConcurrencyLimitLayer::new(MAX_EXPORTS)),
         )
+        .route("/api/sessions/{name}/obstacles/{id}", get(obstacles::mesh))
+        .route("/api/species", get(species::list))
         .route("/api/trees/{id}", patch(trees::rename).delete(trees::delete))
         .route("/api/trees/{id}/thumbnail", get(trees::thumbnail))
         .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
@@ -53,6 +62,12 @@ pub fn router(shared: Shared) -> Router {
             Router::new()
                 .route("/api/trees", get(trees::list).post(trees::save))
                 .layer(DefaultBodyLimit::max(MAX_TREE_BODY)),
+        )
+        .merge(
+            Router::new()
+                .route("/api/sessions/{name}/obstacles", post(obstacles::upload))
+                .layer(GlobalConcurrencyLimitLayer::new(MAX_UPLOADS))
+                .layer(DefaultBodyLimit::max(MAX_GLB_BYTES)),
         )
         .route("/api/{*unknown}", get(failure::unknown_route))
         .route("/health", get("ok"))

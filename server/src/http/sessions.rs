@@ -36,11 +36,11 @@ pub(super) async fn create(
 ) -> Result<impl IntoResponse, Failure> {
     let seed = new.seed.unwrap_or_else(rand::random);
     let snapshot = match new.tree {
-        None => None,
-        Some(id) => Some(planted(&shared, &id).await?),
+        None => Session::seedling(seed, shared.metamer_budget),
+        Some(id) => planted(&shared, &id).await?,
     };
     let session = name::unguessable();
-    shared.database.create_session(session.clone(), seed, SIMULATION_VERSION, snapshot).await?;
+    shared.database.create_session(session.clone(), seed, SIMULATION_VERSION, Some(snapshot)).await?;
     Ok((StatusCode::CREATED, Json(SessionCreated { session })))
 }
 
@@ -115,7 +115,8 @@ async fn planted(shared: &Shared, tree: &str) -> Result<Vec<u8>, Failure> {
             "The tree was grown by version {version} of the simulation; this is version {SIMULATION_VERSION}."
         )));
     }
-    shared.pool.run(move || Session::first_snapshot(&document)).await?.map_err(|error| {
+    let budget = shared.metamer_budget;
+    shared.pool.run(move || Session::first_snapshot(&document, budget)).await?.map_err(|error| {
         tracing::error!(tree, %error, "a saved tree cannot be read");
         Failure::unavailable("The tree cannot be read.")
     })

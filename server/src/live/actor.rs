@@ -7,8 +7,8 @@ use std::{
     time::Duration,
 };
 
-use espalier_proto::version::CloseCode;
-use espalier_session::{ClientId, Input, JournalEntry, Output, ReadId, Session, Work};
+use espalier_proto::{Command, Parameters, PlacedObstacle, Problem, version::CloseCode};
+use espalier_session::{ActId, ClientId, Input, JournalEntry, Mesh, Output, ReadId, Session, Work};
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -43,7 +43,13 @@ pub(super) enum Request {
     Written(ClientId, usize),
     Leave(ClientId),
     Read(oneshot::Sender<DocumentBytes>),
+    Act(Box<Command>, oneshot::Sender<Outcome>),
+    Parameters(oneshot::Sender<Parameters>),
+    Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
 }
+
+/// What became of a command from outside: the obstacle it placed, if it placed one.
+pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
 
 /// What the actor's own errands bring back.
 #[derive(Debug)]
@@ -88,6 +94,27 @@ impl SessionHandle {
         self.send(Request::Read(answer)).await?;
         answered.await.map_err(|_| Ended)
     }
+
+    /// Does a command that comes from no client; answers when it is durable.
+    pub async fn act(&self, command: Command) -> Result<Outcome, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Act(Box::new(command), answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The parameters in force.
+    pub async fn parameters(&self) -> Result<Parameters, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Parameters(answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// The mesh of an obstacle in the scene, if it is one and has one.
+    pub async fn mesh(&self, obstacle: u32) -> Result<Option<Arc<Mesh>>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::Mesh(obstacle, answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
 }
 
 /// Everything a session needs from its surroundings.
@@ -110,6 +137,8 @@ pub(super) struct Actor {
     next_client: u64,
     reads: BTreeMap<u64, oneshot::Sender<DocumentBytes>>,
     next_read: u64,
+    acts: BTreeMap<u64, oneshot::Sender<Outcome>>,
+    next_act: u64,
     wake_at: Option<Instant>,
     /// When somebody was here last.
     empty_since: Instant,
@@ -142,6 +171,8 @@ impl Actor {
             next_client: 1,
             reads: BTreeMap::new(),
             next_read: 1,
+            acts: BTreeMap::new(),
+            next_act: 1,
             wake_at: None,
             empty_since: Instant::now(),
             under_way: 0,
@@ -243,6 +274,21 @@ impl Actor {
                 self.reads.insert(read, answer);
                 Input::Read(ReadId(read))
             }
+            Request::Act(command, answer) => {
+                let act = self.next_act;
+                self.next_act += 1;
+                self.acts.insert(act, answer);
+                Input::Act(ActId(act), command)
+            }
+            // Whoever asked may have gone meanwhile.
+            Request::Parameters(answer) => {
+                let _ = answer.send(self.session.parameters().clone());
+                return None;
+            }
+            Request::Mesh(obstacle, answer) => {
+                let _ = answer.send(self.session.mesh(obstacle));
+                return None;
+            }
         })
     }
 
@@ -299,6 +345,11 @@ impl Actor {
             Output::Document { read, bytes, metamers } => {
                 if let Some(answer) = self.reads.remove(&read.0) {
                     let _ = answer.send(DocumentBytes { bytes, metamers });
+                }
+            }
+            Output::Acted { act, outcome } => {
+                if let Some(answer) = self.acts.remove(&act.0) {
+                    let _ = answer.send(outcome);
                 }
             }
             Output::WakeAt(at) => self.wake_at = Some(self.around.started + Duration::from_millis(at)),

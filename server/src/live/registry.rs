@@ -370,7 +370,7 @@ mod tests {
         visitor.acknowledged().await;
         let tree = visitor.session.read().await.unwrap();
 
-        let start = Session::first_snapshot(&tree.bytes).unwrap();
+        let start = Session::first_snapshot(&tree.bytes, 1_000_000).unwrap();
         house.database.create_session("elm".into(), 7, SIMULATION_VERSION, Some(start)).await.unwrap();
         let command = r#"{"kind":"grow","steps":2}"#.into();
         let entry = JournalEntry { number: 1, client: "test-client".into(), id: 1, command };

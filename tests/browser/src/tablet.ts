@@ -19,6 +19,11 @@ export interface Facts {
   readonly acknowledged: number;
   readonly pending: number;
   readonly step: number;
+  /** The tool at hand: brush, lasso or seed. */
+  readonly tool: string;
+  /** The row of the branch that alone grows; empty if all do. */
+  readonly bud: string;
+  readonly obstacles: number;
 }
 
 export interface Screen {
@@ -67,9 +72,20 @@ export class Tablet {
 
   async facts(): Promise<Facts> {
     return this.page.evaluate(() => {
-      const { connection = "", metamers, rows, sent, acknowledged, pending, step } = document.documentElement.dataset;
-      const [m, r, s, a, p, t] = [metamers, rows, sent, acknowledged, pending, step].map((text) => Number(text ?? -1));
-      return { connection, metamers: m!, rows: r!, sent: s!, acknowledged: a!, pending: p!, step: t! };
+      const facts = document.documentElement.dataset;
+      const number = (name: string) => Number(facts[name] ?? -1);
+      return {
+        connection: facts.connection ?? "",
+        metamers: number("metamers"),
+        rows: number("rows"),
+        sent: number("sent"),
+        acknowledged: number("acknowledged"),
+        pending: number("pending"),
+        step: number("step"),
+        tool: facts.tool ?? "",
+        bud: facts.bud ?? "",
+        obstacles: number("obstacles"),
+      };
     });
   }
 
@@ -122,6 +138,13 @@ export class Tablet {
     await this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
   }
 
+  /** One finger pressed on a place and held still. */
+  async hold(place: Point, milliseconds: number): Promise<void> {
+    await this.touch("touchStart", [place]);
+    await this.page.waitForTimeout(milliseconds);
+    await this.touch("touchEnd", []);
+  }
+
   async tap(label: string): Promise<void> {
     await this.page.getByLabel(label, { exact: true }).first().tap();
   }
@@ -148,5 +171,13 @@ export function way(from: Point, to: Point, count = 24): Point[] {
   return Array.from({ length: count }, (_, i) => {
     const t = i / (count - 1);
     return { x: from.x + (to.x - from.x) * t, y: from.y + (to.y - from.y) * t };
+  });
+}
+
+/** Points on a closed way around a middle, the first not repeated. */
+export function loop(middle: Point, radii: Point, count = 40): Point[] {
+  return Array.from({ length: count }, (_, i) => {
+    const turn = (2 * Math.PI * i) / count;
+    return { x: middle.x + radii.x * Math.sin(turn), y: middle.y + radii.y * Math.cos(turn) };
   });
 }

@@ -4,11 +4,13 @@ use serde_json::{Value, json};
 use tokio_tungstenite::tungstenite::Message;
 
 /// One line of the table of parameters in `PROTOCOL.md`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct DocumentedParameter {
     pub name: &'static str,
     pub default: &'static str,
     pub range: Option<(f64, f64)>,
+    /// What may be chosen, of a parameter that is no number.
+    pub choices: Vec<&'static str>,
 }
 
 /// The table, read from the document itself, so that it cannot say something else than the server does.
@@ -21,9 +23,15 @@ pub fn documented_parameters() -> Vec<DocumentedParameter> {
         let [names, _, defaults, range] = cells[..] else { panic!("{line}") };
         let numbers: Vec<f64> =
             range.split([' ', ',']).filter_map(|word| word.replace('−', "-").parse().ok()).collect();
-        let range = if range.is_empty() { None } else { Some((numbers[0], numbers[1])) };
+        let choices: Vec<&str> = range
+            .split(", ")
+            .filter(|word| word.starts_with('`'))
+            .map(|word| word.trim_matches('`'))
+            .collect();
+        let range = if numbers.is_empty() { None } else { Some((numbers[0], numbers[1])) };
         for (name, default) in names.split(", ").zip(defaults.split(", ")) {
-            found.push(DocumentedParameter { name: name.trim_matches('`'), default, range });
+            let (name, default) = (name.trim_matches('`'), default.trim_matches('`'));
+            found.push(DocumentedParameter { name, default, range, choices: choices.clone() });
         }
     }
     found
@@ -44,9 +52,9 @@ impl Patient {
         let server = Server::start(&scratch.path("trees.db"));
         let session = server.new_session(7);
         let mut client = Client::connect(server.port(), &session, "browser-1").await;
-        client.send(Command::Grow { steps: 4, gesture: None }).await;
+        client.send(Command::Grow { steps: 4, gesture: None, bud: None }).await;
         // An open stroke, so that a stroke_move is refused for its samples and not for its stroke.
-        client.send(Command::StrokeBegin { stroke: 1 }).await;
+        client.send(Command::StrokeBegin { stroke: 1, bud: None }).await;
         client.until_settled().await;
         let (state, rows) = (client.state.clone(), client.table.rows.clone());
         Self { client, state, rows, _server: server, _scratch: scratch }
@@ -96,7 +104,7 @@ impl Patient {
     /// What follows bad input still works, under the next number (`CM3`).
     async fn still_grows(mut self) {
         let step = self.client.state.step;
-        self.client.send(Command::Grow { steps: 1, gesture: None }).await;
+        self.client.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
         self.client.until_settled().await;
         assert_eq!(self.client.state.step, step + 1);
     }
@@ -318,7 +326,10 @@ async fn every_parameter_is_accepted_at_both_ends() {
                     patches.push(json!({row.name: end}));
                 }
             }
-            None => patches.extend([json!({row.name: true}), json!({row.name: false})]),
+            None if row.choices.is_empty() => {
+                patches.extend([json!({row.name: true}), json!({row.name: false})]);
+            }
+            None => patches.extend(row.choices.iter().map(|choice| json!({row.name: choice}))),
         }
     }
     for patch in patches {

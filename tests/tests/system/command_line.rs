@@ -60,7 +60,7 @@ fn script(scratch: &Scratch, name: &str, commands: &[Command]) -> String {
 
 fn tree() -> Vec<Command> {
     let mut commands = upward(1, 10.0, 2.5);
-    commands.push(Command::Grow { steps: 3, gesture: None });
+    commands.push(Command::Grow { steps: 3, gesture: None, bud: None });
     commands
 }
 
@@ -113,6 +113,47 @@ fn stats_are_one_object_with_all_its_keys() {
 fn grow_reaches_the_number_asked_for() {
     let stats = stats(&["grow", "--metamers", "2000", "--seed", "3", "--stats", "json"]);
     assert!(stats["metamers_alive"].as_u64().is_some_and(|n| n >= 2000), "{stats}");
+}
+
+#[test]
+fn parameters_and_budget_are_options() {
+    let hash = |options: &[&str]| {
+        let arguments = [&["grow", "--metamers", "300", "--stats", "json"], options].concat();
+        stats(&arguments)["plant_hash"].clone()
+    };
+    let plain = hash(&[]);
+    assert_eq!(hash(&["--budget", "100000"]), plain);
+    assert_ne!(hash(&["--parameter", "branching_angle=80"]), plain);
+    // Two of the three weights alone do not sum to 1 with the third; all together they do.
+    let weights = ["--parameter", "heading_weight=0.4", "--parameter", "tropism_weight=0.35"];
+    assert_ne!(hash(&weights), plain);
+    for (options, code, words) in [
+        (&["--budget", "200"][..], 1, "stopped growing"),
+        (&["--parameter", "heading_weight=0.4"], 2, "heading_weight"),
+        (&["--parameter", "apical_control=2"], 2, "0.4 to 0.7"),
+        (&["--parameter", "sap=1"], 2, "sap"),
+    ] {
+        let finished = program::run(&[&["grow", "--metamers", "300"], options].concat());
+        assert_eq!(finished.code, code, "{options:?}: {}", finished.stderr);
+        assert!(finished.stderr.contains(words), "{options:?}: {}", finished.stderr);
+    }
+}
+
+#[test]
+fn replay_does_lassos_and_obstacles() {
+    let scratch = Scratch::new();
+    let path = scratch.path("swan.jsonl");
+    let lines = [
+        r#"{"kind":"place_obstacle","obstacle":{"shape":{"kind":"sphere","radius":2},"pose":{"position":[5,9,0]}}}"#,
+        r#"{"kind":"lasso","outline":[[-8,0],[8,0],[8,16],[-8,16]],"plane":{"origin":[0,0,0],"right":[1,0,0],"up":[0,1,0]}}"#,
+        r#"{"kind":"stop"}"#,
+        r#"{"kind":"grow","steps":2,"bud":3}"#,
+    ];
+    fs::write(&path, lines.join("\n")).expect("the scratch folder can be written");
+    let path = path.to_str().expect("a plain name");
+    let first = stats(&["replay", path, "--stats", "json"]);
+    assert!(first["metamers_alive"].as_u64().is_some_and(|n| n > 100), "{first}");
+    assert_eq!(outcome(&first), outcome(&stats(&["replay", path, "--stats", "json", "--threads", "1"])));
 }
 
 #[test]
@@ -183,7 +224,8 @@ fn replay_writes_the_skeleton_as_json() {
 #[test]
 fn a_broken_line_is_named_and_nothing_is_written() {
     let scratch = Scratch::new();
-    let good = serde_json::to_string(&Command::Grow { steps: 1, gesture: None }).expect("a command is JSON");
+    let good = serde_json::to_string(&Command::Grow { steps: 1, gesture: None, bud: None })
+        .expect("a command is JSON");
     for (bad, word) in [
         ("{\"kind\":\"grow\",\"steps\":", ""),
         ("{\"kind\":\"fell\"}", "fell"),

@@ -7,7 +7,7 @@ use espalier_tests::{
 };
 
 fn grow(steps: u32) -> Command {
-    Command::Grow { steps, gesture: None }
+    Command::Grow { steps, gesture: None, bud: None }
 }
 
 async fn alone() -> (Client, Server, Scratch) {

@@ -30,7 +30,7 @@ fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
                 1 => commands.push(Command::SetParameters {
                     parameters: ParametersPatch { apical_control: Some(0.48), ..Default::default() },
                 }),
-                2 => commands.push(Command::Grow { steps: 1, gesture: Some(number) }),
+                2 => commands.push(Command::Grow { steps: 1, gesture: Some(number), bud: None }),
                 _ => {}
             }
             commands
@@ -119,7 +119,7 @@ async fn sigterm_stops_cleanly_and_keeps_everything() {
     let server = Server::start(&database);
     let session = server.new_session(SEED);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
-    client.send(Command::Grow { steps: 8, gesture: None }).await;
+    client.send(Command::Grow { steps: 8, gesture: None, bud: None }).await;
     client.until_settled().await;
     let rows = client.table.form();
 
@@ -132,9 +132,9 @@ async fn sigterm_stops_cleanly_and_keeps_everything() {
     client.reconnect(server.port()).await;
     client.until_form(&rows).await;
     // The document does not just look the same: it goes on the same.
-    client.send(Command::Grow { steps: 2, gesture: None }).await;
+    client.send(Command::Grow { steps: 2, gesture: None, bud: None }).await;
     client.until_settled().await;
-    let grown = [8, 2].map(|steps| Command::Grow { steps, gesture: None });
+    let grown = [8, 2].map(|steps| Command::Grow { steps, gesture: None, bud: None });
     let wanted = reference(&server, grown.into_iter()).await;
     client.until_form(&wanted.table.form()).await;
 }

@@ -93,6 +93,7 @@ fn documented_defaults(actual: &Parameters) -> Parameters {
     for row in documented_parameters() {
         value[row.name] = match row.default {
             "true" | "false" => json!(row.default == "true"),
+            choice if row.choices.contains(&choice) => json!(choice),
             number if value[row.name].is_u64() => {
                 json!(number.parse::<u32>().expect("a default is a number"))
             }
@@ -108,7 +109,7 @@ async fn hs2_the_welcome_says_what_is_durable() {
     let session = server.new_session(1);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     for _ in 0..3 {
-        client.send(Command::Grow { steps: 1, gesture: None }).await;
+        client.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
     }
     client.until("all three are durable", |client| client.acknowledged == 3).await;
     client.vanish();
@@ -133,7 +134,7 @@ async fn hs4_a_newer_socket_closes_the_older_with_4004() {
     let mut newer = Client::connect(server.port(), &session, "browser-1").await;
     while older.take_in().await {}
     assert_eq!(older.closed.map(|frame| u16::from(frame.code)), Some(4004));
-    newer.send(Command::Grow { steps: 1, gesture: None }).await;
+    newer.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
     newer.until_settled().await;
     assert_eq!(newer.state.people, 1);
 }

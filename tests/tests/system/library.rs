@@ -94,10 +94,10 @@ async fn a_reopened_tree_is_the_same_and_another_document() {
     reopened.until_form(&library.client.table.form()).await;
 
     // Both go on alike, each for itself.
-    reopened.send(Command::Grow { steps: 3, gesture: None }).await;
+    reopened.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
     reopened.until_settled().await;
     assert_ne!(reopened.table.form(), library.client.table.form());
-    library.client.send(Command::Grow { steps: 3, gesture: None }).await;
+    library.client.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
     library.client.until_settled().await;
     reopened.until_form(&library.client.table.form()).await;
 }

@@ -42,7 +42,7 @@ async fn slow_readers_cost_bounded_memory() {
         let before = server.resident_bytes();
         let enough = drawing.frame_bytes + OWED;
         while drawing.frame_bytes < enough {
-            drawing.send(Command::Grow { steps: 2, gesture: None }).await;
+            drawing.send(Command::Grow { steps: 2, gesture: None, bud: None }).await;
             drawing.send(Command::Ungrow { steps: if round == 0 { 1 } else { 2 } }).await;
             drawing.until_settled().await;
         }
@@ -81,7 +81,7 @@ async fn fl3_unread_answers_are_bounded() {
     assert!(grown < 32 * 1024 * 1024, "{grown} bytes for one client that never reads");
 
     let mut other = Client::connect(server.port(), &session, "another-one").await;
-    other.send(Command::Grow { steps: 3, gesture: None }).await;
+    other.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
     other.until_settled().await;
 }
 
@@ -110,7 +110,7 @@ async fn lm1_a_larger_message_closes_1009() {
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     assert_eq!(client.acknowledged, 0);
     assert_eq!(client.state.step, 0);
-    client.send(Command::Grow { steps: 1, gesture: None }).await;
+    client.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
     client.until_settled().await;
 }
 

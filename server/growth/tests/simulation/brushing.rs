@@ -124,7 +124,7 @@ fn old_brush_markers_do_not_linger() {
     let mut simulation = simulation(2);
     let far = BrushSample { position: Vec3::new(60.0, 60.0, 0.0), radius: 6.0 };
     let piece = BrushPiece { stroke: StrokeId(1), samples: vec![far] };
-    simulation.step(&StepInput { pieces: vec![piece], autonomous: false }, &mut NoObserver);
+    simulation.step(&StepInput { pieces: vec![piece], ..StepInput::default() }, &mut NoObserver);
     assert!(!simulation.markers().is_empty());
     for _ in 0..=simulation.parameters().marker_max_age {
         simulation.step(&StepInput::default(), &mut NoObserver);

@@ -1,8 +1,11 @@
 //! The simulation from outside: what a modeler does, and what must come of it.
 
 mod brushing;
+mod enclosing;
 mod golden;
 mod invariants;
+mod obstructing;
+mod selecting;
 
 use espalier_growth::{BrushPiece, BrushSample, NoObserver, Parameters, Simulation, StepInput, StrokeId};
 use espalier_plant::MetamerId;
@@ -30,7 +33,7 @@ fn brush(simulation: &mut Simulation, stroke: u32, path: &[(Vec3, f32)]) {
         };
         for i in 0..pieces {
             let piece = BrushPiece { stroke: StrokeId(stroke), samples: vec![at(i), at(i + 1)] };
-            simulation.step(&StepInput { pieces: vec![piece], autonomous: false }, &mut NoObserver);
+            simulation.step(&StepInput { pieces: vec![piece], ..StepInput::default() }, &mut NoObserver);
         }
     }
     for _ in 0..simulation.parameters().marker_max_age {

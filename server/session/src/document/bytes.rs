@@ -4,15 +4,16 @@
 //! plant's columns, the simulation's state and the history, all little-endian; parameters as JSON, so that
 //! a document written before a parameter existed gets its default.
 
+mod settings;
+
 use std::{
     collections::BTreeMap,
     io::{Read, Write},
-    sync::Arc,
 };
 
 use espalier_growth::{
-    BrushSample, Guide, Marker, Parameters, SIMULATION_VERSION, Simulation, SimulationState, StrokeId,
-    Waypoint,
+    BrushSample, Guide, Marker, MarkerSource, Parameters, SIMULATION_VERSION, Simulation, SimulationState,
+    StrokeId, Waypoint,
 };
 use espalier_plant::{AxisId, Plant, PlantParts, hash::StableHash};
 use espalier_proto::ParametersPatch;
@@ -22,9 +23,11 @@ use glam::Vec3;
 use super::{
     Document,
     history::{History, Kind, Operation},
+    obstacles::Obstacles,
     parameters,
     strokes::{OpenStroke, OpenStrokes},
 };
+use settings::Shelf;
 
 const MAGIC: &[u8; 8] = b"ESPALIER";
 const FORMAT: u32 = 1;
@@ -53,8 +56,13 @@ impl Document {
         let mut body = Writer::default();
         write_plant(&mut body, &self.simulation.plant().to_parts());
         write_state(&mut body, &self.simulation.state());
-        write_history(&mut body, &self.history);
+        let shelf = Shelf::of(&self.history, &self.obstacles.standing);
+        shelf.write(&mut body);
+        body.u32(shelf.set_number(&self.obstacles.standing));
+        body.u32(self.obstacles.placed);
+        write_history(&mut body, &self.history, &shelf);
         write_strokes(&mut body, &self.strokes);
+        body.u32(self.steps_begun);
         sealed(&body.0)
     }
 
@@ -82,9 +90,16 @@ impl Document {
         let mut reader = Reader(&body);
         let plant =
             Plant::from_parts(read_plant(&mut reader)?).map_err(|error| damaged(error.to_string()))?;
-        let state = read_state(&mut reader, &plant)?;
-        let history = read_history(&mut reader, &plant)?;
-        let strokes = read_strokes(&mut reader)?;
+        let mut state = read_state(&mut reader, &plant)?;
+        let shelf = Shelf::read(&mut reader)?;
+        let obstacles = Obstacles { standing: shelf.read_set(&mut reader)?, placed: reader.u32()? };
+        if obstacles.standing.last().is_some_and(|last| last.id > obstacles.placed) {
+            return Err(damaged("an obstacle was never placed"));
+        }
+        state.obstacles = Obstacles::solids(&obstacles.standing);
+        let history = read_history(&mut reader, &plant, &shelf)?;
+        let strokes = read_strokes(&mut reader, &plant)?;
+        let steps_begun = reader.u32()?;
         if !reader.0.is_empty() {
             return Err(damaged("something follows its end"));
         }
@@ -92,7 +107,10 @@ impl Document {
             simulation: Simulation::from_state(plant, state),
             history,
             strokes,
+            obstacles,
             pending: Default::default(),
+            steps_begun,
+            stop_at: None,
         })
     }
 }
@@ -166,6 +184,10 @@ fn write_state(out: &mut Writer, state: &SimulationState) {
     out.list(&state.markers, |out, marker| {
         out.vector(marker.position);
         out.u32(marker.born);
+        out.0.push(match marker.source {
+            MarkerSource::Brush => 0,
+            MarkerSource::Lasso => 1,
+        });
     });
     let guides: Vec<_> = state.guides.iter().collect();
     out.list(&guides, |out, (stroke, guide)| {
@@ -182,27 +204,34 @@ fn write_state(out: &mut Writer, state: &SimulationState) {
 fn read_state(reader: &mut Reader<'_>, plant: &Plant) -> Result<SimulationState, DocumentError> {
     let (seed, metamer_budget, tick) = (reader.u32()?, reader.u32()?, reader.u32()?);
     let parameters = reader.parameters()?;
-    let markers = reader.list(|r| Ok(Marker { position: r.vector()?, born: r.u32()? }))?;
+    let markers = reader.list(|r| {
+        let (position, born) = (r.vector()?, r.u32()?);
+        let source = match r.u8()? {
+            0 => MarkerSource::Brush,
+            1 => MarkerSource::Lasso,
+            _ => return Err(damaged("a marker of unknown source")),
+        };
+        Ok(Marker { position, born, source })
+    })?;
     let guides = reader.list(|r| {
         let stroke = StrokeId(r.u32()?);
-        let leader = r.option()?.map(|axis| axis as usize);
-        if leader.is_some_and(|axis| axis >= plant.axis_count()) {
-            return Err(damaged("a stroke leads an axis that is not there"));
-        }
+        let leader = r.axis(plant)?;
         let path = r.list(|r| Ok(Waypoint { position: r.vector()?, weight: r.f32()? }))?;
-        Ok((stroke, Guide { leader: leader.map(AxisId::new), path: path.into() }))
+        Ok((stroke, Guide { leader, path: path.into() }))
     })?;
     Ok(SimulationState {
         seed,
         parameters,
         markers,
         guides: BTreeMap::from_iter(guides),
+        // They are on the shelf.
+        obstacles: Vec::new(),
         metamer_budget,
         tick,
     })
 }
 
-fn write_history(out: &mut Writer, history: &History) {
+fn write_history(out: &mut Writer, history: &History, shelf: &Shelf) {
     out.u32(history.done as u32);
     out.list(&history.operations, |out, operation| {
         out.0.push(operation.kind as u8);
@@ -210,12 +239,12 @@ fn write_history(out: &mut Writer, history: &History) {
         out.option(operation.gesture);
         out.u32(operation.first);
         out.u32(operation.last);
-        out.parameters(&operation.before);
-        out.parameters(&operation.after);
+        shelf.write_setting(out, &operation.before);
+        shelf.write_setting(out, &operation.after);
     });
 }
 
-fn read_history(reader: &mut Reader<'_>, plant: &Plant) -> Result<History, DocumentError> {
+fn read_history(reader: &mut Reader<'_>, plant: &Plant, shelf: &Shelf) -> Result<History, DocumentError> {
     let done = reader.u32()? as usize;
     let operations = reader.list(|r| {
         let kind = match r.u8()? {
@@ -223,6 +252,8 @@ fn read_history(reader: &mut Reader<'_>, plant: &Plant) -> Result<History, Docum
             1 => Kind::Growth,
             2 => Kind::Parameters,
             3 => Kind::Seed,
+            4 => Kind::Lasso,
+            5 => Kind::Obstacle,
             _ => return Err(damaged("an operation of unknown kind")),
         };
         let (author, gesture) = (r.text()?, r.option()?);
@@ -230,7 +261,7 @@ fn read_history(reader: &mut Reader<'_>, plant: &Plant) -> Result<History, Docum
         if first > last || last > plant.last_step() {
             return Err(damaged("an operation spans steps that are not there"));
         }
-        let (before, after) = (Arc::new(r.parameters()?), Arc::new(r.parameters()?));
+        let (before, after) = (shelf.read_setting(r)?, shelf.read_setting(r)?);
         Ok(Operation { kind, author, gesture, first, last, before, after })
     })?;
     if done > operations.len() {
@@ -245,6 +276,7 @@ fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
         out.text(&stroke.author);
         out.u32(stroke.number);
         out.u32(stroke.id.0);
+        out.option(stroke.chosen.map(AxisId::raw));
         out.list(stroke.last.as_slice(), |out, last| {
             out.vector(last.position);
             out.f32(last.radius);
@@ -252,12 +284,13 @@ fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
     });
 }
 
-fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
+fn read_strokes(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenStrokes, DocumentError> {
     let begun = reader.u32()?;
     let open = reader.list(|r| {
         let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
+        let chosen = r.axis(plant)?;
         let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
-        Ok(OpenStroke { author, number, id, last: last.first().copied() })
+        Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
     })?;
     Ok(OpenStrokes { open, begun })
 }
@@ -333,6 +366,14 @@ impl Reader<'_> {
     fn option(&mut self) -> Result<Option<u32>, DocumentError> {
         let (is_some, value) = (self.u8()?, self.u32()?);
         Ok((is_some != 0).then_some(value))
+    }
+
+    /// An axis of the plant, or none.
+    fn axis(&mut self, plant: &Plant) -> Result<Option<AxisId>, DocumentError> {
+        match self.option()?.map(|axis| axis as usize) {
+            Some(axis) if axis >= plant.axis_count() => Err(damaged("an axis is not there")),
+            axis => Ok(axis.map(AxisId::new)),
+        }
     }
 
     fn text(&mut self) -> Result<String, DocumentError> {

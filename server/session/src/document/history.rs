@@ -5,6 +5,8 @@ use std::sync::Arc;
 use espalier_growth::Parameters;
 use espalier_plant::hash::StableHash;
 
+use super::obstacles::Standings;
+
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
@@ -17,6 +19,17 @@ pub(super) enum Kind {
     Parameters = 2,
     /// Another seed.
     Seed = 3,
+    /// Growth into an outline.
+    Lasso = 4,
+    /// An obstacle placed, moved or removed.
+    Obstacle = 5,
+}
+
+/// What growth works with and an operation may change.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Setting {
+    pub parameters: Arc<Parameters>,
+    pub obstacles: Standings,
 }
 
 /// One operation.
@@ -29,8 +42,8 @@ pub(super) struct Operation {
     pub first: u32,
     /// The step it led to; the same for operations that do not grow anything.
     pub last: u32,
-    pub before: Arc<Parameters>,
-    pub after: Arc<Parameters>,
+    pub before: Setting,
+    pub after: Setting,
 }
 
 /// All operations, those undone behind those in force.
@@ -56,29 +69,23 @@ impl History {
     }
 
     /// Starts an operation at step `now`.
-    pub fn record(
-        &mut self,
-        kind: Kind,
-        author: &str,
-        gesture: Option<u32>,
-        now: u32,
-        parameters: Arc<Parameters>,
-    ) {
+    pub fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>, now: u32, mut setting: Setting) {
         self.operations.truncate(self.done);
         if let Some(last) = self.operations.last_mut() {
             last.last = last.last.min(now);
+            // Most operations change no parameters: they share one set.
+            if last.after.parameters == setting.parameters {
+                setting.parameters = Arc::clone(&last.after.parameters);
+            }
         }
-        // Most operations change no parameters: they share one set.
-        let shared = self.operations.last().map(|last| &last.after).filter(|after| **after == parameters);
-        let parameters = shared.map_or(parameters, Arc::clone);
         self.operations.push(Operation {
             kind,
             author: author.to_owned(),
             gesture,
             first: now,
             last: now,
-            before: Arc::clone(&parameters),
-            after: parameters,
+            before: setting.clone(),
+            after: setting,
         });
         self.done += 1;
     }
@@ -93,18 +100,19 @@ impl History {
 
     /// Forgets the last operation if it neither grew nor changed anything: undoing it would show nothing.
     pub fn forget_idle(&mut self) {
-        let idle =
-            |last: &Operation| last.first == last.last && matches!(last.kind, Kind::Stroke | Kind::Growth);
+        let idle = |last: &Operation| {
+            last.first == last.last && matches!(last.kind, Kind::Stroke | Kind::Growth | Kind::Lasso)
+        };
         if self.done == self.operations.len() && self.current().is_some_and(idle) {
             self.operations.pop();
             self.done -= 1;
         }
     }
 
-    /// The operation in progress has set parameters.
-    pub fn settle_parameters(&mut self, parameters: Arc<Parameters>) {
+    /// The operation in progress has left things so.
+    pub fn settle(&mut self, setting: Setting) {
         if let Some(last) = self.operations.last_mut() {
-            last.after = parameters;
+            last.after = setting;
         }
     }
 

@@ -1,12 +1,35 @@
 //! Parameters between the wire and the simulation.
 
-use espalier_growth::{ParameterValues, Parameters};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_growth::{ParameterValues, Parameters, VigorModel};
+use espalier_proto::{Problem, ProblemCode, VigorModel as WireVigorModel};
+
+/// A value as the other side has it.
+trait Across<To> {
+    fn across(self) -> To;
+}
+
+macro_rules! same_on_both_sides {
+    ($($type:ty),+) => { $(impl Across<$type> for $type { fn across(self) -> $type { self } })+ };
+}
+
+macro_rules! enums {
+    ($($one:ident = $other:ident { $($variant:ident),+ })+) => { $(
+        impl Across<$one> for $other {
+            fn across(self) -> $one { match self { $($other::$variant => $one::$variant),+ } }
+        }
+        impl Across<$other> for $one {
+            fn across(self) -> $other { match self { $($one::$variant => $other::$variant),+ } }
+        }
+    )+ };
+}
+
+same_on_both_sides!(f32, u32, bool);
+enums! { VigorModel = WireVigorModel { BorchertHonda, Priority } }
 
 /// Copies every field by name, so that a field on one side alone does not compile.
 macro_rules! convert {
     ($from:expr => $to:ident { $($name:ident),+ $(,)? }) => {
-        $to { $($name: $from.$name),+ }
+        $to { $($name: $from.$name.across()),+ }
     };
 }
 
@@ -14,8 +37,10 @@ macro_rules! fields {
     ($from:expr => $to:ident) => {
         convert!($from => $to {
             internode_length, occupancy_radius, perception_depth, perception_angle, phyllotactic_angle,
-            buds_per_node, branching_angle, deflection_angle, apical_control, light_sensitivity,
-            max_shoot_length, shedding_threshold, vigor_gain, heading_weight, tropism_weight, space_weight,
+            buds_per_node, branching_angle, deflection_angle, apical_control,
+            mature_apical_control, maturity_start, maturity_steps, light_sensitivity, max_shoot_length,
+            shedding_threshold, vigor_gain, vigor_model, priority_least_weight, priority_decline,
+            heading_weight, tropism_weight, space_weight, phototropism,
             setpoint_angle, trunk_upward, tropism_from_stroke, gravimorphism_vertical,
             gravimorphism_horizontal, gravimorphism_shift, marker_density, markers_per_bud, marker_max_age,
             shadow_strength, shadow_decay, shadow_depth, girth_exponent, twig_diameter, leaves_per_node,
@@ -37,7 +62,7 @@ pub(super) fn parse(wire: &WireParameters) -> Result<Parameters, Problem> {
     })
 }
 
-pub(super) fn to_proto(values: &ParameterValues) -> WireParameters {
+pub(crate) fn to_proto(values: &ParameterValues) -> WireParameters {
     fields!(values => WireParameters)
 }
 

@@ -1,7 +1,7 @@
 //! Strokes in progress, cut into the pieces that guide single steps.
 
 use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
-use espalier_plant::hash::StableHash;
+use espalier_plant::{AxisId, hash::StableHash};
 use espalier_proto::{Problem, ProblemCode};
 
 use super::refused;
@@ -20,6 +20,8 @@ pub(super) struct OpenStroke {
     pub number: u32,
     /// The document's own name for it.
     pub id: StrokeId,
+    /// The axis that alone grows; all of them without one.
+    pub chosen: Option<AxisId>,
     /// Where the brush was last.
     pub last: Option<BrushSample>,
 }
@@ -41,7 +43,7 @@ impl OpenStrokes {
         self.open.iter().filter(|s| s.author == author).map(|s| s.number).collect()
     }
 
-    pub fn open(&mut self, author: &str, number: u32) -> Result<(), Problem> {
+    pub fn open(&mut self, author: &str, number: u32, chosen: Option<AxisId>) -> Result<(), Problem> {
         if self.find(author, number).is_some() {
             return Err(refused(format!("stroke {number} has begun already")));
         }
@@ -53,14 +55,17 @@ impl OpenStrokes {
             author: author.to_owned(),
             number,
             id: StrokeId(self.begun),
+            chosen,
             last: None,
         });
         Ok(())
     }
 
-    pub fn close(&mut self, author: &str, number: u32) -> Result<StrokeId, Problem> {
+    /// Ends a stroke; its name and what it had chosen.
+    pub fn close(&mut self, author: &str, number: u32) -> Result<(StrokeId, Option<AxisId>), Problem> {
         let index = self.find(author, number).ok_or_else(|| unknown(number))?;
-        Ok(self.open.remove(index).id)
+        let stroke = self.open.remove(index);
+        Ok((stroke.id, stroke.chosen))
     }
 
     pub fn close_all(&mut self) {
@@ -83,9 +88,12 @@ impl OpenStrokes {
         stroke.last = path.last().copied();
         let length: f32 = path.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum();
         let steps = ((length / longest as f32).ceil() as u32).clamp(1, MAX_STEPS);
-        let id = stroke.id;
-        let piece =
-            |samples| StepInput { pieces: vec![BrushPiece { stroke: id, samples }], autonomous: false };
+        let (id, chosen) = (stroke.id, stroke.chosen);
+        let piece = |samples| StepInput {
+            pieces: vec![BrushPiece { stroke: id, samples }],
+            autonomous: false,
+            chosen,
+        };
         Ok(cut(&path, length, steps).into_iter().map(piece).collect())
     }
 
@@ -93,6 +101,7 @@ impl OpenStrokes {
         hash.word(u64::from(self.begun));
         for stroke in &self.open {
             hash.word(u64::from(stroke.number) | u64::from(stroke.id.0) << 32);
+            hash.word(stroke.chosen.map_or(u64::MAX, |axis| u64::from(axis.raw())));
             if let Some(last) = stroke.last {
                 hash.vector(last.position);
                 hash.word(u64::from(last.radius.to_bits()));
@@ -159,7 +168,7 @@ mod tests {
     #[test]
     fn cm6_a_path_runs_a_step_per_shoot() {
         let mut strokes = OpenStrokes::default();
-        strokes.open("a", 1).expect("nothing is open");
+        strokes.open("a", 1, None).expect("nothing is open");
         assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
         assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
         assert_eq!(extend(&mut strokes, &[3.0, 9.0]).len(), 3);
@@ -169,7 +178,7 @@ mod tests {
     #[test]
     fn pieces_join_without_a_gap() {
         let mut strokes = OpenStrokes::default();
-        strokes.open("a", 1).expect("nothing is open");
+        strokes.open("a", 1, None).expect("nothing is open");
         extend(&mut strokes, &[0.0]);
         let steps = extend(&mut strokes, &[1.0, 2.5, 7.0, 7.0, 30.0]);
         let mut end = 0.0;

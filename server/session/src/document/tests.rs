@@ -3,8 +3,14 @@
 use espalier_plant::checks;
 use proptest::prelude::*;
 
+use espalier_proto::Shape;
+use glam::{Quat, Vec2};
+
 use super::*;
-use crate::action::Sample;
+use crate::{
+    action::{Lasso, Sample},
+    obstacle::{Mesh, Obstacle, Pose},
+};
 
 fn sample(x: f32, y: f32, radius: f32) -> Sample {
     Sample { position: Vec3::new(x, y, 0.0), radius }
@@ -13,7 +19,7 @@ fn sample(x: f32, y: f32, radius: f32) -> Sample {
 /// A stroke from the ground up, with a crown.
 fn stroke(document: &mut Document, number: u32) {
     let mut apply = |action: Action| document.apply("ann", &action).expect("the stroke is well formed");
-    apply(Action::StrokeBegin { stroke: number });
+    apply(Action::StrokeBegin { stroke: number, bud: None });
     apply(Action::StrokeMove { stroke: number, samples: vec![sample(0.0, 0.0, 0.2), sample(1.0, 8.0, 0.2)] });
     apply(Action::StrokeMove {
         stroke: number,
@@ -23,7 +29,7 @@ fn stroke(document: &mut Document, number: u32) {
 }
 
 fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
-    document.apply("ann", &Action::Grow { steps, gesture }).expect("there is room to grow");
+    document.apply("ann", &Action::Grow { steps, gesture, bud: None }).expect("there is room to grow");
 }
 
 fn patch(apical_control: f32) -> Action {
@@ -97,7 +103,7 @@ fn growth_of_one_gesture_is_one_operation() {
 fn every_step_back_shows() {
     let mut document = Document::new(4);
     let pencil = |x, y| Action::StrokeMove { stroke: 1, samples: vec![sample(x, y, 0.0)] };
-    document.apply("ann", &Action::StrokeBegin { stroke: 1 }).expect("new");
+    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
     document.apply("ann", &pencil(0.0, 0.0)).expect("open");
     document.apply("ann", &pencil(0.0, 20.0)).expect("open");
     for _ in 0..30 {
@@ -115,7 +121,7 @@ fn every_step_back_shows() {
 #[test]
 fn a_stroke_that_grows_nothing_is_no_operation() {
     let mut document = Document::new(4);
-    document.apply("ann", &Action::StrokeBegin { stroke: 1 }).expect("new");
+    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
     document
         .apply("ann", &Action::StrokeMove { stroke: 1, samples: vec![sample(500.0, 500.0, 3.0)] })
         .expect("open");
@@ -136,7 +142,7 @@ fn parameters_as_they_are_keep_redo() {
 #[test]
 fn lifted_brushes_leave_operations_apart() {
     let mut document = Document::new(4);
-    document.apply("ann", &Action::StrokeBegin { stroke: 1 }).expect("new");
+    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
     let samples = vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)];
     document.apply("ann", &Action::StrokeMove { stroke: 1, samples }).expect("open");
     document.lift_brushes();
@@ -158,8 +164,8 @@ fn lm4_seeds_count_against_the_budget() {
 fn cm5_overlapping_strokes_are_one_operation() {
     let mut document = Document::new(4);
     let mut apply = |author: &str, action: Action| document.apply(author, &action).expect("well formed");
-    apply("ann", Action::StrokeBegin { stroke: 1 });
-    apply("bob", Action::StrokeBegin { stroke: 1 });
+    apply("ann", Action::StrokeBegin { stroke: 1, bud: None });
+    apply("bob", Action::StrokeBegin { stroke: 1, bud: None });
     apply(
         "ann",
         Action::StrokeMove { stroke: 1, samples: vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)] },
@@ -179,8 +185,8 @@ fn unknown_strokes_and_bad_seeds_are_refused() {
     let mut document = Document::new(4);
     let problem = document.apply("ann", &Action::StrokeEnd { stroke: 3 }).expect_err("never begun");
     assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("stroke")));
-    document.apply("ann", &Action::StrokeBegin { stroke: 3 }).expect("new");
-    assert!(document.apply("ann", &Action::StrokeBegin { stroke: 3 }).is_err(), "begun twice");
+    document.apply("ann", &Action::StrokeBegin { stroke: 3, bud: None }).expect("new");
+    assert!(document.apply("ann", &Action::StrokeBegin { stroke: 3, bud: None }).is_err(), "begun twice");
     assert!(document.apply("bob", &Action::StrokeEnd { stroke: 3 }).is_err(), "another's stroke");
     assert!(document.apply("ann", &Action::PlantSeed { position: Vec3::Y }).is_err());
 }
@@ -217,8 +223,34 @@ fn growth_beyond_the_budget_is_refused() {
     grow(&mut document, 1000, None);
     assert_eq!(document.pending_steps(), 0);
     assert_eq!(document.plant().metamer_count(), 300);
-    let problem = document.apply("ann", &Action::Grow { steps: 1, gesture: None }).expect_err("full");
+    let problem =
+        document.apply("ann", &Action::Grow { steps: 1, gesture: None, bud: None }).expect_err("full");
     assert!(problem.message.contains("300"));
+}
+
+fn lasso(width: f32, height: f32) -> Action {
+    let outline = [[-width, 0.0], [width, 0.0], [width, height], [-width, height]].map(Vec2::from_array);
+    let lasso =
+        Lasso { outline: outline.to_vec(), origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, depth: 1.0 };
+    Action::Lasso { lasso: Box::new(lasso), bud: None }
+}
+
+fn pose(x: f32) -> Pose {
+    Pose { position: Vec3::new(x, 3.0, 0.0), rotation: Quat::from_rotation_y(x) }
+}
+
+fn place(shape: &Shape, x: f32) -> Action {
+    let pose = espalier_proto::Pose { position: [x, 3.0, 0.0], rotation: pose(x).rotation.to_array() };
+    let obstacle = espalier_proto::Obstacle { shape: shape.clone(), pose };
+    Action::PlaceObstacle(Box::new(Obstacle::parse(&obstacle).expect("in range")))
+}
+
+/// A sheet of two triangles.
+fn slab() -> Shape {
+    let corners = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.5], [-3.0, 3.0, 0.5]];
+    let mesh =
+        Mesh { vertices: corners.map(Vec3::from_array).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    Shape::Mesh { mesh: mesh.to_base64(), scale: 1.5 }
 }
 
 #[derive(Clone, Debug)]
@@ -233,6 +265,12 @@ enum Event {
     Begin(u32),
     Move(u32, f32, f32, f32),
     End(u32),
+    Lasso(f32, f32),
+    Choose(u32),
+    Ball(f32, f32),
+    Mesh(f32),
+    Push(u32, f32),
+    Clear(u32),
 }
 
 fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -247,6 +285,12 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => (90u32..92).prop_map(Event::Begin),
         2 => (90u32..92, -6f32..6.0, 0f32..14.0, 0f32..4.0).prop_map(|(n, x, y, r)| Event::Move(n, x, y, r)),
         1 => (90u32..92).prop_map(Event::End),
+        1 => (0.5f32..6.0, 1f32..14.0).prop_map(|(w, h)| Event::Lasso(w, h)),
+        1 => (0u32..200).prop_map(Event::Choose),
+        1 => (-9f32..9.0, 1f32..5.0).prop_map(|(x, r)| Event::Ball(x, r)),
+        1 => (-9f32..9.0).prop_map(Event::Mesh),
+        1 => (1u32..4, -9f32..9.0).prop_map(|(id, x)| Event::Push(id, x)),
+        1 => (1u32..4).prop_map(Event::Clear),
     ];
     prop::collection::vec(event, 1..14)
 }
@@ -254,17 +298,23 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
 fn happen(document: &mut Document, number: usize, event: &Event) {
     let action = match event {
         Event::Stroke => return stroke(document, 1000 + number as u32),
-        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None },
+        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None, bud: None },
         Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
         Event::Undo => Action::Undo,
         Event::Redo => Action::Redo,
         Event::Apical(value) => patch(*value),
         Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
-        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke },
+        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
         Event::Move(stroke, x, y, r) => {
             Action::StrokeMove { stroke: *stroke, samples: vec![sample(*x, *y, *r)] }
         }
         Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
+        Event::Lasso(w, h) => lasso(*w, *h),
+        Event::Choose(row) => Action::Grow { steps: 2, gesture: None, bud: Some(*row) },
+        Event::Ball(x, radius) => place(&Shape::Sphere { radius: *radius }, *x),
+        Event::Mesh(x) => place(&slab(), *x),
+        Event::Push(id, x) => Action::MoveObstacle { id: *id, pose: pose(*x) },
+        Event::Clear(id) => Action::RemoveObstacle { id: *id },
     };
     let before = document.hash();
     if document.apply("ann", &action).is_err() {
@@ -293,15 +343,16 @@ proptest! {
         }
         // All the way back is the seedling; all the way forth is the end again.
         while document.apply("ann", &Action::Redo).is_ok() {}
-        let end = (document.plant().hash(), document.parameters());
+        let end = (document.plant().hash(), document.parameters(), document.obstacles());
         while document.apply("ann", &Action::Undo).is_ok() {}
         prop_assert_eq!(document.plant().hash(), Document::new(seed).plant().hash());
         // Ungrowing keeps the parameters, to grow again with others; undoing alone brings the first ones back.
         if !events.iter().any(|event| matches!(event, Event::Ungrow(_))) {
             prop_assert_eq!(document.parameters(), Document::new(seed).parameters());
+            prop_assert_eq!(document.obstacles(), []);
         }
         while document.apply("ann", &Action::Redo).is_ok() {}
-        prop_assert_eq!((document.plant().hash(), document.parameters()), end);
+        prop_assert_eq!((document.plant().hash(), document.parameters(), document.obstacles()), end);
     }
 
     #[test]

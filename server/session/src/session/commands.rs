@@ -5,7 +5,12 @@ use std::{collections::VecDeque, sync::Arc};
 use espalier_proto::{Command, Problem, ProblemCode, ServerMessage};
 
 use super::Session;
-use crate::{action::Action, io::ClientId, malformed, work::Order};
+use crate::{
+    action::Action,
+    io::{ActId, ClientId},
+    malformed,
+    work::{Order, SLICE_STEPS},
+};
 
 /// The most commands that wait for the document or for the disk.
 const MAX_WAITING: usize = 4096;
@@ -93,7 +98,9 @@ impl Session {
         author.taken = id;
         author.forgot_refusals = false;
         match self.check(command) {
-            Ok((action, text)) => self.accept(key, id, action, text),
+            Ok((action, text)) => {
+                self.accept(key, id, action, text, None);
+            }
             Err(problem) => self.send(client, &ServerMessage::Refused { id, problem }),
         }
     }
@@ -115,9 +122,13 @@ impl Session {
     }
 
     /// A command in good form, read back from the very text the journal will hold, so that a replay cannot differ.
-    fn check(&self, command: Result<Command, Problem>) -> Result<(Action, String), Problem> {
-        let command = command?;
+    pub(super) fn check(&self, command: Result<Command, Problem>) -> Result<(Action, String), Problem> {
+        let mut command = command?;
         Action::parse(&command)?;
+        if let Command::Stop { tick } = &mut command {
+            // The slice under way began at the figures known here, so growth cannot be beyond this when it returns.
+            *tick = Some(self.figures.steps_begun.saturating_add(SLICE_STEPS));
+        }
         let text = serde_json::to_string(&command).map_err(|error| malformed::message(&error))?;
         let action = Action::from_json(&text)?;
         let (queued, queued_bytes) = self.queue.waiting();
@@ -131,16 +142,24 @@ impl Session {
         Ok((action, text))
     }
 
-    /// Gives a command its place in the order.
-    pub(super) fn accept(&mut self, key: &Arc<str>, id: u32, action: Action, text: String) {
+    /// Gives a command its place in the order; the number of its journal entry.
+    pub(super) fn accept(
+        &mut self,
+        key: &Arc<str>,
+        id: u32,
+        action: Action,
+        text: String,
+        act: Option<ActId>,
+    ) -> u64 {
         let bytes = text.len();
         let number = self.journal.append(key, id, text);
         if let Some(author) = self.authors.get_mut(key) {
             author.last_entry = number;
         }
-        self.queue.push(Order { number, author: Arc::clone(key), id, action, bytes });
+        self.queue.push(Order { number, author: Arc::clone(key), id, action, bytes, act });
         self.upkeep.last_command_at = self.now;
         self.upkeep.state_changed |= self.queue.least_steps() > 0;
+        number
     }
 
     /// Entries up to `through` are durable.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{DocumentState, Problem, ServerMessage};
 
-use super::Session;
+use super::{Scenery, Session};
 use crate::{
     clients::{Guest, View},
     io::{ClientId, Output},
@@ -25,7 +25,7 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, documents, snapshot } = work.take_report();
+        let Report { delta, catch_ups, refused, acts, documents, snapshot } = work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         for (client, frame) in catch_ups {
@@ -37,6 +37,9 @@ impl Session {
             if let Some(client) = client.filter(|_| refusal.id > 0) {
                 self.send(client, &ServerMessage::Refused { id: refusal.id, problem: refusal.problem });
             }
+        }
+        for (act, outcome) in acts {
+            self.act_done(act, outcome);
         }
         for (read, bytes, metamers) in documents {
             self.outputs.push_back(Output::Document { read, bytes, metamers });
@@ -57,6 +60,10 @@ impl Session {
         if parameters != self.parameters {
             self.parameters = parameters.clone();
             self.broadcast(&ServerMessage::Parameters { parameters: Box::new(parameters) });
+        }
+        if !work.document.has_obstacles_of(&self.scenery.mark) {
+            self.scenery = Scenery::of(&work.document);
+            self.broadcast(&self.obstacles_message());
         }
     }
 
@@ -89,6 +96,7 @@ impl Session {
             self.outputs.push_back(Output::Journal(batch));
         }
         let Some(mut work) = self.home.take() else { return };
+        self.queue.orders.iter().for_each(|order| work.stops.note(order.number, &order.action));
         self.queue.send_along(&mut work.orders);
         work.reads.append(&mut self.reads);
         work.snapshot_wanted |= self.snapshot_due(work.applied);
@@ -110,6 +118,11 @@ impl Session {
         } else {
             self.home = Some(work);
         }
+    }
+
+    /// All obstacles as clients are told them (`OB3`).
+    pub(super) fn obstacles_message(&self) -> ServerMessage {
+        ServerMessage::Obstacles { obstacles: self.scenery.obstacles.clone() }
     }
 
     /// The document's figures as clients are told them.

@@ -73,6 +73,9 @@ impl Session {
             state: self.state(),
         };
         self.send(client, &welcome);
+        if !self.scenery.obstacles.is_empty() {
+            self.send(client, &self.obstacles_message());
+        }
         self.upkeep.state_changed = true;
     }
 

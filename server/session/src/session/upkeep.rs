@@ -151,7 +151,7 @@ impl Session {
         });
         for (key, stroke) in ends {
             let Ok(text) = serde_json::to_string(&Command::StrokeEnd { stroke }) else { continue };
-            self.accept(&key, 0, Action::StrokeEnd { stroke }, text);
+            self.accept(&key, 0, Action::StrokeEnd { stroke }, text, None);
         }
     }
 

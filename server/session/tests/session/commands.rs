@@ -1,6 +1,6 @@
 //! `CM`: numbers, order, refusals.
 
-use espalier_proto::{Command, ParametersPatch, ProblemCode, ServerMessage, StrokeSample};
+use espalier_proto::{Command, ParametersPatch, ProblemCode, ServerMessage, StrokeSample, VigorModel};
 use espalier_session::{ClientId, Input};
 
 use crate::world::{World, grow};
@@ -172,8 +172,8 @@ fn cm4_the_order_alone_makes_the_document() {
     let birch = world.join("birch-01");
     let maple = world.join("maple-01");
     let script = [
-        (birch, 1, Command::StrokeBegin { stroke: 1 }),
-        (maple, 1, Command::StrokeBegin { stroke: 1 }),
+        (birch, 1, Command::StrokeBegin { stroke: 1, bud: None }),
+        (maple, 1, Command::StrokeBegin { stroke: 1, bud: None }),
         (birch, 2, moved(1, 1.0)),
         (maple, 2, moved(1, 2.0)),
         (birch, 3, moved(1, 3.0)),
@@ -200,7 +200,7 @@ fn cm5_strokes_end_30_s_after_their_client_left() {
     let mut world = World::new();
     let birch = world.join("birch-01");
     let maple = world.join("maple-01");
-    world.command(birch, 1, Command::StrokeBegin { stroke: 4 });
+    world.command(birch, 1, Command::StrokeBegin { stroke: 4, bud: None });
     world.command(birch, 2, moved(4, 1.0));
     world.settle();
     world.leave(birch);
@@ -222,7 +222,7 @@ fn cm5_strokes_end_30_s_after_their_client_left() {
 fn cm5_strokes_stay_open_for_who_returns() {
     let mut world = World::new();
     let birch = world.join("birch-01");
-    world.command(birch, 1, Command::StrokeBegin { stroke: 4 });
+    world.command(birch, 1, Command::StrokeBegin { stroke: 4, bud: None });
     world.settle();
     world.leave(birch);
     world.pass(29_000);
@@ -238,7 +238,7 @@ fn cm5_strokes_stay_open_for_who_returns() {
 fn cm5_a_restart_gives_the_absent_their_time_again() {
     let mut world = World::new();
     let birch = world.join("birch-01");
-    world.command(birch, 1, Command::StrokeBegin { stroke: 4 });
+    world.command(birch, 1, Command::StrokeBegin { stroke: 4, bud: None });
     world.settle();
     world.crash();
     world.join("maple-01");
@@ -293,6 +293,38 @@ fn changed_parameters_are_told_to_all() {
         assert_eq!(told, Some(0.56));
     }
     assert_eq!(world.document().hash(), world.replayed_hash());
+}
+
+#[test]
+fn choices_and_maturity_survive_journal_snapshot_and_undo() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let patch = ParametersPatch {
+        vigor_model: Some(VigorModel::Priority),
+        priority_least_weight: Some(0.5),
+        mature_apical_control: Some(0.46),
+        maturity_start: Some(3),
+        maturity_steps: Some(7),
+        phototropism: Some(0.25),
+        ..ParametersPatch::default()
+    };
+    world.command(client, 1, grow(2));
+    world.command(client, 2, Command::SetParameters { parameters: patch.clone() });
+    world.command(client, 3, grow(9));
+    world.settle();
+    let wanted = World::new().document().parameters().patched(&patch);
+    assert_eq!(world.document().parameters(), wanted);
+    assert_eq!(world.document().hash(), world.replayed_hash());
+    world.pass(40_000);
+    assert!(world.snapshots > 0);
+    world.crash();
+    assert_eq!(world.document().parameters(), wanted);
+    assert_eq!(world.document().hash(), world.replayed_hash());
+    let client = world.join("birch-01");
+    world.command(client, 4, Command::Undo {});
+    world.command(client, 5, Command::Undo {});
+    world.settle();
+    assert_eq!(world.document().parameters(), World::new().document().parameters());
 }
 
 #[test]

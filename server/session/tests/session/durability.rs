@@ -200,10 +200,10 @@ fn a_saved_tree_opens_as_a_session() {
     world.handle(Input::Read(ReadId(1)));
     world.settle();
     let (_, bytes, _) = world.documents.pop().unwrap();
-    let snapshot = Session::first_snapshot(&bytes).unwrap();
+    let snapshot = Session::first_snapshot(&bytes, 1_000_000).unwrap();
     let opened = Session::restore("opened", 1, Some(&snapshot), 0, []).unwrap();
     assert_eq!(opened.document().unwrap().hash(), world.document().hash());
-    assert!(Session::first_snapshot(b"not a tree").is_err());
+    assert!(Session::first_snapshot(b"not a tree", 1_000_000).is_err());
 }
 
 #[test]

@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::{ClientMessage, Command, ParametersPatch, StrokeSample};
+use espalier_proto::{ClientMessage, Command, Obstacle, ParametersPatch, Pose, Shape, StrokeSample};
 use espalier_session::{Action, ClientId, Document, Input, ReadId, Session};
 use proptest::prelude::*;
 
-use crate::{mirror::Mirror, world::World};
+use crate::{guiding::lasso, mirror::Mirror, world::World};
 
 const KEYS: [&str; 4] = ["birch-01", "maple-01", "aspen-01", "cedar-01"];
 
@@ -32,11 +32,11 @@ fn command() -> impl Strategy<Value = Command> {
     let sample = (-5.0f32..5.0, 0.0f32..12.0, -5.0f32..5.0, 0.0f32..4.0)
         .prop_map(|(x, y, z, radius)| StrokeSample { position: [x, y, z], radius });
     prop_oneof![
-        3 => (1u32..6, prop::option::of(0u32..3)).prop_map(|(steps, gesture)| Command::Grow { steps, gesture }),
+        3 => (1u32..6, prop::option::of(0u32..3)).prop_map(|(steps, gesture)| Command::Grow { steps, gesture, bud: None }),
         2 => (1u32..8).prop_map(|steps| Command::Ungrow { steps }),
         2 => Just(Command::Undo {}),
         1 => Just(Command::Redo {}),
-        2 => (0u32..3).prop_map(|stroke| Command::StrokeBegin { stroke }),
+        2 => (0u32..3).prop_map(|stroke| Command::StrokeBegin { stroke, bud: None }),
         4 => (0u32..3, prop::collection::vec(sample, 0..4))
             .prop_map(|(stroke, samples)| Command::StrokeMove { stroke, samples }),
         2 => (0u32..3).prop_map(|stroke| Command::StrokeEnd { stroke }),
@@ -47,7 +47,20 @@ fn command() -> impl Strategy<Value = Command> {
             parameters: ParametersPatch { leaves_per_node: Some(leaves), ..ParametersPatch::default() }
         }),
         1 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| Command::PlantSeed { position: [x, 0.0, z] }),
+        2 => Just(Command::Stop { tick: None }),
+        1 => (0.5f32..5.0, 0.5f32..8.0, prop::option::of(0u32..40))
+            .prop_map(|(width, height, bud)| lasso(width, height, bud)),
+        1 => (1u32..6, 0u32..60).prop_map(|(steps, bud)| Command::Grow { steps, gesture: None, bud: Some(bud) }),
+        1 => (-6.0f32..6.0, 0.0f32..8.0, 0.0f32..3.0).prop_map(|(x, y, radius)| Command::PlaceObstacle {
+            obstacle: Obstacle { shape: Shape::Sphere { radius }, pose: pose(x, y) }
+        }),
+        1 => (0u32..4, -6.0f32..6.0).prop_map(|(id, x)| Command::MoveObstacle { id, pose: pose(x, 1.0) }),
+        1 => (0u32..4).prop_map(|id| Command::RemoveObstacle { id }),
     ]
+}
+
+fn pose(x: f32, y: f32) -> Pose {
+    Pose { position: [x, y, 0.0], rotation: [0.0, 0.0, 0.0, 1.0] }
 }
 
 fn deed() -> impl Strategy<Value = Deed> {
@@ -71,8 +84,8 @@ fn deed() -> impl Strategy<Value = Deed> {
 /// A tree whose rows fill a window, as the first snapshot of a session.
 static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut document = Document::new(3);
-    document.apply("birch-01", &Action::Grow { steps: 18, gesture: None }).unwrap();
-    Session::first_snapshot(&document.to_bytes()).unwrap()
+    document.apply("birch-01", &Action::Grow { steps: 18, gesture: None, bud: None }).unwrap();
+    Session::first_snapshot(&document.to_bytes(), 1_000_000).unwrap()
 });
 
 /// Changes to a large tree: little ones, and some back and forth in time.
@@ -235,8 +248,17 @@ proptest! {
     fn any_json_is_survived(kind in "[a-z_]{1,12}", field in "[a-z_]{1,10}", number in any::<f64>(), id in any::<u32>()) {
         let mut world = World::new();
         let client = world.join("birch-01");
-        for kind in [kind.as_str(), "grow", "stroke_move", "set_parameters", "plant_seed"] {
-            for field in [field.as_str(), "steps", "stroke", "samples", "position", "parameters"] {
+        for kind in [
+            kind.as_str(),
+            "grow",
+            "stroke_move",
+            "set_parameters",
+            "plant_seed",
+            "lasso",
+            "place_obstacle",
+            "move_obstacle",
+        ] {
+            for field in [field.as_str(), "steps", "samples", "position", "parameters", "outline", "plane", "obstacle", "pose"] {
                 let command = serde_json::json!({ "kind": kind, field: number });
                 world.text(client, &serde_json::json!({"type": "command", "id": id, "command": command}).to_string());
                 world.text(client, &serde_json::json!({"type": kind, field: number, "id": id}).to_string());

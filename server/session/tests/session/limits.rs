@@ -3,7 +3,7 @@
 use espalier_proto::{Command, ProblemCode, version::CloseCode};
 use espalier_session::Action;
 
-use crate::world::World;
+use crate::{obstacles::tetrahedron, world::World};
 
 fn check(json: &str, expected: Result<(), (ProblemCode, Option<&str>)>) {
     let found = Action::from_json(json).map(drop).map_err(|problem| {
@@ -90,9 +90,93 @@ fn every_kind_of_command_is_read() {
         r#"{"kind":"redo"}"#,
         r#"{"kind":"set_parameters","parameters":{}}"#,
         r#"{"kind":"plant_seed","position":[1,0,2]}"#,
+        r#"{"kind":"stroke_begin","stroke":1,"bud":0}"#,
+        r#"{"kind":"grow","steps":3,"bud":7}"#,
+        r#"{"kind":"lasso","outline":[[0,0],[1,0],[1,1]],"plane":{"origin":[0,0,0],"right":[1,0,0],"up":[0,1,0]}}"#,
+        r#"{"kind":"stop"}"#,
+        r#"{"kind":"place_obstacle","obstacle":{"shape":{"kind":"plane"},"pose":{"position":[0,0,0]}}}"#,
+        r#"{"kind":"move_obstacle","id":1,"pose":{"position":[0,0,0],"rotation":[0,1,0,0]}}"#,
+        r#"{"kind":"remove_obstacle","id":1}"#,
     ] {
         check(json, Ok(()));
     }
+}
+
+#[test]
+fn lm5_a_lasso_has_its_ranges() {
+    let lasso = |outline: &str, plane: &str, depth: &str| {
+        format!(r#"{{"kind":"lasso","outline":{outline},"plane":{plane},"depth":{depth}}}"#)
+    };
+    let outline = |points: usize| format!("[{}]", vec!["[0,1]"; points].join(","));
+    let plane = r#"{"origin":[0,0,0],"right":[1,0,0],"up":[0,1,0]}"#;
+    for (points, allowed) in [(2, Err((OUT, Some("outline")))), (3, Ok(())), (4096, Ok(()))] {
+        check(&lasso(&outline(points), plane, "1"), allowed);
+    }
+    check(&lasso(&outline(4097), plane, "1"), Err((ProblemCode::TooMany, Some("outline"))));
+    check(&lasso("[[0,0],[1,0],[1,1001]]", plane, "1"), Err((OUT, Some("outline[2][1]"))));
+    check(&lasso("[[0,0],[1,0],[1]]", plane, "1"), Err((BAD, Some("outline[2]"))));
+    for (depth, allowed) in [("0.09", false), ("0.1", true), ("1", true), ("1.01", false)] {
+        let expected = if allowed { Ok(()) } else { Err((OUT, Some("depth"))) };
+        check(&lasso(&outline(3), plane, depth), expected);
+    }
+    for (plane, field) in [
+        (r#"{"origin":[0,-11,0],"right":[1,0,0],"up":[0,1,0]}"#, "plane.origin[1]"),
+        (r#"{"origin":[0,0,0],"right":[1.02,0,0],"up":[0,1,0]}"#, "plane.right"),
+        (r#"{"origin":[0,0,0],"right":[1,0,0],"up":[0,0,0]}"#, "plane.up"),
+        (r#"{"origin":[0,0,0],"right":[1,0,0],"up":[0.6,0.8,0]}"#, "plane.up"),
+    ] {
+        check(&lasso(&outline(3), plane, "1"), Err((OUT, Some(field))));
+    }
+    let missing = r#"{"kind":"lasso","outline":[[0,0],[1,0],[1,1]],"plane":{"origin":[0,0,0]}}"#;
+    check(missing, Err((BAD, Some("plane"))));
+}
+
+#[test]
+fn lm6_an_obstacle_has_its_ranges() {
+    let with = |shape: &str, pose: &str| {
+        format!(r#"{{"kind":"place_obstacle","obstacle":{{"shape":{shape},"pose":{pose}}}}}"#)
+    };
+    let here = r#"{"position":[0,1,0]}"#;
+    let shape = |shape: &str, expected| check(&with(shape, here), expected);
+    shape(r#"{"kind":"box","size":[0.1,1,1000]}"#, Ok(()));
+    shape(r#"{"kind":"box","size":[0.09,1,1]}"#, Err((OUT, Some("obstacle.shape.size[0]"))));
+    shape(r#"{"kind":"box","size":[1,1,1001]}"#, Err((OUT, Some("obstacle.shape.size[2]"))));
+    shape(r#"{"kind":"sphere","radius":500}"#, Ok(()));
+    shape(r#"{"kind":"sphere","radius":501}"#, Err((OUT, Some("obstacle.shape.radius"))));
+    shape(r#"{"kind":"cone"}"#, Err((BAD, Some("obstacle.shape"))));
+    let sphere = r#"{"kind":"sphere","radius":1}"#;
+    let rotated = |rotation: &str| format!(r#"{{"position":[0,1,0],"rotation":{rotation}}}"#);
+    check(&with(sphere, &rotated("[0.6,0,0.8,0]")), Ok(()));
+    check(&with(sphere, &rotated("[1,1,0,0]")), Err((OUT, Some("obstacle.pose.rotation"))));
+    check(&with(sphere, &rotated("[0,0,0]")), Err((BAD, Some("obstacle.pose.rotation"))));
+    check(&with(sphere, r#"{"position":[0,1,1001]}"#), Err((OUT, Some("obstacle.pose.position[2]"))));
+}
+
+#[test]
+fn lm6_a_mesh_that_is_none_is_refused() {
+    let field = Some("obstacle.shape.mesh");
+    let text = |mesh: &str, scale: f32| {
+        let shape = format!(r#"{{"kind":"mesh","mesh":"{mesh}","scale":{scale}}}"#);
+        format!(r#"{{"kind":"place_obstacle","obstacle":{{"shape":{shape},"pose":{{"position":[0,0,0]}}}}}}"#)
+    };
+    let sound = tetrahedron();
+    check(&text(&sound.to_base64(), 1.0), Ok(()));
+    check(&text(&sound.to_base64(), 0.0), Err((OUT, Some("obstacle.shape.scale"))));
+    check(&text("no base64!", 1.0), Err((BAD, field)));
+    check(&text("", 1.0), Err((BAD, field)));
+    check(&text("AAAAAAAAAAA=", 1.0), Err((OUT, field)));
+    let mut far = sound.clone();
+    far.vertices[0].x = 10_001.0;
+    check(&text(&far.to_base64(), 1.0), Err((OUT, field)));
+    let mut endless = sound.clone();
+    endless.vertices[3].y = f32::NAN;
+    check(&text(&endless.to_base64(), 1.0), Err((BAD, field)));
+    let mut loose = sound.clone();
+    loose.triangles[1][2] = 4;
+    check(&text(&loose.to_base64(), 1.0), Err((BAD, field)));
+    let mut flat = sound;
+    flat.triangles = vec![[0, 0, 1]];
+    check(&text(&flat.to_base64(), 1.0), Err((OUT, Some("obstacle.shape"))));
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, Problem, Resume, ServerMessage,
+    ClientMessage, Command, DocumentState, Frame, PlacedObstacle, Problem, Resume, ServerMessage,
     version::{CloseCode, PROTOCOL_VERSION},
 };
-use espalier_session::{ClientId, Document, Input, JournalEntry, Output, ReadId, Session, Work};
+use espalier_session::{ActId, ClientId, Document, Input, JournalEntry, Output, ReadId, Session, Work};
 
 use crate::mirror::{Mirror, rows_of};
 
@@ -40,6 +40,7 @@ pub struct World {
     origin: Option<Vec<u8>>,
     pub snapshots: usize,
     pub documents: Vec<(ReadId, Vec<u8>, u32)>,
+    pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
     pub working: Option<(u64, Box<Work>)>,
     wake_at: Option<u64>,
@@ -55,6 +56,11 @@ impl World {
         Self::opened_with(None)
     }
 
+    /// A session whose document may hold so many metamers.
+    pub fn seeded_with_budget(metamers: u32) -> Self {
+        Self::opened_with(Some(Session::seedling(SEED, metamers)))
+    }
+
     /// A session that starts from a first snapshot.
     pub fn opened_with(origin: Option<Vec<u8>>) -> Self {
         Self {
@@ -66,6 +72,7 @@ impl World {
             snapshot: None,
             snapshots: 0,
             documents: Vec::new(),
+            acts: Vec::new(),
             writing: None,
             working: None,
             wake_at: None,
@@ -131,6 +138,7 @@ impl World {
                 self.snapshot = Some((through, bytes));
                 self.snapshots += 1;
             }
+            Output::Acted { act, outcome } => self.acts.push((act, outcome)),
             Output::Document { read, bytes, metamers } => self.documents.push((read, bytes, metamers)),
             Output::WakeAt(at) => self.wake_at = Some(at),
         }
@@ -340,5 +348,5 @@ impl Peer {
 }
 
 pub fn grow(steps: u32) -> Command {
-    Command::Grow { steps, gesture: None }
+    Command::Grow { steps, gesture: None, bud: None }
 }

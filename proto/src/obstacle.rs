@@ -1,0 +1,102 @@
+//! Obstacles: what stands in the way of growth and light.
+
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// No rotation.
+fn upright() -> [f32; 4] {
+    [0.0, 0.0, 0.0, 1.0]
+}
+
+/// A mesh is as large as its coordinates say unless told otherwise.
+fn full_size() -> f32 {
+    1.0
+}
+
+/// Where something stands, and how it is turned.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Pose {
+    /// Where its own origin lies, in internode lengths.
+    pub position: [f32; 3],
+    /// A quaternion x, y, z, w; of unit length, within a hundredth.
+    #[serde(default = "upright")]
+    #[ts(as = "Option<[f32; 4]>", optional)]
+    pub rotation: [f32; 4],
+}
+
+/// What shape an obstacle has, around its own origin, in internode lengths.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Shape {
+    /// A box around the origin.
+    Box {
+        /// Its whole width, height and depth, each 0.1 to 1000.
+        size: [f32; 3],
+    },
+    /// A sphere around the origin.
+    Sphere {
+        /// 0.1 to 500.
+        radius: f32,
+    },
+    /// Everything below the plane through the origin: nothing grows where the obstacle's own y is below 0.
+    Plane {},
+    /// A triangle mesh.
+    Mesh {
+        /// The mesh in base64 (`OB4`).
+        mesh: String,
+        /// 0.001 to 1000: coordinates are multiplied by this.
+        #[serde(default = "full_size")]
+        #[ts(as = "Option<f32>", optional)]
+        scale: f32,
+    },
+}
+
+/// An obstacle as it is placed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Obstacle {
+    /// What it is.
+    pub shape: Shape,
+    /// Where it stands.
+    pub pose: Pose,
+}
+
+/// The shape of an obstacle that is in the scene; a mesh is fetched apart (`OB5`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum PlacedShape {
+    /// A box around the origin.
+    Box {
+        /// Its whole width, height and depth.
+        size: [f32; 3],
+    },
+    /// A sphere around the origin.
+    Sphere {
+        /// Its radius.
+        radius: f32,
+    },
+    /// Everything below the plane through the origin.
+    Plane {},
+    /// A triangle mesh.
+    Mesh {
+        /// How many vertices it has.
+        vertices: u32,
+        /// How many triangles it has.
+        triangles: u32,
+        /// Coordinates are multiplied by this.
+        scale: f32,
+    },
+}
+
+/// An obstacle in the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct PlacedObstacle {
+    /// Names it; never used again for another one of the same session.
+    pub id: u32,
+    /// What it is.
+    pub shape: PlacedShape,
+    /// Where it stands.
+    pub pose: Pose,
+}

@@ -1,0 +1,182 @@
+//! Leaves of each kind as triangles, with a colour at each corner.
+
+use std::f32::consts::TAU;
+
+use espalier_growth::species::{Fruit, LeafKind};
+use espalier_mesh::{
+    Style, TriangleMesh, foliage,
+    leaves::{self, Leaf},
+};
+use espalier_plant::{MetamerId, Plant};
+use glam::{Vec2, Vec3};
+
+use super::{
+    canvas::linear,
+    scene::{Look, Painted},
+};
+
+/// Half an outline: how far along the blade, and how far out, in lengths of the leaf.
+type Outline = &'static [(f32, f32)];
+
+const OVATE: Outline = &[(0.25, 0.24), (0.6, 0.22), (1.0, 0.0)];
+const LANCEOLATE: Outline = &[(0.3, 0.1), (0.65, 0.085), (1.0, 0.0)];
+const LOBED: Outline =
+    &[(0.18, 0.08), (0.3, 0.22), (0.4, 0.12), (0.55, 0.3), (0.66, 0.16), (0.82, 0.22), (1.0, 0.0)];
+const ROUND: Outline = &[(0.15, 0.26), (0.45, 0.42), (0.8, 0.3), (1.0, 0.0)];
+const LEAFLET: Outline = &[(0.5, 0.22), (1.0, 0.0)];
+
+/// All leaves of the present, and the fruit among them.
+pub(crate) fn foliage(plant: &Plant, style: &Style, look: &Look) -> Painted {
+    let tint = linear(look.leaf_tint);
+    let mut painter = Painter { painted: Painted::default(), colour: tint };
+    for id in (0..plant.metamer_count()).map(MetamerId::new) {
+        let count = foliage::leaves(plant, id, style);
+        if count == 0 {
+            continue;
+        }
+        let to = plant.metamers().end(id);
+        let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
+        // The shadows of the simulation are soft; within them leaves are darker and bluer.
+        let light = f32::from(plant.metamers().appearance(id).light) / 255.0;
+        for leaf in leaves::on_metamer(id.raw(), from, to, count, style.options().leaf_size) {
+            painter.colour = varied(tint, leaf.random) * (0.62 + 0.38 * light);
+            painter.leaf(&leaf, look.leaf, (to - from).normalize_or(Vec3::Y));
+            if let Some(fruit) = look.fruit.filter(|fruit| share(leaf.random) < fruit.share) {
+                painter.fruit(leaf.base, &fruit);
+            }
+        }
+    }
+    painter.painted
+}
+
+/// Another number from 0 to 1 that belongs to a leaf.
+fn share(random: f32) -> f32 {
+    leaves::hash(1 + (random * 1e6) as u32) as f32 / u32::MAX as f32
+}
+
+/// No two leaves are quite alike.
+fn varied(tint: Vec3, random: f32) -> Vec3 {
+    let warmth = 0.16 * (random - 0.5);
+    tint * Vec3::new(1.0 + 1.6 * warmth, 1.0 + 0.4 * warmth, 1.0 - warmth) * (0.84 + 0.32 * share(random))
+}
+
+struct Painter {
+    painted: Painted,
+    colour: Vec3,
+}
+
+impl Painter {
+    fn leaf(&mut self, leaf: &Leaf, kind: LeafKind, heading: Vec3) {
+        let Leaf { base, direction, normal, size, random } = *leaf;
+        let side = direction.cross(normal);
+        match kind {
+            LeafKind::Ovate => self.blade(base, direction, side, size, OVATE),
+            LeafKind::Round => {
+                // Such leaves hang from long stalks and flutter.
+                let hanging = (direction - 0.6 * Vec3::Y).normalize_or(direction);
+                self.blade(base, hanging, side, size, ROUND);
+            }
+            LeafKind::Lanceolate => {
+                let hanging = (direction + heading - 0.5 * Vec3::Y).normalize_or(direction);
+                self.blade(base, hanging, side, size, LANCEOLATE);
+            }
+            LeafKind::Lobed => self.blade(base, direction, side, size, LOBED),
+            LeafKind::Palmate => {
+                let centre = base + direction * (0.35 * size);
+                for (turn, reach) in [(-0.3, 0.45), (-0.15, 0.6), (0.0, 0.68), (0.15, 0.6), (0.3, 0.45)] {
+                    let (sin, cos) = libm::sincosf(TAU * turn);
+                    let (lobe, across) = (direction * cos + side * sin, side * cos - direction * sin);
+                    self.blade(centre, lobe, across, reach * size, &[(0.4, 0.24), (1.0, 0.0)]);
+                }
+            }
+            LeafKind::Fan => {
+                let centre = base + direction * (0.3 * size);
+                for turn in [-0.09, 0.09] {
+                    let (sin, cos) = libm::sincosf(TAU * turn);
+                    let (lobe, across) = (direction * cos + side * sin, side * cos - direction * sin);
+                    self.blade(centre, lobe, across, 0.7 * size, &[(0.85, 0.42), (1.0, 0.0)]);
+                }
+            }
+            LeafKind::Needle => {
+                for needle in 0..6 {
+                    let turn = TAU * (needle as f32 / 6.0 + random);
+                    let (sin, cos) = libm::sincosf(turn);
+                    let along =
+                        (heading * 0.75 + (direction * cos + side * sin) * 0.66).normalize_or(heading);
+                    let across = along.cross(heading).normalize_or(side);
+                    self.blade(base, along, across, size, &[(0.5, 0.045), (1.0, 0.0)]);
+                }
+            }
+            LeafKind::Scale => {
+                let along = (heading + 0.5 * direction).normalize_or(heading);
+                self.blade(base, along, side, size, &[(0.4, 0.17), (1.0, 0.0)]);
+                self.blade(base, along, normal, size, &[(0.4, 0.17), (1.0, 0.0)]);
+            }
+            LeafKind::Compound => {
+                for pair in 0..4 {
+                    let from = base + direction * (size * (0.25 + 0.2 * pair as f32));
+                    for hand in [-1.0, 1.0] {
+                        let along = (side * hand + 0.5 * direction).normalize_or(direction);
+                        self.blade(from, along, along.cross(normal), 0.36 * size, LEAFLET);
+                    }
+                }
+            }
+            LeafKind::Blossom => {
+                let facing = (direction + 0.3 * normal).normalize_or(direction);
+                let (u, w) = facing.any_orthonormal_pair();
+                let centre = base + direction * (0.3 * size);
+                for petal in 0..5 {
+                    let (sin, cos) = libm::sincosf(TAU * (petal as f32 / 5.0 + random));
+                    let along = (u * cos + w * sin + 0.3 * facing).normalize_or(u);
+                    self.blade(centre, along, along.cross(facing), 0.42 * size, &[(0.6, 0.36), (1.0, 0.0)]);
+                }
+            }
+        }
+    }
+
+    /// A ball that hangs from a place.
+    fn fruit(&mut self, from: Vec3, fruit: &Fruit) {
+        const RINGS: u32 = 6;
+        const SIDES: u32 = 8;
+        self.colour = linear(fruit.tint);
+        let centre = from - Vec3::Y * (0.7 * fruit.size);
+        let first = self.painted.mesh.positions.len() as u32;
+        for ring in 0..=RINGS {
+            let (out, up) = libm::sincosf(0.5 * TAU * ring as f32 / RINGS as f32);
+            for side in 0..=SIDES {
+                let (sin, cos) = libm::sincosf(TAU * side as f32 / SIDES as f32);
+                let normal = Vec3::new(out * cos, up, out * sin);
+                self.vertex(centre + normal * (0.5 * fruit.size), normal);
+            }
+        }
+        for ring in 0..RINGS {
+            for side in 0..SIDES {
+                let corner = first + ring * (SIDES + 1) + side;
+                self.painted.mesh.triangle(corner, corner + 1, corner + SIDES + 2);
+                self.painted.mesh.triangle(corner, corner + SIDES + 2, corner + SIDES + 1);
+            }
+        }
+    }
+
+    /// A flat blade with a slight fold along its middle.
+    fn blade(&mut self, base: Vec3, along: Vec3, across: Vec3, size: f32, outline: Outline) {
+        let normal = along.cross(across).normalize_or(Vec3::Y);
+        let mut below = [self.vertex(base, normal); 2];
+        for &(far, out) in outline {
+            let middle = base + along * (far * size);
+            let sides = [-1.0, 1.0].map(|hand| {
+                let place = middle + across * (hand * out * size) - normal * (0.25 * out * size);
+                self.vertex(place, (normal + across * (0.35 * hand)).normalize_or(normal))
+            });
+            let mesh = &mut self.painted.mesh;
+            mesh.triangle(below[0], below[1], sides[1]);
+            mesh.triangle(below[0], sides[1], sides[0]);
+            below = sides;
+        }
+    }
+
+    fn vertex(&mut self, place: Vec3, normal: Vec3) -> u32 {
+        self.painted.colours.push(self.colour);
+        TriangleMesh::vertex(&mut self.painted.mesh, place, normal, Vec2::ZERO)
+    }
+}

@@ -1,0 +1,15 @@
+//! Pictures of plants, drawn without a graphics card: the front view, in the sun, on a light ground.
+
+mod bark;
+mod blades;
+mod canvas;
+mod lettering;
+mod palette;
+mod png;
+mod raster;
+mod scene;
+mod sheet;
+
+pub use canvas::Canvas;
+pub use scene::{Look, draw};
+pub use sheet::{Cell, sheet};

@@ -1,0 +1,414 @@
+//! A plant in the sun: how large it is drawn, what it stands on, and the colour of every pixel.
+
+use espalier_growth::species::{BarkKind, Fruit, LeafKind, Species, Stand};
+use espalier_mesh::{Style, TriangleMesh, bark_mesh};
+use espalier_plant::Plant;
+use glam::{Vec2, Vec3};
+
+use super::{
+    bark, blades,
+    canvas::{Canvas, linear},
+    raster::{NOTHING, Seen, View, weights},
+};
+
+/// What a plant looks like beyond its form; colours in sRGB.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Form of the leaves.
+    pub leaf: LeafKind,
+    /// Colour of the leaves.
+    pub leaf_tint: [u8; 3],
+    /// Fruit among the leaves.
+    pub fruit: Option<Fruit>,
+    /// Pattern of the bark.
+    pub bark: BarkKind,
+    /// Colour of the bark.
+    pub bark_tint: [u8; 3],
+    /// What the plant stands on.
+    pub stand: Stand,
+}
+
+impl From<&Species> for Look {
+    fn from(species: &Species) -> Self {
+        let &Species { leaf, leaf_tint, fruit, bark, bark_tint, stand, .. } = species;
+        Self { leaf, leaf_tint, fruit, bark, bark_tint, stand }
+    }
+}
+
+impl Default for Look {
+    /// A tree of no species.
+    fn default() -> Self {
+        Self {
+            leaf: LeafKind::Ovate,
+            leaf_tint: [88, 124, 52],
+            fruit: None,
+            bark: BarkKind::Furrowed,
+            bark_tint: [121, 110, 97],
+            stand: Stand::Ground,
+        }
+    }
+}
+
+/// A mesh with a colour at each corner.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Painted {
+    pub(crate) mesh: TriangleMesh,
+    pub(crate) colours: Vec<Vec3>,
+}
+
+/// How a mesh answers to light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Skin {
+    Leaf,
+    Bark,
+    Glaze,
+    Ground,
+}
+
+/// Samples across a pixel.
+const SAMPLES: usize = 3;
+/// Pixels across the map of what the sun sees.
+const SHADOW_MAP: usize = 2048;
+/// Share of a picture's height below the foot of the plant.
+const FOOT: f32 = 0.1;
+/// Share of a picture's width and height that the plant may take.
+const ROOM: f32 = 0.94;
+/// Sine of the angle by which the eye looks down.
+const EYE_HEIGHT: f32 = 0.1;
+
+pub(crate) const SKY: [u8; 3] = [244, 245, 240];
+const LAWN: [u8; 3] = [196, 202, 172];
+
+/// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
+pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
+    let mut meshes =
+        vec![(Skin::Bark, bare(bark_mesh(plant, style))), (Skin::Leaf, blades::foliage(plant, style, look))];
+    let (points, reach) = extent(&meshes);
+    let base = stand(&mut meshes, look.stand, reach);
+    // What it stands on is to be seen as well.
+    let (points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
+    ground(&mut meshes, base, reach);
+    let eye = Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize();
+    let size = Vec2::new((width * SAMPLES) as f32, (height * SAMPLES) as f32);
+    let view = framed(&points, eye, base, size);
+    let lawn = Vec2::new(0.5 * size.x, FOOT * size.y / eye.y) / view.scale();
+    let middle = (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale();
+    let sun = Sun::new(&meshes, &points);
+    let scene = Scene { sun, meshes, look, bark_tint: linear(look.bark_tint), reach, lawn, middle };
+    scene.paint(&view, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
+}
+
+fn bare(mesh: TriangleMesh) -> Painted {
+    let colours = vec![Vec3::ONE; mesh.positions.len()];
+    Painted { mesh, colours }
+}
+
+/// All corners, and how far the plant reaches from where it stands.
+fn extent(meshes: &[(Skin, Painted)]) -> (Vec<Vec3>, f32) {
+    let points: Vec<Vec3> = meshes.iter().flat_map(|(_, painted)| painted.mesh.positions.clone()).collect();
+    let reach = points.iter().map(|p| p.length()).fold(1.0, f32::max);
+    (points, reach)
+}
+
+/// A view in which all points fit above the foot line, which shows the height `base`.
+fn framed(points: &[Vec3], eye: Vec3, base: f32, size: Vec2) -> View {
+    let plain = View::new(eye, 1.0, Vec2::ZERO);
+    let foot = plain.project(Vec3::Y * base).y;
+    let seen = points.iter().map(|&point| plain.project(point));
+    let (mut low, mut high) = (Vec3::new(-0.5, -1.0, 0.0), Vec3::new(0.5, 0.0, 0.0));
+    for point in seen {
+        (low, high) = (low.min(point), high.max(point));
+    }
+    let room = Vec2::new(ROOM * size.x, (ROOM - FOOT) * size.y);
+    let scale = (room.x / (high.x - low.x)).min(room.y / (foot - low.y));
+    let origin =
+        Vec2::new(0.5 * size.x - scale * 0.5 * (low.x + high.x), (1.0 - FOOT) * size.y - scale * foot);
+    View::new(eye, scale, origin)
+}
+
+/// Puts a pot under the plant; returns the height of the ground.
+fn stand(meshes: &mut Vec<(Skin, Painted)>, stand: Stand, reach: f32) -> f32 {
+    let (half_width, half_depth, height, taper) = match stand {
+        Stand::Ground => return 0.0,
+        Stand::Tray => (0.42 * reach, 0.26 * reach, 0.11 * reach, 0.86),
+        Stand::Pot => (0.2 * reach, 0.2 * reach, 0.42 * reach, 0.78),
+    };
+    let glaze = linear([92, 62, 50]);
+    let mut pot = Painted::default();
+    // From the inside of the rim over its edge down to the foot: height, width, colour.
+    let soil = linear([74, 84, 48]);
+    let profile = [
+        (-0.02, 0.0, soil),
+        (-0.02, 0.95, soil),
+        (0.0, 0.95, glaze),
+        (0.0, 1.0, glaze),
+        (-0.16, 1.0, glaze),
+        (-0.16, 0.95, glaze),
+        (-1.0, taper, glaze),
+    ];
+    const SIDES: u32 = 48;
+    for pair in profile.windows(2) {
+        let first = pot.mesh.positions.len() as u32;
+        for side in 0..=SIDES {
+            let (sin, cos) = libm::sincosf(std::f32::consts::TAU * side as f32 / SIDES as f32);
+            // A square with round corners.
+            let swell = |c: f32| c.signum() * libm::powf(c.abs(), 0.5);
+            let out = Vec3::new(swell(cos), 0.0, swell(sin));
+            for &(level, width, colour) in pair {
+                let place = Vec3::new(out.x * half_width * width, level * height, out.z * half_depth * width);
+                let flat = (pair[0].0 - pair[1].0).abs() < 0.01;
+                let normal = if flat { Vec3::Y } else { Vec3::new(cos, 0.15, sin).normalize() };
+                pot.mesh.vertex(place, normal, Vec2::ZERO);
+                pot.colours.push(colour);
+            }
+        }
+        for side in 0..SIDES {
+            let corner = first + 2 * side;
+            pot.mesh.triangle(corner, corner + 1, corner + 2);
+            pot.mesh.triangle(corner + 1, corner + 2, corner + 3);
+        }
+    }
+    meshes.push((Skin::Glaze, pot));
+    -height
+}
+
+fn ground(meshes: &mut Vec<(Skin, Painted)>, base: f32, reach: f32) {
+    let mut mesh = TriangleMesh::default();
+    let far = 8.0 * reach;
+    for (x, z) in [(-far, -far), (far, -far), (far, far), (-far, far)] {
+        mesh.vertex(Vec3::new(x, base - 1e-3, z), Vec3::Y, Vec2::ZERO);
+    }
+    mesh.triangle(0, 1, 2);
+    mesh.triangle(0, 2, 3);
+    meshes.push((Skin::Ground, bare(mesh)));
+}
+
+/// What the sun sees.
+struct Sun {
+    view: View,
+    seen: Seen,
+}
+
+impl Sun {
+    /// High, from the left and the front.
+    fn direction() -> Vec3 {
+        Vec3::new(-0.5, 0.8, 0.5).normalize()
+    }
+
+    fn new(meshes: &[(Skin, Painted)], points: &[Vec3]) -> Self {
+        let (low, high) = points
+            .iter()
+            .fold((Vec3::ZERO, Vec3::Y), |(low, high), &point| (low.min(point), high.max(point)));
+        let (middle, size) = (0.5 * (low + high), SHADOW_MAP as f32);
+        let scale = size / (1.5 * (high - low).length());
+        let plain = View::new(Self::direction(), scale, Vec2::ZERO);
+        let origin = Vec2::splat(0.5 * size) - plain.project(middle).truncate();
+        let view = View::new(Self::direction(), scale, origin);
+        let mut seen = Seen::new(SHADOW_MAP, SHADOW_MAP);
+        for (_, painted) in meshes.iter().filter(|(skin, _)| *skin != Skin::Ground) {
+            for corners in painted.mesh.indices.as_chunks::<3>().0 {
+                seen.add(corners.map(|corner| view.project(painted.mesh.positions[corner as usize])), 0);
+            }
+        }
+        Self { view, seen }
+    }
+
+    /// How much of the sun a place sees, with a shadow as soft as `blur` pixels of the map.
+    fn reaches(&self, place: Vec3, bias: f32, blur: f32) -> f32 {
+        let at = self.view.project(place);
+        let mut lit = 0.0;
+        for (x, y) in [
+            (0.0, 0.0),
+            (0.9, 0.35),
+            (-0.35, 0.9),
+            (-0.9, -0.35),
+            (0.35, -0.9),
+            (0.5, 0.6),
+            (-0.6, 0.5),
+            (-0.5, -0.6),
+            (0.6, -0.5),
+        ] {
+            let (x, y) = (at.x + blur * x, at.y + blur * y);
+            let inside = x >= 0.0 && y >= 0.0 && x < self.seen.width as f32 && y < self.seen.height as f32;
+            let blocked = inside && self.seen.near[y as usize * self.seen.width + x as usize] > at.z + bias;
+            lit += if blocked { 0.0 } else { 1.0 / 9.0 };
+        }
+        lit
+    }
+}
+
+struct Scene<'a> {
+    meshes: Vec<(Skin, Painted)>,
+    sun: Sun,
+    look: &'a Look,
+    bark_tint: Vec3,
+    reach: f32,
+    /// How far the lawn can be seen to the sides and to the front.
+    lawn: Vec2,
+    /// Where the middle of the picture is, to the right of the foot.
+    middle: f32,
+}
+
+impl Scene<'_> {
+    fn paint(&self, view: &View, width: usize, height: usize) -> Canvas {
+        let mut canvas = Canvas::new(width, height, linear(SKY));
+        let mut seen = Seen::new(width, height);
+        let mut first = 0;
+        let mut firsts = Vec::new();
+        for (_, painted) in &self.meshes {
+            firsts.push(first);
+            for corners in painted.mesh.indices.as_chunks::<3>().0 {
+                seen.add(corners.map(|corner| view.project(painted.mesh.positions[corner as usize])), first);
+                first += 1;
+            }
+        }
+        for y in 0..height {
+            for x in 0..width {
+                let number = seen.triangle[y * width + x];
+                if number == NOTHING {
+                    continue;
+                }
+                let mesh = firsts.partition_point(|&first| first <= number) - 1;
+                let at = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                if let Some(colour) = self.colour(view, mesh, number - firsts[mesh], at) {
+                    canvas.set(x, y, colour);
+                }
+            }
+        }
+        canvas
+    }
+
+    fn colour(&self, view: &View, mesh: usize, triangle: u32, at: Vec2) -> Option<Vec3> {
+        let (skin, Painted { mesh, colours }) = &self.meshes[mesh];
+        let corners = mesh.indices.as_chunks::<3>().0[triangle as usize].map(|corner| corner as usize);
+        let weights = weights(corners.map(|corner| view.project(mesh.positions[corner])), at)?.to_array();
+        let mix = |values: &[Vec3]| {
+            corners
+                .iter()
+                .zip(weights)
+                .fold(Vec3::ZERO, |sum, (&corner, weight)| sum + values[corner] * weight)
+        };
+        let (place, normal) = (mix(&mesh.positions), mix(&mesh.normals).normalize_or(Vec3::Y));
+        let facing = normal.dot(Sun::direction());
+        // Warm sun, and a cool sky that is brighter above.
+        let (sunlight, skylight) = (Vec3::new(1.02, 0.96, 0.84), Vec3::new(0.52, 0.56, 0.62));
+        let lit = |sun: f32, sky: f32| sunlight * sun + skylight * sky;
+        let bias = 0.006 * self.reach;
+        Some(match skin {
+            Skin::Leaf => {
+                // Both sides count, and some light comes through.
+                let sun = self.sun.reaches(place, bias, 2.0) * (0.3 + 0.62 * facing.abs());
+                mix(colours) * lit(sun * 1.25, 0.55 + 0.2 * normal.y.abs())
+            }
+            Skin::Bark => {
+                let uv = corners
+                    .iter()
+                    .zip(weights)
+                    .fold(Vec2::ZERO, |sum, (&corner, weight)| sum + mesh.uvs[corner] * weight);
+                // Texels are square, so any edge tells how wide a tile is.
+                let [a, b, _] = corners;
+                let tile = mesh.positions[a].distance(mesh.positions[b])
+                    / mesh.uvs[a].distance(mesh.uvs[b]).max(1e-6);
+                let sun = self.sun.reaches(place, bias, 2.0) * facing.max(0.0);
+                bark::colour(self.look.bark, self.bark_tint, uv, tile, place.y)
+                    * lit(sun, 0.5 + 0.2 * normal.y)
+            }
+            Skin::Glaze => {
+                let sun = self.sun.reaches(place, bias, 2.0) * facing.max(0.0);
+                mix(colours) * lit(sun, 0.55 + 0.25 * normal.y)
+            }
+            Skin::Ground => {
+                let sun = self.sun.reaches(place, bias, 9.0);
+                let far = (Vec2::new(place.x - self.middle, place.z) / self.lawn).length();
+                let lawn = linear(LAWN) * (0.5 + 0.5 * sun);
+                let fade = ((far - 0.3) / 0.7).clamp(0.0, 1.0);
+                lawn.lerp(linear(SKY), fade * fade * (3.0 - 2.0 * fade))
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_mesh::StyleOptions;
+    use espalier_plant::{AxisId, Internode};
+
+    use super::*;
+
+    /// A pole of so many internodes with a lateral bud at each node.
+    fn pole(internodes: u32) -> Plant {
+        let mut plant = Plant::new(Vec3::ZERO);
+        plant.begin_step();
+        for height in 1..=internodes {
+            let end = Vec3::Y * height as f32;
+            plant.extend(AxisId::new(0), &Internode { end, normal: Vec3::X, laterals: &[Vec3::X] });
+        }
+        plant.end_step();
+        plant
+    }
+
+    /// Pixels that are far from the sky's colour and from the lawn's.
+    fn inked(canvas: &Canvas) -> Vec<(usize, usize)> {
+        let places = (0..canvas.height()).flat_map(|y| (0..canvas.width()).map(move |x| (x, y)));
+        places.filter(|&(x, y)| canvas.get(x, y).y < 0.3).collect()
+    }
+
+    #[test]
+    fn plants_fill_the_picture_from_its_foot_up() {
+        let thick = StyleOptions { twig_diameter: 0.3, ..StyleOptions::default() };
+        let look = Look { leaf_tint: [0; 3], bark_tint: [0; 3], ..Look::default() };
+        for internodes in [6, 20] {
+            let inked = inked(&draw(&pole(internodes), &Style::new(thick), &look, 100, 120));
+            let (top, bottom) = (inked[0].1, inked[inked.len() - 1].1);
+            assert!((5..16).contains(&top) && (104..112).contains(&bottom), "{top} to {bottom}");
+        }
+    }
+
+    #[test]
+    fn every_kind_of_leaf_has_a_form_of_its_own() {
+        let bare = Style::new(StyleOptions { leaves_per_node: 0, ..Default::default() });
+        let look = Look { leaf_tint: [30, 60, 20], ..Look::default() };
+        let mut seen = vec![draw(&pole(6), &bare, &look, 100, 100)];
+        for leaf in [
+            LeafKind::Ovate,
+            LeafKind::Round,
+            LeafKind::Lanceolate,
+            LeafKind::Lobed,
+            LeafKind::Palmate,
+            LeafKind::Fan,
+            LeafKind::Compound,
+            LeafKind::Needle,
+            LeafKind::Scale,
+            LeafKind::Blossom,
+        ] {
+            let picture = draw(&pole(6), &Style::default(), &Look { leaf, ..look }, 100, 100);
+            assert!(!seen.contains(&picture), "{leaf:?} looks like another");
+            seen.push(picture);
+        }
+    }
+
+    #[test]
+    fn a_pot_lifts_the_plant_off_the_ground() {
+        let lowest_wood = |stand| {
+            let look = Look { stand, bark_tint: [0, 0, 0], leaf_tint: [0, 0, 0], ..Look::default() };
+            let canvas = draw(&pole(6), &Style::default(), &look, 100, 100);
+            (0..100).rev().find(|&y| (0..100).any(|x| canvas.get(x, y).max_element() < 0.02))
+        };
+        let [ground, tray, pot] = [Stand::Ground, Stand::Tray, Stand::Pot].map(lowest_wood);
+        assert!(ground > tray && tray > pot, "{ground:?}, {tray:?}, {pot:?}");
+    }
+
+    #[test]
+    fn a_seed_alone_is_an_empty_lawn() {
+        let canvas = draw(&Plant::new(Vec3::ZERO), &Style::default(), &Look::default(), 40, 40);
+        assert_eq!(inked(&canvas), []);
+    }
+
+    #[test]
+    fn shadows_fall_to_the_right() {
+        let lawn = |canvas: &Canvas, x| canvas.get(x, 105).y;
+        let canvas = draw(&pole(20), &Style::default(), &Look::default(), 100, 120);
+        let darkest = (0..100).min_by(|&a, &b| lawn(&canvas, a).total_cmp(&lawn(&canvas, b)));
+        assert!(darkest.is_some_and(|x| x >= 49), "{darkest:?}");
+    }
+}

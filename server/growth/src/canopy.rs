@@ -1,0 +1,353 @@
+//! The canopy: the wood that light still reaches, and the light and vigor that flow through it.
+//!
+//! Light and vigor concern only nodes that get some light, and the wood that bears them. While shadows only
+//! deepen, a branch in full shade stays without vigor for ever, so it is left out until something gives light
+//! back. What is left lies packed in birth order: parents stand before what they bear.
+
+mod priority;
+
+use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::{
+    gravimorphism::propensity,
+    light::{ShadowGrid, Spot},
+    obstacles::Obstacles,
+    parameter_table::ParameterTable,
+    parameters::{Parameters, VigorModel},
+    space::Space,
+    vigor::{self, Flow, Split},
+};
+
+/// Work smaller than this is not worth handing to other threads.
+const PARALLEL_FROM: usize = 8192;
+/// The canopy is packed anew when one part in so many of it has gone dark.
+const DARK_SHARE: usize = 16;
+/// Nodes whose light one more shadow may change, roughly: only speed depends on it. Few in tests, so that small
+/// plants go both ways.
+const NODES_IN_SHADOW: usize = if cfg!(test) { 3 } else { 50 };
+const NOWHERE: u32 = u32::MAX;
+
+/// Light and vigor of the present.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Canopy {
+    nodes: Vec<Node>,
+    /// Where light is read, up to those nodes that are new, and the share of the sky that is seen from there.
+    spots: Vec<(Spot, f32)>,
+    /// Light at each node, 0 to 1.
+    light: Vec<f32>,
+    flows: Vec<Flow>,
+    /// Vigor for each tip that a node carries; scratch of writing appearance.
+    per_tip: Vec<f32>,
+    /// Each plant's seed and its apical control λ.
+    plants: Vec<(MetamerId, f64)>,
+    /// Vigor of each axis' bud under the priority model; empty under the other.
+    bud_vigors: Vec<f64>,
+    /// Living metamers from each node on upwards; empty while nothing can be shed.
+    sizes: Vec<u32>,
+    /// Where each metamer of the plant stands in the canopy.
+    slots: Vec<u32>,
+    /// Nodes that have gone dark since appearance was last written.
+    darkened: Vec<MetamerId>,
+    /// Whether living nodes have been left out.
+    has_left_out: bool,
+    /// Whether all must be made afresh.
+    outdated: bool,
+}
+
+/// What light and buds depend on.
+pub(crate) struct Surroundings<'a> {
+    pub plant: &'a Plant,
+    pub space: &'a Space,
+    pub shadows: &'a ShadowGrid,
+    pub obstacles: &'a Obstacles,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    id: MetamerId,
+    /// Slot of the parent.
+    parent: u32,
+    /// Which of the plants it belongs to.
+    plant: u32,
+    /// Whether it continues its parent's axis.
+    is_main: bool,
+    /// Whether its axis' bud sits here.
+    is_tip: bool,
+    /// Propensities of the lateral buds here that have not grown (TreeSketch Figure 10), added up.
+    propensity: f32,
+}
+
+impl Canopy {
+    /// Light came back, or parameters changed: everything counts again.
+    pub(crate) fn forget(&mut self) {
+        self.outdated = true;
+    }
+
+    /// Takes in what has grown since the last time; what has died must have been [buried](Self::bury).
+    pub(crate) fn follow(&mut self, plant: &Plant, parameters: &ParameterTable) {
+        let known = self.slots.len();
+        let bears_new = |id: &MetamerId| {
+            let parent = plant.metamers().parent(*id).filter(|parent| parent.index() < known);
+            parent.is_some_and(|parent| self.slots[parent.index()] == NOWHERE)
+        };
+        // A stroke can wake a branch that was left out.
+        let mut grown = (known..plant.metamer_count()).map(MetamerId::new);
+        if self.outdated || known > plant.metamer_count() || grown.any(|id| bears_new(&id)) {
+            *self = Self::default();
+        }
+        let metamers = plant.metamers();
+        for index in self.slots.len()..plant.metamer_count() {
+            let id = MetamerId::new(index);
+            if !plant.is_alive(id) {
+                self.slots.push(NOWHERE);
+                continue;
+            }
+            let slot = self.nodes.len() as u32;
+            let parent = metamers.parent(id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
+            let (mut is_main, mut of_plant) = (true, self.plants.len() as u32);
+            if let Some(below) = self.nodes.get_mut(parent as usize) {
+                of_plant = below.plant;
+                is_main = metamers.axis(below.id) == metamers.axis(id);
+                if is_main {
+                    below.is_tip = false;
+                } else {
+                    below.propensity = propensity_of_buds(plant, below.id, parameters);
+                }
+            }
+            if of_plant as usize == self.plants.len() {
+                self.plants.push((id, 0.0));
+            }
+            let propensity = propensity_of_buds(plant, id, parameters);
+            self.slots.push(slot);
+            self.nodes.push(Node { id, parent, plant: of_plant, is_main, is_tip: true, propensity });
+        }
+        self.light.resize(self.nodes.len(), 0.0);
+        self.flows.resize(self.nodes.len(), Flow::default());
+    }
+
+    /// Goes back to where the plant has gone back to: its latest metamers are no more, and it has lost none of
+    /// the others. Fails if light comes back to what was left out.
+    pub(crate) fn retreat(&mut self, plant: &Plant, parameters: &ParameterTable) {
+        let count = plant.metamer_count();
+        if self.outdated || self.has_left_out || count > self.slots.len() {
+            return self.forget();
+        }
+        let kept = self.nodes.partition_point(|node| node.id.index() < count);
+        let orphaned: Vec<u32> = self.nodes[kept..]
+            .iter()
+            .map(|node| node.parent)
+            .filter(|&parent| (parent as usize) < kept)
+            .collect();
+        self.nodes.truncate(kept);
+        self.spots.truncate(kept);
+        self.slots.truncate(count);
+        self.plants.retain(|(seed, _)| seed.index() < count);
+        for parent in orphaned {
+            let node = &mut self.nodes[parent as usize];
+            node.is_tip = plant.axes().last(plant.metamers().axis(node.id)) == Some(node.id);
+            node.propensity = propensity_of_buds(plant, node.id, parameters);
+        }
+    }
+
+    /// Reads the light: where shadows have come or gone at these nodes, or everywhere.
+    pub(crate) fn read_light(&mut self, surroundings: &Surroundings<'_>, changed: &[Vec3]) {
+        let &Surroundings { plant, space, shadows, obstacles } = surroundings;
+        let is_new = self.spots.is_empty();
+        let new = &self.nodes[self.spots.len()..];
+        self.spots.extend(new.iter().map(|node| {
+            let place = plant.metamers().end(node.id);
+            (shadows.spot(place), obstacles.sky_share(place))
+        }));
+        let read = |(light, (spot, sky)): (&mut f32, &(Spot, f32))| *light = shadows.exposure_at(spot) * sky;
+        if !is_new && changed.len() * NODES_IN_SHADOW < self.nodes.len() {
+            let boxes = changed.iter().map(|&place| shadows.reach(place));
+            space.nodes_around(boxes, |id| {
+                let slot = self.slots[id.index()] as usize;
+                if let (Some(light), Some(spot)) = (self.light.get_mut(slot), self.spots.get(slot)) {
+                    read((light, spot));
+                }
+            });
+        } else if self.nodes.len() < PARALLEL_FROM {
+            self.light.iter_mut().zip(&self.spots).for_each(read);
+        } else {
+            let least = PARALLEL_FROM / 4;
+            self.light.par_iter_mut().zip(&self.spots).with_min_len(least).for_each(read);
+        }
+    }
+
+    /// Lets light flow down and vigor up.
+    pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
+        for (seed, lambda) in &mut self.plants {
+            let age = plant.step() - plant.metamers().birth(*seed);
+            *lambda = f64::from(parameters.scene().apical_control_at(age));
+        }
+        let dark = self.gather_light(plant, parameters);
+        if parameters.scene().vigor_model == VigorModel::Priority {
+            return self.distribute_by_priority(plant, parameters);
+        }
+        // With shedding, size counts in the dark as well.
+        let may_pack = parameters.scene().shedding_threshold == 0.0;
+        if may_pack && dark * DARK_SHARE > self.nodes.len() {
+            self.has_left_out = true;
+            self.pack(plant, |flow, _| flow.light() > 0);
+        }
+        self.bud_vigors.clear();
+        let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
+        for slot in 0..self.nodes.len() {
+            let Node { parent, is_main, plant, .. } = self.nodes[slot];
+            let light = self.flows[slot].light();
+            self.flows[slot].vigor = if parent == NOWHERE {
+                gain * light as i64 as f64
+            } else {
+                let split = Split::new(&self.flows[parent as usize], self.plants[plant as usize].1);
+                if is_main { split.to_main() } else { split.to_lateral(light) }
+            };
+        }
+    }
+
+    /// Tips before bases. Returns how many nodes no light flows through.
+    fn gather_light(&mut self, plant: &Plant, parameters: &ParameterTable) -> usize {
+        let counts_size = parameters.scene().shedding_threshold > 0.0;
+        self.sizes.clear();
+        self.sizes.resize(if counts_size { self.nodes.len() } else { 0 }, 0);
+        self.flows.fill(Flow::default());
+        let mut dark = 0;
+        for slot in (0..self.nodes.len()).rev() {
+            let Node { id, parent, is_main, is_tip, propensity, .. } = self.nodes[slot];
+            let response = response(self.light[slot], parameters.of(plant.metamers().axis(id)));
+            let flow = &mut self.flows[slot];
+            flow.main += if is_tip { vigor::quantised(response) } else { 0 };
+            flow.lateral += vigor::quantised(response * propensity);
+            let through = flow.light();
+            dark += usize::from(through == 0);
+            if parent == NOWHERE {
+                continue;
+            }
+            let below = &mut self.flows[parent as usize];
+            *(if is_main { &mut below.main } else { &mut below.lateral }) += through;
+            if counts_size {
+                self.sizes[slot] += 1;
+                self.sizes[parent as usize] += self.sizes[slot];
+            }
+        }
+        dark
+    }
+
+    /// Leaves out what has died.
+    pub(crate) fn bury(&mut self, plant: &Plant) {
+        self.pack(plant, |_, id| plant.is_alive(id));
+    }
+
+    /// Keeps the nodes for which `stays` holds; what they bear stays only with them.
+    fn pack(&mut self, plant: &Plant, stays: impl Fn(&Flow, MetamerId) -> bool) {
+        let mut kept = 0;
+        for slot in 0..self.nodes.len() {
+            let (Node { id, .. }, flow) = (self.nodes[slot], self.flows[slot]);
+            if !stays(&flow, id) {
+                self.slots[id.index()] = NOWHERE;
+                self.darkened.push(id);
+                continue;
+            }
+            let parent = plant.metamers().parent(id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
+            self.slots[id.index()] = kept as u32;
+            self.nodes[kept] = Node { parent, ..self.nodes[slot] };
+            self.spots[kept] = self.spots[slot];
+            self.light[kept] = self.light[slot];
+            self.flows[kept] = flow;
+            kept += 1;
+        }
+        self.nodes.truncate(kept);
+        self.spots.truncate(kept);
+        self.light.truncate(kept);
+        self.flows.truncate(kept);
+    }
+
+    /// What flows through a metamer's node, if any light does.
+    fn flow(&self, id: MetamerId) -> Option<&Flow> {
+        self.flows.get(*self.slots.get(id.index())? as usize)
+    }
+
+    /// Vigor of the bud of a living axis.
+    pub(crate) fn bud_vigor(&self, plant: &Plant, axis: AxisId, parameters: &ParameterTable) -> f64 {
+        let node = plant.bud_node(axis);
+        if let Some(&vigor) = self.bud_vigors.get(axis.index()) {
+            return vigor;
+        }
+        let Some(flow) = self.flow(node) else { return 0.0 };
+        let of_plant = self.nodes[self.slots[node.index()] as usize].plant;
+        let split = Split::new(flow, self.plants[of_plant as usize].1);
+        if plant.axes().last(axis).is_some() {
+            return split.to_main();
+        }
+        split.to_lateral(self.lateral_input(plant, axis, node, parameters))
+    }
+
+    /// Q = bL^κ of a lateral bud that has not grown, at a node of the canopy.
+    fn lateral_input(
+        &self,
+        plant: &Plant,
+        axis: AxisId,
+        node: MetamerId,
+        parameters: &ParameterTable,
+    ) -> u64 {
+        let light = self.light[self.slots[node.index()] as usize];
+        let propensity = propensity_of(plant, axis, node, parameters);
+        vigor::quantised(response(light, parameters.of(axis)) * propensity)
+    }
+
+    /// Whether a branch's vigor per metamer lies below a threshold.
+    pub(crate) fn starves(&self, first: MetamerId, threshold: f64) -> bool {
+        let slot = self.slots[first.index()] as usize;
+        self.sizes.get(slot).is_some_and(|&size| self.flows[slot].vigor < threshold * f64::from(size))
+    }
+
+    /// Hands light and vigor on to whoever draws the plant.
+    pub(crate) fn write_appearance(&mut self, plant: &mut Plant) {
+        let count = plant.metamer_count();
+        for id in self.darkened.drain(..).filter(|id| id.index() < count) {
+            plant.set_appearance(id, Appearance { light: 0, vigor: 0 });
+        }
+        let tips = plant.metamers();
+        self.per_tip.clear();
+        self.per_tip.extend(
+            self.nodes
+                .iter()
+                .zip(&self.flows)
+                .map(|(node, flow)| flow.vigor as f32 / tips.tips(node.id).max(1) as i32 as f32),
+        );
+        let greatest = self.per_tip.iter().copied().fold(0.0, f32::max);
+        let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
+        for ((node, vigor), light) in self.nodes.iter().zip(&self.per_tip).zip(&self.light) {
+            // By way of i32: LLVM 22 crashes on a vectorised conversion of floats to bytes.
+            let byte = |x: f32| x as i32 as u8;
+            let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor * scale) };
+            plant.set_appearance(node.id, appearance);
+        }
+    }
+}
+
+/// L^κ (TreeSketch §3.2).
+fn response(light: f32, parameters: &Parameters) -> f32 {
+    let kappa = parameters.light_sensitivity;
+    if kappa == 1.0 { light } else { libm::powf(light, kappa) }
+}
+
+/// Propensities of the lateral buds at a node, added up.
+fn propensity_of_buds(plant: &Plant, node: MetamerId, parameters: &ParameterTable) -> f32 {
+    plant
+        .laterals(node)
+        .filter(|&axis| plant.axes().last(axis).is_none() && plant.is_axis_alive(axis))
+        .map(|axis| propensity_of(plant, axis, node, parameters))
+        .sum()
+}
+
+/// Propensity b of a lateral bud (TreeSketch §3.2, Figure 10). Buds that have grown do not feel gravimorphism.
+fn propensity_of(plant: &Plant, axis: AxisId, node: MetamerId, parameters: &ParameterTable) -> f32 {
+    let parameters = parameters.of(axis);
+    if !parameters.is_gravimorphic {
+        return 1.0;
+    }
+    propensity(plant.heading(node), plant.axes().direction(axis), parameters)
+}

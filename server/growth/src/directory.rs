@@ -1,0 +1,175 @@
+//! Chunks of space that exist where something was written.
+
+use glam::Vec3;
+
+const ABSENT: u32 = u32::MAX;
+
+/// Finds chunks by their whole-number coordinates; a box around all of them, sparse in between.
+#[derive(Clone, Debug)]
+pub(crate) struct Directory<C> {
+    chunks: Vec<C>,
+    table: Vec<u32>,
+    /// Least chunk coordinate of the table's box, and its size in chunks.
+    origin: [i32; 3],
+    size: [i32; 3],
+}
+
+impl<C> Directory<C> {
+    /// No chunks yet.
+    pub(crate) fn new() -> Self {
+        Self { chunks: Vec::new(), table: Vec::new(), origin: [0; 3], size: [0; 3] }
+    }
+
+    /// The chunk at these coordinates, if there is one.
+    #[inline]
+    pub(crate) fn get(&self, at: [i32; 3]) -> Option<&C> {
+        let chunk = self.table[self.slot(at)?];
+        self.chunks.get(chunk as usize)
+    }
+
+    /// The number of the chunk at these coordinates among [all](Self::all); it never changes.
+    #[inline]
+    pub(crate) fn number(&self, at: [i32; 3]) -> Option<u32> {
+        self.slot(at).map(|slot| self.table[slot]).filter(|&chunk| chunk != ABSENT)
+    }
+
+    /// The chunk at these coordinates, made if there was none.
+    #[inline]
+    pub(crate) fn get_or_make(&mut self, at: [i32; 3], make: impl FnOnce() -> C) -> &mut C {
+        let chunk = self.number_or_make(at, make);
+        &mut self.chunks[chunk as usize]
+    }
+
+    /// The number of the chunk at these coordinates, made if there was none.
+    #[inline]
+    pub(crate) fn number_or_make(&mut self, at: [i32; 3], make: impl FnOnce() -> C) -> u32 {
+        match self.slot(at) {
+            Some(slot) if self.table[slot] != ABSENT => self.table[slot],
+            _ => self.append(at, make),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn append(&mut self, at: [i32; 3], make: impl FnOnce() -> C) -> u32 {
+        let slot = self.slot(at).unwrap_or_else(|| self.widen(at));
+        let chunk = self.chunks.len();
+        if chunk == self.chunks.capacity() {
+            // Chunks are large: a quarter more at a time wastes less than the doubling of a vector.
+            self.chunks.reserve_exact(4 + chunk / 4);
+        }
+        self.table[slot] = chunk as u32;
+        self.chunks.push(make());
+        chunk as u32
+    }
+
+    /// All chunks, in the order they were made.
+    pub(crate) fn all(&self) -> &[C] {
+        &self.chunks
+    }
+
+    /// All chunks, to change.
+    pub(crate) fn all_mut(&mut self) -> &mut [C] {
+        &mut self.chunks
+    }
+
+    #[inline]
+    fn slot(&self, at: [i32; 3]) -> Option<usize> {
+        let [x, y, z] = [at[0] - self.origin[0], at[1] - self.origin[1], at[2] - self.origin[2]];
+        let [width, height, depth] = self.size;
+        // As unsigned numbers, what lies below the box lies beyond it too.
+        let inside = (x as u32) < width as u32 && (y as u32) < height as u32 && (z as u32) < depth as u32;
+        inside.then(|| ((y * depth + z) * width + x) as usize)
+    }
+
+    /// Widens the table's box to hold a chunk, with room to spare, and returns the chunk's slot.
+    #[cold]
+    fn widen(&mut self, at: [i32; 3]) -> usize {
+        let mut wider = Self::new();
+        for (i, &at) in at.iter().enumerate() {
+            let empty = self.size[i] == 0;
+            let low = if empty { at } else { self.origin[i].min(at) };
+            let high = if empty { at } else { (self.origin[i] + self.size[i] - 1).max(at) };
+            wider.origin[i] = low - 1;
+            wider.size[i] = high - low + 3;
+        }
+        wider.table = vec![ABSENT; wider.size.iter().map(|n| *n as usize).product()];
+        for y in 0..self.size[1] {
+            for z in 0..self.size[2] {
+                for x in 0..self.size[0] {
+                    let at = [x + self.origin[0], y + self.origin[1], z + self.origin[2]];
+                    if let (Some(old), Some(new)) = (self.slot(at), wider.slot(at)) {
+                        wider.table[new] = self.table[old];
+                    }
+                }
+            }
+        }
+        (self.table, self.origin, self.size) = (wider.table, wider.origin, wider.size);
+        self.slot(at).unwrap_or_else(|| unreachable!("the box was widened to hold the chunk"))
+    }
+}
+
+/// The voxel of edge 1 a point lies in.
+#[inline]
+pub(crate) fn voxel_of(place: Vec3) -> [i32; 3] {
+    [floor(place.x), floor(place.y), floor(place.z)]
+}
+
+/// A number that is close for places close to each other: the interleaved bits of their coordinates (Morton
+/// code), in voxels around the origin.
+#[inline]
+pub(crate) fn nearness(place: Vec3) -> u64 {
+    let [x, y, z] = voxel_of(place).map(|i| spread(i.wrapping_add(1 << 20) as u64 & 0x1f_ffff));
+    x | z << 1 | y << 2
+}
+
+/// Puts two zero bits after each of the lowest 21 bits.
+fn spread(mut bits: u64) -> u64 {
+    bits = (bits | bits << 32) & 0x001f_0000_0000_ffff;
+    bits = (bits | bits << 16) & 0x001f_0000_ff00_00ff;
+    bits = (bits | bits << 8) & 0x100f_00f0_0f00_f00f;
+    bits = (bits | bits << 4) & 0x10c3_0c30_c30c_30c3;
+    (bits | bits << 2) & 0x1249_2492_4924_9249
+}
+
+/// The greatest whole number not above `x`. Exact, and cheaper than `libm`'s on processors of the baseline.
+#[inline]
+fn floor(x: f32) -> i32 {
+    let toward_zero = x as i32;
+    toward_zero - i32::from(x < toward_zero as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn far_chunks_are_kept_apart() {
+        let mut directory = Directory::<u32>::new();
+        let places = [[0, 0, 0], [-1, 0, 0], [60, -3, 50], [-70, 60, -40], [15, 15, 15], [16, 16, 16]];
+        for (value, &at) in places.iter().enumerate() {
+            *directory.get_or_make(at, || 0) = value as u32 + 1;
+        }
+        for (value, &at) in places.iter().enumerate() {
+            assert_eq!(directory.get(at), Some(&(value as u32 + 1)));
+        }
+        assert_eq!(directory.get([7, 7, 7]), None);
+        assert_eq!(directory.all().len(), places.len());
+    }
+
+    #[test]
+    fn nearness_interleaves_coordinates() {
+        let origin = nearness(Vec3::ZERO);
+        assert_eq!(nearness(Vec3::new(1.0, 0.0, 0.0)) - origin, 0b001);
+        assert_eq!(nearness(Vec3::new(0.0, 0.0, 1.5)) - origin, 0b010);
+        assert_eq!(nearness(Vec3::new(3.0, 2.0, 0.0)) - origin, 0b101_001);
+        assert!(nearness(Vec3::splat(-1.0)) < origin);
+    }
+
+    #[test]
+    fn floors_agree_with_the_library() {
+        for x in [-2.5f32, -2.0, -0.0, 0.0, 0.9, 1.0, 7.3, -1e-9] {
+            assert_eq!(floor(x), libm::floorf(x) as i32, "{x}");
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! What an obstacle may be.
+
+use std::sync::Arc;
+
+use glam::{Quat, Vec3};
+
+use super::mesh::TriangleMesh;
+
+/// Coordinates of obstacles stay within this distance of the origin on each axis, in internodes.
+pub(crate) const FARTHEST: f32 = 1.0e5;
+/// How far a direction's or a rotation's length may be from 1.
+const UNIT_TOLERANCE: f32 = 1.0e-3;
+
+/// The form and place of an obstacle, valid or not; lengths in internodes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A solid box.
+    Box {
+        /// Its middle.
+        centre: Vec3,
+        /// Half its length along each of its own axes.
+        half_extents: Vec3,
+        /// World from the box's own axes, a unit quaternion.
+        rotation: Quat,
+    },
+    /// A solid ball.
+    Sphere {
+        /// Its middle.
+        centre: Vec3,
+        /// Its radius.
+        radius: f32,
+    },
+    /// A half-space: all that lies behind the plane is solid.
+    Plane {
+        /// A point of the plane.
+        point: Vec3,
+        /// Unit direction out of the solid.
+        normal: Vec3,
+    },
+    /// A mesh: solid if it is closed, otherwise a sheet without thickness.
+    Mesh(Arc<TriangleMesh>),
+}
+
+/// A valid obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    shape: Shape,
+}
+
+/// A shape cannot be an obstacle.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ObstacleError {
+    /// NaN or infinite.
+    #[error("the {0} is not a finite number")]
+    NotFinite(&'static str),
+    /// Outside every world.
+    #[error("the {0} is farther than 100000 internodes from the origin")]
+    TooFar(&'static str),
+    /// A length that must be above 0.
+    #[error("the {what} is {value}; it must be greater than 0")]
+    NotPositive {
+        /// The length.
+        what: &'static str,
+        /// What it was to be.
+        value: f32,
+    },
+    /// A direction or rotation that must have length 1.
+    #[error("the {what} has length {length}; it must be 1")]
+    NotUnit {
+        /// The direction or rotation.
+        what: &'static str,
+        /// Its length.
+        length: f32,
+    },
+    /// A mesh without a triangle that has an area.
+    #[error("the mesh has no triangles with an area")]
+    EmptyMesh,
+    /// A triangle whose corner does not exist.
+    #[error("triangle {triangle} names vertex {index}, but there are {vertices} vertices")]
+    NoSuchVertex {
+        /// The triangle.
+        triangle: usize,
+        /// The corner it names.
+        index: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// More triangles than a mesh may have.
+    #[error("the mesh has {0} triangles; at most 200000 are allowed")]
+    TooManyTriangles(usize),
+}
+
+impl Obstacle {
+    /// Takes a shape whose numbers make sense.
+    pub fn new(shape: Shape) -> Result<Self, ObstacleError> {
+        match &shape {
+            Shape::Box { centre, half_extents, rotation } => {
+                check_place("centre of the box", *centre)?;
+                check_place("size of the box", *half_extents)?;
+                check_positive("size of the box", half_extents.min_element())?;
+                let [x, y, z, w] = rotation.to_array();
+                check_unit("rotation of the box", (x * x + y * y + z * z + w * w).sqrt())?;
+            }
+            Shape::Sphere { centre, radius } => {
+                check_place("centre of the sphere", *centre)?;
+                check_place("radius of the sphere", Vec3::splat(*radius))?;
+                check_positive("radius of the sphere", *radius)?;
+            }
+            Shape::Plane { point, normal } => {
+                check_place("point of the plane", *point)?;
+                check_unit("normal of the plane", normal.length())?;
+            }
+            // A mesh was checked when it was made.
+            Shape::Mesh(_) => {}
+        }
+        Ok(Self { shape })
+    }
+
+    /// Its form and place.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+}
+
+/// A finite place within reach.
+pub(super) fn check_place(what: &'static str, place: Vec3) -> Result<(), ObstacleError> {
+    if !place.is_finite() {
+        return Err(ObstacleError::NotFinite(what));
+    }
+    if place.abs().max_element() > FARTHEST {
+        return Err(ObstacleError::TooFar(what));
+    }
+    Ok(())
+}
+
+fn check_positive(what: &'static str, value: f32) -> Result<(), ObstacleError> {
+    if value > 0.0 { Ok(()) } else { Err(ObstacleError::NotPositive { what, value }) }
+}
+
+fn check_unit(what: &'static str, length: f32) -> Result<(), ObstacleError> {
+    if !length.is_finite() {
+        return Err(ObstacleError::NotFinite(what));
+    }
+    if (length - 1.0).abs() > UNIT_TOLERANCE {
+        return Err(ObstacleError::NotUnit { what, length });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sphere(centre: Vec3, radius: f32) -> Result<Obstacle, ObstacleError> {
+        Obstacle::new(Shape::Sphere { centre, radius })
+    }
+
+    #[test]
+    fn numbers_without_meaning_are_refused() {
+        assert!(sphere(Vec3::ONE, 2.0).is_ok());
+        assert_eq!(sphere(Vec3::NAN, 2.0), Err(ObstacleError::NotFinite("centre of the sphere")));
+        assert_eq!(sphere(Vec3::ONE, f32::INFINITY), Err(ObstacleError::NotFinite("radius of the sphere")));
+        assert!(matches!(sphere(Vec3::ONE, 0.0), Err(ObstacleError::NotPositive { .. })));
+        assert_eq!(sphere(Vec3::X * 1e9, 1.0), Err(ObstacleError::TooFar("centre of the sphere")));
+    }
+
+    #[test]
+    fn directions_must_have_length_one() {
+        let plane = |normal| Obstacle::new(Shape::Plane { point: Vec3::ZERO, normal });
+        assert!(plane(Vec3::Y).is_ok());
+        assert!(matches!(plane(Vec3::ZERO), Err(ObstacleError::NotUnit { .. })));
+        assert!(matches!(plane(Vec3::Y * 2.0), Err(ObstacleError::NotUnit { .. })));
+        assert!(matches!(plane(Vec3::NAN), Err(ObstacleError::NotFinite(_))));
+        let cuboid =
+            |half_extents, rotation| Obstacle::new(Shape::Box { centre: Vec3::ZERO, half_extents, rotation });
+        assert!(cuboid(Vec3::ONE, Quat::IDENTITY).is_ok());
+        assert!(cuboid(Vec3::new(1.0, 0.0, 1.0), Quat::IDENTITY).is_err());
+        assert!(cuboid(Vec3::ONE, Quat::from_xyzw(0.0, 0.0, 0.0, 3.0)).is_err());
+    }
+}

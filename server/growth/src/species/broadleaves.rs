@@ -1,0 +1,440 @@
+//! Broadleaved trees, and ginkgo, which looks like one.
+
+use super::{
+    BarkKind, Fruit, LeafKind, Species,
+    Stage::{Change, Grow},
+    Stand, changed, life, pole, turn, weigh, with,
+};
+
+pub(super) fn all() -> Vec<Species> {
+    vec![
+        oak(),
+        beech(),
+        birch(),
+        lombardy_poplar(),
+        weeping_willow(),
+        maple(),
+        plane(),
+        cherry(),
+        apple(),
+        olive(),
+        umbrella_acacia(),
+        baobab(),
+        ginkgo(),
+    ]
+}
+
+fn oak() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.3;
+        p.apical_control = 0.487;
+        p.branching_angle = 60.0;
+        p.deflection_angle = 12.0;
+        p.setpoint_angle = 35.0;
+        weigh(p, 0.5, 0.15);
+        p.shadow_strength = 0.35;
+        p.shedding_threshold = 0.2;
+        p.girth_exponent = 2.3;
+        p.leaves_per_node = 5;
+        p.leaf_size = 1.3;
+    });
+    Species {
+        slug: "oak",
+        name: "Oak",
+        botanical: "Quercus robur",
+        sentence: "A short trunk that dissolves early into crooked, far-reaching limbs under a broad dome.",
+        leaf: LeafKind::Lobed,
+        leaf_tint: [88, 116, 48],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [118, 104, 88],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 5), [Grow(16)]),
+        parameters,
+    }
+}
+
+fn beech() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.35;
+        p.apical_control = 0.503;
+        p.branching_angle = 42.0;
+        p.phyllotactic_angle = 170.0;
+        p.setpoint_angle = 12.0;
+        weigh(p, 0.45, 0.25);
+        p.shadow_strength = 0.18;
+        p.shedding_threshold = 0.15;
+        p.leaves_per_node = 6;
+        p.leaf_size = 1.2;
+    });
+    Species {
+        slug: "beech",
+        name: "Beech",
+        botanical: "Fagus sylvatica",
+        sentence: "A smooth grey trunk that forks into steep limbs below a tall, dense, rounded crown.",
+        leaf: LeafKind::Ovate,
+        leaf_tint: [84, 130, 52],
+        fruit: None,
+        bark: BarkKind::Smooth,
+        bark_tint: [150, 148, 142],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 7), [Grow(15)]),
+        parameters,
+    }
+}
+
+fn birch() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.25;
+        p.apical_control = 0.522;
+        p.branching_angle = 38.0;
+        p.setpoint_angle = 10.0;
+        weigh(p, 0.5, 0.25);
+        p.shadow_strength = 0.15;
+        p.shedding_threshold = 0.25;
+        p.twig_diameter = 0.07;
+        p.leaves_per_node = 8;
+        p.leaf_size = 0.65;
+    });
+    let pendulous = turn(&parameters, |p| {
+        p.setpoint_angle = 170.0;
+        weigh(p, 0.5, 0.4);
+        p.max_shoot_length = 7;
+        p.apical_control = 0.52;
+        p.shedding_threshold = 0.0;
+    });
+    Species {
+        slug: "birch",
+        name: "Silver birch",
+        botanical: "Betula pendula",
+        sentence: "A slender white stem with ascending branches whose fine tips hang.",
+        leaf: LeafKind::Round,
+        leaf_tint: [126, 152, 62],
+        fruit: None,
+        bark: BarkKind::Papery,
+        bark_tint: [232, 230, 224],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 7), [Grow(13), pendulous, Grow(3)]),
+        parameters,
+    }
+}
+
+fn lombardy_poplar() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.35;
+        p.apical_control = 0.545;
+        p.branching_angle = 35.0;
+        p.deflection_angle = 2.0;
+        p.setpoint_angle = 0.0;
+        weigh(p, 0.45, 0.35);
+        p.occupancy_radius = 1.0;
+        p.perception_angle = 90.0;
+        p.shadow_strength = 0.03;
+        p.leaves_per_node = 6;
+        p.leaf_size = 1.2;
+    });
+    Species {
+        slug: "lombardy-poplar",
+        name: "Lombardy poplar",
+        botanical: "Populus nigra 'Italica'",
+        sentence: "A tall narrow column: all branches rise steeply along the trunk from the ground up.",
+        leaf: LeafKind::Round,
+        leaf_tint: [92, 128, 50],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [120, 112, 98],
+        stand: Stand::Ground,
+        schedule: vec![Grow(25)],
+        parameters,
+    }
+}
+
+fn weeping_willow() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.25;
+        p.apical_control = 0.53;
+        p.branching_angle = 55.0;
+        p.setpoint_angle = 180.0;
+        weigh(p, 0.5, 0.45);
+        p.max_shoot_length = 12;
+        p.shadow_strength = 0.1;
+        p.twig_diameter = 0.06;
+        p.leaves_per_node = 5;
+        p.leaf_size = 1.4;
+    });
+    let limbs = changed(&parameters, |p| {
+        p.apical_control = 0.48;
+        p.setpoint_angle = 40.0;
+        weigh(p, 0.6, 0.1);
+        p.max_shoot_length = 4;
+        p.shadow_strength = 0.3;
+        p.shedding_threshold = 0.25;
+    });
+    Species {
+        slug: "weeping-willow",
+        name: "Weeping willow",
+        botanical: "Salix × sepulcralis",
+        sentence: "A stout trunk and arching limbs, from which a curtain of long shoots hangs to the ground.",
+        leaf: LeafKind::Lanceolate,
+        leaf_tint: [142, 164, 70],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [122, 108, 86],
+        stand: Stand::Ground,
+        schedule: life(pole(&limbs, 6), [Grow(10), Change(Box::new(parameters.clone())), Grow(4)]),
+        parameters,
+    }
+}
+
+fn maple() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.3;
+        p.buds_per_node = 2;
+        p.phyllotactic_angle = 90.0;
+        p.apical_control = 0.505;
+        p.branching_angle = 42.0;
+        p.setpoint_angle = 5.0;
+        weigh(p, 0.45, 0.25);
+        p.shadow_strength = 0.2;
+        p.shedding_threshold = 0.15;
+        p.leaves_per_node = 4;
+        p.leaf_size = 1.5;
+    });
+    Species {
+        slug: "maple",
+        name: "Sugar maple",
+        botanical: "Acer saccharum",
+        sentence: "Paired buds build a dense oval crown, here in its autumn colours.",
+        leaf: LeafKind::Palmate,
+        leaf_tint: [206, 96, 32],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [112, 104, 94],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 4), [Grow(14)]),
+        parameters,
+    }
+}
+
+fn plane() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.35;
+        p.apical_control = 0.495;
+        p.branching_angle = 50.0;
+        p.deflection_angle = 10.0;
+        p.setpoint_angle = 20.0;
+        weigh(p, 0.5, 0.15);
+        p.light_sensitivity = 1.0;
+        p.shadow_strength = 0.3;
+        p.shedding_threshold = 0.25;
+        p.girth_exponent = 2.3;
+        p.leaves_per_node = 4;
+        p.leaf_size = 1.6;
+    });
+    Species {
+        slug: "plane",
+        name: "London plane",
+        botanical: "Platanus × hispanica",
+        sentence: "A high camouflage-patterned trunk under a few great limbs and an open, airy dome.",
+        leaf: LeafKind::Palmate,
+        leaf_tint: [116, 144, 62],
+        fruit: None,
+        bark: BarkKind::Flaking,
+        bark_tint: [138, 132, 96],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 7), [Grow(14)]),
+        parameters,
+    }
+}
+
+fn cherry() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.2;
+        p.apical_control = 0.475;
+        p.branching_angle = 45.0;
+        p.deflection_angle = 8.0;
+        p.setpoint_angle = 55.0;
+        weigh(p, 0.6, 0.1);
+        p.shadow_strength = 0.3;
+        p.shedding_threshold = 0.2;
+        p.leaves_per_node = 7;
+        p.leaf_size = 1.1;
+    });
+    Species {
+        slug: "cherry",
+        name: "Flowering cherry",
+        botanical: "Prunus × yedoensis",
+        sentence: "Wide-spread limbs on a short trunk, covered with blossom before the leaves come.",
+        leaf: LeafKind::Blossom,
+        leaf_tint: [244, 196, 208],
+        fruit: None,
+        bark: BarkKind::Banded,
+        bark_tint: [92, 68, 62],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 4), [Grow(13)]),
+        parameters,
+    }
+}
+
+fn apple() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.15;
+        p.apical_control = 0.48;
+        p.branching_angle = 65.0;
+        p.deflection_angle = 15.0;
+        p.setpoint_angle = 30.0;
+        weigh(p, 0.45, 0.12);
+        p.max_shoot_length = 3;
+        p.shadow_strength = 0.35;
+        p.shedding_threshold = 0.2;
+        p.leaves_per_node = 5;
+        p.leaf_size = 1.3;
+    });
+    Species {
+        slug: "apple",
+        name: "Apple",
+        botanical: "Malus domestica",
+        sentence: "A low round crown, as wide as high, on a short crooked trunk.",
+        leaf: LeafKind::Ovate,
+        leaf_tint: [104, 140, 66],
+        fruit: Some(Fruit { tint: [200, 42, 34], size: 0.75, share: 0.05 }),
+        bark: BarkKind::Furrowed,
+        bark_tint: [110, 98, 84],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 4), [Grow(15)]),
+        parameters,
+    }
+}
+
+fn olive() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.15;
+        p.buds_per_node = 2;
+        p.phyllotactic_angle = 90.0;
+        p.apical_control = 0.475;
+        p.branching_angle = 50.0;
+        p.setpoint_angle = 50.0;
+        weigh(p, 0.35, 0.05);
+        p.light_sensitivity = 1.5;
+        p.max_shoot_length = 3;
+        p.shadow_strength = 0.35;
+        p.shedding_threshold = 0.15;
+        p.girth_exponent = 2.05;
+        p.twig_diameter = 0.08;
+        p.leaves_per_node = 8;
+        p.leaf_size = 1.5;
+    });
+    Species {
+        slug: "olive",
+        name: "Olive",
+        botanical: "Olea europaea",
+        sentence: "An old, thick, twisted trunk that carries a loose grey-green crown.",
+        leaf: LeafKind::Lanceolate,
+        leaf_tint: [138, 150, 112],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [128, 120, 106],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 2), [Grow(16)]),
+        parameters,
+    }
+}
+
+fn umbrella_acacia() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.2;
+        p.apical_control = 0.46;
+        p.branching_angle = 50.0;
+        p.deflection_angle = 10.0;
+        p.setpoint_angle = 45.0;
+        p.light_sensitivity = 2.0;
+        weigh(p, 0.45, 0.35);
+        p.shadow_strength = 0.4;
+        p.shedding_threshold = 0.22;
+        p.twig_diameter = 0.08;
+        p.leaves_per_node = 9;
+        p.leaf_size = 1.1;
+        p.trunk_upward = false;
+    });
+    let flat = turn(&parameters, |p| {
+        p.setpoint_angle = 90.0;
+        weigh(p, 0.3, 0.5);
+        p.shadow_strength = 0.3;
+    });
+    Species {
+        slug: "umbrella-acacia",
+        name: "Umbrella acacia",
+        botanical: "Vachellia tortilis",
+        sentence: "A wide, flat-topped canopy on limbs that fork low and spread like an umbrella's ribs.",
+        leaf: LeafKind::Compound,
+        leaf_tint: [112, 132, 62],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [116, 96, 76],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 4), [Grow(11), flat, Grow(4)]),
+        parameters,
+    }
+}
+
+fn baobab() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.4;
+        p.apical_control = 0.47;
+        p.branching_angle = 65.0;
+        p.deflection_angle = 15.0;
+        p.setpoint_angle = 70.0;
+        weigh(p, 0.5, 0.15);
+        p.max_shoot_length = 3;
+        p.shadow_strength = 0.5;
+        p.shedding_threshold = 0.25;
+        p.girth_exponent = 2.0;
+        p.twig_diameter = 0.28;
+        p.leaves_per_node = 3;
+        p.leaf_size = 1.1;
+    });
+    Species {
+        slug: "baobab",
+        name: "Baobab",
+        botanical: "Adansonia digitata",
+        sentence: "A barrel of a trunk, out of all proportion to the short, sparse crown on top.",
+        leaf: LeafKind::Palmate,
+        leaf_tint: [110, 134, 64],
+        fruit: None,
+        bark: BarkKind::Smooth,
+        bark_tint: [158, 138, 122],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 5), [Grow(7)]),
+        parameters,
+    }
+}
+
+fn ginkgo() -> Species {
+    let parameters = with(|p| {
+        p.internode_length = 0.3;
+        p.apical_control = 0.525;
+        p.branching_angle = 55.0;
+        p.setpoint_angle = 40.0;
+        weigh(p, 0.65, 0.15);
+        p.max_shoot_length = 5;
+        p.light_sensitivity = 1.5;
+        p.shadow_strength = 0.3;
+        p.shedding_threshold = 0.2;
+        p.leaves_per_node = 6;
+        p.leaf_size = 1.0;
+    });
+    Species {
+        slug: "ginkgo",
+        name: "Ginkgo",
+        botanical: "Ginkgo biloba",
+        sentence: "Few stiff ascending limbs on a straight stem, clad in small fans that turn butter-yellow.",
+        leaf: LeafKind::Fan,
+        leaf_tint: [238, 196, 50],
+        fruit: None,
+        bark: BarkKind::Furrowed,
+        bark_tint: [116, 104, 90],
+        stand: Stand::Ground,
+        schedule: life(pole(&parameters, 3), [Grow(13)]),
+        parameters,
+    }
+}

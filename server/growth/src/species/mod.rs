@@ -1,0 +1,240 @@
+//! Species: sets of parameters with a name, and how a tree of that form grows up.
+//!
+//! [`Species::parameters`] is what a picker applies: ordinary parameters, good for brush and autonomous growth
+//! alike. [`Species::schedule`] is a whole life that ends in the tree of the contact sheet, for where one set of
+//! parameters from seed to age does not make the form (TreeSketch §3.4 and Figure 17, trees A3 and C1).
+
+mod broadleaves;
+mod conifers;
+mod shaped;
+
+use std::sync::LazyLock;
+
+use glam::Vec3;
+
+use crate::{brush::BrushSample, parameters::ParameterValues};
+
+/// A form of growth with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Species {
+    /// Short name for links and the command line: small letters and hyphens.
+    pub slug: &'static str,
+    /// Name as people say it.
+    pub name: &'static str,
+    /// Botanical name, or what the style is called.
+    pub botanical: &'static str,
+    /// What tells it from others, in one sentence.
+    pub sentence: &'static str,
+    /// What its leaves look like.
+    pub leaf: LeafKind,
+    /// Colour of the leaves in sRGB.
+    pub leaf_tint: [u8; 3],
+    /// The fruit it bears, if any is to be seen.
+    pub fruit: Option<Fruit>,
+    /// What its bark looks like.
+    pub bark: BarkKind,
+    /// Colour of the bark in sRGB.
+    pub bark_tint: [u8; 3],
+    /// What it stands on in a picture.
+    pub stand: Stand,
+    /// The parameters it begins with.
+    pub parameters: ParameterValues,
+    /// Its life, stage by stage.
+    pub schedule: Vec<Stage>,
+}
+
+/// One stage of a life.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stage {
+    /// So many steps without guidance.
+    Grow(u32),
+    /// From here on these parameters.
+    Change(Box<ParameterValues>),
+    /// Another seed of the same kind, on the ground at x and z.
+    Sow(f32, f32),
+    /// One stroke of the brush, which moves from each place to the next, or rests where a place is repeated.
+    Brush(Vec<BrushSample>),
+}
+
+/// Forms of leaves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LeafKind {
+    /// Egg-shaped, as of beech and apple.
+    Ovate,
+    /// Nearly as broad as long, on a long stalk, as of poplars and birches.
+    Round,
+    /// Long and narrow, as of willow and olive.
+    Lanceolate,
+    /// With round lobes, as of oaks.
+    Lobed,
+    /// Like a hand, as of maples and planes.
+    Palmate,
+    /// A fan, as of ginkgo.
+    Fan,
+    /// Many leaflets on one stalk, as of acacias.
+    Compound,
+    /// Tufts of needles, as of pines and spruces.
+    Needle,
+    /// Scales that hide the twig, as of cypresses.
+    Scale,
+    /// Flowers before the leaves, as of cherries.
+    Blossom,
+}
+
+/// Round fruit among the leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fruit {
+    /// Colour in sRGB.
+    pub tint: [u8; 3],
+    /// Diameter in internodes.
+    pub size: f32,
+    /// Fruits to a leaf.
+    pub share: f32,
+}
+
+/// Patterns of bark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BarkKind {
+    /// Plain, as of beech.
+    Smooth,
+    /// With furrows along the stem, as of oak.
+    Furrowed,
+    /// In plates, and red where it peels above, as of Scots pine.
+    Plated,
+    /// White with black marks, as of birch.
+    Papery,
+    /// In patches of many colours, as of plane.
+    Flaking,
+    /// With bands around the stem, as of cherry.
+    Banded,
+    /// In fine strips, as of cypress and juniper.
+    Stringy,
+}
+
+/// What a plant stands on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stand {
+    /// Open ground.
+    #[default]
+    Ground,
+    /// A shallow tray.
+    Tray,
+    /// A tall pot.
+    Pot,
+}
+
+/// All species, in the order of the contact sheet.
+pub fn all() -> &'static [Species] {
+    static ALL: LazyLock<Vec<Species>> =
+        LazyLock::new(|| [broadleaves::all(), conifers::all(), shaped::all()].concat());
+    &ALL
+}
+
+/// The species with a slug.
+pub fn find(slug: &str) -> Option<&'static Species> {
+    all().iter().find(|species| species.slug == slug)
+}
+
+/// The default parameters, some of them changed.
+fn with(change: impl FnOnce(&mut ParameterValues)) -> ParameterValues {
+    let mut values = ParameterValues::default();
+    change(&mut values);
+    values
+}
+
+/// These values, some of them changed.
+fn changed(values: &ParameterValues, change: impl FnOnce(&mut ParameterValues)) -> ParameterValues {
+    let mut values = values.clone();
+    change(&mut values);
+    values
+}
+
+/// From here on these values, some of them changed.
+fn turn(values: &ParameterValues, change: impl FnOnce(&mut ParameterValues)) -> Stage {
+    Stage::Change(Box::new(changed(values, change)))
+}
+
+/// A bare pole first, then the rest of its life.
+fn life(first: [Stage; 3], rest: impl IntoIterator<Item = Stage>) -> Vec<Stage> {
+    first.into_iter().chain(rest).collect()
+}
+
+/// Sets α, β and γ, which belong together: they sum to 1.
+fn weigh(values: &mut ParameterValues, heading: f32, tropism: f32) {
+    values.heading_weight = heading;
+    values.tropism_weight = tropism;
+    values.space_weight = 1.0 - heading - tropism;
+}
+
+/// A stroke through places (x, y, z, radius).
+fn stroke(places: &[(f32, f32, f32, f32)]) -> Stage {
+    let sample =
+        |&(x, y, z, radius): &(f32, f32, f32, f32)| BrushSample { position: Vec3::new(x, y, z), radius };
+    Stage::Brush(places.iter().map(sample).collect())
+}
+
+/// Grows a bare pole first: laterals are given up as soon as they are judged.
+fn pole(parameters: &ParameterValues, steps: u32) -> [Stage; 3] {
+    let young = turn(parameters, |p| {
+        p.shedding_threshold = 0.9;
+        p.apical_control = 0.5;
+        p.shadow_strength = 0.2;
+        p.light_sensitivity = 1.0;
+        p.max_shoot_length = 4;
+        p.trunk_upward = true;
+    });
+    [young, Stage::Grow(steps), Stage::Change(Box::new(parameters.clone()))]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::{NoObserver, Parameters, Simulation, StepInput};
+
+    #[test]
+    fn slugs_are_unique_and_plain() {
+        let slugs: BTreeSet<&str> = all().iter().map(|species| species.slug).collect();
+        assert!(slugs.len() == all().len() && slugs.len() >= 22, "{} of {}", slugs.len(), all().len());
+        for slug in slugs {
+            assert!(slug.bytes().all(|b| b.is_ascii_lowercase() || b == b'-') && !slug.is_empty(), "{slug}");
+            assert_eq!(find(slug).map(|species| species.slug), Some(slug));
+        }
+        assert_eq!(find("triffid"), None);
+    }
+
+    #[test]
+    fn every_species_says_what_it_is() {
+        for species in all() {
+            assert!(!species.name.is_empty() && !species.botanical.is_empty(), "{}", species.slug);
+            assert!(species.sentence.len() > 40 && species.sentence.ends_with('.'), "{}", species.slug);
+        }
+    }
+
+    #[test]
+    fn parameters_of_every_stage_are_in_range() {
+        for species in all() {
+            let changes = species.schedule.iter().filter_map(|stage| match stage {
+                Stage::Change(values) => Some(&**values),
+                _ => None,
+            });
+            for values in changes.chain([&species.parameters]) {
+                assert_eq!(Parameters::new(values.clone()).err(), None, "{}", species.slug);
+            }
+        }
+    }
+
+    #[test]
+    fn every_species_grows_on_its_own() {
+        for species in all() {
+            let parameters = Parameters::new(species.parameters.clone()).expect("in range");
+            let mut simulation = Simulation::new(1, parameters);
+            for _ in 0..6 {
+                simulation.step(&StepInput { autonomous: true, ..StepInput::default() }, &mut NoObserver);
+            }
+            let grown = simulation.plant().living_count();
+            assert!(grown >= 10, "{} has {grown} metamers", species.slug);
+        }
+    }
+}

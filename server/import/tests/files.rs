@@ -1,0 +1,259 @@
+//! Files in the shapes that programs write them, and in shapes that no program should.
+
+use base64::{Engine, engine::general_purpose::STANDARD};
+use espalier_growth::{MAX_TRIANGLES, ObstacleError, TriangleMesh};
+use espalier_import::{ImportError, obstacle_mesh};
+use glam::Vec3;
+use proptest::prelude::*;
+use serde_json::{Value, json};
+
+/// The corners of a tetrahedron, then its faces as bytes.
+fn tetrahedron() -> Vec<u8> {
+    let corners: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut bytes: Vec<u8> = corners.iter().flatten().flat_map(|c| c.to_le_bytes()).collect();
+    bytes.extend([0u8, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+    bytes
+}
+
+fn document(nodes: Value) -> Value {
+    json!({
+        "asset": { "version": "2.0" },
+        "scene": 0,
+        "scenes": [{ "nodes": [0] }],
+        "nodes": nodes,
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": 1 }] }],
+        "accessors": [
+            { "bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 4,
+              "min": [0.0, 0.0, 0.0], "max": [1.0, 1.0, 1.0] },
+            { "bufferView": 1, "componentType": 5121, "type": "SCALAR", "count": 12 }
+        ],
+        "bufferViews": [
+            { "buffer": 0, "byteOffset": 0, "byteLength": 48 },
+            { "buffer": 0, "byteOffset": 48, "byteLength": 12 }
+        ],
+        "buffers": [{ "byteLength": 60 }]
+    })
+}
+
+fn glb(document: &Value, binary: &[u8]) -> Vec<u8> {
+    let mut json = serde_json::to_vec(document).expect("JSON");
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let mut binary = binary.to_vec();
+    binary.resize(binary.len().next_multiple_of(4), 0);
+    let mut bytes = b"glTF".to_vec();
+    for word in [2, (12 + 8 + json.len() + 8 + binary.len()) as u32, json.len() as u32, 0x4e4f_534a] {
+        bytes.extend(word.to_le_bytes());
+    }
+    bytes.extend(&json);
+    for word in [binary.len() as u32, 0x004e_4942] {
+        bytes.extend(word.to_le_bytes());
+    }
+    bytes.extend(&binary);
+    bytes
+}
+
+fn one_node() -> Value {
+    document(json!([{ "mesh": 0 }]))
+}
+
+fn read(document: &Value) -> Result<TriangleMesh, ImportError> {
+    obstacle_mesh(&glb(document, &tetrahedron()), 1.0)
+}
+
+fn set(document: &mut Value, at: &str, value: Value) {
+    *document.pointer_mut(at).expect("it is there") = value;
+}
+
+#[test]
+fn a_glb_gives_its_triangles() {
+    let mesh = obstacle_mesh(&glb(&one_node(), &tetrahedron()), 10.0).expect("a mesh");
+    assert_eq!(mesh.vertices(), [Vec3::ZERO, Vec3::X * 10.0, Vec3::Y * 10.0, Vec3::Z * 10.0]);
+    assert_eq!(mesh.triangles(), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
+    assert!(mesh.is_closed());
+}
+
+#[test]
+fn json_with_embedded_buffers_reads_alike() {
+    let mut text = one_node();
+    let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(tetrahedron()));
+    text["buffers"][0]["uri"] = json!(uri);
+    let bytes = serde_json::to_vec(&text).expect("JSON");
+    assert_eq!(obstacle_mesh(&bytes, 1.0), read(&one_node()));
+}
+
+#[test]
+fn nodes_put_meshes_where_they_say() {
+    let half = core::f32::consts::FRAC_1_SQRT_2;
+    let nested = document(json!([
+        { "children": [1, 2], "translation": [10.0, 0.0, 0.0], "scale": [2.0, 2.0, 2.0] },
+        // A quarter turn around y takes x to −z.
+        { "mesh": 0, "rotation": [0.0, half, 0.0, half], "translation": [0.0, 1.0, 0.0] },
+        { "mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1] }
+    ]));
+    let mesh = read(&nested).expect("a mesh");
+    assert_eq!(mesh.triangles().len(), 8);
+    let expected = [
+        Vec3::new(10.0, 2.0, 0.0),
+        Vec3::new(10.0, 2.0, -2.0),
+        Vec3::new(10.0, 4.0, 0.0),
+        Vec3::new(12.0, 2.0, 0.0),
+        Vec3::new(20.0, 12.0, 14.0),
+    ];
+    for (found, expected) in mesh.vertices().iter().zip(expected) {
+        assert!(found.distance(expected) < 1e-5, "{found} {expected}");
+    }
+}
+
+#[test]
+fn transforms_agree_with_the_gltf_crate() {
+    let nodes = json!([
+        { "children": [1], "rotation": [0.1825742, 0.3651484, 0.5477226, 0.7302967], "scale": [1.0, -2.0, 0.5] },
+        { "mesh": 0, "translation": [3.0, 4.0, 5.0], "rotation": [0.5, -0.5, 0.5, 0.5] }
+    ]);
+    let bytes = glb(&document(nodes), &tetrahedron());
+    let oracle = gltf::Gltf::from_slice(&bytes).expect("the other reader takes it too");
+    let matrix = |number: usize| {
+        let columns = oracle.nodes().nth(number).expect("a node").transform().matrix();
+        glam::Mat4::from_cols_array_2d(&columns)
+    };
+    let world = matrix(0) * matrix(1);
+    let mesh = obstacle_mesh(&bytes, 1.0).expect("a mesh");
+    for (found, local) in mesh.vertices().iter().zip([Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z]) {
+        assert!(found.distance(world.transform_point3(local)) < 1e-4);
+    }
+}
+
+#[test]
+fn strips_fans_and_plain_vertices_are_triangles() {
+    let triangles = |mode: u32, indexed: bool| {
+        let mut document = one_node();
+        let primitive = &mut document["meshes"][0]["primitives"][0];
+        primitive["mode"] = json!(mode);
+        if !indexed {
+            primitive.as_object_mut().expect("an object").remove("indices");
+        }
+        read(&document).map(|mesh| mesh.triangles().to_vec())
+    };
+    assert_eq!(triangles(5, false), Ok(vec![[0, 1, 2], [1, 3, 2]]));
+    assert_eq!(triangles(6, false), Ok(vec![[0, 1, 2], [0, 2, 3]]));
+    assert_eq!(triangles(4, false), Ok(vec![[0, 1, 2]]));
+    for points_or_lines in 0..4 {
+        assert_eq!(triangles(points_or_lines, true), Err(ObstacleError::EmptyMesh.into()));
+    }
+}
+
+#[test]
+fn interleaved_vertices_are_read_by_their_stride() {
+    let corners: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut bytes = Vec::new();
+    for corner in corners {
+        bytes.extend(corner.iter().flat_map(|c| c.to_le_bytes()));
+        bytes.extend([0xff; 8]);
+    }
+    // The last item does not fill its stride.
+    bytes.truncate(72);
+    bytes.extend([0u8, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]);
+    let mut document = one_node();
+    document["bufferViews"] = json!([
+        { "buffer": 0, "byteLength": 72, "byteStride": 20 },
+        { "buffer": 0, "byteOffset": 72, "byteLength": 12 }
+    ]);
+    document["buffers"] = json!([{ "byteLength": 84 }]);
+    assert_eq!(obstacle_mesh(&glb(&document, &bytes), 1.0), read(&one_node()));
+}
+
+#[test]
+fn what_is_not_read_is_named() {
+    let required = |name: &str| {
+        let mut document = one_node();
+        document["extensionsRequired"] = json!([name]);
+        read(&document).err()
+    };
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
+        assert_eq!(required(name), Some(ImportError::Compressed(name.to_owned())));
+    }
+    assert!(matches!(required("KHR_mesh_quantization"), Some(ImportError::Unsupported(_))));
+    assert_eq!(required("KHR_materials_unlit"), None);
+    let mut external = one_node();
+    external["buffers"][0]["uri"] = json!("house.bin");
+    assert_eq!(read(&external), Err(ImportError::ExternalBuffer(0)));
+    let mut old = one_node();
+    set(&mut old, "/asset/version", json!("1.0"));
+    assert_eq!(read(&old), Err(ImportError::Version("1.0".to_owned())));
+    let mut sparse = one_node();
+    sparse["accessors"][0]["sparse"] = json!({ "count": 1 });
+    assert!(matches!(read(&sparse), Err(ImportError::Unsupported(_))));
+    assert!(matches!(obstacle_mesh(b"hello", 1.0), Err(ImportError::NotGltf(_))));
+    assert!(matches!(obstacle_mesh(b"", 1.0), Err(ImportError::NotGltf(_))));
+    for scale in [0.0, -1.0, f32::NAN, f32::INFINITY] {
+        assert!(matches!(
+            obstacle_mesh(&glb(&one_node(), &tetrahedron()), scale),
+            Err(ImportError::Scale(_))
+        ));
+    }
+}
+
+#[test]
+fn damaged_files_are_refused() {
+    let changes = [
+        ("/scene", json!(7)),
+        ("/scenes/0/nodes/0", json!(7)),
+        ("/nodes/0/mesh", json!(7)),
+        ("/meshes/0/primitives/0/indices", json!(7)),
+        ("/meshes/0/primitives/0/attributes/POSITION", json!(7)),
+        ("/accessors/0/bufferView", json!(7)),
+        ("/accessors/0/bufferView", Value::Null),
+        ("/accessors/0/count", json!(5)),
+        ("/accessors/0/count", json!(usize::MAX)),
+        ("/accessors/0/count", json!(2)),
+        ("/accessors/1/componentType", json!(5126)),
+        ("/accessors/1/count", json!(13)),
+        ("/bufferViews/0/buffer", json!(7)),
+        ("/bufferViews/0/byteOffset", json!(usize::MAX)),
+        ("/bufferViews/0/byteLength", json!(1000)),
+        ("/buffers/0/byteLength", json!(1000)),
+    ];
+    for (at, value) in changes {
+        let mut document = one_node();
+        set(&mut document, at, value.clone());
+        let refused = read(&document);
+        assert!(matches!(refused, Err(ImportError::Damaged(_))), "{at} = {value}: {refused:?}");
+    }
+    let whole = glb(&one_node(), &tetrahedron());
+    for len in 0..whole.len() {
+        assert!(obstacle_mesh(&whole[..len], 1.0).is_err(), "cut to {len}");
+    }
+}
+
+#[test]
+fn nodes_that_bear_themselves_come_to_an_end() {
+    let circle = document(json!([{ "mesh": 0, "children": [1] }, { "children": [0] }]));
+    assert!(read(&circle).is_err());
+    // Two of each at every level: 2^60 in all.
+    let levels: Vec<Value> = (0..60).map(|i| json!({ "children": [i + 1, i + 1] })).collect();
+    let mut doubling = document(json!(levels));
+    doubling["nodes"].as_array_mut().expect("an array").push(json!({}));
+    assert!(matches!(read(&doubling), Err(ImportError::Damaged(_))));
+}
+
+#[test]
+fn too_many_triangles_are_refused() {
+    let copies = MAX_TRIANGLES / 4 + 1;
+    let mut many = document(json!(vec![json!({ "mesh": 0 }); copies]));
+    many["scenes"][0]["nodes"] = json!((0..copies).collect::<Vec<_>>());
+    let error = read(&many).expect_err("four triangles too many");
+    assert_eq!(error, ImportError::Mesh(ObstacleError::TooManyTriangles(4 * copies)));
+}
+
+proptest! {
+    #[test]
+    fn any_damage_gives_a_mesh_or_an_error(at in 0usize..900, byte: u8, more in prop::collection::vec((0usize..900, any::<u8>()), 0..4)) {
+        let mut bytes = glb(&one_node(), &tetrahedron());
+        let len = bytes.len();
+        for (at, byte) in more.into_iter().chain([(at, byte)]) {
+            bytes[at % len] = byte;
+        }
+        // What counts is that it returns.
+        let _ = obstacle_mesh(&bytes, 1.0);
+    }
+}

@@ -1,0 +1,192 @@
+//! Growth of a document: what an action asks for becomes steps, and steps are run one by one.
+
+use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
+use espalier_plant::{AxisId, MetamerId};
+use espalier_proto::{Problem, ProblemCode};
+
+use super::{Document, history::Kind, refused};
+use crate::action::Lasso;
+
+/// A lasso that still grows after so many steps is left as it is (`LA1`).
+const MAX_LASSO_STEPS: u32 = 400;
+
+/// Steps still to be run for an action taken on.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Pending {
+    /// One step of brushing.
+    Brush(StepInput),
+    /// So many steps without guidance.
+    Autonomous { left: u32, chosen: Option<AxisId> },
+    /// At most so many steps, while the markers of a lasso make anything grow.
+    Lasso { left: u32, chosen: Option<AxisId> },
+    /// At most so many steps for a lifted brush, while buds find what it left.
+    Settle { stroke: StrokeId, left: u32, chosen: Option<AxisId> },
+}
+
+impl Document {
+    /// Runs one pending step; false when none is pending.
+    pub fn advance(&mut self) -> bool {
+        self.advance_observed(&mut NoObserver)
+    }
+
+    /// Runs one pending step under the eyes of someone with a clock; false when none is pending.
+    pub fn advance_observed(&mut self, observer: &mut impl Observer) -> bool {
+        let Some(pending) = self.pending.pop_front() else { return false };
+        match pending {
+            Pending::Brush(input) => {
+                self.step(&input, observer);
+            }
+            Pending::Autonomous { left, chosen } => {
+                let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
+                if !self.is_stopped() {
+                    self.step(&input, observer);
+                    if left > 1 && !self.simulation.is_out_of_budget() {
+                        self.pending.push_front(Pending::Autonomous { left: left - 1, chosen });
+                    }
+                }
+            }
+            Pending::Lasso { left, chosen } => {
+                let mut grows = false;
+                if left > 0 && !self.is_stopped() {
+                    let input = StepInput { chosen, ..StepInput::default() };
+                    grows = self.step(&input, observer).metamers_grown > 0;
+                }
+                if grows && !self.simulation.is_out_of_budget() {
+                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen });
+                } else {
+                    self.simulation.drop_envelopes();
+                }
+            }
+            Pending::Settle { stroke, left, chosen } => {
+                let outcome = if left > 0 && self.simulation.has_guidance() {
+                    self.step(&StepInput { chosen, ..StepInput::default() }, observer)
+                } else {
+                    StepOutcome::default()
+                };
+                // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
+                if outcome == StepOutcome::default() {
+                    self.simulation.end_stroke(stroke);
+                    if self.strokes.is_empty() {
+                        self.simulation.drop_guidance();
+                    }
+                } else {
+                    self.pending.push_front(Pending::Settle { stroke, left: left - 1, chosen });
+                }
+            }
+        }
+        self.history.reach(self.simulation.plant().step());
+        if self.pending.is_empty() && self.strokes.is_empty() {
+            self.history.forget_idle();
+        }
+        true
+    }
+
+    /// Steps still to be run; a lasso counts as one, for nobody knows.
+    pub fn pending_steps(&self) -> u32 {
+        let steps = |pending: &Pending| match pending {
+            Pending::Brush(_) | Pending::Lasso { .. } => 1,
+            Pending::Autonomous { left, .. } => *left,
+            Pending::Settle { .. } => 0,
+        };
+        self.pending.iter().map(steps).sum()
+    }
+
+    /// Steps begun up to now, those included in which nothing grew; going back in time takes none away.
+    pub fn steps_begun(&self) -> u32 {
+        self.steps_begun
+    }
+
+    /// From here on growth and lassos end when so many steps have been begun; none for no such end (`ST1`).
+    /// Who replays a journal must say the same for the same commands.
+    pub(crate) fn stop_at(&mut self, steps_begun: Option<u32>) {
+        self.stop_at = steps_begun;
+    }
+
+    pub(super) fn begin_stroke(
+        &mut self,
+        author: &str,
+        stroke: u32,
+        bud: Option<u32>,
+    ) -> Result<(), Problem> {
+        let chosen = self.chosen(bud)?;
+        let joins = !self.strokes.is_empty();
+        self.strokes.open(author, stroke, chosen)?;
+        // Strokes that overlap in time are one operation: their steps cannot be told apart.
+        if !joins {
+            self.record(Kind::Stroke, author, None);
+        }
+        Ok(())
+    }
+
+    pub(super) fn begin_growth(
+        &mut self,
+        author: &str,
+        steps: u32,
+        gesture: Option<u32>,
+        bud: Option<u32>,
+    ) -> Result<(), Problem> {
+        self.require_room()?;
+        let chosen = self.chosen(bud)?;
+        let continues = self.history.continues(author, gesture, self.plant().step());
+        if self.strokes.is_empty() && !continues {
+            self.record(Kind::Growth, author, gesture);
+        }
+        self.pending.push_back(Pending::Autonomous { left: steps, chosen });
+        Ok(())
+    }
+
+    pub(super) fn begin_lasso(
+        &mut self,
+        author: &str,
+        lasso: &Lasso,
+        bud: Option<u32>,
+    ) -> Result<(), Problem> {
+        self.require_room()?;
+        let chosen = self.chosen(bud)?;
+        let Lasso { outline, origin, right, up, depth } = lasso;
+        let plane = Plane { origin: *origin, right: *right, up: *up };
+        let zone = self.simulation.parameters().occupancy_radius;
+        let envelope = Envelope::inflate(outline, plane, *depth, zone).map_err(|error| Problem {
+            code: ProblemCode::Refused,
+            field: Some("outline".into()),
+            allowed: None,
+            message: format!("nothing can grow into this: {error}"),
+        })?;
+        if self.strokes.is_empty() {
+            self.record(Kind::Lasso, author, None);
+        }
+        self.simulation.enclose(&envelope);
+        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen });
+        Ok(())
+    }
+
+    /// The axis at the node of the metamer with this row, if one is asked for (`SG1`).
+    fn chosen(&self, row: Option<u32>) -> Result<Option<AxisId>, Problem> {
+        let Some(row) = row else { return Ok(None) };
+        let known = (row as usize) < self.plant().metamer_count();
+        let axis = known.then(|| self.simulation.axis_at(MetamerId::new(row as usize))).flatten();
+        axis.map(Some).ok_or_else(|| Problem {
+            code: ProblemCode::NotFound,
+            field: Some("bud".into()),
+            allowed: Some("the row of a living metamer".into()),
+            message: format!("there is no living metamer with row {row}"),
+        })
+    }
+
+    pub(super) fn require_room(&self) -> Result<(), Problem> {
+        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.metamer_budget());
+        if held < budget {
+            return Ok(());
+        }
+        Err(refused(format!("the document holds {held} metamers, its budget is {budget}")))
+    }
+
+    fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
+        self.steps_begun = self.steps_begun.wrapping_add(1);
+        self.simulation.step(input, observer)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop_at.is_some_and(|end| self.steps_begun >= end)
+    }
+}

@@ -1,0 +1,160 @@
+//! The obstacles of a document: placed, moved, removed, each an operation.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use espalier_growth::Obstacle as Solid;
+use espalier_plant::hash::StableHash;
+use espalier_proto::{PlacedObstacle, Problem, ProblemCode, version::MAX_OBSTACLES};
+
+use super::{
+    Document,
+    history::{Kind, Setting},
+    refused,
+};
+use crate::obstacle::{Mesh, Obstacle, Pose, Standing};
+
+/// All obstacles at one time, in order of their ids.
+pub(super) type Standings = Arc<Vec<Standing>>;
+
+/// Triangles of all meshes that the scene or an operation holds on to; undo needs them (`LM6`).
+const MAX_HELD_TRIANGLES: usize = 1_000_000;
+
+/// The obstacles in the scene.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Obstacles {
+    pub standing: Standings,
+    /// Obstacles ever placed: names the next one.
+    pub placed: u32,
+}
+
+impl Obstacles {
+    /// The obstacles as growth sees them.
+    pub fn solids(standing: &Standings) -> Vec<Solid> {
+        // Each was tried when it was placed, so none is left out.
+        standing.iter().filter_map(|standing| standing.obstacle.solid().ok()).collect()
+    }
+
+    pub fn hash(&self, hash: &mut StableHash) {
+        hash.word(u64::from(self.placed));
+        for standing in &*self.standing {
+            let text = serde_json::to_vec(&standing.to_proto()).unwrap_or_default();
+            let mesh = standing.obstacle.mesh().map(|mesh| mesh.to_bytes()).unwrap_or_default();
+            for part in [text, mesh] {
+                hash.word(part.len() as u64);
+                for chunk in part.chunks(8) {
+                    hash.word(chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte)));
+                }
+            }
+        }
+    }
+
+    fn find(&self, id: u32) -> Result<usize, Problem> {
+        self.standing.binary_search_by_key(&id, |standing| standing.id).map_err(|_| Problem {
+            code: ProblemCode::NotFound,
+            field: Some("id".into()),
+            allowed: Some("the id of an obstacle in the scene".into()),
+            message: format!("there is no obstacle {id}"),
+        })
+    }
+}
+
+impl Document {
+    /// The obstacles in the scene, in order of their ids.
+    pub fn obstacles(&self) -> Vec<PlacedObstacle> {
+        self.obstacles.standing.iter().map(Standing::to_proto).collect()
+    }
+
+    /// The meshes in the scene by the id of their obstacles.
+    pub(crate) fn meshes(&self) -> BTreeMap<u32, Arc<Mesh>> {
+        let mesh = |standing: &Standing| Some((standing.id, Arc::clone(standing.obstacle.mesh()?)));
+        self.obstacles.standing.iter().filter_map(mesh).collect()
+    }
+
+    /// Whether both have the very same obstacles; costs nothing.
+    pub(crate) fn has_obstacles_of(&self, other: &ObstaclesMark) -> bool {
+        Arc::ptr_eq(&self.obstacles.standing, &other.0)
+    }
+
+    /// What [`Document::has_obstacles_of`] compares with.
+    pub(crate) fn obstacles_mark(&self) -> ObstaclesMark {
+        ObstaclesMark(Arc::clone(&self.obstacles.standing))
+    }
+
+    pub(super) fn place_obstacle(&mut self, author: &str, obstacle: &Obstacle) -> Result<(), Problem> {
+        let standing = &self.obstacles.standing;
+        if standing.len() >= MAX_OBSTACLES {
+            return Err(refused(format!("the scene has {MAX_OBSTACLES} obstacles; remove one first")));
+        }
+        let new = obstacle.mesh().map_or(0, |mesh| mesh.triangles.len());
+        if new > 0 && self.held_triangles() + new > MAX_HELD_TRIANGLES {
+            return Err(refused(format!(
+                "the meshes of the scene and its history may have {MAX_HELD_TRIANGLES} triangles; this would be more"
+            )));
+        }
+        self.obstacles.placed += 1;
+        let mut after = standing.to_vec();
+        after.push(Standing { id: self.obstacles.placed, obstacle: obstacle.clone() });
+        self.change_obstacles(author, after);
+        Ok(())
+    }
+
+    pub(super) fn move_obstacle(&mut self, author: &str, id: u32, pose: Pose) -> Result<(), Problem> {
+        let index = self.obstacles.find(id)?;
+        let now = &self.obstacles.standing[index].obstacle;
+        if now.pose == pose {
+            return Ok(());
+        }
+        let moved = Obstacle::new(now.form.clone(), pose)?;
+        let mut after = self.obstacles.standing.to_vec();
+        after[index].obstacle = moved;
+        self.change_obstacles(author, after);
+        Ok(())
+    }
+
+    pub(super) fn remove_obstacle(&mut self, author: &str, id: u32) -> Result<(), Problem> {
+        let index = self.obstacles.find(id)?;
+        let mut after = self.obstacles.standing.to_vec();
+        after.remove(index);
+        self.change_obstacles(author, after);
+        Ok(())
+    }
+
+    /// Puts the scene's parameters and obstacles in force; what is the same stays untouched.
+    pub(super) fn set(&mut self, setting: &Setting) {
+        if *setting.parameters != *self.simulation.parameters() {
+            self.simulation.set_parameters((*setting.parameters).clone());
+        }
+        if !Arc::ptr_eq(&setting.obstacles, &self.obstacles.standing) {
+            self.obstacles.standing = Arc::clone(&setting.obstacles);
+            self.simulation.set_obstacles(Obstacles::solids(&setting.obstacles));
+        }
+    }
+
+    pub(super) fn setting(&self) -> Setting {
+        Setting {
+            parameters: Arc::new(self.simulation.parameters().clone()),
+            obstacles: Arc::clone(&self.obstacles.standing),
+        }
+    }
+
+    fn change_obstacles(&mut self, author: &str, after: Vec<Standing>) {
+        self.record(Kind::Obstacle, author, None);
+        let setting = Setting { obstacles: Arc::new(after), ..self.setting() };
+        self.set(&setting);
+        self.history.settle(setting);
+    }
+
+    fn held_triangles(&self) -> usize {
+        let history = self.history.operations[..self.history.done].iter().map(|op| &op.after.obstacles);
+        let sets = history.chain([&self.obstacles.standing]);
+        let meshes: BTreeMap<u32, usize> = sets
+            .flat_map(|set| set.iter())
+            .filter_map(|standing| Some((standing.id, standing.obstacle.mesh()?.triangles.len())))
+            .collect();
+        meshes.values().sum()
+    }
+}
+
+/// The obstacles of a document at one time, to be compared.
+#[derive(Clone, Debug)]
+pub(crate) struct ObstaclesMark(Standings);

@@ -1,0 +1,104 @@
+//! `ST`: growth that somebody ends.
+
+use espalier_proto::Command;
+
+use crate::{
+    guiding::lasso,
+    world::{World, grow},
+};
+
+const STOP: Command = Command::Stop { tick: None };
+
+fn check_replays(world: &mut World) {
+    let hash = world.document().hash();
+    assert_eq!(world.replayed_hash(), hash, "the journal alone gives the same document");
+    world.crash();
+    assert_eq!(world.document().hash(), hash, "snapshot and journal give the same document");
+}
+
+#[test]
+fn st1_growth_ends_and_stays_as_it_is() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.work_ms = 40;
+    world.command(client, 1, grow(1000));
+    world.pass(130);
+    let under_way = world.peer(client).last_state().unwrap();
+    assert!(under_way.pending_steps > 900);
+    world.command(client, 2, STOP);
+    world.settle();
+    let state = world.peer(client).last_state().unwrap();
+    assert!(state.step > 4 && state.step <= 20, "{state:?}");
+    assert_eq!(state.pending_steps, 0);
+    assert_eq!(world.peer(client).acknowledged().last(), Some(&2));
+    // What comes later grows as ever, and what was grown is one operation.
+    world.command(client, 3, grow(3));
+    world.command(client, 4, Command::Undo {});
+    world.command(client, 5, Command::Undo {});
+    world.command(client, 6, Command::Redo {});
+    world.settle();
+    assert_eq!(world.document().figures().step, state.step);
+    check_replays(&mut world);
+}
+
+#[test]
+fn st1_growth_that_waits_does_not_begin() {
+    let mut world = World::new();
+    let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
+    world.command(birch, 1, grow(500));
+    world.command(birch, 2, lasso(9.0, 20.0, None));
+    world.command(birch, 3, grow(500));
+    world.command(maple, 1, STOP);
+    world.command(birch, 4, grow(2));
+    world.settle();
+    let step = world.document().figures().step;
+    assert!((2..=6).contains(&step), "{step} steps were run");
+    check_replays(&mut world);
+}
+
+#[test]
+fn st1_a_lasso_can_be_stopped() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, lasso(25.0, 40.0, None));
+    world.pass(4);
+    world.command(client, 2, STOP);
+    world.settle();
+    let stopped = world.document().metamers();
+    assert!(stopped > 0);
+    world.command(client, 3, Command::Undo {});
+    world.command(client, 4, lasso(25.0, 40.0, None));
+    world.settle();
+    assert!(world.document().metamers() > 2 * stopped, "unstopped it goes on");
+    check_replays(&mut world);
+}
+
+#[test]
+fn st1_with_nothing_to_stop_nothing_happens() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, STOP);
+    world.command(client, 2, grow(10));
+    world.settle();
+    // The count a client gives is not taken for true: what is done stays done, in a replay as well.
+    world.text(client, r#"{"type":"command","id":3,"command":{"kind":"stop","tick":0}}"#);
+    world.settle();
+    assert_eq!(world.peer(client).refused(), []);
+    assert_eq!(world.document().figures().step, 10);
+    check_replays(&mut world);
+}
+
+#[test]
+fn st1_a_stop_lost_in_a_crash_stops_nothing() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(30));
+    world.pass(6);
+    world.write_ms = 1_000_000;
+    world.command(client, 2, STOP);
+    world.pass(50);
+    world.crash();
+    world.write_ms = 5;
+    assert_eq!(world.document().figures().step, 30);
+    check_replays(&mut world);
+}

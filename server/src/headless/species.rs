@@ -1,0 +1,80 @@
+//! `espalier species`: the list, and the contact sheet.
+
+use std::{fs, io::Write, path::Path};
+
+use espalier_export::picture::{self, Cell, Look};
+use espalier_growth::species::{self, Species};
+use espalier_mesh::Style;
+use espalier_proto::ParametersPatch;
+use espalier_session::{Action, Document, script, style_options};
+use rayon::prelude::*;
+
+use super::{AUTHOR, HeadlessError, bench::Bench};
+use crate::{cli, pool::SimulationPool};
+
+/// Pixels of one picture of the sheet, and pictures in a row.
+const CELL: (usize, usize) = (300, 310);
+const COLUMNS: usize = 7;
+
+/// `espalier species`.
+pub fn species(options: &cli::Species) -> Result<(), HeadlessError> {
+    match &options.sheet {
+        None => {
+            let mut out = std::io::stdout();
+            for species in species::all() {
+                let Species { slug, name, botanical, sentence, .. } = species;
+                // A reader that has gone, as `head` may, is no error of ours.
+                let _ = writeln!(out, "{slug:22} {name} ({botanical}). {sentence}");
+            }
+            Ok(())
+        }
+        Some(path) => {
+            let bytes = SimulationPool::new(options.threads)?.block_on(|| sheet(options.seed));
+            write(path, &bytes?)
+        }
+    }
+}
+
+/// Grows a tree through its species' schedule; the patches hold in every stage of it.
+pub(super) fn raise(
+    bench: &mut Bench,
+    species: &Species,
+    patches: &[ParametersPatch],
+) -> Result<(), HeadlessError> {
+    for action in script(species) {
+        let is_choice = matches!(action, Action::SetParameters(_));
+        bench.act(AUTHOR, &action).map_err(HeadlessError::Parameters)?;
+        if is_choice && !patches.is_empty() {
+            // All at once: weights that are changed one by one do not sum to 1 in between.
+            let chosen = bench.document().parameters();
+            let wanted = patches.iter().fold(chosen, |all, patch| all.patched(patch));
+            let choice = Action::SetParameters(Box::new(wanted.into()));
+            bench.act(AUTHOR, &choice).map_err(HeadlessError::Parameters)?;
+        }
+    }
+    Ok(())
+}
+
+/// All species at their age, as a PNG file.
+fn sheet(seed: u32) -> Result<Vec<u8>, HeadlessError> {
+    let cells: Result<Vec<Cell>, HeadlessError> =
+        species::all().par_iter().map(|species| cell(species, seed)).collect();
+    Ok(picture::sheet(&cells?, COLUMNS).png())
+}
+
+fn cell(species: &Species, seed: u32) -> Result<Cell, HeadlessError> {
+    let mut document = Document::new(seed);
+    for action in script(species) {
+        document.apply(AUTHOR, &action).map_err(HeadlessError::Parameters)?;
+    }
+    let style = Style::new(style_options(&document.parameters()));
+    Ok(Cell {
+        picture: picture::draw(document.plant(), &style, &Look::from(species), CELL.0, CELL.1),
+        title: species.name.to_owned(),
+        subtitle: species.botanical.to_owned(),
+    })
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), HeadlessError> {
+    fs::write(path, bytes).map_err(|cause| HeadlessError::Write { path: path.to_owned(), cause })
+}

@@ -1,0 +1,57 @@
+//! Meshes as obstacles: uploaded as glTF, fetched as they stand.
+
+use axum::{
+    Json,
+    body::Bytes,
+    extract::{Path, State, rejection::BytesRejection},
+    http::{StatusCode, header},
+    response::{IntoResponse, Response},
+};
+use espalier_proto::{Command, Obstacle, Pose, Problem, ProblemCode, Shape, version::MAX_GLB_BYTES};
+
+use super::{Shared, failure::Failure, sessions};
+use crate::glb_mesh;
+
+/// Places the triangles of a file with its own origin at the scene's.
+pub(super) async fn upload(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<impl IntoResponse, Failure> {
+    let file = body.map_err(unreadable)?;
+    let session = sessions::open(&shared, &session).await?;
+    let metres = session.parameters().await?.internode_length;
+    let mesh = shared.pool.run(move || glb_mesh::read(&file).map(|mesh| mesh.to_base64())).await?;
+    let mesh = mesh.map_err(|error| {
+        Problem::new(ProblemCode::Malformed, format!("The file cannot be an obstacle: {error}."))
+    })?;
+    let command = Command::PlaceObstacle {
+        obstacle: Obstacle {
+            shape: Shape::Mesh { mesh, scale: 1.0 / metres },
+            pose: Pose { position: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0] },
+        },
+    };
+    match session.act(command).await?? {
+        Some(placed) => Ok((StatusCode::CREATED, Json(placed))),
+        None => Err(Failure::unavailable("The obstacle was not placed.")),
+    }
+}
+
+/// The mesh of one obstacle (`OB5`).
+pub(super) async fn mesh(
+    State(shared): State<Shared>,
+    Path((session, obstacle)): Path<(String, u32)>,
+) -> Result<Response, Failure> {
+    let session = sessions::open(&shared, &session).await?;
+    let mesh = session.mesh(obstacle).await?.ok_or_else(|| Failure::not_found("mesh"))?;
+    Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
+}
+
+fn unreadable(rejection: BytesRejection) -> Failure {
+    if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
+        let allowed = format!("{} MiB", MAX_GLB_BYTES >> 20);
+        let sentence = format!("The file is larger than {allowed}.");
+        return Failure::too_large(None, &allowed, sentence);
+    }
+    Problem::new(ProblemCode::Malformed, "The file did not arrive whole.").into()
+}

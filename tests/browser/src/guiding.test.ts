@@ -1,0 +1,230 @@
+import type { Browser } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import { launchBrowser } from "./browser";
+import { type Box, becameTree, changed, Darkroom } from "./picture";
+import { Server } from "./server";
+import { LANDSCAPE, loop, type Point, type Screen, Tablet, way } from "./tablet";
+
+/** Where the first seed stands in a fresh view. */
+const base = { x: 597, y: 750 };
+/** Longer than a branch has to be held. */
+const LONG = 700;
+
+const server = new Server();
+let browser: Browser;
+let darkroom: Darkroom;
+const tablets: Tablet[] = [];
+
+beforeAll(async () => {
+  await server.start();
+  browser = await launchBrowser();
+  darkroom = await Darkroom.open(browser);
+});
+
+afterEach(async () => {
+  const errors = tablets.flatMap((tablet) => tablet.errors);
+  for (const tablet of tablets.splice(0)) await tablet.close();
+  expect(errors).toEqual([]);
+});
+
+afterAll(async () => {
+  await browser?.close();
+  await server.stop();
+});
+
+async function open(address: string, screen?: Screen): Promise<Tablet> {
+  const tablet = await Tablet.open(browser, darkroom, address, screen);
+  tablets.push(tablet);
+  return tablet;
+}
+
+async function fresh(screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
+  const address = await server.newSession(5);
+  return { tablet: await open(address, screen), address };
+}
+
+/** A tablet on which a slender stem was sketched, as a place on it can be found again. */
+async function stem(screen?: Screen): Promise<{ tablet: Tablet; address: string; metamers: number }> {
+  const { tablet, address } = await fresh(screen);
+  await tablet.page.getByLabel("Brush radius", { exact: true }).focus();
+  await tablet.page.keyboard.press("Home");
+  await tablet.swipe([way(base, { x: base.x, y: 400 })]);
+  const { metamers } = await tablet.untilQuiet();
+  expect(metamers).toBeGreaterThan(5);
+  return { tablet, address, metamers };
+}
+
+async function widen(tablet: Tablet): Promise<void> {
+  const slider = tablet.page.getByLabel("Brush radius", { exact: true });
+  await slider.focus();
+  for (let notch = 0; notch < 9; notch++) await tablet.page.keyboard.press("ArrowUp");
+}
+
+test("a lasso grows a crown that fills its outline", async () => {
+  const { tablet, metamers } = await stem(LANDSCAPE);
+  const before = await tablet.photograph("20-stem");
+  await tablet.tap("Lasso");
+  expect((await tablet.facts()).tool).toBe("lasso");
+
+  const outline = loop({ x: 597, y: 330 }, { x: 210, y: 170 });
+  await tablet.touch("touchStart", [outline[0]!]);
+  for (const point of outline.slice(1)) await tablet.touch("touchMove", [point]);
+  expect(await tablet.page.locator(".outline-body").getAttribute("d"), "it shows while it is drawn").toContain("L");
+  await tablet.photograph("21-outline");
+  expect((await tablet.facts()).metamers, "nothing grows before the finger lifts").toBe(metamers);
+  await tablet.touch("touchEnd", []);
+  const grown = await tablet.untilQuiet();
+  expect(grown.metamers).toBeGreaterThan(metamers + 200);
+  await tablet.page.locator(".outline").waitFor({ state: "detached" });
+
+  const crown = await tablet.photograph("22-crown");
+  const inside: Box = { x: 480, y: 230, width: 234, height: 200 };
+  const outside: Box = { x: 930, y: 130, width: 180, height: 300 };
+  expect(becameTree(before, crown, inside)).toBeGreaterThan(0.3);
+  expect(becameTree(before, crown, outside)).toBeLessThan(0.01);
+  await tablet.tap("Undo");
+  await tablet.until("the crown is one operation", (facts) => facts.metamers === metamers);
+});
+
+test("an outline is cancelled with Escape, and a small one is a slip", async () => {
+  const { tablet } = await stem();
+  await tablet.tap("Lasso");
+  const { sent } = await tablet.facts();
+  const outline = loop({ x: 597, y: 330 }, { x: 210, y: 170 });
+  await tablet.touch("touchStart", [outline[0]!]);
+  for (const point of outline.slice(1)) await tablet.touch("touchMove", [point]);
+  await tablet.page.keyboard.press("Escape");
+  expect(await tablet.page.locator(".outline").count()).toBe(0);
+  await tablet.touch("touchEnd", []);
+  await tablet.swipe([loop({ x: 900, y: 300 }, { x: 8, y: 8 }, 12)]);
+  await tablet.page.getByText("Draw a larger outline").waitFor();
+  expect((await tablet.facts()).sent).toBe(sent);
+});
+
+test("a long growth can be stopped, and what has grown stays", async () => {
+  const { tablet, metamers } = await stem();
+  await tablet.tap("Lasso");
+  await tablet.swipe([loop({ x: 620, y: 400 }, { x: 430, y: 330 }, 60)], 4);
+  const stop = tablet.page.getByRole("button", { name: "Stop" });
+  await stop.tap();
+  const stopped = await tablet.untilQuiet();
+  expect(stopped.metamers).toBeGreaterThan(metamers);
+  await stop.waitFor({ state: "detached" });
+  await tablet.tap("Undo");
+  await tablet.until("it is one operation", (facts) => facts.metamers === metamers);
+});
+
+test("SG1: a branch pressed and held grows alone until it is let go", async () => {
+  const { tablet, metamers } = await stem(LANDSCAPE);
+  const at = (y: number): Point => ({ x: base.x, y });
+  // A limb to the right, to be held; the stem's tip is far from it.
+  await tablet.swipe([way(at(600), { x: 800, y: 520 })]);
+  const limbed = await tablet.untilQuiet();
+  expect(limbed.metamers).toBeGreaterThan(metamers + 3);
+
+  const limb = { x: 745, y: 542 };
+  await tablet.touch("touchStart", [limb]);
+  await tablet.page.locator(".hold-fill").waitFor();
+  await tablet.page.waitForTimeout(LONG);
+  await tablet.touch("touchEnd", []);
+  const chosen = await tablet.facts();
+  expect(chosen.bud).not.toBe("");
+  expect(chosen.sent, "holding draws nothing").toBe(limbed.sent);
+  await tablet.page.getByText("Only this branch grows").waitFor();
+  await tablet.photograph("23-chosen");
+
+  await widen(tablet);
+  const aroundTip = [way(at(440), at(330))];
+  await tablet.swipe(aroundTip);
+  const alone = await tablet.untilQuiet();
+  expect(alone.sent).toBeGreaterThan(chosen.sent);
+  expect(alone.metamers, "the stem does not follow the brush").toBe(limbed.metamers);
+  await tablet.swipe([way({ x: 800, y: 520 }, { x: 880, y: 420 })]);
+  const followed = await tablet.untilQuiet();
+  expect(followed.metamers, "the limb does").toBeGreaterThan(limbed.metamers);
+  await tablet.photograph("24-grew-alone");
+
+  await tablet.tap("Let every branch grow");
+  expect((await tablet.facts()).bud).toBe("");
+  await tablet.swipe(aroundTip);
+  expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(followed.metamers);
+});
+
+test("a chosen branch is let go by holding elsewhere, by Escape, and when it is gone", async () => {
+  const { tablet } = await stem();
+  const onStem = { x: base.x, y: 560 };
+  const choose = async () => {
+    await tablet.hold(onStem, LONG);
+    await tablet.until("it is chosen", (facts) => facts.bud !== "");
+  };
+  const { sent } = await tablet.facts();
+  await choose();
+  await tablet.hold({ x: 980, y: 300 }, LONG);
+  await tablet.until("held elsewhere", (facts) => facts.bud === "");
+  await choose();
+  await tablet.page.keyboard.press("Escape");
+  await tablet.until("Escape", (facts) => facts.bud === "");
+  expect((await tablet.facts()).sent, "choosing is no command").toBe(sent);
+  await choose();
+  await tablet.tap("Undo");
+  await tablet.until("the stem is gone", (facts) => facts.bud === "" && facts.metamers === 0);
+  await tablet.page.getByText("every branch grows again").waitFor();
+});
+
+test("a seed is planted where the ground is tapped, and grows", async () => {
+  const { tablet } = await fresh(LANDSCAPE);
+  const before = await tablet.facts();
+  await tablet.tap("Plant a seed");
+  await tablet.hold({ x: 860, y: 790 }, 30);
+  const planted = await tablet.until("there are two seeds", (facts) => facts.rows === before.rows + 1);
+  expect(planted.tool, "the brush is at hand again").toBe("brush");
+  expect(await tablet.page.locator(".seedling").count()).toBe(2);
+  await tablet.photograph("25-two-seeds");
+  await tablet.swipe([way({ x: 860, y: 770 }, { x: 860, y: 480 })]);
+  expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(5);
+  expect(await tablet.page.locator(".seedling").count()).toBe(1);
+});
+
+test("what is placed in the scene is seen by all, and moves with the finger", async () => {
+  const { tablet, address } = await fresh(LANDSCAPE);
+  const second = await open(address);
+  const before = await tablet.photograph("26-bare");
+  await tablet.tap("Scene");
+  await tablet.page.getByRole("button", { name: "Box", exact: true }).tap();
+  await tablet.until("a box stands", (facts) => facts.obstacles === 1);
+  await second.until("the other tablet has it too", (facts) => facts.obstacles === 1);
+  const placed = await tablet.photograph("27-box");
+  const right: Box = { x: 660, y: 560, width: 180, height: 190 };
+  const left: Box = { x: 330, y: 560, width: 180, height: 190 };
+  expect(changed(before, placed, right)).toBeGreaterThan(0.2);
+  expect(changed(before, placed, left)).toBeLessThan(0.05);
+
+  const across = tablet.page.getByLabel("Across", { exact: true });
+  const from = Number(await across.inputValue());
+  await tablet.swipe([way({ x: 750, y: 690 }, { x: 420, y: 690 })]);
+  const moved = await tablet.untilQuiet();
+  expect(moved.metamers, "the finger moved it and drew nothing").toBe(0);
+  expect(Number(await across.inputValue())).toBeLessThan(from - 5);
+  const dragged = await tablet.photograph("28-box-moved");
+  expect(changed(before, dragged, left)).toBeGreaterThan(0.2);
+  await tablet.tap("Undo");
+  await tablet.until("moving is undone", (facts) => facts.obstacles === 1);
+  await tablet.tap("Undo");
+  await second.until("and placing", (facts) => facts.obstacles === 0);
+});
+
+test("parameters are set in the growth panel, for everyone", async () => {
+  const { tablet, address } = await fresh();
+  const second = await open(address);
+  const chosen = async (on: Tablet) => {
+    const parameters = on.page.getByRole("tab", { name: "Parameters" });
+    await on.tap("Growth");
+    if (await parameters.count()) await parameters.tap();
+  };
+  await chosen(tablet);
+  await tablet.page.getByText("Priority", { exact: true }).tap();
+  await tablet.page.getByText("Least weight").waitFor();
+  await tablet.untilQuiet();
+  await chosen(second);
+  expect(await second.page.getByLabel("Priority", { exact: true }).isChecked()).toBe(true);
+});

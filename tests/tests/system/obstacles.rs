@@ -1,0 +1,129 @@
+use espalier_proto::{Command, Obstacle, PlacedShape, Pose, Shape, version::MAX_GLB_BYTES};
+use espalier_tests::{
+    client::Client,
+    http::{self, Answer},
+    scratch::Scratch,
+    server::Server,
+};
+use serde_json::json;
+
+const GLB: &str = "model/gltf-binary";
+
+fn at(x: f32, y: f32, z: f32) -> Pose {
+    Pose { position: [x, y, z], rotation: [0.0, 0.0, 0.0, 1.0] }
+}
+
+/// A glTF binary with one triangle of 1 m, high enough not to lie in the seed's way.
+fn triangle() -> Vec<u8> {
+    let blob: Vec<u8> =
+        [0f32, 3.0, 0.0, 1.0, 3.0, 0.0, 0.0, 4.0, 0.0].into_iter().flat_map(f32::to_le_bytes).collect();
+    let json = json!({
+        "asset": { "version": "2.0" },
+        "scenes": [{ "nodes": [0] }],
+        "nodes": [{ "mesh": 0 }],
+        "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 } }] }],
+        "accessors": [{ "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3" }],
+        "bufferViews": [{ "buffer": 0, "byteLength": blob.len() }],
+        "buffers": [{ "byteLength": blob.len() }],
+    });
+    let mut json = json.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let length = 12 + 8 + json.len() + 8 + blob.len();
+    let mut file = [b"glTF".as_slice(), &2u32.to_le_bytes(), &(length as u32).to_le_bytes()].concat();
+    for (kind, chunk) in [(b"JSON", &json), (b"BIN\0", &blob)] {
+        file.extend_from_slice(&(chunk.len() as u32).to_le_bytes());
+        file.extend_from_slice(kind);
+        file.extend_from_slice(chunk);
+    }
+    file
+}
+
+fn upload(server: &Server, session: &str, file: &[u8]) -> Answer {
+    let path = format!("/api/sessions/{session}/obstacles");
+    http::send_bytes(server.port(), "POST", &path, GLB, file).expect("the server answers")
+}
+
+async fn alone() -> (Client, Server, Scratch) {
+    let scratch = Scratch::new();
+    let server = Server::start(&scratch.path("trees.db"));
+    let session = server.new_session(7);
+    let client = Client::connect(server.port(), &session, "browser-1").await;
+    (client, server, scratch)
+}
+
+#[tokio::test]
+async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
+    let (mut first, server, _scratch) = alone().await;
+    let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
+    let shape = Shape::Box { size: [1.0, 40.0, 40.0] };
+    first.send(Command::PlaceObstacle { obstacle: Obstacle { shape, pose: at(2.0, 20.0, 0.0) } }).await;
+    let shape = Shape::Sphere { radius: 2.0 };
+    first.send(Command::PlaceObstacle { obstacle: Obstacle { shape, pose: at(-9.0, 2.0, 0.0) } }).await;
+    first.send(Command::MoveObstacle { id: 2, pose: at(-12.0, 2.0, 0.0) }).await;
+    first.send(Command::Grow { steps: 12, gesture: None, bud: None }).await;
+    first.until_settled().await;
+    let moved = |client: &Client| client.obstacles.get(1).is_some_and(|one| one.pose == at(-12.0, 2.0, 0.0));
+    second.until("both are told, and the move", moved).await;
+    let rows = &first.table.rows;
+    assert!(rows.iter().all(|row| row.position[0] <= 384), "something grew through the wall");
+    assert!(rows.iter().any(|row| row.position[0] < -384), "nothing grew on the free side");
+    let (told, form) = (first.obstacles.clone(), first.table.form());
+    let server = server.kill_and_restart();
+    first.reconnect(server.port()).await;
+    first.until("the list comes again", |client| !client.obstacles.is_empty()).await;
+    assert_eq!(first.obstacles, told);
+    first.until_form(&form).await;
+    first.send(Command::RemoveObstacle { id: 1 }).await;
+    first.send(Command::Undo {}).await;
+    first.send(Command::RemoveObstacle { id: 2 }).await;
+    first.until_settled().await;
+    assert_eq!(first.obstacles.iter().map(|obstacle| obstacle.id).collect::<Vec<_>>(), [1]);
+}
+
+#[tokio::test]
+async fn ob6_a_gltf_file_becomes_an_obstacle() {
+    let (mut client, server, _scratch) = alone().await;
+    let session = client.session.clone();
+    let answer = upload(&server, &session, &triangle());
+    assert_eq!(answer.status, 201, "{}", answer.text());
+    assert_eq!(answer.json()["id"], 1);
+    client.until("it is told", |client| client.obstacles.len() == 1).await;
+    // A metre is ten internodes unless the parameters say otherwise.
+    assert_eq!(client.obstacles[0].shape, PlacedShape::Mesh { vertices: 3, triangles: 1, scale: 10.0 });
+    let server = server.kill_and_restart();
+    let path = format!("/api/sessions/{session}/obstacles/1");
+    let mesh = http::get(server.port(), &path).expect("the server answers");
+    let words: Vec<u32> = mesh
+        .body
+        .chunks_exact(4)
+        .map(|word| u32::from_le_bytes(word.try_into().expect("four bytes")))
+        .collect();
+    assert_eq!((mesh.status, words.len(), &words[..2], &words[11..]), (200, 14, &[3, 1][..], &[0, 1, 2][..]));
+    assert_eq!(f32::from_bits(words[3]), 3.0);
+    client.reconnect(server.port()).await;
+    client.send(Command::Undo {}).await;
+    client.until_settled().await;
+    assert_eq!(client.obstacles, []);
+    assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 404);
+}
+
+#[tokio::test]
+async fn ob6_what_is_no_mesh_is_refused_in_words() {
+    let (mut client, server, _scratch) = alone().await;
+    let session = client.session.clone();
+    let mut cut = triangle();
+    cut.truncate(cut.len() - 4);
+    for (file, words) in [(b"solid cube".as_slice(), "glTF"), (&cut, "too short"), (&[0; 64], "glTF")] {
+        let answer = upload(&server, &session, file);
+        assert_eq!(answer.status, 400, "{}", answer.text());
+        let message = answer.json()["message"].as_str().expect("a problem has a sentence").to_owned();
+        assert!(message.contains(words), "{message}");
+    }
+    assert_eq!(upload(&server, &session, &vec![0; MAX_GLB_BYTES + 1]).status, 413);
+    assert_eq!(upload(&server, "nowhere", &triangle()).status, 404);
+    let path = format!("/api/sessions/{session}/obstacles/one");
+    assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 400);
+    client.until_settled().await;
+    assert_eq!(client.obstacles, []);
+    assert!(!client.state.can_undo);
+}
