@@ -33,13 +33,13 @@ const NOWHERE: u32 = u32::MAX;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canopy {
     nodes: Vec<Node>,
-    /// Where light is read, up to those nodes that are new, and the share of the sky that is seen from there.
-    spots: Vec<(Spot, f32)>,
+    /// Where light is read, up to those nodes that are new.
+    spots: Vec<Spot>,
+    /// The share of the sky that is seen past obstacles; empty where there are none.
+    sky: Vec<f32>,
     /// Light at each node, 0 to 1.
     light: Vec<f32>,
     flows: Vec<Flow>,
-    /// Vigor for each tip that a node carries; scratch of writing appearance.
-    per_tip: Vec<f32>,
     /// Each plant's seed and its apical control λ.
     plants: Vec<(MetamerId, f64)>,
     /// Vigor of each axis' bud under the priority model; empty under the other.
@@ -69,14 +69,35 @@ struct Node {
     id: MetamerId,
     /// Slot of the parent.
     parent: u32,
-    /// Which of the plants it belongs to.
-    plant: u32,
-    /// Whether it continues its parent's axis.
-    is_main: bool,
-    /// Whether its axis' bud sits here.
-    is_tip: bool,
+    /// Which of the plants it belongs to, shifted, and below that [`Node::MAIN`] and [`Node::TIP`].
+    bits: u32,
     /// Propensities of the lateral buds here that have not grown (TreeSketch Figure 10), added up.
     propensity: f32,
+}
+
+impl Node {
+    /// It continues its parent's axis.
+    const MAIN: u32 = 1;
+    /// Its axis' bud sits here.
+    const TIP: u32 = 2;
+    const PLANT_SHIFT: u32 = 2;
+
+    fn is_main(&self) -> bool {
+        self.bits & Self::MAIN != 0
+    }
+
+    fn is_tip(&self) -> bool {
+        self.bits & Self::TIP != 0
+    }
+
+    fn set_tip(&mut self, is_tip: bool) {
+        self.bits = self.bits & !Self::TIP | if is_tip { Self::TIP } else { 0 };
+    }
+
+    /// Which of the plants it belongs to.
+    fn plant(&self) -> usize {
+        (self.bits >> Self::PLANT_SHIFT) as usize
+    }
 }
 
 impl Canopy {
@@ -98,6 +119,9 @@ impl Canopy {
             *self = Self::default();
         }
         let metamers = plant.metamers();
+        let more = plant.metamer_count() - self.slots.len();
+        reserve(&mut self.slots, more);
+        reserve(&mut self.nodes, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
             if !plant.is_alive(id) {
@@ -106,23 +130,27 @@ impl Canopy {
             }
             let slot = self.nodes.len() as u32;
             let parent = metamers.parent(id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
-            let (mut is_main, mut of_plant) = (true, self.plants.len() as u32);
+            let (mut is_main, mut of_plant) = (true, self.plants.len());
             if let Some(below) = self.nodes.get_mut(parent as usize) {
-                of_plant = below.plant;
+                of_plant = below.plant();
                 is_main = metamers.axis(below.id) == metamers.axis(id);
                 if is_main {
-                    below.is_tip = false;
+                    below.set_tip(false);
                 } else {
                     below.propensity = propensity_of_buds(plant, below.id, parameters);
                 }
             }
-            if of_plant as usize == self.plants.len() {
+            if of_plant == self.plants.len() {
                 self.plants.push((id, 0.0));
             }
             let propensity = propensity_of_buds(plant, id, parameters);
             self.slots.push(slot);
-            self.nodes.push(Node { id, parent, plant: of_plant, is_main, is_tip: true, propensity });
+            let kind = Node::TIP | if is_main { Node::MAIN } else { 0 };
+            let bits = (of_plant as u32) << Node::PLANT_SHIFT | kind;
+            self.nodes.push(Node { id, parent, bits, propensity });
         }
+        reserve(&mut self.light, more);
+        reserve(&mut self.flows, more);
         self.light.resize(self.nodes.len(), 0.0);
         self.flows.resize(self.nodes.len(), Flow::default());
     }
@@ -142,11 +170,12 @@ impl Canopy {
             .collect();
         self.nodes.truncate(kept);
         self.spots.truncate(kept);
+        self.sky.truncate(kept);
         self.slots.truncate(count);
         self.plants.retain(|(seed, _)| seed.index() < count);
         for parent in orphaned {
             let node = &mut self.nodes[parent as usize];
-            node.is_tip = plant.axes().last(plant.metamers().axis(node.id)) == Some(node.id);
+            node.set_tip(plant.axes().last(plant.metamers().axis(node.id)) == Some(node.id));
             node.propensity = propensity_of_buds(plant, node.id, parameters);
         }
     }
@@ -156,24 +185,34 @@ impl Canopy {
         let &Surroundings { plant, space, shadows, obstacles } = surroundings;
         let is_new = self.spots.is_empty();
         let new = &self.nodes[self.spots.len()..];
-        self.spots.extend(new.iter().map(|node| {
-            let place = plant.metamers().end(node.id);
-            (shadows.spot(place), obstacles.sky_share(place))
-        }));
-        let read = |(light, (spot, sky)): (&mut f32, &(Spot, f32))| *light = shadows.exposure_at(spot) * sky;
-        if !is_new && changed.len() * NODES_IN_SHADOW < self.nodes.len() {
+        let place = |node: &Node| plant.metamers().end(node.id);
+        reserve(&mut self.spots, new.len());
+        self.spots.extend(new.iter().map(|node| shadows.spot(place(node))));
+        if !obstacles.is_empty() {
+            let new = &self.nodes[self.sky.len()..];
+            self.sky.extend(new.iter().map(|node| obstacles.sky_share(place(node))));
+        }
+        let (nodes, spots, sky) = (&self.nodes, &self.spots, &self.sky);
+        let read = |slot: usize, spot: Spot| {
+            let exposure = shadows.exposure_at(spot, || place(&nodes[slot]));
+            sky.get(slot).map_or(exposure, |sky| exposure * sky)
+        };
+        if !is_new && changed.len() * NODES_IN_SHADOW < nodes.len() {
             let boxes = changed.iter().map(|&place| shadows.reach(place));
             space.nodes_around(boxes, |id| {
                 let slot = self.slots[id.index()] as usize;
-                if let (Some(light), Some(spot)) = (self.light.get_mut(slot), self.spots.get(slot)) {
-                    read((light, spot));
+                if let Some(light) = self.light.get_mut(slot) {
+                    *light = read(slot, spots[slot]);
                 }
             });
-        } else if self.nodes.len() < PARALLEL_FROM {
-            self.light.iter_mut().zip(&self.spots).for_each(read);
+            return;
+        }
+        let read_all = |(slot, (light, &spot)): (usize, (&mut f32, &Spot))| *light = read(slot, spot);
+        if nodes.len() < PARALLEL_FROM {
+            self.light.iter_mut().zip(spots).enumerate().for_each(read_all);
         } else {
-            let least = PARALLEL_FROM / 4;
-            self.light.par_iter_mut().zip(&self.spots).with_min_len(least).for_each(read);
+            let all = self.light.par_iter_mut().zip(spots).with_min_len(PARALLEL_FROM / 4);
+            all.enumerate().for_each(read_all);
         }
     }
 
@@ -196,13 +235,13 @@ impl Canopy {
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
         for slot in 0..self.nodes.len() {
-            let Node { parent, is_main, plant, .. } = self.nodes[slot];
-            let light = self.flows[slot].light();
+            let node = self.nodes[slot];
+            let (parent, light) = (node.parent, self.flows[slot].light());
             self.flows[slot].vigor = if parent == NOWHERE {
                 gain * light as i64 as f64
             } else {
-                let split = Split::new(&self.flows[parent as usize], self.plants[plant as usize].1);
-                if is_main { split.to_main() } else { split.to_lateral(light) }
+                let split = Split::new(&self.flows[parent as usize], self.plants[node.plant()].1);
+                if node.is_main() { split.to_main() } else { split.to_lateral(light) }
             };
         }
     }
@@ -215,10 +254,11 @@ impl Canopy {
         self.flows.fill(Flow::default());
         let mut dark = 0;
         for slot in (0..self.nodes.len()).rev() {
-            let Node { id, parent, is_main, is_tip, propensity, .. } = self.nodes[slot];
+            let node = self.nodes[slot];
+            let Node { id, parent, propensity, .. } = node;
             let response = response(self.light[slot], parameters.of(plant.metamers().axis(id)));
             let flow = &mut self.flows[slot];
-            flow.main += if is_tip { vigor::quantised(response) } else { 0 };
+            flow.main += if node.is_tip() { vigor::quantised(response) } else { 0 };
             flow.lateral += vigor::quantised(response * propensity);
             let through = flow.light();
             dark += usize::from(through == 0);
@@ -226,7 +266,7 @@ impl Canopy {
                 continue;
             }
             let below = &mut self.flows[parent as usize];
-            *(if is_main { &mut below.main } else { &mut below.lateral }) += through;
+            *(if node.is_main() { &mut below.main } else { &mut below.lateral }) += through;
             if counts_size {
                 self.sizes[slot] += 1;
                 self.sizes[parent as usize] += self.sizes[slot];
@@ -254,12 +294,16 @@ impl Canopy {
             self.slots[id.index()] = kept as u32;
             self.nodes[kept] = Node { parent, ..self.nodes[slot] };
             self.spots[kept] = self.spots[slot];
+            if let Some(&sky) = self.sky.get(slot) {
+                self.sky[kept] = sky;
+            }
             self.light[kept] = self.light[slot];
             self.flows[kept] = flow;
             kept += 1;
         }
         self.nodes.truncate(kept);
         self.spots.truncate(kept);
+        self.sky.truncate(kept);
         self.light.truncate(kept);
         self.flows.truncate(kept);
     }
@@ -276,8 +320,8 @@ impl Canopy {
             return vigor;
         }
         let Some(flow) = self.flow(node) else { return 0.0 };
-        let of_plant = self.nodes[self.slots[node.index()] as usize].plant;
-        let split = Split::new(flow, self.plants[of_plant as usize].1);
+        let of_plant = self.nodes[self.slots[node.index()] as usize].plant();
+        let split = Split::new(flow, self.plants[of_plant].1);
         if plant.axes().last(axis).is_some() {
             return split.to_main();
         }
@@ -309,22 +353,26 @@ impl Canopy {
         for id in self.darkened.drain(..).filter(|id| id.index() < count) {
             plant.set_appearance(id, Appearance { light: 0, vigor: 0 });
         }
-        let tips = plant.metamers();
-        self.per_tip.clear();
-        self.per_tip.extend(
-            self.nodes
-                .iter()
-                .zip(&self.flows)
-                .map(|(node, flow)| flow.vigor as f32 / tips.tips(node.id).max(1) as i32 as f32),
-        );
-        let greatest = self.per_tip.iter().copied().fold(0.0, f32::max);
+        let per_tip = |plant: &Plant, node: &Node, flow: &Flow| {
+            flow.vigor as f32 / plant.metamers().tips(node.id).max(1) as i32 as f32
+        };
+        let pairs = self.nodes.iter().zip(&self.flows);
+        let greatest = pairs.map(|(node, flow)| per_tip(plant, node, flow)).fold(0.0, f32::max);
         let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
-        for ((node, vigor), light) in self.nodes.iter().zip(&self.per_tip).zip(&self.light) {
+        for ((node, flow), light) in self.nodes.iter().zip(&self.flows).zip(&self.light) {
             // By way of i32: LLVM 22 crashes on a vectorised conversion of floats to bytes.
             let byte = |x: f32| x as i32 as u8;
-            let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor * scale) };
+            let vigor = per_tip(plant, node, flow) * scale;
+            let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor) };
             plant.set_appearance(node.id, appearance);
         }
+    }
+}
+
+/// Makes room for more and a sixteenth beyond: doubling would leave a large plant's columns half empty.
+fn reserve<T>(column: &mut Vec<T>, more: usize) {
+    if column.len() + more > column.capacity() {
+        column.reserve_exact(more + column.len() / 16);
     }
 }
 

@@ -4,7 +4,7 @@ use espalier_plant::AxisId;
 use glam::Vec3;
 
 /// Steps of a unit vector's coordinate: sums of whole numbers are the same in any order.
-const UNIT: f32 = 1_048_576.0;
+const UNIT: f32 = 32_768.0;
 
 /// Sums of unit vectors, bud by bud.
 #[derive(Clone, Debug, Default)]
@@ -17,7 +17,7 @@ pub(crate) struct Claims {
 #[derive(Clone, Copy, Debug)]
 struct Claim {
     axis: AxisId,
-    sum: [i64; 3],
+    sum: [i32; 3],
 }
 
 impl Claims {
@@ -37,7 +37,7 @@ impl Claims {
         }
         let sum = &mut self.claims[*slot as usize].sum;
         for (sum, along) in sum.iter_mut().zip(unit.to_array()) {
-            *sum += (along * UNIT) as i64;
+            *sum += (along * UNIT) as i32;
         }
     }
 

@@ -88,11 +88,11 @@ impl MarkerField {
     pub(crate) fn place_bud(
         &mut self,
         axis: AxisId,
-        bud: &Bud,
+        bud: Bud,
         parameters: &Parameters,
         obstacles: &Obstacles,
     ) {
-        let &Bud { position: place, direction, .. } = bud;
+        let Bud { position: place, direction } = bud;
         let (low, high) = reach(place, direction, parameters);
         let cone = Cone::new(parameters);
         self.visit(obstacles, low, high, |chunk, cells| {
@@ -128,7 +128,10 @@ impl MarkerField {
                 if stays {
                     continue;
                 }
-                let sees = |_, bud| !obstacles.hides(bud, marker);
+                let sees = |axis| {
+                    obstacles.is_empty()
+                        || space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker))
+                };
                 let nearest = space.nearest_perceiving(marker, parameters, sees);
                 match nearest {
                     Some((axis, distance_squared)) => {
@@ -154,9 +157,9 @@ impl MarkerField {
     }
 
     /// The same where only these buds may claim: those that are nearer do not count.
-    pub(crate) fn claims_among<'a>(
+    pub(crate) fn claims_among(
         &mut self,
-        buds: impl Iterator<Item = (AxisId, &'a Bud)>,
+        buds: impl Iterator<Item = (AxisId, Bud)>,
         parameters: &ParameterTable,
         obstacles: &Obstacles,
         mut visit: impl FnMut(Vec3, AxisId),

@@ -14,21 +14,20 @@ use crate::{
 const UNIT: f32 = 65536.0;
 
 /// Voxels in a chunk: along x, and along each of z and y.
-const WIDTH_BITS: i32 = 6;
-const DEPTH_BITS: i32 = 4;
+const WIDTH_BITS: i32 = 5;
+const DEPTH_BITS: i32 = 3;
 const WIDTH: i32 = 1 << WIDTH_BITS;
 const DEPTH: i32 = 1 << DEPTH_BITS;
 /// Voxels a row of a pyramid is padded to, and the one that its axis goes through.
 const ROW: usize = 16;
 const MIDDLE: i32 = 8;
-/// Values in a row of a chunk: its voxels between two margins. Rows of pyramids that reach into the next chunk
-/// write into the margin, which nobody reads, and are written once more to the chunk they belong to.
-const STRIDE: usize = WIDTH as usize + 2 * ROW;
-/// Rows follow each other along z, then along y.
-const VALUES: usize = STRIDE * (DEPTH * DEPTH) as usize;
+/// Values in a layer of a chunk, rows along z: a few more than voxels, or columns would crowd one corner of the
+/// cache.
+const PLANE: usize = (WIDTH * DEPTH) as usize + ROW;
+const VALUES: usize = PLANE * DEPTH as usize;
 type Chunk = [u32; VALUES];
 
-/// Rows of this depth still fit, and pyramids of this depth meet no more than two chunks along y and along z.
+/// Rows of this depth still fit, and pyramids of this depth meet no more than two chunks along y and three along z.
 const FITTING_DEPTH: i32 = 7;
 
 /// The shadows of all metamers.
@@ -37,6 +36,9 @@ pub struct ShadowGrid {
     chunks: Directory<Chunk>,
     /// Shadow at each depth below a metamer.
     strength: Vec<u32>,
+    /// The same of a metamer in its own voxel and in those of the layer below.
+    first: f32,
+    second: f32,
     /// The pyramid below a metamer, row by row along x.
     rows: Vec<PyramidRow>,
 }
@@ -50,8 +52,8 @@ struct PyramidRow {
     z: i32,
     /// Half its width along x.
     half: i32,
-    /// What it adds to the voxels around the metamer's own x.
-    shadows: [u32; ROW],
+    /// What it adds to the voxels around the metamer's own x, between as many zeros on either side.
+    shadows: [u32; 3 * ROW],
 }
 
 impl ShadowGrid {
@@ -71,11 +73,13 @@ impl ShadowGrid {
             let depth = depth as i32;
             for z in -depth..=depth {
                 let half = half_width(depth, z);
-                let add = |lane: usize| if (lane as i32 - MIDDLE).abs() <= half { shadow } else { 0 };
+                let add =
+                    |lane: usize| if (lane as i32 - ROW as i32 - MIDDLE).abs() <= half { shadow } else { 0 };
                 rows.push(PyramidRow { depth, z, half, shadows: core::array::from_fn(add) });
             }
         }
-        Self { chunks: Directory::new(), strength, rows }
+        let (first, second) = (strength[0] as f32, strength.get(1).map_or(0.0, |&shadow| shadow as f32));
+        Self { chunks: Directory::new(), strength, first, second, rows }
     }
 
     /// Adds the shadow of a metamer with its node at `position`.
@@ -98,49 +102,47 @@ impl ShadowGrid {
         }
         let bases = self.bases_of(left, y, z);
         let reach = self.strength.len() as i32 - 1;
-        // Where the next chunk along z begins, as seen from the metamer.
-        let seam = ((((z - reach) >> DEPTH_BITS) + 1) << DEPTH_BITS) - z;
+        let (low_y, low_z) = ((y - reach) >> DEPTH_BITS, (z - reach) >> DEPTH_BITS);
+        // A row that ends in the next chunk is added to the last voxels of this one and to the first of that one,
+        // each time with what does not belong there shifted out.
+        let over = (within + ROW).saturating_sub(WIDTH as usize);
+        let (here, beyond) = (within - over, 2 * ROW - over);
         let voxels = self.chunks.all_mut().as_flattened_mut();
-        for depth in 0..=reach {
-            let at_y = y - depth;
-            let layer = &self.rows[(depth * depth) as usize..][..2 * depth as usize + 1];
-            let (near, far) = layer.split_at((seam + depth).clamp(0, 2 * depth + 1) as usize);
-            let bases = &bases[((at_y >> DEPTH_BITS) - ((y - reach) >> DEPTH_BITS)) as usize & 1];
-            for (rows, base) in [near, far].into_iter().zip(bases) {
-                let Some(first) = rows.first() else { continue };
-                let offset = offset([0, at_y, z + first.z]) + within;
-                // In the chunk to the right the same row begins left of its first voxel.
-                let parts = [base[0] + offset, (base[1] + offset).wrapping_sub(WIDTH as usize)];
-                for &part in &parts[..if within + ROW > WIDTH as usize { 2 } else { 1 }] {
-                    let mut at = part;
-                    for row in rows {
-                        let values = voxels.get_mut(at..).and_then(|voxels| voxels.first_chunk_mut::<ROW>());
-                        if let Some(values) = values {
-                            // Copies, so that all sixteen can be added at once.
-                            let (old, shadows) = (*values, row.shadows);
-                            *values = core::array::from_fn(|lane| change(old[lane], shadows[lane]));
-                        }
-                        at += STRIDE;
-                    }
-                }
+        let mut add = |row: &PyramidRow, at: usize, shift: usize| {
+            let values = voxels.get_mut(at..).and_then(|voxels| voxels.first_chunk_mut::<ROW>());
+            let shadows = row.shadows.get(shift..).and_then(|shadows| shadows.first_chunk::<ROW>());
+            if let (Some(values), Some(shadows)) = (values, shadows) {
+                // Copies, so that all sixteen can be added at once.
+                let (old, shadows) = (*values, *shadows);
+                *values = core::array::from_fn(|lane| change(old[lane], shadows[lane]));
+            }
+        };
+        for row in &self.rows {
+            let (at_y, at_z) = (y - row.depth, z + row.z);
+            let chunk = ((at_y >> DEPTH_BITS) - low_y) * 4 + (at_z >> DEPTH_BITS) - low_z;
+            let base = bases[(chunk & 7) as usize];
+            let offset = offset([0, at_y, at_z]);
+            add(row, base[0] + offset + here, ROW - over);
+            if over > 0 {
+                add(row, base[1] + offset, beyond);
             }
         }
     }
 
-    /// Where the chunks begin that a pyramid meets, two along y and two along z, and each one's neighbour along x
-    /// if a row that starts at `left` reaches it.
+    /// Where the chunks begin that a pyramid meets, four numbers along z (the last unused) for each of two along y,
+    /// and each one's neighbour along x if a row that starts at `left` reaches it.
     #[inline(always)]
-    fn bases_of(&mut self, left: i32, y: i32, z: i32) -> [[[usize; 2]; 2]; 2] {
+    fn bases_of(&mut self, left: i32, y: i32, z: i32) -> [[usize; 2]; 8] {
         let reach = self.strength.len() as i32 - 1;
         let (low_y, low_z) = ((y - reach) >> DEPTH_BITS, (z - reach) >> DEPTH_BITS);
+        let (high_y, high_z) = (y >> DEPTH_BITS, (z + reach) >> DEPTH_BITS);
         let (first, last) = (left >> WIDTH_BITS, (left + ROW as i32 - 1) >> WIDTH_BITS);
-        let mut bases = [[[0; 2]; 2]; 2];
-        for (i, base) in bases.as_flattened_mut().iter_mut().enumerate() {
-            let (at_y, at_z) = (low_y + (i as i32 >> 1), low_z + (i as i32 & 1));
-            if at_y <= y >> DEPTH_BITS && at_z <= (z + reach) >> DEPTH_BITS {
-                for chunk_x in first..=last {
-                    let chunk = self.chunks.number_or_make([chunk_x, at_y, at_z], || [0; VALUES]);
-                    base[(chunk_x - first) as usize] = chunk as usize * VALUES;
+        let mut bases = [[0; 2]; 8];
+        for (at_y, layer) in (low_y..=high_y).zip(bases.as_chunks_mut::<4>().0) {
+            for (at_z, base) in (low_z..=high_z).zip(layer) {
+                for (at_x, base) in (first..=last).zip(base) {
+                    let chunk = self.chunks.number_or_make([at_x, at_y, at_z], || [0; VALUES]);
+                    *base = chunk as usize * VALUES;
                 }
             }
         }
@@ -170,50 +172,45 @@ impl ShadowGrid {
 
     /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
     pub fn exposure(&self, position: Vec3) -> f32 {
-        self.exposure_at(&self.spot(position))
+        self.exposure_at(self.spot(position), || position)
     }
 
     /// How to read the light at a place again and again.
     pub(crate) fn spot(&self, position: Vec3) -> Spot {
         let low = voxel_of(position - 0.5);
-        let [x, y, z] = low;
         let corner = directory::voxel_of(position - 0.5).map(|i| i as f32);
-        let f = position - 0.5 - Vec3::from_array(corner);
-        let own = voxel_of(position);
-        // The metamer's own shadow reaches the corners in its own voxel and those in the layer below.
-        let share = |own: i32, base: i32, f: f32| if own == base { 1.0 - f } else { f };
-        let at_own_height = share(own[1], y, f.y);
-        let in_own_column = share(own[0], x, f.x) * share(own[2], z, f.z);
-        let below = if own[1] == y { 0.0 } else { 1.0 - f.y };
-        let first = self.strength[0] as f32 * at_own_height * in_own_column;
-        let second = self.strength.get(1).map_or(0.0, |&s| s as f32) * below;
-        let is_within =
-            x & (WIDTH - 1) != WIDTH - 1 && y & (DEPTH - 1) != DEPTH - 1 && z & (DEPTH - 1) != DEPTH - 1;
+        let fraction = position - 0.5 - Vec3::from_array(corner);
+        let is_within = low[0] & (WIDTH - 1) != WIDTH - 1
+            && low[1] & (DEPTH - 1) != DEPTH - 1
+            && low[2] & (DEPTH - 1) != DEPTH - 1;
         let chunk = self.chunks.number(chunk_of(low)).filter(|_| is_within);
         Spot {
             at: chunk.map_or(Spot::SCATTERED, |chunk| chunk * VALUES as u32 + offset(low) as u32),
-            low: [x as i16, y as i16, z as i16],
-            fraction: f,
-            own: first + second,
+            fraction: fraction.to_array().map(|f| (f * Spot::STEPS) as i32 as u16),
         }
     }
 
-    /// Light at a place, 0 to 1.
+    /// Light at a place with this spot, 0 to 1, as if the metamer whose node is there cast no shadow.
     ///
     /// Shadows are interpolated between voxel centres; read at one voxel they would come in blocks.
     #[inline]
-    pub(crate) fn exposure_at(&self, spot: &Spot) -> f32 {
-        let octet = self.octet(spot);
-        let f = spot.fraction;
+    pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
+        let octet =
+            if spot.at == Spot::SCATTERED { self.scattered_octet(place()) } else { self.octet(spot.at) };
+        let f = Vec3::from_array(spot.fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
         let mut s = [0.0; 8];
         for (s, shadow) in s.iter_mut().zip(octet) {
-            // What is darker than dark by far reads the same; as a signed number it converts faster.
+            // As a signed number it converts faster; none is so dark that it would matter.
             *s = shadow as i32 as f32;
         }
         let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
         let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
         let shadow = along_z(0) * (1.0 - f.y) + along_z(4) * f.y;
-        (1.0 - (shadow - spot.own) / UNIT).clamp(0.0, 1.0)
+        // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
+        let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
+        let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
+        let own = self.first * (x * y * z) + self.second * below;
+        (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
     }
 
     /// The direction towards more light at a place, −∇s by central differences over one voxel (Pałubicki et
@@ -234,52 +231,51 @@ impl ShadowGrid {
         self.chunks.get(chunk_of(voxel)).map_or(0, |chunk| chunk[offset(voxel)])
     }
 
-    /// Shadows in the eight voxels around a spot, x fastest, then z, then y.
+    /// Shadows in the eight voxels of one chunk of which the least stands here, x fastest, then z, then y.
     #[inline]
-    fn octet(&self, spot: &Spot) -> [u32; 8] {
-        if spot.at == Spot::SCATTERED {
-            return self.scattered_octet(spot.low.map(i32::from));
-        }
-        const UP: usize = STRIDE * DEPTH as usize;
-        let Some(values) =
-            self.chunks.all().as_flattened()[spot.at as usize..].first_chunk::<{ UP + STRIDE + 2 }>()
-        else {
-            return [0; 8];
-        };
-        [0, 1, STRIDE, STRIDE + 1, UP, UP + 1, UP + STRIDE, UP + STRIDE + 1].map(|step| values[step])
+    fn octet(&self, at: u32) -> [u32; 8] {
+        const LAST: usize = PLANE + WIDTH as usize + 2;
+        let values = self.chunks.all().as_flattened().get(at as usize..);
+        let Some(values) = values.and_then(|values| values.first_chunk::<LAST>()) else { return [0; 8] };
+        const ACROSS: usize = WIDTH as usize;
+        [0, 1, ACROSS, ACROSS + 1, PLANE, PLANE + 1, PLANE + ACROSS, PLANE + ACROSS + 1]
+            .map(|step| values[step])
     }
 
-    /// The same where the eight lie in several chunks.
+    /// The same around a place whose eight voxels lie in several chunks.
     #[cold]
-    fn scattered_octet(&self, [x, y, z]: [i32; 3]) -> [u32; 8] {
+    fn scattered_octet(&self, place: Vec3) -> [u32; 8] {
+        let [x, y, z] = voxel_of(place - 0.5);
+        let is_split = x & (WIDTH - 1) == WIDTH - 1;
         let mut octet = [0; 8];
         for (i, pair) in octet.chunks_exact_mut(2).enumerate() {
             let (y, z) = (y + (i as i32 >> 1), z + (i as i32 & 1));
-            let Some(chunk) = self.chunks.get(chunk_of([x, y, z])) else { continue };
-            let at = offset([x, y, z]);
-            pair[0] = chunk[at];
-            pair[1] = if x & (WIDTH - 1) == WIDTH - 1 { self.shadow([x + 1, y, z]) } else { chunk[at + 1] };
+            if let Some(chunk) = self.chunks.get(chunk_of([x, y, z])) {
+                let at = offset([x, y, z]);
+                pair[0] = chunk[at];
+                pair[1] = if is_split { 0 } else { chunk[at + 1] };
+            }
+            if is_split {
+                pair[1] = self.shadow([x + 1, y, z]);
+            }
         }
         octet
     }
 }
 
-/// A place whose light is read often: where its voxels are, and what is known beforehand.
+/// A place whose light is read often: where its voxels are, and how it lies between them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
     /// Where the least of its eight voxels stands among all chunks' values; or [`Spot::SCATTERED`].
     at: u32,
-    /// The least of its eight voxels.
-    low: [i16; 3],
-    /// Where it lies between the centres of the eight.
-    fraction: Vec3,
-    /// The shadow of its own metamer.
-    own: f32,
+    /// Where it lies between the centres of the eight, in steps of 1/[`Spot::STEPS`].
+    fraction: [u16; 3],
 }
 
 impl Spot {
     /// The eight voxels are not in one chunk.
     const SCATTERED: u32 = u32::MAX;
+    const STEPS: f32 = 32768.0;
 }
 
 /// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk.
@@ -296,8 +292,8 @@ fn chunk_of([x, y, z]: [i32; 3]) -> [i32; 3] {
 
 #[inline]
 fn offset([x, y, z]: [i32; 3]) -> usize {
-    let row = (y & (DEPTH - 1)) << DEPTH_BITS | (z & (DEPTH - 1));
-    row as usize * STRIDE + ROW + (x & (WIDTH - 1)) as usize
+    let (y, z) = ((y & (DEPTH - 1)) as usize, (z & (DEPTH - 1)) as usize);
+    y * PLANE + (z << WIDTH_BITS) + (x & (WIDTH - 1)) as usize
 }
 
 /// Half the width along x of a layer's row at `z`. A layer is a disc of radius q + ½ voxels: square layers would
@@ -384,8 +380,9 @@ mod tests {
                 prop_assert_eq!(grid.shadow(voxel), shadow_by_definition(&grid, &casters, voxel));
                 let corner = Vec3::new((voxel[0] - WIDTH / 2) as f32, voxel[1] as f32, (voxel[2] - DEPTH / 2) as f32);
                 let spot = grid.spot(corner + 0.75);
-                prop_assert_eq!(grid.octet(&spot), grid.scattered_octet(voxel));
-                for (i, shadow) in (0..).zip(grid.octet(&spot)) {
+                let octet = grid.scattered_octet(corner + 0.75);
+                prop_assert!(spot.at == Spot::SCATTERED || grid.octet(spot.at) == octet);
+                for (i, shadow) in (0..).zip(octet) {
                     let corner = [voxel[0] + (i & 1), voxel[1] + (i >> 2), voxel[2] + (i >> 1 & 1)];
                     prop_assert_eq!(shadow, grid.shadow(corner));
                 }

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::voxel_grid::{VoxelGrid, voxel_of};
 
 /// Points in one block: as many as the processor compares at once.
-const LANES: usize = 8;
+const LANES: usize = 4;
 
 /// What a block holds beside its points, lane by lane.
 pub(crate) trait Lanes: Clone + core::fmt::Debug {
@@ -100,6 +100,27 @@ pub(crate) struct Block<L> {
     next: u32,
 }
 
+/// Where a point stands: its block and its lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Stand(u32);
+
+impl Stand {
+    /// Where nothing stands.
+    pub(crate) const NOWHERE: Self = Self(u32::MAX);
+
+    fn new(block: usize, lane: usize) -> Self {
+        Self((block * LANES + lane) as u32)
+    }
+
+    fn block(self) -> usize {
+        self.0 as usize / LANES
+    }
+
+    fn lane(self) -> usize {
+        self.0 as usize % LANES
+    }
+}
+
 /// Whether a search goes on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Visit {
@@ -160,47 +181,65 @@ impl<L: Lanes> PlaceGrid<L> {
         Self { cell, heads: VoxelGrid::new(), blocks: Vec::new(), spare: Vec::new() }
     }
 
-    /// Enters a point.
-    pub(crate) fn insert(&mut self, number: u32, place: Vec3, item: L::Item) {
+    /// Enters a point, and says where it stands.
+    pub(crate) fn insert(&mut self, number: u32, place: Vec3, item: L::Item) -> Stand {
         let cell = self.cell_of(place);
         let head = self.heads.get_mut(cell);
         let has_room = *head != 0 && (self.blocks[*head as usize - 1].len as usize) < LANES;
         if !has_room {
             let block = self.spare.pop().unwrap_or(self.blocks.len() as u32);
             if block as usize == self.blocks.len() {
+                if self.blocks.len() == self.blocks.capacity() {
+                    self.blocks.reserve_exact(self.blocks.len() / 16 + 64);
+                }
                 self.blocks.push(Block::EMPTY);
             }
             self.blocks[block as usize].next = *head;
             *head = block + 1;
         }
-        let first = &mut self.blocks[*head as usize - 1];
-        first.set(first.len as usize, place, number, item);
-        first.len += 1;
+        let block = *head as usize - 1;
+        let lane = self.blocks[block].len as usize;
+        self.blocks[block].set(lane, place, number, item);
+        self.blocks[block].len += 1;
+        Stand::new(block, lane)
     }
 
-    /// Takes out a point that was entered at this place.
-    pub(crate) fn remove(&mut self, number: u32, place: Vec3) {
-        let cell = self.cell_of(place);
-        let head = self.heads.get_mut(cell);
-        debug_assert!(*head != 0, "point {number} was never entered");
-        let first = *head as usize - 1;
-        // The first block's last point takes the place of the one that goes.
-        let (moved_place, moved, item) = self.blocks[first].pop();
-        if moved != number {
-            let mut at = first;
-            loop {
-                let block = &mut self.blocks[at];
-                if let Some(lane) = block.number[..block.len as usize].iter().position(|&n| n == number) {
-                    block.set(lane, moved_place, moved, item);
-                    break;
-                }
-                at = block.next as usize - 1;
+    /// Where a point stands that was entered at this place.
+    pub(crate) fn find(&self, number: u32, place: Vec3) -> Stand {
+        let mut at = self.heads.get(self.cell_of(place));
+        loop {
+            debug_assert!(at != 0, "point {number} was never entered");
+            let block = &self.blocks[at as usize - 1];
+            if let Some(lane) = block.number[..block.len as usize].iter().position(|&n| n == number) {
+                return Stand::new(at as usize - 1, lane);
             }
+            at = block.next;
+        }
+    }
+
+    /// Takes out the point that stands here. If another moves to its stand, returns that one's number.
+    pub(crate) fn remove(&mut self, stand: Stand) -> Option<u32> {
+        let (block, lane) = (stand.block(), stand.lane());
+        let cell = self.cell_of(self.blocks[block].places.get(lane));
+        let number = self.blocks[block].number[lane];
+        // The last point of the cell's first block takes the place of the one that goes.
+        let head = self.heads.get_mut(cell);
+        let first = *head as usize - 1;
+        let (place, moved, item) = self.blocks[first].pop();
+        if moved != number {
+            self.blocks[block].set(lane, place, moved, item);
         }
         if self.blocks[first].len == 0 {
             *head = self.blocks[first].next;
             self.spare.push(first as u32);
         }
+        (moved != number).then_some(moved)
+    }
+
+    /// Place and item of the point that stands here.
+    pub(crate) fn at(&self, stand: Stand) -> (Vec3, L::Item) {
+        let block = &self.blocks[stand.block()];
+        (block.places.get(stand.lane()), block.items.get(stand.lane()))
     }
 
     /// Calls `visit` with every point within `radius` of `place` and its squared distance, in no particular

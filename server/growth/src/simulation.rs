@@ -19,7 +19,7 @@ use crate::{
     parameter_table::ParameterTable,
     parameters::Parameters,
     random::{Draw, Purpose},
-    space::Space,
+    space::{Bud, Space},
 };
 
 /// Growth stays within this distance of the origin on each axis, in internodes.
@@ -342,7 +342,8 @@ impl Simulation {
     fn replace_bud(&mut self, axis: AxisId) {
         let is_present = axis.index() < self.plant.axis_count() && self.plant.is_axis_alive(axis);
         if is_present {
-            self.space.place_bud(axis, self.plant.bud_position(axis), self.plant.bud_direction(axis));
+            let (position, direction) = (self.plant.bud_position(axis), self.plant.bud_direction(axis));
+            self.space.place_bud(axis, Bud { position, direction });
         } else {
             self.space.remove_bud(axis);
         }

@@ -10,7 +10,7 @@ use crate::{
     cells::CellSet,
     parameter_table::ParameterTable,
     parameters::Parameters,
-    place_grid::{PlaceGrid, Vectors, Visit},
+    place_grid::{PlaceGrid, Stand, Vectors, Visit},
 };
 
 /// Edges of the cells: as wide as what is searched for, so that few cells are visited; found by measuring.
@@ -21,8 +21,9 @@ const BUD_CELL: f32 = 4.0;
 #[derive(Clone, Debug)]
 pub struct Space {
     nodes: PlaceGrid,
-    bud_places: PlaceGrid<Vectors>,
-    buds: Vec<Bud>,
+    buds: PlaceGrid<Vectors>,
+    /// Where the bud of each axis stands among the buds.
+    stands: Vec<Stand>,
 }
 
 /// A bud as space sees it.
@@ -32,13 +33,12 @@ pub struct Bud {
     pub position: Vec3,
     /// Unit direction in which it points.
     pub direction: Vec3,
-    present: bool,
 }
 
 impl Space {
     /// Empty space.
     pub fn new() -> Self {
-        Self { nodes: PlaceGrid::new(NODE_CELL), bud_places: PlaceGrid::new(BUD_CELL), buds: Vec::new() }
+        Self { nodes: PlaceGrid::new(NODE_CELL), buds: PlaceGrid::new(BUD_CELL), stands: Vec::new() }
     }
 
     /// Enters a node.
@@ -63,42 +63,47 @@ impl Space {
 
     /// Takes a node out that was entered at this place.
     pub fn vacate(&mut self, id: MetamerId, position: Vec3) {
-        self.nodes.remove(id.raw(), position);
+        self.nodes.remove(self.nodes.find(id.raw(), position));
     }
 
     /// Enters a bud, or moves it if it is there already.
-    pub fn place_bud(&mut self, axis: AxisId, position: Vec3, direction: Vec3) -> &Bud {
+    pub fn place_bud(&mut self, axis: AxisId, bud: Bud) {
+        self.remove_bud(axis);
         let index = axis.index();
-        if index >= self.buds.len() {
-            let nowhere = Bud { position: Vec3::ZERO, direction: Vec3::Y, present: false };
-            self.buds.resize(index + 1, nowhere);
+        if index >= self.stands.len() {
+            if index >= self.stands.capacity() {
+                self.stands.reserve_exact(index + 1 - self.stands.len() + index / 16);
+            }
+            self.stands.resize(index + 1, Stand::NOWHERE);
         }
-        let held = std::mem::replace(&mut self.buds[index], Bud { position, direction, present: true });
-        if held.present {
-            self.bud_places.remove(axis.raw(), held.position);
-        }
-        self.bud_places.insert(axis.raw(), position, direction);
-        &self.buds[index]
+        self.stands[index] = self.buds.insert(axis.raw(), bud.position, bud.direction);
     }
 
     /// Takes a bud out, if it is there.
     pub fn remove_bud(&mut self, axis: AxisId) {
-        if let Some(bud) = self.buds.get_mut(axis.index()).filter(|bud| bud.present) {
-            bud.present = false;
-            let position = bud.position;
-            self.bud_places.remove(axis.raw(), position);
+        let Some(stand) = self.stands.get_mut(axis.index()).filter(|stand| **stand != Stand::NOWHERE) else {
+            return;
+        };
+        let left = std::mem::replace(stand, Stand::NOWHERE);
+        if let Some(moved) = self.buds.remove(left) {
+            self.stands[moved as usize] = left;
         }
     }
 
     /// The bud of an axis, if it lives.
-    pub fn bud(&self, axis: AxisId) -> Option<&Bud> {
-        self.buds.get(axis.index()).filter(|bud| bud.present)
+    pub fn bud(&self, axis: AxisId) -> Option<Bud> {
+        let stand = self.stands.get(axis.index()).filter(|stand| **stand != Stand::NOWHERE)?;
+        let (position, direction) = self.buds.at(*stand);
+        Some(Bud { position, direction })
     }
 
     /// Calls `visit` with every bud within `radius` of a place and its squared distance.
-    pub(crate) fn visit_buds(&self, place: Vec3, radius: f32, mut visit: impl FnMut(AxisId, &Bud, f32)) {
-        self.bud_places.visit_near(place, radius, |number, distance_squared| {
-            visit(AxisId::new(number as usize), &self.buds[number as usize], distance_squared);
+    pub(crate) fn visit_buds(&self, place: Vec3, radius: f32, mut visit: impl FnMut(AxisId, Bud, f32)) {
+        self.buds.visit_near(place, radius, |number, distance_squared| {
+            let axis = AxisId::new(number as usize);
+            if let Some(bud) = self.bud(axis) {
+                visit(axis, bud, distance_squared);
+            }
             Visit::Go
         });
     }
@@ -114,20 +119,17 @@ impl Space {
         &self,
         place: Vec3,
         parameters: &ParameterTable,
-        counts: impl Fn(AxisId, Vec3) -> bool,
+        counts: impl Fn(AxisId) -> bool,
     ) -> Option<(AxisId, f32)> {
         let mut limit = parameters.farthest_perception() * parameters.farthest_perception();
         let mut best: Option<(f32, AxisId)> = None;
         let widest = Cone::new(parameters.widest_perception()).signed_cos_squared;
-        self.bud_places.visit_nearing(place, parameters.farthest_perception(), |block| {
+        self.buds.visit_nearing(place, parameters.farthest_perception(), |block| {
             block.visit_seeing(place, limit, widest, |number, distance_squared, dot| {
                 let axis = AxisId::new(number as usize);
                 let nearer = best.is_none_or(|(d, a)| (distance_squared, axis) < (d, a));
                 let cone = Cone::new(parameters.of(axis));
-                if nearer
-                    && cone.holds(distance_squared, dot)
-                    && counts(axis, self.buds[axis.index()].position)
-                {
+                if nearer && cone.holds(distance_squared, dot) && counts(axis) {
                     best = Some((distance_squared, axis));
                     limit = distance_squared;
                 }
@@ -208,19 +210,19 @@ mod tests {
                 buds.iter().map(|(p, d)| (*p, d.try_normalize().unwrap_or(Vec3::Y))).collect();
             let mut grid = Space::new();
             for (i, (p, d)) in plain.iter().enumerate() {
-                grid.place_bud(AxisId::new(i), *p, *d);
+                grid.place_bud(AxisId::new(i), Bud { position: *p, direction: *d });
             }
             for (i, p) in moves {
                 let i = i % plain.len();
                 plain[i].0 = p;
-                grid.place_bud(AxisId::new(i), p, plain[i].1);
+                grid.place_bud(AxisId::new(i), Bud { position: p, direction: plain[i].1 });
             }
             for i in removed {
                 let i = i % plain.len();
                 plain[i].0 = Vec3::splat(1e6);
                 grid.remove_bud(AxisId::new(i));
             }
-            prop_assert_eq!(grid.nearest_perceiving(place, &table, |_, _| true).map(|(axis, _)| axis), nearest_by_definition(&plain, place, &parameters));
+            prop_assert_eq!(grid.nearest_perceiving(place, &table, |_| true).map(|(axis, _)| axis), nearest_by_definition(&plain, place, &parameters));
             for (i, node) in nodes.iter().enumerate() {
                 grid.occupy(MetamerId::new(i), *node);
             }

@@ -19,6 +19,7 @@ use crate::{
     shedding,
     shoot::Aim,
     simulation::Simulation,
+    space::Bud,
 };
 
 /// What guides one step.
@@ -109,7 +110,8 @@ impl Simulation {
         let Self { plant, space, markers, claims, parameters, field, obstacles, .. } = self;
         claims.clear(plant.axis_count());
         for marker in markers.as_slice().iter().map(|marker| marker.position) {
-            let counts = |axis, bud| selection.includes(axis) && !obstacles.hides(bud, marker);
+            let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
+            let counts = |axis| selection.includes(axis) && (obstacles.is_empty() || sees(axis));
             if let Some((axis, _)) = space.nearest_perceiving(marker, parameters, counts) {
                 claims.add(axis, marker - plant.bud_position(axis));
             }
@@ -250,7 +252,8 @@ impl Simulation {
                 let axis = plant.metamers().axis(id);
                 let tip = (plant.axes().last(axis) == Some(id)).then_some(axis);
                 for axis in tip.into_iter().chain(plant.laterals(id)) {
-                    let bud = space.place_bud(axis, node, plant.bud_direction(axis));
+                    let bud = Bud { position: node, direction: plant.bud_direction(axis) };
+                    space.place_bud(axis, bud);
                     if let Some(field) = field {
                         field.place_bud(axis, bud, parameters.of(axis), obstacles);
                     }

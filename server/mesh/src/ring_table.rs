@@ -2,12 +2,18 @@
 //!
 //! The table holds what clients were told. [`RingTable::sync`] compares it with the plant in one pass and says
 //! what differs, so it does not matter what happened in between: growth, a slider, or a journey in time.
+//!
+//! Rows are held as the plant has them and quantised when they are read. So a chunk that stayed as it was is
+//! known by its plain columns, which compare many rows at once.
+
+mod changes;
 
 use std::ops::Range;
 
-use espalier_plant::{Appearance, MetamerId, Plant};
+use espalier_plant::{Appearance, AxisId, Columns, Plant};
 use glam::Vec3;
 
+pub use self::changes::Changes;
 use crate::{foliage, radius_code::NOT_DRAWN, style::Style};
 
 /// Rows in a chunk.
@@ -17,54 +23,30 @@ pub const POSITION_STEPS: f32 = 256.0;
 
 /// Light that changed by less is not reported: every shadow moves a little in every step, and nobody sees it.
 const LIGHT_HYSTERESIS: u8 = 8;
-/// The same for vigor, of 16 levels.
-const VIGOR_HYSTERESIS: u8 = 2;
+/// The same for vigor, of 16 levels in the high four bits.
+const VIGOR_HYSTERESIS: u8 = 2 << 4;
+const VIGOR_BITS: u8 = 0xf0;
 
-const NO_PARENT: u32 = u32::MAX;
+/// The link of a seed.
+const NO_LINK: u32 = u32::MAX;
+/// In place of the tips of what is not drawn: seeds and the dead.
+const NO_TIPS: u32 = u32::MAX;
 
 /// What clients know of a plant.
 #[derive(Clone, Debug, Default)]
 pub struct RingTable {
-    rows: Vec<Row>,
+    /// Twice the parent's row, and one more if the row starts its axis.
+    links: Vec<u32>,
+    axes: Vec<AxisId>,
+    ends: Vec<Vec3>,
+    /// Tips that are drawn.
+    tips: Vec<u32>,
+    /// Light and vigor as they were told.
+    looks: Vec<Appearance>,
+    /// What tips look like.
+    style: Style,
     generations: Vec<u32>,
     leaves: u32,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Row {
-    parent: u32,
-    position: [i32; 3],
-    radius: u16,
-    foliage: u8,
-    light: u8,
-    starts_axis: bool,
-}
-
-/// What a [`RingTable::sync`] changed: first the truncation, then rows in ascending order by column, then what
-/// was appended.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Changes {
-    /// How many rows were kept, if some were dropped.
-    pub truncated: Option<u32>,
-    /// The rows that are new, those included that took the place of dropped ones.
-    pub appended: Range<u32>,
-    /// Kept rows that moved.
-    pub position: Vec<u32>,
-    /// Kept rows that thickened, died or came back to life.
-    pub radius: Vec<u32>,
-    /// Kept rows whose leaves or vigor changed.
-    pub foliage: Vec<u32>,
-    /// Kept rows whose light changed.
-    pub light: Vec<u32>,
-}
-
-impl Changes {
-    /// Whether nothing changed.
-    pub fn is_empty(&self) -> bool {
-        self.truncated.is_none()
-            && self.appended.is_empty()
-            && [&self.position, &self.radius, &self.foliage, &self.light].iter().all(|rows| rows.is_empty())
-    }
 }
 
 impl RingTable {
@@ -75,7 +57,7 @@ impl RingTable {
 
     /// How many rows there are.
     pub fn rows(&self) -> usize {
-        self.rows.len()
+        self.links.len()
     }
 
     /// For each chunk the generation in which it last changed.
@@ -90,86 +72,188 @@ impl RingTable {
 
     /// The row this one grows from; none for a seed.
     pub fn parent(&self, row: u32) -> Option<u32> {
-        let parent = self.rows[row as usize].parent;
-        (parent != NO_PARENT).then_some(parent)
+        let link = self.links[row as usize];
+        (link != NO_LINK).then_some(link >> 1)
     }
 
     /// Whether a row is the first wood of its axis.
     pub fn starts_axis(&self, row: u32) -> bool {
-        self.rows[row as usize].starts_axis
+        let link = self.links[row as usize];
+        link != NO_LINK && link & 1 == 1
     }
 
     /// Where a row's metamer ends, in steps of 1/[`POSITION_STEPS`] internode.
     pub fn position(&self, row: u32) -> [i32; 3] {
-        self.rows[row as usize].position
+        quantised(self.ends[row as usize])
     }
 
     /// The code of a row's radius (see [`crate::radius_code`]).
     pub fn radius(&self, row: u32) -> u16 {
-        self.rows[row as usize].radius
+        radius(self.tips[row as usize], &self.style)
     }
 
     /// Leaves in the low four bits, vigor in the high four.
     pub fn foliage(&self, row: u32) -> u8 {
-        self.rows[row as usize].foliage
+        self.looks[row as usize].vigor | leaves(self.tips[row as usize], &self.style)
     }
 
     /// Exposure to light, 0 to 255.
     pub fn light(&self, row: u32) -> u8 {
-        self.rows[row as usize].light
+        self.looks[row as usize].light
     }
 
     /// Makes the table show the present of `plant`; chunks that change get `generation`.
     ///
     /// Light and vigor that differ little from what the table shows stay as they are.
     pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
+        let restyled = *style.options() != *self.style.options();
+        let former = restyled.then(|| std::mem::replace(&mut self.style, style.clone()));
+        let mut pass = Pass {
+            plant,
+            all: plant.columns(0..plant.metamer_count()),
+            style,
+            former: former.as_ref(),
+            renumbered: false,
+            changes: Changes::default(),
+        };
         let count = plant.metamer_count();
-        let mut changes = Changes::default();
-        let mut kept = self.rows.len().min(count);
-        for index in 0..kept {
-            let held = self.rows[index];
-            let source = Source::read(plant, index);
-            if (held.parent, held.starts_axis) != (source.parent, source.starts_axis) {
+        let mut kept = 0;
+        while kept < self.rows().min(count) {
+            let chunk = kept..(kept + CHUNK_ROWS).min(self.rows()).min(count);
+            let same = self.match_links(&mut pass, chunk.clone());
+            if self.update(&mut pass, chunk.start..same) {
+                self.generations[chunk.start / CHUNK_ROWS] = generation;
+            }
+            kept = same;
+            if same < chunk.end {
                 // A row never changes its parent, so this is another future, and so is every later row.
-                kept = index;
                 break;
             }
-            let row = source.row(style, Some(&held));
-            if row != held {
-                self.replace(index, row, generation, &mut changes);
-            }
         }
-        if kept < self.rows.len() {
-            self.truncate(kept, generation);
-            changes.truncated = Some(kept as u32);
+        if kept < self.rows() {
+            self.truncate(kept, pass.former.unwrap_or(style), generation);
+            pass.changes.truncated = Some(kept as u32);
         }
-        self.rows.reserve(count - kept);
-        for index in kept..count {
-            self.append(Source::read(plant, index).row(style, None), generation);
-        }
-        changes.appended = kept as u32..count as u32;
-        changes
+        self.append(&pass, kept..count, generation);
+        pass.changes.appended = kept as u32..count as u32;
+        pass.changes
     }
 
-    fn replace(&mut self, index: usize, row: Row, generation: u32, changes: &mut Changes) {
-        let held = std::mem::replace(&mut self.rows[index], row);
-        let note = |differs: bool, rows: &mut Vec<u32>| {
-            if differs {
-                rows.push(index as u32);
-            }
-        };
-        note(held.position != row.position, &mut changes.position);
-        note(held.radius != row.radius, &mut changes.radius);
-        note(held.foliage != row.foliage, &mut changes.foliage);
-        note(held.light != row.light, &mut changes.light);
-        self.leaves = self.leaves - held.leaf_count() + row.leaf_count();
-        self.generations[index / CHUNK_ROWS] = generation;
+    /// The first row of a chunk that has another link in the plant, or the chunk's end.
+    fn match_links(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> usize {
+        let (links, axes) = (&self.links[rows.clone()], &mut self.axes[rows.clone()]);
+        let told = pass.plant.columns(rows.clone());
+        let mut differs = u32::from(pass.renumbered);
+        for (link, parent) in links.iter().zip(told.parent) {
+            // The sign is kept, so that the link of a seed is halved to that of no parent.
+            differs |= (*link as i32 >> 1) as u32 ^ parent.raw();
+        }
+        for (axis, told) in axes.iter().zip(told.axis) {
+            differs |= axis.raw() ^ told.raw();
+        }
+        if differs == 0 {
+            return rows.end;
+        }
+        let same = rows.clone().zip(links).take_while(|(row, link)| **link == pass.link(*row)).count();
+        // The same wood may have axes of other numbers; then what follows cannot be known by its number.
+        pass.renumbered = true;
+        axes[..same].copy_from_slice(&told.axis[..same]);
+        rows.start + same
     }
 
-    fn truncate(&mut self, kept: usize, generation: u32) {
-        for row in self.rows.drain(kept..) {
-            self.leaves -= row.leaf_count();
+    /// Takes over what may change in some rows of a chunk; returns whether clients will see anything of it.
+    fn update(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
+        let moved = self.update_ends(pass, rows.clone());
+        let is_as_drawn = pass.former.is_none() && self.is_as_drawn(pass.plant, rows.clone());
+        let redrawn = !is_as_drawn && self.update_drawing(pass, rows);
+        moved || redrawn
+    }
+
+    fn update_ends(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
+        let (held, told) = (&mut self.ends[rows.clone()], pass.plant.columns(rows.clone()).end);
+        let bits = |end: &Vec3| end.to_array().map(f32::to_bits);
+        let mut differs = 0;
+        for (held, told) in held.iter().zip(told) {
+            let ([x, y, z], [told_x, told_y, told_z]) = (bits(held), bits(told));
+            differs |= (x ^ told_x) | (y ^ told_y) | (z ^ told_z);
         }
+        if differs == 0 {
+            return false;
+        }
+        let before = pass.changes.position.len();
+        for ((row, held), told) in rows.zip(held).zip(told) {
+            if quantised(*held) != quantised(*told) {
+                pass.changes.position.push(row as u32);
+            }
+            *held = *told;
+        }
+        pass.changes.position.len() > before
+    }
+
+    /// Whether nothing of how these rows are drawn has changed so far that it should be told.
+    fn is_as_drawn(&self, plant: &Plant, rows: Range<usize>) -> bool {
+        let told = plant.columns(rows.clone());
+        let now = plant.step();
+        let mut differs = 0;
+        let mut drawn = [0; CHUNK_ROWS];
+        let tips = self.tips[rows.clone()].iter().zip(told.tips);
+        for (((drawn, (&held, &tips)), &parent), &death) in
+            drawn.iter_mut().zip(tips).zip(told.parent).zip(told.death)
+        {
+            let is_drawn = (parent != Columns::NO_PARENT) & (death > now);
+            differs |= held ^ if is_drawn { tips } else { NO_TIPS };
+            *drawn = u8::from(is_drawn);
+        }
+        let mut looks_differ = 0;
+        for ((drawn, held), look) in drawn.iter().zip(&self.looks[rows]).zip(told.appearance) {
+            let light = look.light.abs_diff(held.light) >= LIGHT_HYSTERESIS;
+            let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= VIGOR_HYSTERESIS;
+            looks_differ |= drawn & u8::from(light | vigor);
+        }
+        differs == 0 && looks_differ == 0
+    }
+
+    fn update_drawing(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
+        let style = pass.style;
+        let former = pass.former.unwrap_or(style);
+        let told = pass.plant.columns(rows.clone());
+        let mut seen = false;
+        for (i, row) in rows.enumerate() {
+            let (held_tips, tips) = (self.tips[row], pass.tips(row));
+            let (held, look) = (self.looks[row], told.appearance[i]);
+            // What is not drawn keeps its looks: a change would only cost bytes.
+            let steady = |held: u8, told: u8, hysteresis: u8| {
+                if tips == NO_TIPS || told.abs_diff(held) < hysteresis { held } else { told }
+            };
+            let light = steady(held.light, look.light, LIGHT_HYSTERESIS);
+            let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, VIGOR_HYSTERESIS);
+            let (held_leaves, leaves) = (leaves(held_tips, former), leaves(tips, style));
+            let differ = [
+                radius(held_tips, former) != radius(tips, style),
+                (held_leaves, held.vigor) != (leaves, vigor),
+                held.light != light,
+            ];
+            self.tips[row] = tips;
+            self.looks[row] = Appearance { light, vigor };
+            self.leaves = self.leaves - u32::from(held_leaves) + u32::from(leaves);
+            let Changes { radius, foliage, light, .. } = &mut pass.changes;
+            for (column, differs) in [radius, foliage, light].into_iter().zip(differ) {
+                if differs {
+                    column.push(row as u32);
+                    seen = true;
+                }
+            }
+        }
+        seen
+    }
+
+    fn truncate(&mut self, kept: usize, told_style: &Style, generation: u32) {
+        self.leaves -= all_leaves(&self.tips[kept..], told_style);
+        self.links.truncate(kept);
+        self.axes.truncate(kept);
+        self.ends.truncate(kept);
+        self.tips.truncate(kept);
+        self.looks.truncate(kept);
         self.generations.truncate(kept.div_ceil(CHUNK_ROWS));
         if !kept.is_multiple_of(CHUNK_ROWS) {
             // The last chunk lost some of its rows, and so it changed.
@@ -177,65 +261,66 @@ impl RingTable {
         }
     }
 
-    fn append(&mut self, row: Row, generation: u32) {
-        if self.rows.len().is_multiple_of(CHUNK_ROWS) {
-            self.generations.push(generation);
+    fn append(&mut self, pass: &Pass<'_>, rows: Range<usize>, generation: u32) {
+        let new = pass.plant.columns(rows.clone());
+        self.links.extend(rows.clone().map(|row| pass.link(row)));
+        self.axes.extend_from_slice(new.axis);
+        self.ends.extend_from_slice(new.end);
+        self.tips.extend(rows.clone().map(|row| pass.tips(row)));
+        let told = |look: &Appearance| Appearance { light: look.light, vigor: look.vigor & VIGOR_BITS };
+        self.looks.extend(new.appearance.iter().map(told));
+        self.leaves += all_leaves(&self.tips[rows.clone()], pass.style);
+        if !rows.is_empty() {
+            self.generations.truncate(rows.start / CHUNK_ROWS);
+            self.generations.resize(rows.end.div_ceil(CHUNK_ROWS), generation);
         }
-        self.generations[self.rows.len() / CHUNK_ROWS] = generation;
-        self.leaves += row.leaf_count();
-        self.rows.push(row);
     }
 }
 
-impl Row {
-    fn leaf_count(&self) -> u32 {
-        u32::from(self.foliage & 0xf)
+/// A plant on the way into the table.
+struct Pass<'a> {
+    plant: &'a Plant,
+    all: Columns<'a>,
+    style: &'a Style,
+    /// The style before, if it is another now.
+    former: Option<&'a Style>,
+    /// Whether rows that stayed as they were have other axes by number.
+    renumbered: bool,
+    changes: Changes,
+}
+
+impl Pass<'_> {
+    fn link(&self, row: usize) -> u32 {
+        let Columns { parent, axis, .. } = self.all;
+        if parent[row] == Columns::NO_PARENT {
+            return NO_LINK;
+        }
+        let below = parent[row].index();
+        let starts_axis = parent[below] == Columns::NO_PARENT || axis[below] != axis[row];
+        2 * below as u32 + u32::from(starts_axis)
+    }
+
+    fn tips(&self, row: usize) -> u32 {
+        let Columns { parent, death, tips, .. } = self.all;
+        let is_drawn = parent[row] != Columns::NO_PARENT && death[row] > self.plant.step();
+        if is_drawn { tips[row] } else { NO_TIPS }
     }
 }
 
-/// What the plant says of one metamer.
-struct Source {
-    parent: u32,
-    starts_axis: bool,
-    end: Vec3,
-    /// None for seeds and the dead.
-    tips: Option<u32>,
-    appearance: Appearance,
+fn radius(tips: u32, style: &Style) -> u16 {
+    if tips == NO_TIPS { NOT_DRAWN } else { style.radius_code(tips) }
 }
 
-impl Source {
-    fn read(plant: &Plant, index: usize) -> Self {
-        let id = MetamerId::new(index);
-        let metamers = plant.metamers();
-        let parent = metamers.parent(id);
-        let begins = |parent| plant.is_seed(parent) || metamers.axis(parent) != metamers.axis(id);
-        Self {
-            parent: parent.map_or(NO_PARENT, MetamerId::raw),
-            starts_axis: parent.is_some_and(begins),
-            end: metamers.end(id),
-            tips: (parent.is_some() && plant.is_alive(id)).then(|| metamers.tips(id)),
-            appearance: metamers.appearance(id),
-        }
-    }
+fn leaves(tips: u32, style: &Style) -> u8 {
+    if tips == NO_TIPS { 0 } else { foliage::leaves_of_living(tips, style) }
+}
 
-    fn row(&self, style: &Style, held: Option<&Row>) -> Row {
-        let Appearance { light, vigor } = self.appearance;
-        let steady = |new: u8, held: Option<u8>, hysteresis: u8| match held {
-            // What is not drawn keeps its looks: a change would only cost bytes.
-            Some(held) if self.tips.is_none() || new.abs_diff(held) < hysteresis => held,
-            _ => new,
-        };
-        let vigor = steady(vigor >> 4, held.map(|row| row.foliage >> 4), VIGOR_HYSTERESIS);
-        let leaves = self.tips.map_or(0, |tips| foliage::leaves_of_living(tips, style));
-        Row {
-            parent: self.parent,
-            position: self.end.to_array().map(quantise),
-            radius: self.tips.map_or(NOT_DRAWN, |tips| style.radius_code(tips)),
-            foliage: vigor << 4 | leaves,
-            light: steady(light, held.map(|row| row.light), LIGHT_HYSTERESIS),
-            starts_axis: self.starts_axis,
-        }
-    }
+fn all_leaves(tips: &[u32], style: &Style) -> u32 {
+    tips.iter().map(|&tips| u32::from(leaves(tips, style))).sum()
+}
+
+fn quantised(place: Vec3) -> [i32; 3] {
+    place.to_array().map(quantise)
 }
 
 /// The nearest step; half-way cases go away from zero.

@@ -7,6 +7,7 @@
 
 pub mod axes;
 pub mod checks;
+pub mod columns;
 pub mod girth;
 pub mod hash;
 pub mod id;
@@ -17,6 +18,7 @@ pub mod time_travel;
 pub mod timeline;
 
 pub use axes::Axes;
+pub use columns::Columns;
 pub use girth::Girth;
 pub use id::{AxisId, MetamerId};
 pub use metamers::{Appearance, Metamers};

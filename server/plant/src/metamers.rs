@@ -45,6 +45,9 @@ pub(crate) struct Row {
 impl Metamers {
     pub(crate) fn push(&mut self, row: &Row) -> MetamerId {
         let id = MetamerId::new(self.parent.len());
+        if self.parent.len() == self.parent.capacity() {
+            self.reserve();
+        }
         self.parent.push(row.parent);
         self.axis.push(row.axis);
         self.birth.push(row.birth);
@@ -55,6 +58,21 @@ impl Metamers {
         self.appearance.push(Appearance { light: 255, vigor: 255 });
         self.lateral.push(row.lateral);
         id
+    }
+
+    /// Makes room for a sixteenth more: doubling would leave a large plant's columns half empty.
+    #[cold]
+    fn reserve(&mut self) {
+        let more = self.parent.len() / 16 + 64;
+        self.parent.reserve_exact(more);
+        self.axis.reserve_exact(more);
+        self.birth.reserve_exact(more);
+        self.death.reserve_exact(more);
+        self.end.reserve_exact(more);
+        self.normal.reserve_exact(more);
+        self.tips.reserve_exact(more);
+        self.appearance.reserve_exact(more);
+        self.lateral.reserve_exact(more);
     }
 
     pub(crate) fn truncate(&mut self, len: usize) {

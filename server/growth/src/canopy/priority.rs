@@ -42,7 +42,7 @@ impl Canopy {
                 self.bud_vigors[axis.index()] = gain * self.flows[first].light() as f64;
             }
             let vigor = self.bud_vigors[axis.index()];
-            let lambda = self.plants[self.nodes[first].plant as usize].1;
+            let lambda = self.plants[self.nodes[first].plant()].1;
             claimants.clear();
             for &slot in &slots {
                 self.claimants_at(slot, plant, parameters, &buds, lambda >= 0.5, &mut claimants);
@@ -70,7 +70,7 @@ impl Canopy {
     fn count_buds(&self, plant: &Plant) -> Vec<u32> {
         let mut buds = vec![0; self.nodes.len()];
         for (slot, node) in self.nodes.iter().enumerate().rev() {
-            buds[slot] += u32::from(node.is_tip) + dormant(plant, node.id).count() as u32;
+            buds[slot] += u32::from(node.is_tip()) + dormant(plant, node.id).count() as u32;
             if node.parent != NOWHERE {
                 buds[node.parent as usize] += buds[slot];
             }
@@ -98,7 +98,7 @@ impl Canopy {
             };
             claimants.push(Claimant { axis, node: slot, light, buds, is_first: false });
         }
-        if self.nodes[slot].is_tip {
+        if self.nodes[slot].is_tip() {
             let (axis, light) = (plant.metamers().axis(id), self.flows[slot].main);
             claimants.push(Claimant { axis, node: slot, light, buds: 1, is_first: terminal_first });
         }

@@ -1,9 +1,7 @@
 //! Broadleaved trees, and ginkgo, which looks like one.
 
 use super::{
-    BarkKind, Fruit, LeafKind, Species,
-    Stage::{Change, Grow},
-    Stand, changed, life, pole, turn, weigh, with,
+    BarkKind, Fruit, LeafKind, Species, Stage::Grow, Stand, canopy, changed, life, pole, turn, weigh, with,
 };
 
 pub(super) fn all() -> Vec<Species> {
@@ -152,23 +150,27 @@ fn lombardy_poplar() -> Species {
 fn weeping_willow() -> Species {
     let parameters = with(|p| {
         p.internode_length = 0.25;
-        p.apical_control = 0.53;
+        p.apical_control = 0.48;
         p.branching_angle = 55.0;
         p.setpoint_angle = 180.0;
-        weigh(p, 0.5, 0.45);
-        p.max_shoot_length = 12;
+        weigh(p, 0.6, 0.3);
+        p.max_shoot_length = 6;
         p.shadow_strength = 0.1;
         p.twig_diameter = 0.06;
         p.leaves_per_node = 5;
         p.leaf_size = 1.4;
     });
     let limbs = changed(&parameters, |p| {
-        p.apical_control = 0.48;
         p.setpoint_angle = 40.0;
         weigh(p, 0.6, 0.1);
         p.max_shoot_length = 4;
         p.shadow_strength = 0.3;
         p.shedding_threshold = 0.25;
+    });
+    let curtain = turn(&parameters, |p| {
+        p.apical_control = 0.53;
+        weigh(p, 0.5, 0.45);
+        p.max_shoot_length = 12;
     });
     Species {
         slug: "weeping-willow",
@@ -181,7 +183,7 @@ fn weeping_willow() -> Species {
         bark: BarkKind::Furrowed,
         bark_tint: [122, 108, 86],
         stand: Stand::Ground,
-        schedule: life(pole(&limbs, 6), [Grow(10), Change(Box::new(parameters.clone())), Grow(4)]),
+        schedule: life(pole(&limbs, 8), [Grow(10), curtain, Grow(4)]),
         parameters,
     }
 }
@@ -191,7 +193,7 @@ fn maple() -> Species {
         p.internode_length = 0.3;
         p.buds_per_node = 2;
         p.phyllotactic_angle = 90.0;
-        p.apical_control = 0.505;
+        p.apical_control = 0.5;
         p.branching_angle = 42.0;
         p.setpoint_angle = 5.0;
         weigh(p, 0.45, 0.25);
@@ -211,7 +213,7 @@ fn maple() -> Species {
         bark: BarkKind::Furrowed,
         bark_tint: [112, 104, 94],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 4), [Grow(14)]),
+        schedule: life(pole(&parameters, 5), [Grow(14)]),
         parameters,
     }
 }
@@ -253,9 +255,9 @@ fn cherry() -> Species {
         p.apical_control = 0.475;
         p.branching_angle = 45.0;
         p.deflection_angle = 8.0;
-        p.setpoint_angle = 55.0;
+        p.setpoint_angle = 45.0;
         weigh(p, 0.6, 0.1);
-        p.shadow_strength = 0.3;
+        p.shadow_strength = 0.35;
         p.shedding_threshold = 0.2;
         p.leaves_per_node = 7;
         p.leaf_size = 1.1;
@@ -271,7 +273,7 @@ fn cherry() -> Species {
         bark: BarkKind::Banded,
         bark_tint: [92, 68, 62],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 4), [Grow(13)]),
+        schedule: life(pole(&parameters, 5), [Grow(13)]),
         parameters,
     }
 }
@@ -343,12 +345,13 @@ fn olive() -> Species {
 fn umbrella_acacia() -> Species {
     let parameters = with(|p| {
         p.internode_length = 0.2;
-        p.apical_control = 0.46;
+        p.apical_control = 0.455;
         p.branching_angle = 50.0;
         p.deflection_angle = 10.0;
-        p.setpoint_angle = 45.0;
+        p.setpoint_angle = 52.0;
         p.light_sensitivity = 2.0;
-        weigh(p, 0.45, 0.35);
+        p.max_shoot_length = 4;
+        weigh(p, 0.4, 0.45);
         p.shadow_strength = 0.4;
         p.shedding_threshold = 0.22;
         p.twig_diameter = 0.08;
@@ -356,10 +359,14 @@ fn umbrella_acacia() -> Species {
         p.leaf_size = 1.1;
         p.trunk_upward = false;
     });
-    let flat = turn(&parameters, |p| {
-        p.setpoint_angle = 90.0;
-        weigh(p, 0.3, 0.5);
-        p.shadow_strength = 0.3;
+    let level = turn(&parameters, |p| {
+        p.marker_density = 0.3;
+        p.shadow_strength = 0.2;
+        p.setpoint_angle = 80.0;
+    });
+    let cleared = turn(&parameters, |p| {
+        p.shedding_threshold = 0.29;
+        p.shadow_strength = 0.2;
     });
     Species {
         slug: "umbrella-acacia",
@@ -372,7 +379,10 @@ fn umbrella_acacia() -> Species {
         bark: BarkKind::Furrowed,
         bark_tint: [116, 96, 76],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 4), [Grow(11), flat, Grow(4)]),
+        schedule: life(
+            pole(&parameters, 4),
+            [Grow(8), level, canopy(29.0, 1.0, 24.0, 4.0), cleared, Grow(1)],
+        ),
         parameters,
     }
 }
@@ -382,7 +392,7 @@ fn baobab() -> Species {
         p.internode_length = 0.4;
         p.apical_control = 0.47;
         p.branching_angle = 65.0;
-        p.deflection_angle = 15.0;
+        p.deflection_angle = 4.0;
         p.setpoint_angle = 70.0;
         weigh(p, 0.5, 0.15);
         p.max_shoot_length = 3;

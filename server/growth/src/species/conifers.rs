@@ -1,10 +1,6 @@
 //! Conifers.
 
-use super::{
-    BarkKind, LeafKind, Species,
-    Stage::{Change, Grow},
-    Stand, changed, life, pole, turn, weigh, with,
-};
+use super::{BarkKind, LeafKind, Species, Stage::Grow, Stand, canopy, life, pole, turn, weigh, with};
 
 pub(super) fn all() -> Vec<Species> {
     vec![spruce(), scots_pine(), stone_pine(), larch(), cedar_of_lebanon(), cypress(), juniper()]
@@ -78,15 +74,24 @@ fn stone_pine() -> Species {
         p.internode_length = 0.3;
         p.apical_control = 0.465;
         p.branching_angle = 45.0;
-        p.setpoint_angle = 42.0;
-        p.light_sensitivity = 1.5;
-        weigh(p, 0.5, 0.3);
-        p.shadow_strength = 0.3;
-        p.shedding_threshold = 0.25;
+        p.setpoint_angle = 45.0;
+        p.light_sensitivity = 1.0;
+        p.twig_diameter = 0.09;
+        weigh(p, 0.5, 0.25);
+        p.shadow_strength = 0.37;
+        p.shedding_threshold = 0.28;
         p.girth_exponent = 2.3;
         p.leaves_per_node = 6;
         p.leaf_size = 1.4;
         p.trunk_upward = false;
+    });
+    let dome = turn(&parameters, |p| {
+        p.marker_density = 0.3;
+        p.shadow_strength = 0.2;
+    });
+    let cleared = turn(&parameters, |p| {
+        p.shedding_threshold = 0.33;
+        p.shadow_strength = 0.2;
     });
     Species {
         slug: "stone-pine",
@@ -99,7 +104,10 @@ fn stone_pine() -> Species {
         bark: BarkKind::Plated,
         bark_tint: [136, 106, 84],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 9), [Grow(12)]),
+        schedule: life(
+            pole(&parameters, 11),
+            [Grow(3), dome, canopy(54.0, 7.0, 20.0, 7.0), cleared, Grow(1)],
+        ),
         parameters,
     }
 }
@@ -141,12 +149,10 @@ fn larch() -> Species {
 fn cedar_of_lebanon() -> Species {
     let parameters = with(|p| {
         p.internode_length = 0.35;
-        p.apical_control = 0.49;
+        p.apical_control = 0.52;
         p.branching_angle = 80.0;
-        p.phyllotactic_angle = 180.0;
         p.deflection_angle = 4.0;
         p.setpoint_angle = 90.0;
-        p.trunk_upward = false;
         weigh(p, 0.4, 0.5);
         p.shadow_strength = 0.3;
         p.shedding_threshold = 0.2;
@@ -156,10 +162,10 @@ fn cedar_of_lebanon() -> Species {
         p.leaves_per_node = 7;
         p.leaf_size = 1.3;
     });
-    let young = changed(&parameters, |p| {
-        p.trunk_upward = true;
-        p.phyllotactic_angle = 137.5;
-        p.apical_control = 0.52;
+    let old = turn(&parameters, |p| {
+        p.trunk_upward = false;
+        p.phyllotactic_angle = 180.0;
+        p.apical_control = 0.49;
     });
     Species {
         slug: "cedar-of-lebanon",
@@ -172,7 +178,7 @@ fn cedar_of_lebanon() -> Species {
         bark: BarkKind::Furrowed,
         bark_tint: [104, 90, 78],
         stand: Stand::Ground,
-        schedule: life(pole(&young, 7), [Grow(11), Change(Box::new(parameters.clone())), Grow(8)]),
+        schedule: life(pole(&parameters, 7), [Grow(11), old, Grow(8)]),
         parameters,
     }
 }

@@ -173,6 +173,21 @@ fn stroke(places: &[(f32, f32, f32, f32)]) -> Stage {
     Stage::Brush(places.iter().map(sample).collect())
 }
 
+/// A brush that goes around in a widening spiral: a level canopy of some reach, whose rim is lower by `droop`.
+fn canopy(height: f32, droop: f32, reach: f32, radius: f32) -> Stage {
+    const MOVES: u32 = 32;
+    const TURNS: f32 = 3.0;
+    let places = (0..=MOVES).map(|i| {
+        let gone = i as f32 / MOVES as f32;
+        // The last turn stays on the rim.
+        let out = (gone * TURNS / (TURNS - 1.0)).min(1.0);
+        let (sin, cos) = libm::sincosf(core::f32::consts::TAU * TURNS * gone);
+        let position = Vec3::new(reach * out * cos, height - droop * out * out, reach * out * sin);
+        BrushSample { position, radius }
+    });
+    Stage::Brush(places.collect())
+}
+
 /// Grows a bare pole first: laterals are given up as soon as they are judged.
 fn pole(parameters: &ParameterValues, steps: u32) -> [Stage; 3] {
     let young = turn(parameters, |p| {

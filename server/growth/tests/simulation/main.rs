@@ -2,6 +2,7 @@
 
 mod brushing;
 mod enclosing;
+mod fidelity;
 mod golden;
 mod invariants;
 mod obstructing;

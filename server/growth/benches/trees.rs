@@ -1,0 +1,99 @@
+//! Whole trees: grown from seed to so many living metamers by the full model, and the last step of that.
+
+use std::time::Duration;
+
+use criterion::{BatchSize, BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
+use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepInput};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+const THREADS: [usize; 2] = [1, 2];
+/// Sheds some of the shaded wood, and still lets the tree reach its size.
+const SHEDDING_THRESHOLD: f32 = 0.002;
+
+/// A tree to grow.
+#[derive(Clone, Copy)]
+struct Kind {
+    name: &'static str,
+    shedding_threshold: f32,
+}
+
+const KINDS: [Kind; 2] = [
+    Kind { name: "keeping", shedding_threshold: 0.0 },
+    Kind { name: "shedding", shedding_threshold: SHEDDING_THRESHOLD },
+];
+
+fn seedling(kind: Kind) -> Simulation {
+    let values =
+        ParameterValues { shedding_threshold: kind.shedding_threshold, ..ParameterValues::default() };
+    let mut simulation = Simulation::new(1, Parameters::new(values).expect("the threshold is in range"));
+    simulation.set_metamer_budget(u32::MAX);
+    simulation
+}
+
+fn step(simulation: &mut Simulation) {
+    let input = StepInput { autonomous: true, ..StepInput::default() };
+    simulation.step(&input, &mut NoObserver);
+}
+
+fn grown(kind: Kind, metamers: u32) -> Simulation {
+    let mut simulation = seedling(kind);
+    while simulation.plant().living_count() < metamers {
+        step(&mut simulation);
+    }
+    simulation
+}
+
+/// The tree one step before it has so many metamers.
+fn nearly_grown(kind: Kind, metamers: u32) -> Simulation {
+    let mut simulation = seedling(kind);
+    loop {
+        let before = simulation.clone();
+        step(&mut simulation);
+        if simulation.plant().living_count() >= metamers {
+            return before;
+        }
+    }
+}
+
+/// Calls `bench` with a name for each kind of tree on each number of threads, and the threads.
+fn each_way(mut bench: impl FnMut(BenchmarkId, Kind, &ThreadPool)) {
+    for threads in THREADS {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started");
+        for kind in KINDS {
+            bench(BenchmarkId::new(kind.name, format!("threads={threads}")), kind, &pool);
+        }
+    }
+}
+
+fn whole_trees(criterion: &mut Criterion) {
+    for (name, metamers) in [("tree of 100k", 100_000), ("tree of 1M", 1_000_000)] {
+        let mut group = criterion.benchmark_group(name);
+        // No warm-up worth the name: each tree begins with a single seed.
+        group.sampling_mode(SamplingMode::Flat).sample_size(10).warm_up_time(Duration::from_millis(1));
+        each_way(|id, kind, pool| {
+            group.bench_function(id, |bencher| {
+                bencher.iter_with_large_drop(|| pool.install(|| grown(kind, metamers)));
+            });
+        });
+        group.finish();
+    }
+}
+
+fn last_steps(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("last step to 100k");
+    group.sampling_mode(SamplingMode::Flat).sample_size(30);
+    each_way(|id, kind, pool| {
+        let before = nearly_grown(kind, 100_000);
+        group.bench_function(id, |bencher| {
+            bencher.iter_batched_ref(
+                || before.clone(),
+                |simulation| pool.install(|| step(simulation)),
+                BatchSize::PerIteration,
+            );
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, whole_trees, last_steps);
+criterion_main!(benches);

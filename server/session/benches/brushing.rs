@@ -1,0 +1,74 @@
+//! A finger on a tree of 100k metamers: each move of the brush is one step and one frame.
+
+mod support;
+
+use espalier_plant::MetamerId;
+use espalier_session::{Action, Document, Sample};
+use glam::Vec3;
+use support::{Followed, report, resident_bytes};
+
+const METAMERS: u32 = 100_000;
+const STROKES: u32 = 40;
+const MOVES: u32 = 10;
+/// Shorter than a shoot, so that each move is one step.
+const MOVE_LENGTH: f32 = 2.0;
+/// A brush step is meant to add no more than this; wider steps are not counted.
+const MOST_ADDED: u32 = 500;
+
+fn main() {
+    let mut tree = Followed::tree(METAMERS);
+    for radius in [3.0, 6.0, 10.0] {
+        brush(&mut tree, radius);
+    }
+}
+
+/// Strokes outwards from all sides of the crown; each is undone, so that the tree stays as large as it is.
+fn brush(tree: &mut Followed, radius: f32) {
+    let (mut costs, mut added, mut wider) = (Vec::new(), Vec::new(), 0);
+    let (mut kept, mut steps) = (0, 0);
+    for stroke in 0..STROKES {
+        let outwards = direction(stroke);
+        let from = outermost(&tree.document, outwards);
+        let held = resident_bytes();
+        tree.act(&Action::StrokeBegin { stroke, bud: None });
+        for i in 0..MOVES {
+            let (before, step) = (tree.document.metamers(), tree.document.plant().step());
+            let position = from + outwards * (MOVE_LENGTH * i as f32);
+            let samples = vec![Sample { position, radius }];
+            let cost = tree.act(&Action::StrokeMove { stroke, samples });
+            let grown = tree.document.metamers() - before;
+            steps += tree.document.plant().step() - step;
+            if grown > MOST_ADDED {
+                wider += 1;
+            } else {
+                costs.push(cost);
+                added.push(grown);
+            }
+        }
+        kept += resident_bytes().unwrap_or(0).saturating_sub(held.unwrap_or(0));
+        tree.act(&Action::StrokeEnd { stroke });
+        tree.act(&Action::Undo);
+    }
+    report(&format!("brush step of radius {radius}"), &costs, &added);
+    println!("  left out as they added more than {MOST_ADDED}: {wider}");
+    println!("  memory kept for each step, bytes: {}", kept / u64::from(steps.max(1)));
+}
+
+/// The k-th of directions spread over the upper half of a sphere by the golden angle.
+fn direction(k: u32) -> Vec3 {
+    let y = (k as f32 + 0.5) / STROKES as f32;
+    let (sin, cos) = libm::sincosf(2.399_963_2 * k as f32);
+    let across = (1.0 - y * y).sqrt();
+    Vec3::new(across * cos, y, across * sin)
+}
+
+/// The living node farthest in a direction.
+fn outermost(document: &Document, direction: Vec3) -> Vec3 {
+    let plant = document.plant();
+    (0..plant.metamer_count())
+        .map(MetamerId::new)
+        .filter(|&id| plant.is_alive(id))
+        .map(|id| plant.metamers().end(id))
+        .max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
+        .expect("a tree has nodes")
+}

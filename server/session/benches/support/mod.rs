@@ -1,0 +1,118 @@
+//! A document with a client in step, timed part by part; and percentiles of what was timed.
+
+use std::{
+    fmt,
+    time::{Duration, Instant},
+};
+
+use espalier_mesh::{RingTable, Style};
+use espalier_session::{Action, Document, delta, style_options};
+
+const AUTHOR: &str = "bench";
+
+/// A document whose every change a client is told.
+#[derive(Debug)]
+pub struct Followed {
+    pub document: Document,
+    table: RingTable,
+    style: Style,
+    sequence: u32,
+}
+
+/// What one action cost.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cost {
+    /// The document does it.
+    pub act: Duration,
+    /// The table takes it over and finds what changed.
+    pub sync: Duration,
+    /// The frame is made and deflated.
+    pub encode: Duration,
+    /// The frame's length.
+    pub bytes: usize,
+}
+
+impl Followed {
+    /// A tree that has grown on its own to so many living metamers, one operation for each step.
+    pub fn tree(metamers: u32) -> Self {
+        let mut document = Document::new(1);
+        document.set_metamer_budget(u32::MAX);
+        let style = Style::new(style_options(&document.parameters()));
+        let mut followed = Self { document, table: RingTable::new(), style, sequence: 0 };
+        while followed.document.metamers() < metamers {
+            followed.act(&Action::Grow { steps: 1, gesture: None, bud: None });
+        }
+        followed
+    }
+
+    /// Does an action with all its steps, and tells the client once.
+    pub fn act(&mut self, action: &Action) -> Cost {
+        let begun = Instant::now();
+        self.document.apply(AUTHOR, action).expect("the action can be done");
+        let acted = Instant::now();
+        self.sequence += 1;
+        let changes = self.table.sync(self.document.plant(), &self.style, self.sequence);
+        let synced = Instant::now();
+        let bytes = delta(&self.table, &changes, 0, self.sequence).encode().len();
+        Cost { act: acted - begun, sync: synced - acted, encode: synced.elapsed(), bytes }
+    }
+}
+
+impl Cost {
+    /// All of it.
+    pub fn total(&self) -> Duration {
+        self.act + self.sync + self.encode
+    }
+}
+
+/// The spread of a quantity.
+#[derive(Clone, Copy, Debug)]
+pub struct Percentiles {
+    p50: f64,
+    p99: f64,
+    most: f64,
+}
+
+impl Percentiles {
+    /// Of at least one value.
+    pub fn of(values: impl Iterator<Item = f64>) -> Self {
+        let mut sorted: Vec<f64> = values.collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let at = |share: f64| sorted[((share * sorted.len() as f64).ceil() as usize).max(1) - 1];
+        Self { p50: at(0.5), p99: at(0.99), most: at(1.0) }
+    }
+
+    /// Of durations, in milliseconds.
+    pub fn of_milliseconds(values: impl Iterator<Item = Duration>) -> Self {
+        Self::of(values.map(|value| 1e3 * value.as_secs_f64()))
+    }
+}
+
+impl fmt::Display for Percentiles {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { p50, p99, most } = self;
+        write!(f, "{p50:>9.2} {p99:>9.2} {most:>9.2}")
+    }
+}
+
+/// Prints the parts of what many actions cost.
+pub fn report(title: &str, costs: &[Cost], added: &[u32]) {
+    let of = |part: fn(&Cost) -> Duration| Percentiles::of_milliseconds(costs.iter().map(part));
+    println!("{title}, {} times            median       p99      most", costs.len());
+    println!("  whole, ms                    {}", of(Cost::total));
+    println!("    document, ms               {}", of(|cost| cost.act));
+    println!("    table, ms                  {}", of(|cost| cost.sync));
+    println!("    frame, ms                  {}", of(|cost| cost.encode));
+    println!("  metamers                     {}", Percentiles::of(added.iter().map(|&n| f64::from(n))));
+    println!(
+        "  frame, bytes                 {}",
+        Percentiles::of(costs.iter().map(|cost| cost.bytes as f64))
+    );
+}
+
+/// Bytes of memory this process holds, where the system tells.
+pub fn resident_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kibibytes = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(1024 * kibibytes.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
+}
