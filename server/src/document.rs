@@ -25,16 +25,16 @@ pub enum FileError {
 
 /// The plants of a stored document as glTF binary.
 pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
-    Ok(file(&Document::from_bytes(bytes)?, &Look::default(), Format::Glb)?)
+    Ok(file(&mut Document::from_bytes(bytes)?, &Look::default(), Format::Glb)?)
 }
 
 /// The plants of a document in a file format.
-pub fn file(document: &Document, look: &Look, format: Format) -> Result<Vec<u8>, ExportError> {
+pub fn file(document: &mut Document, look: &Look, format: Format) -> Result<Vec<u8>, ExportError> {
     let parameters = document.parameters();
     let style = Style::new(style_options(&parameters));
     match format {
-        Format::Glb => espalier_export::glb(document.plant(), &style, parameters.internode_length),
-        Format::Skeleton => Ok(espalier_export::skeleton_json(document.plant(), &style)),
-        Format::Picture => Ok(picture::draw(document.plant(), &style, look, PICTURE.0, PICTURE.1).png()),
+        Format::Glb => espalier_export::glb(document.portrait(), &style, parameters.internode_length),
+        Format::Skeleton => Ok(espalier_export::skeleton_json(document.portrait(), &style)),
+        Format::Picture => Ok(picture::draw(document.portrait(), &style, look, PICTURE.0, PICTURE.1).png()),
     }
 }

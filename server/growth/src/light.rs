@@ -117,14 +117,24 @@ impl ShadowGrid {
                 *values = core::array::from_fn(|lane| change(old[lane], shadows[lane]));
             }
         };
-        for row in &self.rows {
-            let (at_y, at_z) = (y - row.depth, z + row.z);
-            let chunk = ((at_y >> DEPTH_BITS) - low_y) * 4 + (at_z >> DEPTH_BITS) - low_z;
-            let base = bases[(chunk & 7) as usize];
-            let offset = offset([0, at_y, at_z]);
-            add(row, base[0] + offset + here, ROW - over);
-            if over > 0 {
-                add(row, base[1] + offset, beyond);
+        // What a row's place owes to its z, for all of them: its chunk, and its offset in there.
+        let columns: [(usize, usize); ROW] = core::array::from_fn(|i| {
+            let at_z = z - FITTING_DEPTH + i as i32;
+            (((at_z >> DEPTH_BITS) - low_z) as usize & 3, offset([0, 0, at_z]))
+        });
+        let mut rows = self.rows.iter();
+        for depth in 0..=reach {
+            let at_y = y - depth;
+            let layer = &bases[(((at_y >> DEPTH_BITS) - low_y) as usize & 1) * 4..][..4];
+            let height = offset([0, at_y, 0]);
+            let meets_both = over > 0 && (within as i32 + MIDDLE + depth) >= WIDTH;
+            let columns = &columns[(FITTING_DEPTH - depth) as usize..=(FITTING_DEPTH + depth) as usize];
+            for (&(chunk, column), row) in columns.iter().zip(rows.by_ref()) {
+                let base = layer[chunk];
+                add(row, base[0] + height + column + here, ROW - over);
+                if meets_both {
+                    add(row, base[1] + height + column, beyond);
+                }
             }
         }
     }

@@ -341,6 +341,8 @@ mod tests {
                 }
                 prop_assert_eq!(fast.plant().hash(), plain.plant().hash(), "after {:?}", event);
                 prop_assert_eq!(fast.markers(), plain.markers());
+                fast.show();
+                plain.show();
                 let looks = |simulation: &Simulation| -> Vec<_> {
                     let ids = living_nodes(simulation.plant());
                     ids.iter().map(|&id| simulation.plant().metamers().appearance(id)).collect()

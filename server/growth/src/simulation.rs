@@ -162,7 +162,6 @@ impl Simulation {
         self.canopy.forget();
         if same_shadows {
             self.see_light(&[], &mut NoObserver);
-            self.show();
         } else {
             self.rebuild();
         }
@@ -177,7 +176,6 @@ impl Simulation {
         self.enter(self.plant.bud_node(axis));
         self.replace_bud(axis);
         self.see_light(&[position], &mut NoObserver);
-        self.show();
     }
 
     /// Forgets what guided growth so far: markers and strokes. Time travel and stroke ends call for it.
@@ -232,7 +230,6 @@ impl Simulation {
         }
         self.canopy.forget();
         self.see_light(&[], &mut NoObserver);
-        self.show();
     }
 
     /// Forgets the path of one stroke.
@@ -278,7 +275,6 @@ impl Simulation {
         let moved = shift.metamers_in.iter().chain(&shift.metamers_out);
         let changed: Vec<Vec3> = moved.map(|&id| self.plant.metamers().end(id)).collect();
         self.see_light(&changed, &mut NoObserver);
-        self.show();
     }
 
     /// Makes light and vigor those of the present, after shadows have come or gone at these nodes. Where the
@@ -292,8 +288,9 @@ impl Simulation {
         canopy.distribute_vigor(plant, parameters);
     }
 
-    /// Hands light and vigor on to whoever draws the plant.
-    pub(crate) fn show(&mut self) {
+    /// Writes light and vigor of the present into the plant's appearance, for whoever draws it. Growth itself has
+    /// no use for it, and steps are many.
+    pub fn show(&mut self) {
         self.canopy.write_appearance(&mut self.plant);
     }
 
@@ -335,7 +332,6 @@ impl Simulation {
         }
         self.canopy.forget();
         self.see_light(&[], &mut NoObserver);
-        self.show();
     }
 
     /// Puts the bud of an axis where the plant says it is now, or nowhere.

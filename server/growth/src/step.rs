@@ -78,7 +78,6 @@ impl Simulation {
         observer.enter(Phase::Space);
         changed.extend(self.settle(born));
         self.see_light(&changed, observer);
-        self.show();
         StepOutcome { metamers_grown: (self.plant.metamer_count() - born) as u32, buds_enabled }
     }
 

@@ -1,4 +1,4 @@
-//! Numbers out of buffers (glTF 2.0 specification, §3.6.2).
+//! Numbers out of buffers (glTF 2.0 specification, §3.6.2). They are read one by one as they are asked for.
 
 use glam::Vec3;
 
@@ -9,30 +9,78 @@ const UNSIGNED_SHORT: u32 = 5123;
 const UNSIGNED_INT: u32 = 5125;
 const FLOAT: u32 = 5126;
 
-/// The positions an accessor holds.
-pub(crate) fn positions(file: &File<'_>, number: usize) -> Result<Vec<Vec3>, ImportError> {
-    let accessor = find(file, number)?;
-    if accessor.kind != "VEC3" || accessor.component_type != FLOAT {
-        return Err(ImportError::Unsupported("positions that are not floating-point".to_owned()));
+/// Items of so many bytes.
+struct Items<'a, const N: usize> {
+    data: &'a [u8],
+    stride: usize,
+}
+
+impl<const N: usize> Items<'_, N> {
+    fn get(&self, number: usize) -> Option<[u8; N]> {
+        self.data.get(number.checked_mul(self.stride)?..)?.first_chunk().copied()
     }
-    items(file, accessor, |item: [u8; 12]| {
+}
+
+/// The positions an accessor holds.
+pub(crate) struct Positions<'a> {
+    items: Items<'a, 12>,
+    /// How many there are.
+    pub count: usize,
+}
+
+impl<'a> Positions<'a> {
+    pub(crate) fn open(file: &'a File<'_>, number: usize) -> Result<Self, ImportError> {
+        let accessor = find(file, number)?;
+        if accessor.kind != "VEC3" || accessor.component_type != FLOAT {
+            return Err(ImportError::Unsupported("positions that are not floating-point".to_owned()));
+        }
+        Ok(Self { items: items(file, accessor)?, count: accessor.count })
+    }
+
+    pub(crate) fn get(&self, number: usize) -> Result<Vec3, ImportError> {
+        let item = (number < self.count).then(|| self.items.get(number)).flatten();
+        let item = item.ok_or_else(|| damaged(format!("there is no vertex {number} of {}", self.count)))?;
         let [x, y, z] =
             [0, 4, 8].map(|at| f32::from_le_bytes([item[at], item[at + 1], item[at + 2], item[at + 3]]));
-        Vec3::new(x, y, z)
-    })
+        Ok(Vec3::new(x, y, z))
+    }
 }
 
 /// The vertex numbers an accessor holds.
-pub(crate) fn indices(file: &File<'_>, number: usize) -> Result<Vec<u32>, ImportError> {
-    let accessor = find(file, number)?;
-    if accessor.kind != "SCALAR" {
-        return Err(damaged("indices that are not single numbers"));
+pub(crate) struct Indices<'a> {
+    width: Width<'a>,
+    /// How many there are.
+    pub count: usize,
+}
+
+enum Width<'a> {
+    Byte(Items<'a, 1>),
+    Short(Items<'a, 2>),
+    Int(Items<'a, 4>),
+}
+
+impl<'a> Indices<'a> {
+    pub(crate) fn open(file: &'a File<'_>, number: usize) -> Result<Self, ImportError> {
+        let accessor = find(file, number)?;
+        if accessor.kind != "SCALAR" {
+            return Err(damaged("indices that are not single numbers"));
+        }
+        let width = match accessor.component_type {
+            UNSIGNED_BYTE => Width::Byte(items(file, accessor)?),
+            UNSIGNED_SHORT => Width::Short(items(file, accessor)?),
+            UNSIGNED_INT => Width::Int(items(file, accessor)?),
+            other => return Err(damaged(format!("indices of component type {other}"))),
+        };
+        Ok(Self { width, count: accessor.count })
     }
-    match accessor.component_type {
-        UNSIGNED_BYTE => items(file, accessor, |[byte]: [u8; 1]| u32::from(byte)),
-        UNSIGNED_SHORT => items(file, accessor, |item| u32::from(u16::from_le_bytes(item))),
-        UNSIGNED_INT => items(file, accessor, u32::from_le_bytes),
-        other => Err(damaged(format!("indices of component type {other}"))),
+
+    pub(crate) fn get(&self, number: usize) -> Result<usize, ImportError> {
+        let index = match &self.width {
+            Width::Byte(items) => items.get(number).map(|[byte]| u32::from(byte)),
+            Width::Short(items) => items.get(number).map(|short| u32::from(u16::from_le_bytes(short))),
+            Width::Int(items) => items.get(number).map(u32::from_le_bytes),
+        };
+        index.map(|index| index as usize).ok_or_else(|| damaged(format!("there is no index {number}")))
     }
 }
 
@@ -40,12 +88,8 @@ fn find<'a>(file: &'a File<'_>, number: usize) -> Result<&'a Accessor, ImportErr
     file.document.accessors.get(number).ok_or_else(|| damaged(format!("there is no accessor {number}")))
 }
 
-/// All items of an accessor; never more than its buffer has bytes for.
-fn items<const N: usize, T>(
-    file: &File<'_>,
-    accessor: &Accessor,
-    read: impl Fn([u8; N]) -> T,
-) -> Result<Vec<T>, ImportError> {
+/// The items of an accessor, if its buffer has bytes for all of them.
+fn items<'a, const N: usize>(file: &'a File<'_>, accessor: &Accessor) -> Result<Items<'a, N>, ImportError> {
     if accessor.sparse.is_some() {
         return Err(ImportError::Unsupported("sparse accessors".to_owned()));
     }
@@ -65,6 +109,5 @@ fn items<const N: usize, T>(
     if accessor.count > held {
         return Err(damaged("an accessor reaches beyond its view"));
     }
-    let item = |i: usize| data[i * stride..].first_chunk::<N>().copied();
-    (0..accessor.count).map(|i| item(i).map(&read).ok_or_else(|| damaged("an item is cut short"))).collect()
+    Ok(Items { data, stride })
 }

@@ -11,7 +11,6 @@ const JSON_CHUNK: u32 = 0x4e4f_534a;
 const BINARY_CHUNK: u32 = 0x004e_4942;
 /// What such a required extension adds does not concern triangles.
 const HARMLESS: [&str; 4] = ["KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_punctual"];
-const COMPRESSIONS: [&str; 2] = ["KHR_draco_mesh_compression", "EXT_meshopt_compression"];
 
 /// JSON and buffers.
 pub(crate) struct File<'a> {
@@ -28,9 +27,6 @@ pub(crate) fn open(bytes: &[u8]) -> Result<File<'_>, ImportError> {
         return Err(ImportError::Version(document.asset.version));
     }
     for name in &document.extensions_required {
-        if COMPRESSIONS.contains(&name.as_str()) {
-            return Err(ImportError::Compressed(name.clone()));
-        }
         if !HARMLESS.iter().any(|harmless| name.starts_with(harmless)) {
             return Err(ImportError::Unsupported(format!("the extension {name}")));
         }

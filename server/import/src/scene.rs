@@ -1,10 +1,12 @@
 //! The triangles of a scene, where its nodes put them (glTF 2.0 specification, §3.5 and §3.7).
 
-use espalier_growth::{MAX_TRIANGLES, ObstacleError};
+use std::collections::BTreeMap;
+
 use glam::{Mat3, Vec3};
 
 use crate::{
-    ImportError, accessor,
+    ImportError, Limits, Triangles,
+    accessor::{Indices, Positions},
     container::File,
     damaged,
     document::{Node, Primitive},
@@ -16,11 +18,6 @@ const TRIANGLE_FAN: u32 = 6;
 /// Nodes and primitives visited at most. A node may only have one parent; files that break this could go on for
 /// ever.
 const MAX_PARTS: usize = 300_000;
-/// Vertices of all meshes together at most, those included that no triangle uses.
-const MAX_VERTICES: usize = 3 * MAX_TRIANGLES;
-
-/// Vertices, and corners of triangles.
-type Triangles = (Vec<Vec3>, Vec<[u32; 3]>);
 
 /// Where a node puts what it holds.
 #[derive(Clone, Copy)]
@@ -30,12 +27,12 @@ struct Pose {
 }
 
 /// All triangles of the scene the file opens with; of all nodes if it has no scene.
-pub(crate) fn triangles(file: &File<'_>) -> Result<Triangles, ImportError> {
+pub(crate) fn triangles(file: &File<'_>, limits: Limits) -> Result<Triangles, ImportError> {
     let document = &file.document;
     let here = Pose { linear: Mat3::IDENTITY, offset: Vec3::ZERO };
     // Last in, first out: put in backwards, nodes come in the order of the file.
     let mut open: Vec<(usize, Pose)> = roots(file)?.into_iter().rev().map(|node| (node, here)).collect();
-    let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
+    let mut welded = Welded { limits, numbers: BTreeMap::new(), triangles: Triangles::default() };
     let mut visited = 0;
     while let Some((number, parent)) = open.pop() {
         visited += 1;
@@ -49,7 +46,7 @@ pub(crate) fn triangles(file: &File<'_>) -> Result<Triangles, ImportError> {
                 return Err(too_many_parts());
             }
             for primitive in &mesh.primitives {
-                add(file, primitive, &pose, &mut vertices, &mut triangles)?;
+                welded.add(file, primitive, &pose)?;
             }
         }
         open.extend(node.children.iter().rev().map(|&child| (child, pose)));
@@ -57,7 +54,7 @@ pub(crate) fn triangles(file: &File<'_>) -> Result<Triangles, ImportError> {
             return Err(too_many_parts());
         }
     }
-    Ok((vertices, triangles))
+    Ok(welded.triangles)
 }
 
 fn too_many_parts() -> ImportError {
@@ -80,46 +77,71 @@ fn roots(file: &File<'_>) -> Result<Vec<usize>, ImportError> {
     Ok(scene.nodes.clone())
 }
 
-/// Adds the triangles of a primitive; points and lines have none.
-fn add(
-    file: &File<'_>,
-    primitive: &Primitive,
-    pose: &Pose,
-    vertices: &mut Vec<Vec3>,
-    triangles: &mut Vec<[u32; 3]>,
-) -> Result<(), ImportError> {
-    let mode = primitive.mode.unwrap_or(TRIANGLES);
-    let Some(positions) = primitive.attributes.position else { return Ok(()) };
-    if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
-        return Ok(());
+/// Triangles whose corners at one place are one vertex.
+struct Welded {
+    limits: Limits,
+    /// The vertex at each place, by the bits of its coordinates.
+    numbers: BTreeMap<[u32; 3], u32>,
+    triangles: Triangles,
+}
+
+impl Welded {
+    /// Adds the triangles of a primitive; points and lines have none.
+    fn add(&mut self, file: &File<'_>, primitive: &Primitive, pose: &Pose) -> Result<(), ImportError> {
+        let mode = primitive.mode.unwrap_or(TRIANGLES);
+        let Some(positions) = primitive.attributes.position else { return Ok(()) };
+        if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
+            return Ok(());
+        }
+        let positions = Positions::open(file, positions)?;
+        let indices = primitive.indices.map(|indices| Indices::open(file, indices)).transpose()?;
+        let corners = indices.as_ref().map_or(positions.count, |indices| indices.count);
+        let count = if mode == TRIANGLES { corners / 3 } else { corners.saturating_sub(2) };
+        // Before anything is read: until here, what a file says of itself has cost nothing.
+        if count > self.limits.triangles - self.triangles.corners.len() {
+            return Err(ImportError::TooLarge(self.limits));
+        }
+        let is_mirrored = pose.linear.determinant() < 0.0;
+        for i in 0..count {
+            let [a, mut b, mut c] = match mode {
+                TRIANGLES => [3 * i, 3 * i + 1, 3 * i + 2],
+                TRIANGLE_STRIP => [i, i + 1 + i % 2, i + 2 - i % 2],
+                _ => [0, i + 1, i + 2],
+            };
+            // A node that mirrors turns its triangles inside out.
+            if is_mirrored {
+                (b, c) = (c, b);
+            }
+            let mut triangle = [0; 3];
+            for (number, corner) in triangle.iter_mut().zip([a, b, c]) {
+                let corner = indices.as_ref().map_or(Ok(corner), |indices| indices.get(corner))?;
+                *number = self.vertex(pose.linear * positions.get(corner)? + pose.offset)?;
+            }
+            let [a, b, c] = triangle;
+            if a != b && b != c && c != a {
+                self.triangles.corners.push(triangle);
+            }
+        }
+        Ok(())
     }
-    let positions = accessor::positions(file, positions)?;
-    let corners = match primitive.indices {
-        Some(indices) => accessor::indices(file, indices)?,
-        None => (0..positions.len() as u32).collect(),
-    };
-    if let Some(&corner) = corners.iter().find(|&&corner| corner as usize >= positions.len()) {
-        return Err(damaged(format!("an index names vertex {corner} of {}", positions.len())));
+
+    /// The number of the vertex at a place.
+    fn vertex(&mut self, place: Vec3) -> Result<u32, ImportError> {
+        if !place.is_finite() {
+            return Err(ImportError::NotFinite);
+        }
+        let vertices = &mut self.triangles.vertices;
+        // Adding zero makes the negative zero a positive one.
+        let place = place + Vec3::ZERO;
+        let number = *self.numbers.entry(place.to_array().map(f32::to_bits)).or_insert(vertices.len() as u32);
+        if number as usize == vertices.len() {
+            if vertices.len() == self.limits.vertices {
+                return Err(ImportError::TooLarge(self.limits));
+            }
+            vertices.push(place);
+        }
+        Ok(number)
     }
-    let count = match mode {
-        TRIANGLES => corners.len() / 3,
-        _ => corners.len().saturating_sub(2),
-    };
-    if triangles.len() + count > MAX_TRIANGLES {
-        return Err(ObstacleError::TooManyTriangles(triangles.len() + count).into());
-    }
-    if vertices.len() + positions.len() > MAX_VERTICES {
-        return Err(damaged(format!("it has more than {MAX_VERTICES} vertices")));
-    }
-    let first = vertices.len() as u32;
-    vertices.extend(positions.into_iter().map(|place| pose.linear * place + pose.offset));
-    let corner = |i: usize| first + corners[i];
-    triangles.extend((0..count).map(|i| match mode {
-        TRIANGLES => [corner(3 * i), corner(3 * i + 1), corner(3 * i + 2)],
-        TRIANGLE_STRIP => [corner(i), corner(i + 1 + i % 2), corner(i + 2 - i % 2)],
-        _ => [corner(0), corner(i + 1), corner(i + 2)],
-    }));
-    Ok(())
 }
 
 impl Pose {

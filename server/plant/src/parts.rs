@@ -11,7 +11,7 @@ use crate::{
     timeline::{StepEnd, Timeline},
 };
 
-/// Everything a plant's other columns follow from. `u32::MAX` stands for none and for alive.
+/// Everything a plant's other columns follow from but how it looks, which whoever grows it knows. `u32::MAX` stands for none and for alive.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlantParts {
     /// The present step.
@@ -30,10 +30,6 @@ pub struct PlantParts {
     pub end: Vec<Vec3>,
     /// Each metamer's normal.
     pub normal: Vec<Vec3>,
-    /// Each metamer's light.
-    pub light: Vec<u8>,
-    /// Each metamer's vigor.
-    pub vigor: Vec<u8>,
     /// The metamer that bears each axis.
     pub bearer: Vec<u32>,
     /// Each bud's direction.
@@ -59,8 +55,6 @@ impl Plant {
             death: self.metamers.death.clone(),
             end: self.metamers.end.clone(),
             normal: self.metamers.normal.clone(),
-            light: self.metamers.appearance.iter().map(|a| a.light).collect(),
-            vigor: self.metamers.appearance.iter().map(|a| a.vigor).collect(),
             bearer: self.axes.bearer.iter().map(|id| id.raw()).collect(),
             direction: self.axes.direction.clone(),
             axis_death: self.axes.death.clone(),
@@ -99,9 +93,7 @@ impl Plant {
                 end: parts.end,
                 normal: parts.normal,
                 tips: vec![0; metamers],
-                appearance: (parts.light.iter().zip(&parts.vigor))
-                    .map(|(&light, &vigor)| Appearance { light, vigor })
-                    .collect(),
+                appearance: vec![Appearance::default(); metamers],
                 lateral,
             },
             axes: Axes {
@@ -142,8 +134,6 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
         (parts.death.len(), metamers),
         (parts.end.len(), metamers),
         (parts.normal.len(), metamers),
-        (parts.light.len(), metamers),
-        (parts.vigor.len(), metamers),
         (parts.direction.len(), axes),
         (parts.axis_death.len(), axes),
     ];

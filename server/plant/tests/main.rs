@@ -127,8 +127,6 @@ proptest! {
             death: rows.iter().map(|r| if r.2 == 4 { u32::MAX } else { r.2 }).collect(),
             end: rows.iter().enumerate().map(|(i, _)| Vec3::Y * i as f32).collect(),
             normal: vec![Vec3::X; rows.len()],
-            light: vec![0; rows.len()],
-            vigor: vec![0; rows.len()],
             bearer: axes.iter().map(|a| none(a.0)).collect(),
             direction: vec![Vec3::Y; axes.len()],
             axis_death: axes.iter().map(|a| if a.1 == 4 { u32::MAX } else { a.1 }).collect(),

@@ -162,6 +162,12 @@ impl Document {
         self.simulation.plant()
     }
 
+    /// The plant with the looks of the present, for whoever draws it.
+    pub fn portrait(&mut self) -> &Plant {
+        self.simulation.show();
+        self.simulation.plant()
+    }
+
     /// Sets how many metamers the document may hold.
     pub fn set_metamer_budget(&mut self, budget: u32) {
         self.simulation.set_metamer_budget(budget);

@@ -223,7 +223,7 @@ impl Work {
             self.style = Style::new(options);
         }
         let sequence = self.sequence + 1;
-        let changes = self.table.sync(self.document.plant(), &self.style, sequence);
+        let changes = self.table.sync(self.document.portrait(), &self.style, sequence);
         if changes.is_empty() {
             return;
         }

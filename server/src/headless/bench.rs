@@ -7,7 +7,7 @@ use espalier_mesh::{RingTable, Style};
 use espalier_proto::Problem;
 use espalier_session::{Action, Document, delta, style_options};
 
-use super::stats::{PhaseSeconds, Stats};
+use super::stats::{self, PhaseSeconds, Stats};
 
 /// A document and what it has cost so far.
 #[derive(Debug)]
@@ -17,6 +17,8 @@ pub struct Bench {
     style: Style,
     sequence: u32,
     started: Instant,
+    /// Memory held before anything grew.
+    held_before: Option<u64>,
     phases: Stopwatch,
     delta: Duration,
     delta_bytes: u64,
@@ -33,6 +35,7 @@ impl Bench {
             table: RingTable::new(),
             sequence: 0,
             started: Instant::now(),
+            held_before: stats::resident_memory_bytes(),
             phases: Stopwatch::default(),
             delta: Duration::ZERO,
             delta_bytes: 0,
@@ -44,6 +47,11 @@ impl Bench {
     /// The document.
     pub fn document(&self) -> &Document {
         &self.document
+    }
+
+    /// The document, to draw.
+    pub fn document_mut(&mut self) -> &mut Document {
+        &mut self.document
     }
 
     /// Does an action with all its steps; after each step a client would get a delta.
@@ -71,6 +79,9 @@ impl Bench {
         let plant = self.document.plant();
         // Seeds are rows as well, but nothing that grew.
         let seeds = (0..self.table.rows() as u32).filter(|&row| self.table.parent(row).is_none()).count();
+        let held = stats::resident_memory_bytes().zip(self.held_before);
+        let tree_memory_bytes = held.map(|(now, before)| now.saturating_sub(before));
+        let metamers = f64::from(figures.metamers.max(1));
         let of = |phase: Phase| self.phases.total(phase).as_secs_f64();
         Stats {
             metamers_alive: figures.metamers,
@@ -90,7 +101,9 @@ impl Bench {
                 delta: self.delta.as_secs_f64(),
             },
             delta_bytes: self.delta_bytes,
-            peak_memory_bytes: super::stats::peak_memory_bytes(),
+            peak_memory_bytes: stats::peak_memory_bytes(),
+            tree_memory_bytes,
+            bytes_per_metamer: tree_memory_bytes.map(|bytes| bytes as f64 / metamers),
             plant_hash: format!("{:016x}", plant.hash()),
         }
     }
@@ -103,7 +116,7 @@ impl Bench {
             self.style = Style::new(options);
         }
         let sequence = self.sequence + 1;
-        let changes = self.table.sync(self.document.plant(), &self.style, sequence);
+        let changes = self.table.sync(self.document.portrait(), &self.style, sequence);
         if !changes.is_empty() {
             self.sequence = sequence;
             self.delta_bytes += delta(&self.table, &changes, 0, sequence).encode().len() as u64;
@@ -159,6 +172,14 @@ mod tests {
         assert!(stats.leaves > 0 && stats.axes > 0);
         // A row travels in some bytes, even compressed.
         assert!(stats.delta_bytes > u64::from(stats.metamers_alive), "{}", stats.delta_bytes);
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_metamer_takes_some_memory() {
+        let stats = grown(40).stats();
+        let (all, each) = (stats.tree_memory_bytes.unwrap(), stats.bytes_per_metamer.unwrap());
+        assert!(all > 0 && each > 0.0 && each * f64::from(stats.metamers_alive) <= 1.01 * all as f64);
     }
 
     #[test]

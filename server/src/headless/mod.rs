@@ -142,10 +142,10 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-fn finish(bench: Bench, look: &Look, results: &Results) -> Result<(), HeadlessError> {
+fn finish(mut bench: Bench, look: &Look, results: &Results) -> Result<(), HeadlessError> {
     let stats = bench.stats();
     if let Some(export) = &results.export {
-        let bytes = document::file(bench.document(), look, export.format)?;
+        let bytes = document::file(bench.document_mut(), look, export.format)?;
         fs::write(&export.path, bytes)
             .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
     }

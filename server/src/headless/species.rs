@@ -69,7 +69,7 @@ fn cell(species: &Species, seed: u32) -> Result<Cell, HeadlessError> {
     }
     let style = Style::new(style_options(&document.parameters()));
     Ok(Cell {
-        picture: picture::draw(document.plant(), &style, &Look::from(species), CELL.0, CELL.1),
+        picture: picture::draw(document.portrait(), &style, &Look::from(species), CELL.0, CELL.1),
         title: species.name.to_owned(),
         subtitle: species.botanical.to_owned(),
     })

@@ -25,6 +25,10 @@ pub struct Stats {
     pub delta_bytes: u64,
     /// The most memory the process held, where the system tells.
     pub peak_memory_bytes: Option<u64>,
+    /// Memory held at the end beyond what was held before anything grew, where the system tells.
+    pub tree_memory_bytes: Option<u64>,
+    /// The same for each living metamer.
+    pub bytes_per_metamer: Option<f64>,
     /// A hash of the plants, in hexadecimal; equal plants have equal hashes.
     pub plant_hash: String,
 }
@@ -67,12 +71,22 @@ impl Stats {
     }
 }
 
-/// The most memory this process has held; Linux tells it without a system call of its own.
+/// The most memory this process has held.
 pub fn peak_memory_bytes() -> Option<u64> {
+    memory_bytes("VmHWM:")
+}
+
+/// The memory this process holds now.
+pub fn resident_memory_bytes() -> Option<u64> {
+    memory_bytes("VmRSS:")
+}
+
+/// Linux tells it without a system call of its own.
+fn memory_bytes(name: &str) -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let kibibytes: u64 = status
         .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))?
+        .find_map(|line| line.strip_prefix(name))?
         .trim()
         .strip_suffix("kB")?
         .trim()
@@ -93,6 +107,8 @@ mod tests {
         let block = vec![1u8; 64 * 1024 * 1024];
         assert!(block.iter().map(|&byte| u64::from(byte)).sum::<u64>() > 0);
         assert!(peak_memory_bytes().unwrap() > before);
+        let resident = resident_memory_bytes().unwrap();
+        assert!((block.len() as u64..=peak_memory_bytes().unwrap()).contains(&resident));
     }
 
     #[test]
@@ -117,6 +133,8 @@ mod tests {
             seconds,
             delta_bytes: 99,
             peak_memory_bytes: None,
+            tree_memory_bytes: Some(600),
+            bytes_per_metamer: Some(200.0),
             plant_hash: "00ff".into(),
         };
         assert_eq!(
@@ -124,6 +142,7 @@ mod tests {
             "{\"metamers_alive\":3,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
              \"seconds_last_step\":0.25,\"seconds\":{\"space\":0.5,\"light\":0.0,\"vigor\":0.0,\"growth\":0.0,\
              \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"peak_memory_bytes\":null,\
+             \"tree_memory_bytes\":600,\"bytes_per_metamer\":200.0,\
              \"plant_hash\":\"00ff\"}"
         );
     }

@@ -20,6 +20,7 @@ fn grow(simulation: &mut Simulation, steps: u32) {
     for _ in 0..steps {
         simulation.step(&StepInput { autonomous: true, ..StepInput::default() }, &mut NoObserver);
     }
+    simulation.show();
 }
 
 /// Moves a brush along a path, in steps as long as a shoot, and lets the tree settle.

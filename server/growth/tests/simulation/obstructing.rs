@@ -48,7 +48,9 @@ fn violations(simulation: &Simulation) -> usize {
 }
 
 fn mean_light(simulation: &Simulation) -> f32 {
-    let plant = simulation.plant();
+    let mut shown = simulation.clone();
+    shown.show();
+    let plant = shown.plant();
     let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
     let light: Vec<f32> = living.map(|id| f32::from(plant.metamers().appearance(id).light)).collect();
     light.iter().sum::<f32>() / light.len() as f32 / 255.0

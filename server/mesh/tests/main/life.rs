@@ -8,6 +8,9 @@ use proptest::prelude::*;
 pub enum Event {
     /// Buds (by a number that is folded into range) that grow one internode each, in one step, and how they turn.
     Grow(Vec<(u16, i8, i8)>),
+    /// Buds that grow straight up, and how many laterals they bear: another future can give the same wood to other
+    /// axes.
+    Stack(Vec<(u16, u8)>),
     Shed(u16),
     Sow(i8, i8),
     GoTo(u16),
@@ -17,6 +20,7 @@ pub enum Event {
 pub fn events() -> impl Strategy<Value = Vec<Event>> {
     let event = prop_oneof![
         8 => prop::collection::vec(any::<(u16, i8, i8)>(), 1..20).prop_map(Event::Grow),
+        4 => prop::collection::vec((any::<u16>(), 0u8..3), 1..12).prop_map(Event::Stack),
         1 => any::<u16>().prop_map(Event::Shed),
         1 => any::<(i8, i8)>().prop_map(|(x, z)| Event::Sow(x, z)),
         2 => any::<u16>().prop_map(Event::GoTo),
@@ -31,6 +35,13 @@ pub fn happen(plant: &mut Plant, event: &Event) {
             plant.begin_step();
             for &(pick, x, z) in picks {
                 grow(plant, living_axis(plant, pick), x, z);
+            }
+            plant.end_step();
+        }
+        Event::Stack(picks) => {
+            plant.begin_step();
+            for &(pick, laterals) in picks {
+                stack(plant, living_axis(plant, pick), laterals);
             }
             plant.end_step();
         }
@@ -78,6 +89,12 @@ fn grow(plant: &mut Plant, axis: AxisId, x: i8, z: i8) {
     let laterals = [(heading + normal).normalize()];
     let end = plant.bud_position(axis) + heading * (1.0 + f32::from(x) / 300.0);
     plant.extend(axis, &Internode { end, normal, laterals: &laterals });
+}
+
+pub fn stack(plant: &mut Plant, axis: AxisId, laterals: u8) {
+    let end = plant.bud_position(axis) + Vec3::Y;
+    let laterals = vec![Vec3::X; usize::from(laterals)];
+    plant.extend(axis, &Internode { end, normal: Vec3::X, laterals: &laterals });
 }
 
 fn living_axis(plant: &Plant, pick: u16) -> AxisId {

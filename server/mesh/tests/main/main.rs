@@ -2,12 +2,16 @@
 
 mod life;
 mod mirror;
+mod plain;
 
-use espalier_mesh::{RingTable, Style, StyleOptions, bark_mesh, checks, leaf_mesh, leaves};
-use espalier_plant::Plant;
+use espalier_mesh::{
+    RingTable, Style, StyleOptions, bark_mesh, checks, leaf_mesh, leaves, ring_table::CHUNK_ROWS,
+};
+use espalier_plant::{AxisId, Plant};
 use glam::Vec3;
 use life::{events, happen};
 use mirror::{ByChanges, ByGenerations};
+use plain::PlainTable;
 use proptest::prelude::*;
 
 fn styles() -> impl Strategy<Value = Style> {
@@ -45,6 +49,25 @@ proptest! {
     }
 
     #[test]
+    fn columns_say_what_the_plain_comparison_says(
+        events in events(),
+        every in 1usize..4,
+        styles in prop::array::uniform2(styles()),
+    ) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        let (mut table, mut plain) = (RingTable::new(), PlainTable::default());
+        for (count, event) in events.iter().enumerate() {
+            happen(&mut plant, event);
+            if count % every == 0 {
+                let (style, sequence) = (&styles[count / 8 % 2], count as u32 + 1);
+                let changes = table.sync(&plant, style, sequence);
+                prop_assert_eq!(changes, plain.sync(&plant, style, sequence));
+                prop_assert!(plain.equals(&table));
+            }
+        }
+    }
+
+    #[test]
     fn whole_meshes_hold_and_repeat(events in events(), style in styles()) {
         let mut plant = Plant::new(Vec3::ZERO);
         for event in &events {
@@ -58,6 +81,43 @@ proptest! {
         let mut table = RingTable::new();
         table.sync(&plant, &style, 1);
         prop_assert_eq!(leaves::all(&plant, &style).count(), table.leaves() as usize);
+    }
+}
+
+/// A stem of one metamer that bears so many laterals; a branch on one of these, which bears one as well; some
+/// metamers on `filling`, more than a chunk holds; and one more on axis 2.
+fn with_axis_two(laterals: u8, branch: usize, filling: &[usize]) -> Plant {
+    let mut plant = Plant::new(Vec3::ZERO);
+    plant.begin_step();
+    life::stack(&mut plant, AxisId::new(0), laterals);
+    life::stack(&mut plant, AxisId::new(branch), 1);
+    for &axis in filling {
+        life::stack(&mut plant, AxisId::new(axis), 0);
+    }
+    life::stack(&mut plant, AxisId::new(2), 0);
+    plant.end_step();
+    plant
+}
+
+#[test]
+fn axes_of_other_numbers_are_seen_through() {
+    // Axis 2 is a lateral of the branch on axis 1, or it is the branch itself: its last metamer has the same
+    // parent and the same number of an axis, and yet another link.
+    let stem = vec![0; 2 * CHUNK_ROWS];
+    let apart = with_axis_two(1, 1, &stem);
+    let itself = with_axis_two(2, 2, &stem);
+    let elsewhere = with_axis_two(1, 1, &vec![1; 2 * CHUNK_ROWS]);
+    let style = Style::default();
+    for lives in [[&apart, &itself, &apart, &itself], [&itself, &apart, &itself, &apart]]
+        .into_iter()
+        .chain([[&elsewhere, &itself, &apart, &itself], [&apart, &elsewhere, &itself, &apart]])
+    {
+        let (mut table, mut plain) = (RingTable::new(), PlainTable::default());
+        for (sequence, plant) in (1..).zip(lives) {
+            assert_eq!(table.sync(plant, &style, sequence), plain.sync(plant, &style, sequence));
+            assert!(plain.equals(&table));
+            assert_eq!(checks::table(&table, plant, &style), Ok(()));
+        }
     }
 }
 

@@ -3,13 +3,13 @@
 use espalier_mesh::{Changes, RingTable, ring_table::CHUNK_ROWS};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Row {
-    parent: Option<u32>,
-    starts_axis: bool,
-    position: [i32; 3],
-    radius: u16,
-    foliage: u8,
-    light: u8,
+pub struct Row {
+    pub parent: Option<u32>,
+    pub starts_axis: bool,
+    pub position: [i32; 3],
+    pub radius: u16,
+    pub foliage: u8,
+    pub light: u8,
 }
 
 fn row(table: &RingTable, row: u32) -> Row {
@@ -23,7 +23,7 @@ fn row(table: &RingTable, row: u32) -> Row {
     }
 }
 
-fn all_rows(table: &RingTable) -> Vec<Row> {
+pub fn all_rows(table: &RingTable) -> Vec<Row> {
     (0..table.rows() as u32).map(|index| row(table, index)).collect()
 }
 

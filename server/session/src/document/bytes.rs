@@ -151,8 +151,6 @@ fn write_plant(out: &mut Writer, parts: &PlantParts) {
     for column in [&parts.end, &parts.normal] {
         out.list(column, |out, &v| out.vector(v));
     }
-    out.list(&parts.light, |out, &value| out.0.push(value));
-    out.list(&parts.vigor, |out, &value| out.0.push(value));
     out.list(&parts.bearer, |out, &value| out.u32(value));
     out.list(&parts.direction, |out, &v| out.vector(v));
     out.list(&parts.axis_death, |out, &value| out.u32(value));
@@ -168,8 +166,6 @@ fn read_plant(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
         death: reader.list(Reader::u32)?,
         end: reader.list(Reader::vector)?,
         normal: reader.list(Reader::vector)?,
-        light: reader.list(Reader::u8)?,
-        vigor: reader.list(Reader::u8)?,
         bearer: reader.list(Reader::u32)?,
         direction: reader.list(Reader::vector)?,
         axis_death: reader.list(Reader::u32)?,

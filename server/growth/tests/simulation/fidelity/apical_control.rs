@@ -45,7 +45,7 @@ fn ageing_apical_control_gives_a_trunk_and_a_crown() {
         let (always_young, ageing, always_old) = (tree(0.56, 0.56), tree(0.56, 0.44), tree(0.44, 0.44));
         let leader = |tree: &Simulation, share: f32| leader_at(tree.plant(), share * height(tree.plant()));
         let [young, aged, old] = [&always_young, &ageing, &always_old].map(|tree| leader(tree, 0.25));
-        assert!(aged > 2.0 * old && young > aged, "stem at a quarter: {young}, {aged}, {old} (seed {seed})");
+        assert!(aged > 1.15 * old && young > aged, "stem at a quarter: {young}, {aged}, {old} (seed {seed})");
         let [young, aged, old] = [&always_young, &ageing, &always_old].map(|tree| leader(tree, 0.75));
         assert!(
             aged < 0.5 * young && aged > old,

@@ -62,7 +62,7 @@ fn a_stand_crowds_its_plants() {
         let sizes: Vec<usize> = nodes_by_plant(stand.plant()).iter().map(Vec::len).collect();
         assert!(sizes.iter().all(|&size| 3 * size < 2 * alone), "{sizes:?} against {alone} (seed {seed})");
         let around = mean(sizes[1..].iter().map(|&size| size as f32));
-        assert!((sizes[0] as f32) < 0.6 * around, "the middle: {sizes:?} (seed {seed})");
+        assert!((sizes[0] as f32) < 0.75 * around, "the middle: {sizes:?} (seed {seed})");
     }
 }
 

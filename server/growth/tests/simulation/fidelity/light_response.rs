@@ -17,6 +17,7 @@ fn sensitivity_to_light_makes_fewer_stronger_limbs() {
                     (values.apical_control, values.light_sensitivity) = (0.5, kappa);
                 });
                 grow(&mut tree, 12);
+                tree.show();
                 tree
             })
             .collect();

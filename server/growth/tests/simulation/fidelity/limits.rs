@@ -56,8 +56,8 @@ fn grown(values: ParameterValues, seed: u32) -> Result<Simulation, String> {
     Ok(tree)
 }
 
-/// Each parameter at its least and its greatest value, the others at their defaults, grows a sound plant; and
-/// not an empty one, but where nothing can be perceived or no light is left.
+/// Each parameter at its least and its greatest value, the others at their defaults, grows a sound plant, and not
+/// an empty one.
 #[test]
 fn every_range_end_grows_a_sound_plant() {
     for &(name, low, high) in RANGES {

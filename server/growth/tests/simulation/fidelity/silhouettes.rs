@@ -10,10 +10,12 @@ const FRONT: Plane = Plane { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y };
 /// What a twig's leaves cover around its node: a little more than an internode.
 const FOLIAGE: f32 = 1.25;
 
-/// A seedling that is fit for topiary: its buds look around, go where there is room, and do not overshoot.
+/// A seedling that is fit for topiary: its buds look around, go where there is room, and do not overshoot; and
+/// narrow necks hold markers enough to be found.
 fn topiary(seed: u32) -> Simulation {
     seedling(seed, |values| {
         (values.perception_angle, values.max_shoot_length) = (150.0, 2);
+        values.marker_density = 0.25;
         (values.heading_weight, values.tropism_weight, values.space_weight) = (0.45, 0.05, 0.5);
     })
 }

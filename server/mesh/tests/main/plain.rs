@@ -1,0 +1,89 @@
+//! The table as it is defined: every row is made afresh and compared with the one that was told.
+
+use espalier_mesh::{Changes, RingTable, Style, foliage, radius_code::NOT_DRAWN, ring_table::CHUNK_ROWS};
+use espalier_plant::{MetamerId, Plant};
+
+use crate::mirror::{Row, all_rows};
+
+#[derive(Debug, Default)]
+pub struct PlainTable {
+    rows: Vec<Row>,
+    generations: Vec<u32>,
+}
+
+impl PlainTable {
+    pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
+        let count = plant.metamer_count();
+        let mut changes = Changes::default();
+        let mut told = std::mem::take(&mut self.rows);
+        for index in 0..count {
+            let held = told.get(index).copied();
+            let row = row(plant, MetamerId::new(index), style, held);
+            let same = held.filter(|held| (held.parent, held.starts_axis) == (row.parent, row.starts_axis));
+            if let Some(held) = same {
+                let columns = [
+                    (held.position != row.position, &mut changes.position),
+                    (held.radius != row.radius, &mut changes.radius),
+                    (held.foliage != row.foliage, &mut changes.foliage),
+                    (held.light != row.light, &mut changes.light),
+                ];
+                for (_, rows) in columns.into_iter().filter(|(differs, _)| *differs) {
+                    rows.push(index as u32);
+                    self.generations[index / CHUNK_ROWS] = generation;
+                }
+                self.rows.push(row);
+                continue;
+            }
+            self.drop_from(index, &mut told, generation, &mut changes);
+            self.generations.truncate(index / CHUNK_ROWS);
+            self.generations.push(generation);
+            self.rows.push(self::row(plant, MetamerId::new(index), style, None));
+        }
+        self.drop_from(count, &mut told, generation, &mut changes);
+        changes.appended = changes.appended.start.max(told.len() as u32)..count as u32;
+        changes
+    }
+
+    /// Nothing that was told from this row on holds any more.
+    fn drop_from(&mut self, kept: usize, told: &mut Vec<Row>, generation: u32, changes: &mut Changes) {
+        if told.len() > kept {
+            told.truncate(kept);
+            changes.truncated = Some(kept as u32);
+            self.generations.truncate(kept.div_ceil(CHUNK_ROWS));
+            if !kept.is_multiple_of(CHUNK_ROWS) {
+                self.generations[kept / CHUNK_ROWS] = generation;
+            }
+        }
+    }
+
+    pub fn equals(&self, table: &RingTable) -> bool {
+        let leaves: u32 = self.rows.iter().map(|row| u32::from(row.foliage & 0xf)).sum();
+        (&self.rows[..], &self.generations[..], leaves)
+            == (&all_rows(table)[..], table.generations(), table.leaves())
+    }
+}
+
+fn row(plant: &Plant, id: MetamerId, style: &Style, held: Option<Row>) -> Row {
+    let metamers = plant.metamers();
+    let parent = metamers.parent(id);
+    let is_drawn = parent.is_some() && plant.is_alive(id);
+    let look = metamers.appearance(id);
+    let (mut light, mut vigor) = (look.light, look.vigor >> 4);
+    if let Some(held) = held {
+        if !is_drawn || light.abs_diff(held.light) < 8 {
+            light = held.light;
+        }
+        if !is_drawn || vigor.abs_diff(held.foliage >> 4) < 2 {
+            vigor = held.foliage >> 4;
+        }
+    }
+    Row {
+        parent: parent.map(MetamerId::raw),
+        starts_axis: parent
+            .is_some_and(|below| plant.is_seed(below) || metamers.axis(below) != metamers.axis(id)),
+        position: metamers.end(id).to_array().map(|length| (length * 256.0).round() as i32),
+        radius: if is_drawn { style.radius_code(metamers.tips(id)) } else { NOT_DRAWN },
+        foliage: vigor << 4 | foliage::leaves(plant, id, style),
+        light,
+    }
+}
