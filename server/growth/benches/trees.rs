@@ -7,8 +7,8 @@ use espalier_growth::{NoObserver, ParameterValues, Parameters, Simulation, StepI
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 const THREADS: [usize; 2] = [1, 2];
-/// Sheds some of the shaded wood, and still lets the tree reach its size.
-const SHEDDING_THRESHOLD: f32 = 0.002;
+/// Sheds a fourteenth of what grows, and still lets the tree reach its size.
+const SHEDDING_THRESHOLD: f32 = 0.4;
 
 /// A tree to grow.
 #[derive(Clone, Copy)]

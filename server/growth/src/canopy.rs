@@ -219,7 +219,7 @@ impl Canopy {
     /// Lets light flow down and vigor up.
     pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
         for (seed, lambda) in &mut self.plants {
-            let age = plant.step() - plant.metamers().birth(*seed);
+            let age = plant.step() - plant.birth(*seed);
             *lambda = f64::from(parameters.scene().apical_control_at(age));
         }
         let dark = self.gather_light(plant, parameters);

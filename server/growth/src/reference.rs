@@ -201,7 +201,7 @@ impl Vigor {
         };
         let threshold =
             f64::from(parameters.scene().vigor_gain) * f64::from(parameters.of(axis).shedding_threshold);
-        plant.step() - plant.metamers().birth(first) >= 3
+        plant.step() - plant.birth(first) >= 3
             && self.flows[first.index()].vigor < threshold * f64::from(self.sizes[first.index()])
     }
 }
@@ -209,7 +209,7 @@ impl Vigor {
 /// λ of the plant that a metamer belongs to.
 fn lambda(plant: &Plant, id: MetamerId, parameters: &ParameterTable, step: u32) -> f64 {
     let seed = core::iter::successors(Some(id), |&id| plant.metamers().parent(id)).last().unwrap_or(id);
-    let age = step - plant.metamers().birth(seed);
+    let age = step - plant.birth(seed);
     f64::from(parameters.scene().apical_control_at(age))
 }
 

@@ -19,7 +19,7 @@ pub(crate) fn condemned(plant: &Plant, canopy: &Canopy, parameters: &ParameterTa
         .filter(|&axis| {
             plant.axes().first(axis).is_some_and(|first| {
                 let threshold = gain * f64::from(parameters.of(axis).shedding_threshold);
-                let age = plant.step() - plant.metamers().birth(first);
+                let age = plant.step() - plant.birth(first);
                 age >= GRACE && canopy.starves(first, threshold)
             })
         })

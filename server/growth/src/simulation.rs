@@ -24,7 +24,7 @@ use crate::{
 
 /// Growth stays within this distance of the origin on each axis, in internodes.
 pub const WORLD_EXTENT: f32 = 1000.0;
-/// Metamers a scene may hold, dead ones and the undone future included, unless told otherwise.
+/// Metamers a scene may hold, dead ones included, unless told otherwise. What was undone does not count.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
 
 /// Lasso markers a scene holds at most; a larger envelope is filled more thinly.
@@ -217,6 +217,11 @@ impl Simulation {
     /// What stands in the way of growth and light.
     pub fn obstacles(&self) -> &[Obstacle] {
         self.obstacles.as_slice()
+    }
+
+    /// Whether a place lies in an obstacle, or so close below one's surface that no bud gets out.
+    pub fn is_solid(&self, place: Vec3) -> bool {
+        self.obstacles.contains(place) || self.obstacles.contains(place + CLEARANCE * Vec3::Y)
     }
 
     /// Puts obstacles in place of those there were. Wood that has grown where they stand stays.

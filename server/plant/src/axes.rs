@@ -15,12 +15,11 @@ pub struct Axes {
     pub(crate) last: Vec<MetamerId>,
     pub(crate) direction: Vec<Vec3>,
     pub(crate) order: Vec<u32>,
-    pub(crate) birth: Vec<u32>,
     pub(crate) death: Vec<u32>,
 }
 
 impl Axes {
-    pub(crate) fn push(&mut self, bearer: MetamerId, direction: Vec3, order: u32, birth: u32) -> AxisId {
+    pub(crate) fn push(&mut self, bearer: MetamerId, direction: Vec3, order: u32) -> AxisId {
         let id = AxisId::new(self.bearer.len());
         if self.bearer.len() == self.bearer.capacity() {
             self.reserve();
@@ -30,7 +29,6 @@ impl Axes {
         self.last.push(MetamerId::NONE);
         self.direction.push(direction);
         self.order.push(order);
-        self.birth.push(birth);
         self.death.push(ALIVE);
         id
     }
@@ -44,7 +42,6 @@ impl Axes {
         self.last.reserve_exact(more);
         self.direction.reserve_exact(more);
         self.order.reserve_exact(more);
-        self.birth.reserve_exact(more);
         self.death.reserve_exact(more);
     }
 
@@ -59,7 +56,6 @@ impl Axes {
         self.last.truncate(len);
         self.direction.truncate(len);
         self.order.truncate(len);
-        self.birth.truncate(len);
         self.death.truncate(len);
     }
 
@@ -86,10 +82,5 @@ impl Axes {
     /// Branching order: 0 for trunks.
     pub fn order(&self, id: AxisId) -> u32 {
         self.order[id.index()]
-    }
-
-    /// The step in which its bud was born.
-    pub fn birth(&self, id: AxisId) -> u32 {
-        self.birth[id.index()]
     }
 }

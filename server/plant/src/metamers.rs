@@ -16,12 +16,16 @@ pub struct Appearance {
     pub vigor: u8,
 }
 
+impl Appearance {
+    /// What nobody has looked at yet is drawn as if in full light.
+    pub(crate) const NEW: Self = Self { light: 255, vigor: 255 };
+}
+
 /// Metamers as parallel columns. The seed of each plant is a metamer without length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metamers {
     pub(crate) parent: Vec<MetamerId>,
     pub(crate) axis: Vec<AxisId>,
-    pub(crate) birth: Vec<u32>,
     pub(crate) death: Vec<u32>,
     pub(crate) end: Vec<Vec3>,
     pub(crate) normal: Vec<Vec3>,
@@ -35,7 +39,6 @@ pub struct Metamers {
 pub(crate) struct Row {
     pub parent: MetamerId,
     pub axis: AxisId,
-    pub birth: u32,
     pub end: Vec3,
     pub normal: Vec3,
     /// The first of its laterals, which are to be laid down next.
@@ -50,12 +53,11 @@ impl Metamers {
         }
         self.parent.push(row.parent);
         self.axis.push(row.axis);
-        self.birth.push(row.birth);
         self.death.push(ALIVE);
         self.end.push(row.end);
         self.normal.push(row.normal);
         self.tips.push(0);
-        self.appearance.push(Appearance { light: 255, vigor: 255 });
+        self.appearance.push(Appearance::NEW);
         self.lateral.push(row.lateral);
         id
     }
@@ -66,7 +68,6 @@ impl Metamers {
         let more = self.parent.len() / 16 + 64;
         self.parent.reserve_exact(more);
         self.axis.reserve_exact(more);
-        self.birth.reserve_exact(more);
         self.death.reserve_exact(more);
         self.end.reserve_exact(more);
         self.normal.reserve_exact(more);
@@ -78,7 +79,6 @@ impl Metamers {
     pub(crate) fn truncate(&mut self, len: usize) {
         self.parent.truncate(len);
         self.axis.truncate(len);
-        self.birth.truncate(len);
         self.death.truncate(len);
         self.end.truncate(len);
         self.normal.truncate(len);
@@ -95,11 +95,6 @@ impl Metamers {
     /// The axis this metamer belongs to.
     pub fn axis(&self, id: MetamerId) -> AxisId {
         self.axis[id.index()]
-    }
-
-    /// The step in which it was born.
-    pub fn birth(&self, id: MetamerId) -> u32 {
-        self.birth[id.index()]
     }
 
     /// Where its node is; a seed's own place.

@@ -64,15 +64,7 @@ impl Plant {
     /// Puts a plant together.
     pub fn from_parts(parts: PlantParts) -> Result<Self, BrokenPlant> {
         check_shape(&parts)?;
-        let births = |which: usize, len: usize| {
-            let mut births = Vec::with_capacity(len);
-            for (step, end) in parts.ends.iter().enumerate() {
-                births.resize(end[which] as usize, step as u32);
-            }
-            births
-        };
         let (metamers, axes) = (parts.parent.len(), parts.bearer.len());
-        let (metamer_births, axis_births) = (births(0, metamers), births(1, axes));
         let mut order = Vec::with_capacity(axes);
         for &bearer in &parts.bearer {
             let below = (bearer != u32::MAX).then(|| order[parts.axis[bearer as usize] as usize]);
@@ -88,12 +80,11 @@ impl Plant {
             metamers: Metamers {
                 parent: parts.parent.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),
                 axis: parts.axis.iter().map(|&raw| AxisId::new(raw as usize)).collect(),
-                birth: metamer_births,
                 death: parts.death,
                 end: parts.end,
                 normal: parts.normal,
                 tips: vec![0; metamers],
-                appearance: vec![Appearance::default(); metamers],
+                appearance: vec![Appearance::NEW; metamers],
                 lateral,
             },
             axes: Axes {
@@ -102,7 +93,6 @@ impl Plant {
                 last: vec![MetamerId::NONE; axes],
                 direction: parts.direction,
                 order,
-                birth: axis_births,
                 death: parts.axis_death,
             },
             timeline: Timeline {

@@ -100,6 +100,16 @@ impl Plant {
         self.metamers.parent.len()
     }
 
+    /// The step in which a metamer of the present was born.
+    pub fn birth(&self, id: MetamerId) -> u32 {
+        self.timeline.step_of(|end| end.metamers, id.raw())
+    }
+
+    /// The step in which the bud of an axis of the present was born.
+    pub fn axis_birth(&self, id: AxisId) -> u32 {
+        self.timeline.step_of(|end| end.axes, id.raw())
+    }
+
     /// Whether a metamer of the present is alive.
     pub fn is_alive(&self, id: MetamerId) -> bool {
         self.metamers.death[id.index()] > self.timeline.now
@@ -198,11 +208,10 @@ impl Plant {
     /// Plants a seed, within a step.
     pub fn sow(&mut self, position: Vec3) -> AxisId {
         debug_assert!(self.timeline.recording, "changes belong to a step");
-        let axis = self.axes.push(MetamerId::NONE, Vec3::Y, 0, self.timeline.now);
+        let axis = self.axes.push(MetamerId::NONE, Vec3::Y, 0);
         let seed = self.metamers.push(&Row {
             parent: MetamerId::NONE,
             axis,
-            birth: self.timeline.now,
             end: position,
             normal: Vec3::X,
             lateral: AxisId::NONE,
@@ -216,12 +225,10 @@ impl Plant {
     pub fn extend(&mut self, axis: AxisId, internode: &Internode<'_>) -> MetamerId {
         debug_assert!(self.timeline.recording, "changes belong to a step");
         debug_assert!(self.is_axis_alive(axis), "a dead bud does not grow");
-        let step = self.timeline.now;
         let parent = self.bud_node(axis);
         let id = self.metamers.push(&Row {
             parent,
             axis,
-            birth: step,
             end: internode.end,
             normal: internode.normal,
             lateral: if internode.laterals.is_empty() { AxisId::NONE } else { self.axes.next() },
@@ -230,7 +237,7 @@ impl Plant {
         self.living = self.living.wrapping_add(1);
         let order = self.axes.order(axis) + 1;
         for &direction in internode.laterals {
-            self.axes.push(id, direction, order, step);
+            self.axes.push(id, direction, order);
         }
         id
     }
@@ -373,7 +380,7 @@ impl Plant {
             let m = &self.metamers;
             hash.word(u64::from(m.parent[index].raw()) | u64::from(m.axis[index].raw()) << 32);
             let death = if self.is_alive(id) { ALIVE } else { m.death[index] };
-            hash.word(u64::from(m.birth[index]) | u64::from(death) << 32);
+            hash.word(u64::from(self.birth(id)) | u64::from(death) << 32);
             hash.vector(m.end[index]);
             hash.vector(m.normal[index]);
             hash.word(u64::from(m.tips[index]));

@@ -29,6 +29,13 @@ impl Timeline {
         self.ends.get(self.now as usize).copied().unwrap_or_default()
     }
 
+    /// The step in which a column of the present got this row. Rows of one step follow each other, so the ends say
+    /// it; the step being recorded has no end yet.
+    pub fn step_of(&self, column: impl Fn(&StepEnd) -> u32, row: u32) -> u32 {
+        let ended = &self.ends[..self.ends.len().min(self.now as usize + 1)];
+        ended.partition_point(|end| column(end) <= row) as u32
+    }
+
     /// The lengths one step earlier.
     pub fn before(&self, step: u32) -> StepEnd {
         step.checked_sub(1).and_then(|s| self.ends.get(s as usize)).copied().unwrap_or_default()

@@ -5,7 +5,7 @@ mod support;
 use espalier_plant::MetamerId;
 use espalier_session::{Action, Document, Sample};
 use glam::Vec3;
-use support::{Followed, report, resident_bytes};
+use support::{Followed, report};
 
 const METAMERS: u32 = 100_000;
 const STROKES: u32 = 40;
@@ -71,4 +71,11 @@ fn outermost(document: &Document, direction: Vec3) -> Vec3 {
         .map(|id| plant.metamers().end(id))
         .max_by(|a, b| a.dot(direction).total_cmp(&b.dot(direction)))
         .expect("a tree has nodes")
+}
+
+/// Bytes of memory this process holds, where the system tells.
+fn resident_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kibibytes = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    Some(1024 * kibibytes.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
 }

@@ -236,6 +236,10 @@ impl Document {
         if position.y != 0.0 {
             return Err(Problem::out_of_range("position[1]", position.y, "0, the ground"));
         }
+        if self.simulation.is_solid(position) {
+            let value = format!("{position}, in an obstacle");
+            return Err(Problem::out_of_range("position", value, "a place outside all obstacles"));
+        }
         self.require_room()?;
         self.record(Kind::Seed, author, None);
         self.simulation.sow(position);

@@ -26,13 +26,14 @@ pub struct Mesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// What an obstacle is, around its own origin; lengths in internodes.
+/// What an obstacle is, around its own origin; lengths in internodes. Of a mesh growth's own, which is slow to
+/// make, stays with it wherever it stands.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Form {
     Box { size: Vec3 },
     Sphere { radius: f32 },
     Plane,
-    Mesh { mesh: Arc<Mesh>, scale: f32 },
+    Mesh { mesh: Arc<Mesh>, scale: f32, solid: Arc<TriangleMesh> },
 }
 
 /// Where an obstacle stands.
@@ -69,12 +70,7 @@ impl Obstacle {
     /// A form in its place, if growth can make an obstacle of it.
     pub(crate) fn new(form: Form, pose: Pose) -> Result<Self, Problem> {
         let obstacle = Self { form, pose };
-        obstacle.solid().map_err(|error| Problem {
-            code: ProblemCode::OutOfRange,
-            field: Some("shape".into()),
-            allowed: None,
-            message: format!("the shape cannot be an obstacle: {error}"),
-        })?;
+        obstacle.solid().map_err(|error| unfit("shape", &error))?;
         Ok(obstacle)
     }
 
@@ -85,11 +81,7 @@ impl Obstacle {
             Form::Box { size } => Space::Box { centre: position, half_extents: *size * 0.5, rotation },
             Form::Sphere { radius } => Space::Sphere { centre: position, radius: *radius },
             Form::Plane => Space::Plane { point: position, normal: (rotation * Vec3::Y).normalize() },
-            Form::Mesh { mesh, scale } => {
-                let place = |&vertex: &Vec3| position + rotation * (vertex * *scale);
-                let vertices = mesh.vertices.iter().map(place).collect();
-                Space::Mesh(Arc::new(TriangleMesh::new(vertices, mesh.triangles.clone())?))
-            }
+            Form::Mesh { solid, .. } => Space::Mesh { mesh: Arc::clone(solid), position, rotation },
         })
     }
 
@@ -109,7 +101,7 @@ impl Standing {
             Form::Box { size } => PlacedShape::Box { size: size.to_array() },
             Form::Sphere { radius } => PlacedShape::Sphere { radius: *radius },
             Form::Plane => PlacedShape::Plane {},
-            Form::Mesh { mesh, scale } => PlacedShape::Mesh {
+            Form::Mesh { mesh, scale, .. } => PlacedShape::Mesh {
                 vertices: mesh.vertices.len() as u32,
                 triangles: mesh.triangles.len() as u32,
                 scale: *scale,
@@ -158,9 +150,17 @@ impl Form {
                         allowed,
                     ));
                 }
-                Self::Mesh { mesh: Arc::new(mesh), scale }
+                Self::mesh(Arc::new(mesh), scale)?
             }
         })
+    }
+
+    /// A mesh in this scale.
+    pub(crate) fn mesh(mesh: Arc<Mesh>, scale: f32) -> Result<Self, Problem> {
+        let vertices = mesh.vertices.iter().map(|&vertex| vertex * scale).collect();
+        let solid = TriangleMesh::new(vertices, mesh.triangles.clone());
+        let solid = Arc::new(solid.map_err(|error| unfit("mesh", &error))?);
+        Ok(Self::Mesh { mesh, scale, solid })
     }
 }
 
@@ -232,6 +232,15 @@ fn count(what: &str, found: u32, most: usize) -> Result<(), Problem> {
         allowed: Some(format!("1 to {most} {what}")),
         message: format!("the mesh has {found} {what}; allowed: 1 to {most}"),
     })
+}
+
+fn unfit(field: &str, error: &ObstacleError) -> Problem {
+    Problem {
+        code: ProblemCode::OutOfRange,
+        field: Some(field.into()),
+        allowed: None,
+        message: format!("the shape cannot be an obstacle: {error}"),
+    }
 }
 
 fn damaged(why: &str) -> Problem {

@@ -95,10 +95,11 @@ fn stats_are_one_object_with_all_its_keys() {
             "steps",
             "delta_bytes",
             "peak_memory_bytes",
+            "tree_memory_bytes",
         ] {
             assert!(stats[key].as_u64().is_some_and(|n| n > 0), "{key} in {stats}");
         }
-        for key in ["seconds_total", "seconds_last_step"] {
+        for key in ["seconds_total", "seconds_last_step", "bytes_per_metamer"] {
             assert!(stats[key].as_f64().is_some_and(|n| n >= 0.0), "{key} in {stats}");
         }
         for phase in PHASES {

@@ -113,7 +113,7 @@ async fn ob6_what_is_no_mesh_is_refused_in_words() {
     let session = client.session.clone();
     let mut cut = triangle();
     cut.truncate(cut.len() - 4);
-    for (file, words) in [(b"solid cube".as_slice(), "glTF"), (&cut, "too short"), (&[0; 64], "glTF")] {
+    for (file, words) in [(b"solid cube".as_slice(), "glTF"), (&cut, "cut short"), (&[0; 64], "glTF")] {
         let answer = upload(&server, &session, file);
         assert_eq!(answer.status, 400, "{}", answer.text());
         let message = answer.json()["message"].as_str().expect("a problem has a sentence").to_owned();

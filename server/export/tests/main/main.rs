@@ -51,7 +51,7 @@ proptest! {
             let position: Vec<f32> =
                 read["position"].as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number") as f32).collect();
             prop_assert_eq!(Vec3::from_slice(&position), plant.metamers().end(id));
-            prop_assert_eq!(read["birth"].as_u64(), Some(u64::from(plant.metamers().birth(id))));
+            prop_assert_eq!(read["birth"].as_u64(), Some(u64::from(plant.birth(id))));
         }
     }
 }

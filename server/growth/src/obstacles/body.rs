@@ -12,7 +12,7 @@ pub(super) enum Body {
     Box(Cuboid),
     Sphere { centre: Vec3, radius: f32 },
     Plane { point: Vec3, normal: Vec3 },
-    Mesh(Arc<TriangleMesh>),
+    Mesh(Placed),
 }
 
 /// A box and its axes.
@@ -21,6 +21,14 @@ pub(super) struct Cuboid {
     centre: Vec3,
     half_extents: Vec3,
     world_from_box: Mat3,
+}
+
+/// A mesh and where it stands. What is asked is turned, not the mesh: moving it costs nothing.
+#[derive(Clone, Debug)]
+pub(super) struct Placed {
+    mesh: Arc<TriangleMesh>,
+    position: Vec3,
+    world_from_mesh: Mat3,
 }
 
 impl Body {
@@ -32,7 +40,11 @@ impl Body {
             }
             &Shape::Sphere { centre, radius } => Self::Sphere { centre, radius },
             &Shape::Plane { point, normal } => Self::Plane { point, normal: normal.normalize() },
-            Shape::Mesh(mesh) => Self::Mesh(mesh.clone()),
+            Shape::Mesh { mesh, position, rotation } => Self::Mesh(Placed {
+                mesh: Arc::clone(mesh),
+                position: *position,
+                world_from_mesh: matrix(rotation.to_array()),
+            }),
         }
     }
 
@@ -43,14 +55,14 @@ impl Body {
             (centre - half, centre + half)
         };
         match self {
-            Self::Box(cuboid) => {
-                let [x, y, z] = cuboid.half_extents.to_array();
-                let Mat3 { x_axis, y_axis, z_axis } = cuboid.world_from_box;
-                around(cuboid.centre, x_axis.abs() * x + y_axis.abs() * y + z_axis.abs() * z)
-            }
+            Self::Box(cuboid) => around(cuboid.centre, extent(&cuboid.world_from_box, cuboid.half_extents)),
             &Self::Sphere { centre, radius } => around(centre, Vec3::splat(radius)),
             Self::Plane { .. } => (Vec3::NEG_INFINITY, Vec3::INFINITY),
-            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Mesh(placed) => {
+                let (low, high) = placed.mesh.bounds();
+                let centre = placed.position + placed.world_from_mesh * (0.5 * (low + high));
+                around(centre, extent(&placed.world_from_mesh, 0.5 * (high - low)))
+            }
         }
     }
 
@@ -63,7 +75,7 @@ impl Body {
             }
             Self::Sphere { centre, radius } => place.distance_squared(*centre) < radius * radius,
             Self::Plane { point, normal } => (place - *point).dot(*normal) < 0.0,
-            Self::Mesh(mesh) => mesh.contains(place),
+            Self::Mesh(placed) => placed.mesh.contains(placed.local(place)),
         }
     }
 
@@ -90,9 +102,9 @@ impl Body {
                 let meets = height < 0.0 || end < 0.0;
                 meets.then(|| (t, Contact { point: from + along * t, normal: *normal }))
             }
-            Self::Mesh(mesh) => {
-                let (t, normal) = mesh.first_hit(from, along)?;
-                Some((t, Contact { point: from + along * t, normal }))
+            Self::Mesh(placed) => {
+                let (t, normal) = placed.mesh.first_hit(placed.local(from), placed.turned(along))?;
+                Some((t, Contact { point: from + along * t, normal: placed.world_from_mesh * normal }))
             }
         }
     }
@@ -115,7 +127,10 @@ impl Body {
                 let height = (place - *point).dot(*normal);
                 (height < clearance).then(|| Contact { point: place - *normal * height, normal: *normal })
             }
-            Self::Mesh(mesh) => contact_within(place, mesh.nearest(place, clearance)?, clearance),
+            Self::Mesh(placed) => {
+                let nearest = placed.mesh.nearest(placed.local(place), clearance)?;
+                contact_within(place, placed.position + placed.world_from_mesh * nearest, clearance)
+            }
         }
     }
 
@@ -132,8 +147,20 @@ impl Body {
             Self::Plane { point, normal } => {
                 (from - *point).dot(*normal) < 0.0 || direction.dot(*normal) < 0.0
             }
-            Self::Mesh(mesh) => mesh.meets_ray(from, direction),
+            Self::Mesh(placed) => placed.mesh.meets_ray(placed.local(from), placed.turned(direction)),
         }
+    }
+}
+
+impl Placed {
+    /// A place as the mesh sees it.
+    fn local(&self, place: Vec3) -> Vec3 {
+        self.turned(place - self.position)
+    }
+
+    /// A direction as the mesh sees it.
+    fn turned(&self, direction: Vec3) -> Vec3 {
+        self.world_from_mesh.transpose() * direction
     }
 }
 
@@ -177,6 +204,12 @@ impl Cuboid {
         let axis = (0..3).min_by(|&a, &b| depth[a].total_cmp(&depth[b])).unwrap_or(1);
         (axis, if inside[axis] < 0.0 { -1.0 } else { 1.0 })
     }
+}
+
+/// Half the size of the box along the world's axes around a turned box of this half size.
+fn extent(world_from_box: &Mat3, half: Vec3) -> Vec3 {
+    let Mat3 { x_axis, y_axis, z_axis } = world_from_box;
+    x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z
 }
 
 fn contact_within(place: Vec3, point: Vec3, clearance: f32) -> Option<Contact> {

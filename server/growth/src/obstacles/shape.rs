@@ -38,7 +38,14 @@ pub enum Shape {
         normal: Vec3,
     },
     /// A mesh: solid if it is closed, otherwise a sheet without thickness.
-    Mesh(Arc<TriangleMesh>),
+    Mesh {
+        /// Its triangles; the same ones may stand in many places.
+        mesh: Arc<TriangleMesh>,
+        /// Where its own origin lies.
+        position: Vec3,
+        /// World from the mesh's own axes, a unit quaternion.
+        rotation: Quat,
+    },
 }
 
 /// A valid obstacle.
@@ -98,8 +105,7 @@ impl Obstacle {
                 check_place("centre of the box", *centre)?;
                 check_place("size of the box", *half_extents)?;
                 check_positive("size of the box", half_extents.min_element())?;
-                let [x, y, z, w] = rotation.to_array();
-                check_unit("rotation of the box", (x * x + y * y + z * z + w * w).sqrt())?;
+                check_rotation("rotation of the box", *rotation)?;
             }
             Shape::Sphere { centre, radius } => {
                 check_place("centre of the sphere", *centre)?;
@@ -110,8 +116,11 @@ impl Obstacle {
                 check_place("point of the plane", *point)?;
                 check_unit("normal of the plane", normal.length())?;
             }
-            // A mesh was checked when it was made.
-            Shape::Mesh(_) => {}
+            // Its triangles were checked when they were made a mesh.
+            Shape::Mesh { position, rotation, .. } => {
+                check_place("place of the mesh", *position)?;
+                check_rotation("rotation of the mesh", *rotation)?;
+            }
         }
         Ok(Self { shape })
     }
@@ -135,6 +144,11 @@ pub(super) fn check_place(what: &'static str, place: Vec3) -> Result<(), Obstacl
 
 fn check_positive(what: &'static str, value: f32) -> Result<(), ObstacleError> {
     if value > 0.0 { Ok(()) } else { Err(ObstacleError::NotPositive { what, value }) }
+}
+
+fn check_rotation(what: &'static str, rotation: Quat) -> Result<(), ObstacleError> {
+    let [x, y, z, w] = rotation.to_array();
+    check_unit(what, (x * x + y * y + z * z + w * w).sqrt())
 }
 
 fn check_unit(what: &'static str, length: f32) -> Result<(), ObstacleError> {

@@ -11,6 +11,11 @@ fn obstacles(shapes: impl IntoIterator<Item = Shape>) -> Obstacles {
     Obstacles::new(shapes.into_iter().map(|shape| Obstacle::new(shape).expect("valid")).collect())
 }
 
+/// A mesh where it was made.
+fn standing(mesh: TriangleMesh) -> Shape {
+    Shape::Mesh { mesh: Arc::new(mesh), position: Vec3::ZERO, rotation: Quat::IDENTITY }
+}
+
 fn vector(range: core::ops::Range<f32>) -> impl Strategy<Value = Vec3> {
     (range.clone(), range.clone(), range).prop_map(Vec3::from)
 }
@@ -31,8 +36,10 @@ fn shape() -> impl Strategy<Value = Shape> {
             .prop_map(|(centre, half_extents, rotation)| { Shape::Box { centre, half_extents, rotation } }),
         (vector(-6.0..6.0), 0.2f32..5.0).prop_map(|(centre, radius)| Shape::Sphere { centre, radius }),
         (vector(-6.0..6.0), unit()).prop_map(|(point, normal)| Shape::Plane { point, normal }),
-        (vector(-6.0..6.0), vector(0.2..5.0))
-            .prop_map(|(low, size)| { Shape::Mesh(Arc::new(cuboid(low, low + size))) }),
+        (vector(-6.0..6.0), vector(0.2..5.0), rotation()).prop_map(|(position, size, rotation)| {
+            let mesh = Arc::new(cuboid(-0.5 * size, 0.5 * size));
+            Shape::Mesh { mesh, position, rotation }
+        }),
     ]
 }
 
@@ -91,7 +98,7 @@ proptest! {
         from in vector(-8.0..8.0),
         to in vector(-8.0..8.0),
     ) {
-        let mesh = obstacles([Shape::Mesh(Arc::new(cuboid(low, low + size)))]);
+        let mesh = obstacles([standing(cuboid(low, low + size))]);
         let solid = obstacles([Shape::Box {
             centre: low + 0.5 * size, half_extents: 0.5 * size, rotation: Quat::IDENTITY,
         }]);
@@ -103,6 +110,33 @@ proptest! {
             if let (Some(a), Some(b)) = (a, b) {
                 prop_assert!(a.point.distance(b.point) < 1e-3, "{:?} {:?}", a, b);
             }
+        }
+    }
+
+    #[test]
+    fn a_turned_mesh_answers_like_the_turned_box(
+        half in vector(0.3..4.0),
+        centre in vector(-6.0..6.0),
+        rotation in rotation(),
+        from in vector(-9.0..9.0),
+        to in vector(-9.0..9.0),
+    ) {
+        let mesh = Arc::new(cuboid(-half, half));
+        let mesh = obstacles([Shape::Mesh { mesh, position: centre, rotation }]);
+        let at = |half_extents| obstacles([Shape::Box { centre, half_extents, rotation }]);
+        // A hair's breadth is left to rounding.
+        let (smaller, larger) = (at(half - 1e-3), at(half + 1e-3));
+        prop_assert!(!smaller.contains(from) || mesh.contains(from));
+        prop_assert!(!mesh.contains(from) || larger.contains(from));
+        prop_assert!(!smaller.hides(from, to) || mesh.hides(from, to));
+        prop_assert!(!mesh.hides(from, to) || larger.hides(from, to));
+        let ray = |obstacles: &Obstacles| obstacles.bodies[0].meets_ray(from, to - from);
+        prop_assert!(!ray(&smaller) || ray(&mesh));
+        prop_assert!(!ray(&mesh) || ray(&larger));
+        if !larger.contains(from) && !larger.contains(to) && smaller.hides(from, to) {
+            let (a, b) = (mesh.contact(from, to, 0.5), smaller.contact(from, to, 0.5));
+            let (a, b) = (a.expect("it is met"), b.expect("it is met"));
+            prop_assert!(a.normal.dot(b.normal) > 0.99 || a.point.distance(b.point) < 0.1, "{:?} {:?}", a, b);
         }
     }
 
@@ -177,7 +211,7 @@ fn there_is_no_way_out_of_a_solid() {
 fn an_open_mesh_blocks_as_a_sheet() {
     let corners = vec![Vec3::new(-5.0, 0.0, -5.0), Vec3::X * 9.0, Vec3::Z * 9.0];
     let sheet = TriangleMesh::new(corners, vec![[0, 1, 2]]).expect("a mesh");
-    let sheet = obstacles([Shape::Mesh(Arc::new(sheet))]);
+    let sheet = obstacles([standing(sheet)]);
     for (from, to) in [(1.0, -1.0), (-1.0, 1.0)] {
         assert!(sheet.hides(Vec3::Y * from, Vec3::Y * to));
     }
@@ -192,7 +226,7 @@ fn a_hollow_mesh_is_solid_between_its_shells() {
     let vertices = [outer.vertices(), inner.vertices()].concat();
     let shifted = inner.triangles().iter().map(|corners| corners.map(|corner| corner + 8));
     let triangles = outer.triangles().iter().copied().chain(shifted).collect();
-    let shell = obstacles([Shape::Mesh(Arc::new(TriangleMesh::new(vertices, triangles).expect("a mesh")))]);
+    let shell = obstacles([standing(TriangleMesh::new(vertices, triangles).expect("a mesh"))]);
     assert!(shell.contains(Vec3::X * 6.0));
     assert!(!shell.contains(Vec3::ZERO) && !shell.contains(Vec3::X * 10.0));
 }

@@ -18,12 +18,17 @@ fn cuboid(low: Vec3, high: Vec3) -> Obstacle {
     obstacle(Shape::Box { centre, half_extents, rotation: Quat::IDENTITY })
 }
 
+fn standing(mesh: TriangleMesh) -> Obstacle {
+    let mesh = Arc::new(mesh);
+    obstacle(Shape::Mesh { mesh, position: Vec3::ZERO, rotation: Quat::IDENTITY })
+}
+
 /// A wall of two triangles, without thickness, in the plane x = `x`.
 fn sheet(x: f32) -> Obstacle {
     let corners = [(-40.0, -40.0), (-40.0, 40.0), (80.0, 40.0), (80.0, -40.0)];
     let vertices = corners.map(|(y, z)| Vec3::new(x, y, z)).to_vec();
     let mesh = TriangleMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
-    obstacle(Shape::Mesh(Arc::new(mesh)))
+    standing(mesh)
 }
 
 fn grown_among(seed: u32, obstacles: Vec<Obstacle>, steps: u32) -> Simulation {
@@ -139,7 +144,7 @@ fn lid() -> Obstacle {
     let corners = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)];
     let vertices = corners.map(|(x, z)| Vec3::new(x, 0.5, z)).to_vec();
     let mesh = TriangleMesh::new(vertices, vec![[0, 1, 2], [0, 2, 3]]).expect("a mesh");
-    obstacle(Shape::Mesh(Arc::new(mesh)))
+    standing(mesh)
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn choosing_what_is_gone_grows_nothing() {
         assert_eq!(simulation.step(&input, &mut NoObserver).metamers_grown, 0);
     }
     let chosen = lobe(&simulation);
-    let birth = simulation.plant().axes().birth(chosen);
+    let birth = simulation.plant().axis_birth(chosen);
     simulation.go_to(birth - 1);
     let input = StepInput { autonomous: true, chosen: Some(chosen), ..StepInput::default() };
     assert_eq!(simulation.step(&input, &mut NoObserver).metamers_grown, 0);

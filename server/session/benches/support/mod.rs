@@ -24,7 +24,7 @@ pub struct Followed {
 pub struct Cost {
     /// The document does it.
     pub act: Duration,
-    /// The table takes it over and finds what changed.
+    /// Looks are written, and the table finds what changed.
     pub sync: Duration,
     /// The frame is made and deflated.
     pub encode: Duration,
@@ -51,7 +51,7 @@ impl Followed {
         self.document.apply(AUTHOR, action).expect("the action can be done");
         let acted = Instant::now();
         self.sequence += 1;
-        let changes = self.table.sync(self.document.plant(), &self.style, self.sequence);
+        let changes = self.table.sync(self.document.portrait(), &self.style, self.sequence);
         let synced = Instant::now();
         let bytes = delta(&self.table, &changes, 0, self.sequence).encode().len();
         Cost { act: acted - begun, sync: synced - acted, encode: synced.elapsed(), bytes }
@@ -108,11 +108,4 @@ pub fn report(title: &str, costs: &[Cost], added: &[u32]) {
         "  frame, bytes                 {}",
         Percentiles::of(costs.iter().map(|cost| cost.bytes as f64))
     );
-}
-
-/// Bytes of memory this process holds, where the system tells.
-pub fn resident_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let kibibytes = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    Some(1024 * kibibytes.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?)
 }

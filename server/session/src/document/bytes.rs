@@ -387,7 +387,7 @@ impl Reader<'_> {
 
     fn list<T>(
         &mut self,
-        read: impl Fn(&mut Self) -> Result<T, DocumentError>,
+        mut read: impl FnMut(&mut Self) -> Result<T, DocumentError>,
     ) -> Result<Vec<T>, DocumentError> {
         let len = self.u32()? as usize;
         // Every item takes a byte at least, so a length beyond the rest is a lie not worth allocating for.

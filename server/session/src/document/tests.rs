@@ -1,10 +1,9 @@
 //! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
 
 use espalier_plant::checks;
-use proptest::prelude::*;
-
 use espalier_proto::Shape;
 use glam::{Quat, Vec2};
+use proptest::prelude::*;
 
 use super::*;
 use crate::{
@@ -243,6 +242,37 @@ fn place(shape: &Shape, x: f32) -> Action {
     let pose = espalier_proto::Pose { position: [x, 3.0, 0.0], rotation: pose(x).rotation.to_array() };
     let obstacle = espalier_proto::Obstacle { shape: shape.clone(), pose };
     Action::PlaceObstacle(Box::new(Obstacle::parse(&obstacle).expect("in range")))
+}
+
+#[test]
+fn no_seed_is_planted_in_an_obstacle() {
+    let mut document = Document::new(4);
+    let ball = place(&Shape::Sphere { radius: 4.0 }, 20.0);
+    document.apply("ann", &ball).expect("there is room");
+    let before = document.hash();
+    let plant = |x: f32| Action::PlantSeed { position: Vec3::X * x };
+    let problem = document.apply("ann", &plant(20.0)).expect_err("the ball reaches below the ground there");
+    assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::OutOfRange, Some("position")));
+    assert!(problem.message.contains("obstacle"), "{}", problem.message);
+    assert_eq!(document.hash(), before);
+    document.apply("ann", &plant(26.0)).expect("beside it the ground is free");
+}
+
+#[test]
+fn a_moved_mesh_is_not_made_again() {
+    let mut document = Document::new(4);
+    let made = |document: &Document, index: usize| match &document.simulation.obstacles()[index].shape() {
+        espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
+        other => panic!("{other:?}"),
+    };
+    document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
+    document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
+    let before = [made(&document, 0), made(&document, 1)];
+    document.apply("ann", &Action::MoveObstacle { id: 1, pose: pose(5.0) }).expect("it is there");
+    document.apply("ann", &place(&Shape::Sphere { radius: 1.0 }, 15.0)).expect("there is room");
+    for (index, before) in before.iter().enumerate() {
+        assert!(Arc::ptr_eq(before, &made(&document, index)), "{index}");
+    }
 }
 
 /// A sheet of two triangles.

@@ -1,4 +1,4 @@
-//! Who leads: the trunk or its limbs (TreeSketch §3.2; Pałubicki et al. 2009, Figures 7 and 8).
+//! Who leads: the trunk or its limbs (TreeSketch §3.2; Pałubicki et al. 2009, Figure 7).
 
 use espalier_growth::VigorModel;
 use measure::{height, largest_limb, leader_at, limbs, mean, spread, trunk_share};

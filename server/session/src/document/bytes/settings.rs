@@ -1,6 +1,6 @@
 //! What operations change, each thing written once however many operations hold it.
 
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_growth::Parameters;
 use glam::Quat;
@@ -57,8 +57,10 @@ impl Shelf {
             Mesh::from_bytes(&bytes).map(Arc::new).map_err(|problem| damaged(problem.message))
         })?;
         let mut shelf = Self { parameters, meshes, sets: Vec::new() };
+        // An obstacle that was moved stands in many sets, but its mesh is made once.
+        let mut forms = BTreeMap::new();
         shelf.sets = reader.list(|r| {
-            let set = r.list(|r| shelf.read_standing(r))?;
+            let set = r.list(|r| shelf.read_standing(r, &mut forms))?;
             if !set.is_sorted_by(|a, b| a.id < b.id) {
                 return Err(damaged("obstacles are out of order"));
             }
@@ -100,7 +102,7 @@ impl Shelf {
                 out.f32(*radius);
             }
             Form::Plane => out.0.push(2),
-            Form::Mesh { mesh, scale } => {
+            Form::Mesh { mesh, scale, .. } => {
                 out.0.push(3);
                 out.u32(number(&self.meshes, mesh));
                 out.f32(*scale);
@@ -108,7 +110,11 @@ impl Shelf {
         }
     }
 
-    fn read_standing(&self, r: &mut Reader<'_>) -> Result<Standing, DocumentError> {
+    fn read_standing(
+        &self,
+        r: &mut Reader<'_>,
+        forms: &mut BTreeMap<(u32, u32), Form>,
+    ) -> Result<Standing, DocumentError> {
         let (id, position) = (r.u32()?, r.vector()?);
         let rotation = Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?]);
         let form = match r.u8()? {
@@ -116,8 +122,17 @@ impl Shelf {
             1 => Form::Sphere { radius: r.f32()? },
             2 => Form::Plane,
             3 => {
-                let mesh = self.meshes.get(r.u32()? as usize).cloned();
-                Form::Mesh { mesh: mesh.ok_or_else(|| damaged("a mesh is missing"))?, scale: r.f32()? }
+                let (number, scale) = (r.u32()?, r.f32()?);
+                match forms.get(&(number, scale.to_bits())) {
+                    Some(form) => form.clone(),
+                    None => {
+                        let mesh = self.meshes.get(number as usize).cloned();
+                        let mesh = mesh.ok_or_else(|| damaged("a mesh is missing"))?;
+                        let form = Form::mesh(mesh, scale).map_err(|problem| damaged(problem.message))?;
+                        forms.insert((number, scale.to_bits()), form.clone());
+                        form
+                    }
+                }
             }
             _ => return Err(damaged("an obstacle of unknown shape")),
         };
