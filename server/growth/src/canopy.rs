@@ -363,6 +363,8 @@ impl Canopy {
             // By way of i32: LLVM 22 crashes on a vectorised conversion of floats to bytes.
             let byte = |x: f32| x as i32 as u8;
             let vigor = per_tip(plant, node, flow) * scale;
+            // Wood that bears only buds in the dark is drawn as what has been left out, which it soon will be.
+            let light = if flow.light() > 0 { *light } else { 0.0 };
             let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor) };
             plant.set_appearance(node.id, appearance);
         }

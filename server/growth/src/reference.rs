@@ -52,8 +52,7 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
         .collect();
     let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
     for (axis, space, vigor) in vigors.into_iter().filter(|&(.., vigor)| vigor > 0.0) {
-        let longest = f64::from(plain.parameters.of(axis).max_shoot_length);
-        shoots.push(((vigor / greatest * longest).min(longest) as u32, axis, space));
+        shoots.push((vigor::shoot_length(vigor, greatest, plain.parameters.of(axis)), axis, space));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
     for (length, axis, space) in shoots {

@@ -20,6 +20,7 @@ use crate::{
     shoot::Aim,
     simulation::Simulation,
     space::Bud,
+    vigor,
 };
 
 /// What guides one step.
@@ -204,20 +205,18 @@ impl Simulation {
             return space;
         }
         let Some(light) = self.shadows.towards_light(self.plant.bud_position(axis)) else { return space };
+        // A canopy's shadow ends some way below it, so it is lighter farther down; but no light comes from there.
+        let light = Vec3::new(light.x, light.y.max(0.0), light.z);
         (space * (1.0 - weight) + light * weight).try_normalize().unwrap_or(space)
     }
 
-    /// What enabled buds will grow: n = ⌊v / v_max · n_max⌋ internodes, the longest shoot first, of equally long
-    /// ones the oldest.
+    /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
     fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Vec3)>) -> Vec<Shoot> {
         let vigors: Vec<(AxisId, Vec3, f64)> = enabled
             .map(|(axis, space)| (axis, space, self.canopy.bud_vigor(&self.plant, axis, &self.parameters)))
             .collect();
         let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
-        let length = |axis, vigor: f64| {
-            let longest = f64::from(self.parameters.of(axis).max_shoot_length);
-            (vigor / greatest * longest).min(longest) as u32
-        };
+        let length = |axis, vigor| vigor::shoot_length(vigor, greatest, self.parameters.of(axis));
         let mut shoots: Vec<Shoot> = vigors
             .into_iter()
             .filter(|&(.., vigor)| vigor > 0.0)

@@ -3,6 +3,8 @@
 //! Light flows down: each bud puts in Q = bL^κ. Vigor flows up: v = α·Q at the base, and at each node the main
 //! axis gets λQ_m against (1−λ)Q_l for the laterals, which share theirs in proportion to Q.
 
+use crate::parameters::{Parameters, VigorModel};
+
 /// Steps of Q = 1. Sums of whole numbers are exact, so the order in which branches are added does not matter.
 pub(crate) const UNIT: f64 = (1u64 << 32) as f64;
 
@@ -10,6 +12,20 @@ pub(crate) const UNIT: f64 = (1u64 << 32) as f64;
 #[inline]
 pub(crate) fn quantised(input: f32) -> u64 {
     (f64::from(input) * UNIT) as i64 as u64
+}
+
+/// Internodes that an enabled bud adds, the most vigorous of all having `greatest`.
+///
+/// n = ⌊v / v_max · n_max⌋ (TreeSketch §3.2). Under the priority model vigor counts as it is, n = ⌊v⌋ (Pałubicki
+/// et al. 2009): it concentrates at every order of branching, and relative to the greatest the trunk's would
+/// always lose. There too the best bud adds one internode at least, so that the brush works in the shade.
+pub(crate) fn shoot_length(vigor: f64, greatest: f64, parameters: &Parameters) -> u32 {
+    let longest = f64::from(parameters.max_shoot_length);
+    let length = match parameters.vigor_model {
+        VigorModel::BorchertHonda => vigor / greatest * longest,
+        VigorModel::Priority => vigor / greatest.min(1.0),
+    };
+    length.min(longest) as u32
 }
 
 /// What flows through one node. Light is counted in steps of 1/[`UNIT`].

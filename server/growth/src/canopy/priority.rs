@@ -110,13 +110,14 @@ fn dormant(plant: &Plant, id: MetamerId) -> impl Iterator<Item = AxisId> + '_ {
     plant.laterals(id).filter(|&axis| plant.is_axis_alive(axis) && plant.axes().last(axis).is_none())
 }
 
-/// Those with the most light for each bud first; of equal ones the oldest.
+/// Those with the most light for each bud first. Of equal ones the youngest: the terminal bud, whose axis is older
+/// than those it bears, leads only where it is put first or has the most light.
 fn rank(claimants: &mut [Claimant]) {
     claimants.sort_by(|a, b| {
         // Compared as products, for a quotient would be rounded.
         let (ours, theirs) =
             (u128::from(a.light) * u128::from(b.buds), u128::from(b.light) * u128::from(a.buds));
-        b.is_first.cmp(&a.is_first).then(theirs.cmp(&ours)).then(a.axis.cmp(&b.axis))
+        b.is_first.cmp(&a.is_first).then(theirs.cmp(&ours)).then(b.axis.cmp(&a.axis))
     });
 }
 

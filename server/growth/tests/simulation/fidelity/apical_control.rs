@@ -74,3 +74,22 @@ fn a_small_least_weight_gives_slender_trees() {
         assert!(conifer > 1.3 * broad, "height over spread: {conifer} against {broad} (seed {seed})");
     }
 }
+
+/// Under the priority model the terminal bud is put first while λ is not below 0.5. Without that the trunk
+/// dissolves, the sooner the greater the least weight is.
+#[test]
+fn without_terminal_first_the_trunk_dissolves() {
+    let trunk = |least, lambda| {
+        mean((1..=6).map(|seed| {
+            let mut tree = seedling(seed, |values| {
+                values.vigor_model = VigorModel::Priority;
+                (values.priority_least_weight, values.apical_control) = (least, lambda);
+            });
+            grow_to(&mut tree, 1500);
+            trunk_share(tree.plant())
+        }))
+    };
+    let [first, not_first] = [0.52, 0.48].map(|lambda| [0.006, 0.3, 0.5].map(|least| trunk(least, lambda)));
+    assert!(first[0] > 0.99 && first[2] < 0.95 && first[2] > 0.8, "terminal first: {first:?}");
+    assert!(not_first[0] < 0.85 && not_first[1] < 0.4 && not_first[2] < 0.4, "not first: {not_first:?}");
+}
