@@ -4,6 +4,8 @@ import { App } from "./app/ui/app";
 import "./app/ui/styles/base.css";
 import "./app/ui/styles/bars.css";
 import "./app/ui/styles/status.css";
+import "./app/ui/styles/tools.css";
+import "./app/ui/styles/panels.css";
 import "./app/ui/styles/sheets.css";
 
 const root = document.getElementById("app");

@@ -4,7 +4,6 @@ mod announce;
 mod cli;
 mod database;
 mod document;
-mod glb_mesh;
 mod headless;
 mod http;
 mod listener;

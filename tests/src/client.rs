@@ -13,7 +13,8 @@ use tokio_tungstenite::{
 };
 
 use crate::{
-    server::GUARD,
+    scratch::Scratch,
+    server::{GUARD, Server},
     table::{Form, Table},
 };
 
@@ -111,6 +112,15 @@ async fn welcome(socket: &mut Socket) -> String {
 }
 
 impl Client {
+    /// One client in a new session of seed 7, on a server of its own with these options.
+    pub async fn alone(options: &[&str]) -> (Self, Server, Scratch) {
+        let scratch = Scratch::new();
+        let server = Server::start_with(&scratch.path("trees.db"), 0, options);
+        let session = server.new_session(7);
+        let client = Self::connect(server.port(), &session, "browser-1").await;
+        (client, server, scratch)
+    }
+
     /// Opens a session under this key, as far as the welcome.
     pub async fn connect(port: u16, session: &str, key: &str) -> Self {
         Self::connect_with(port, session, key, Receipts::Sent).await

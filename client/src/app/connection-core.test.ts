@@ -8,6 +8,7 @@ const state: DocumentState = {
   axes: 1,
   leaves: 0,
   metamer_budget: 1000,
+  budget_reached: false,
   can_undo: false,
   can_redo: false,
   pending_steps: 0,
@@ -87,7 +88,7 @@ describe("handshake", () => {
     core.opened(0);
     core.effects();
     welcome(0, 0, { resumed: false });
-    expect(kinds(core.effects())).toEqual(["forget-rows", "parameters", "state"]);
+    expect(kinds(core.effects())).toEqual(["forget-rows", "parameters", "state", "obstacles"]);
   });
 
   it("keeps its rows when the resume was taken up", () => {

@@ -4,6 +4,7 @@ import {
   type Command,
   type DocumentState,
   type Parameters,
+  type PlacedObstacle,
   PROTOCOL_VERSION,
   type Problem,
   type Resume,
@@ -48,6 +49,7 @@ export type Effect =
   | { readonly kind: "rekeyed" }
   | { readonly kind: "state"; readonly state: DocumentState }
   | { readonly kind: "parameters"; readonly parameters: Parameters }
+  | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
   | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
 
 export interface CoreOptions {
@@ -190,6 +192,9 @@ export class ConnectionCore {
         break;
       case "parameters":
         this.#effects.push({ kind: "parameters", parameters: message.parameters });
+        break;
+      case "obstacles":
+        this.#effects.push({ kind: "obstacles", obstacles: message.obstacles });
         break;
       case "pong":
         break;
@@ -336,6 +341,8 @@ export class ConnectionCore {
     this.#acknowledge(welcome.acknowledged);
     this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
     this.#effects.push({ kind: "state", state: welcome.state });
+    // The list follows only if there is something on it.
+    this.#effects.push({ kind: "obstacles", obstacles: [] });
     for (const { id, command } of this.#pending) {
       this.#send({ type: "command", id, command });
     }

@@ -94,6 +94,7 @@ function setUp() {
       commands: nothing,
       state: nothing,
       parameters: nothing,
+      obstacles: nothing,
       problem: nothing,
       rows: nothing,
       rekeyed: nothing,

@@ -1,4 +1,12 @@
-import type { ClientMessage, Command, DocumentState, Parameters, Problem, ServerMessage } from "../wire/generated";
+import type {
+  ClientMessage,
+  Command,
+  DocumentState,
+  Parameters,
+  PlacedObstacle,
+  Problem,
+  ServerMessage,
+} from "../wire/generated";
 import { type ClientRecord, ConnectionCore, type FrameHead, type Phase, type StopReason } from "./connection-core";
 import type { RowStore } from "./ports";
 
@@ -24,6 +32,8 @@ export interface ConnectionEvents {
   commands(sent: number, settled: number): void;
   state(state: DocumentState): void;
   parameters(parameters: Parameters): void;
+  /** All obstacles there are. */
+  obstacles(obstacles: readonly PlacedObstacle[]): void;
   problem(problem: Problem, command?: Command): void;
   /** Rows have changed; draw. */
   rows(): void;
@@ -84,6 +94,11 @@ export class Connection<Frame extends FrameHead> {
   /** The number the next command gets: unique for this client, so strokes and gestures are named by it too. */
   get next(): number {
     return this.#core.next;
+  }
+
+  /** The highest number the server has answered for. */
+  get settled(): number {
+    return this.#core.settled;
   }
 
   unsettled(kind: Command["kind"]): number {
@@ -209,6 +224,9 @@ export class Connection<Frame extends FrameHead> {
           break;
         case "parameters":
           events.parameters(effect.parameters);
+          break;
+        case "obstacles":
+          events.obstacles(effect.obstacles);
           break;
         case "problem":
           events.problem(effect.problem, effect.command);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type Gesture, GestureRecogniser, HOLD, PEN_MEMORY, type PointerSample, wheelFactor } from "./gestures";
+import { CHOOSE, type Gesture, GestureRecogniser, HOLD, PEN_MEMORY, type PointerSample, wheelFactor } from "./gestures";
 
 type Device = PointerSample["device"];
 
@@ -16,7 +16,14 @@ function hand() {
   return {
     recogniser,
     down: (id: number, x: number, y: number, time: number, device: Device = "touch", extra: object = {}) =>
-      recogniser.down({ ...at(id, x, y, time, device), button: 0, hand: false, ...extra }),
+      recogniser.down({
+        ...at(id, x, y, time, device),
+        button: 0,
+        hand: false,
+        choose: false,
+        holdable: false,
+        ...extra,
+      }),
     move: (id: number, x: number, y: number, time: number, device: Device = "touch") =>
       recogniser.move([at(id, x, y, time, device)]),
     up: (id: number, x: number, y: number, time: number, device: Device = "touch") =>
@@ -89,6 +96,87 @@ describe("one finger", () => {
     expect(up(2, 260, 200, 220)).toEqual([]);
     expect(kinds(move(1, 50, 0, 230))).toEqual(["stroke-move"]);
     expect(kinds(up(1, 50, 0, 240))).toEqual(["stroke-end"]);
+  });
+});
+
+describe("holding on a branch", () => {
+  const branch = { holdable: true };
+
+  it("a ring fills, then the branch is chosen", () => {
+    const { recogniser, down, move, up } = hand();
+    expect(down(1, 50, 60, 1000, "touch", branch)).toEqual([]);
+    expect(recogniser.deadline).toBe(1000 + HOLD);
+    expect(recogniser.tick(1000 + HOLD)).toEqual([{ kind: "hold-begin", x: 50, y: 60, milliseconds: CHOOSE - HOLD }]);
+    expect(recogniser.deadline).toBe(1000 + CHOOSE);
+    expect(move(1, 53, 61, 1300)).toEqual([]);
+    expect(recogniser.tick(1000 + CHOOSE)).toEqual([{ kind: "hold-end" }, { kind: "choose", x: 50, y: 60 }]);
+    expect(recogniser.deadline).toBeNull();
+    expect([...move(1, 200, 60, 1600), ...up(1, 200, 60, 1700)], "a chosen branch is not drawn on").toEqual([]);
+    expect(kinds([...down(1, 5, 5, 3000), ...up(1, 5, 5, 3020)])).toEqual(["stroke-begin", "stroke-end"]);
+  });
+
+  it("one that moves on draws, with all it went through", () => {
+    const { recogniser, down, move } = hand();
+    down(1, 0, 0, 0, "touch", branch);
+    recogniser.tick(HOLD);
+    expect(move(1, 3, 0, 200)).toEqual([]);
+    expect(move(1, 30, 0, 210)).toEqual([
+      { kind: "hold-end" },
+      { kind: "stroke-begin", point: touch(0, 0) },
+      { kind: "stroke-move", points: [touch(3, 0), touch(30, 0)] },
+    ]);
+    expect(recogniser.tick(CHOOSE)).toEqual([]);
+  });
+
+  it("a quick tap still draws, a slow one neither draws nor chooses", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    expect(kinds(up(1, 5, 5, 60))).toEqual(["stroke-begin", "stroke-end"]);
+    down(1, 5, 5, 1000, "touch", branch);
+    recogniser.tick(1000 + HOLD);
+    expect(kinds(up(1, 5, 5, 1300))).toEqual(["hold-end"]);
+  });
+
+  it("a second finger turns it into a pinch", () => {
+    const { recogniser, down, move } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    recogniser.tick(HOLD);
+    expect(kinds(down(2, 90, 90, 200))).toEqual(["hold-end"]);
+    expect(recogniser.tick(CHOOSE)).toEqual([]);
+    expect(kinds(move(1, 15, 15, 500))).toEqual(["pan", "zoom"]);
+  });
+
+  it("one the system takes away chooses nothing", () => {
+    const { recogniser, down } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    recogniser.tick(HOLD);
+    expect(kinds(recogniser.cancel(1))).toEqual(["hold-end"]);
+    expect(recogniser.tick(CHOOSE)).toEqual([]);
+  });
+
+  it("a mouse and a pen hold as well", () => {
+    for (const device of ["mouse", "pen"] as const) {
+      const { recogniser, down, move, up } = hand();
+      expect(down(1, 5, 5, 0, device, branch)).toEqual([]);
+      expect(kinds(recogniser.tick(CHOOSE + 5)), device).toEqual(["choose"]);
+      expect([...move(1, 90, 5, 600, device), ...up(1, 90, 5, 700, device)]).toEqual([]);
+      down(1, 5, 5, 1000, device, branch);
+      expect(kinds(move(1, 12, 5, 1020, device)), "a stroke from the branch").toEqual(["stroke-begin", "stroke-move"]);
+      expect(kinds(up(1, 12, 5, 1030, device))).toEqual(["stroke-end"]);
+    }
+  });
+
+  it("a palm beside a pen that is held changes nothing", () => {
+    const { recogniser, down } = hand();
+    down(1, 5, 5, 0, "pen", branch);
+    expect(down(2, 300, 300, 50)).toEqual([]);
+    expect(kinds(recogniser.tick(CHOOSE))).toEqual(["choose"]);
+  });
+
+  it("a mouse with the alt key chooses at once", () => {
+    const { down, up } = hand();
+    expect(down(1, 7, 8, 0, "mouse", { choose: true })).toEqual([{ kind: "choose", x: 7, y: 8 }]);
+    expect(up(1, 7, 8, 20, "mouse")).toEqual([]);
   });
 });
 

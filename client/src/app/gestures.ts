@@ -1,7 +1,11 @@
 /** How far a finger may wander before it is drawing, in pixels. */
 export const SLOP = 9;
+/** How far a pen or a mouse may wander before it is drawing, and no longer holding what is under it. */
+export const FINE_SLOP = 5;
 /** How long a resting finger waits for a second one before it is drawing, in milliseconds. */
 export const HOLD = 110;
+/** How long one is held on a branch to choose it. */
+export const CHOOSE = 450;
 /** How long after a pen was last seen touches do not draw. */
 export const PEN_MEMORY = 20_000;
 
@@ -20,6 +24,10 @@ export interface PointerPress extends PointerSample {
   readonly button: number;
   /** Shift or the space bar is held: the brush becomes a hand. */
   readonly hand: boolean;
+  /** The alt key is held: a press chooses what is there, with no wait. */
+  readonly choose: boolean;
+  /** Holding still here chooses something. */
+  readonly holdable: boolean;
 }
 
 /** A place a stroke went through. */
@@ -34,18 +42,36 @@ export type Gesture =
   | { readonly kind: "stroke-begin"; readonly point: StrokePoint }
   | { readonly kind: "stroke-move"; readonly points: readonly StrokePoint[] }
   | { readonly kind: "stroke-end" }
+  /** One is held still where that chooses something; it does so after `milliseconds` more. */
+  | { readonly kind: "hold-begin"; readonly x: number; readonly y: number; readonly milliseconds: number }
+  /** It was let go, or has moved on. */
+  | { readonly kind: "hold-end" }
+  | { readonly kind: "choose"; readonly x: number; readonly y: number }
   | { readonly kind: "pan"; readonly dx: number; readonly dy: number }
   | { readonly kind: "orbit"; readonly dx: number; readonly dy: number }
   | { readonly kind: "zoom"; readonly factor: number; readonly x: number; readonly y: number };
 
 type State =
   | { readonly kind: "idle" }
-  /** A finger is down that may yet become a stroke or the first of two. */
-  | { readonly kind: "waiting"; readonly id: number; readonly since: number; readonly points: StrokePoint[] }
+  | Waiting
+  /** What is under it has been chosen; nothing more comes of it. */
+  | { readonly kind: "held"; readonly id: number }
   | { readonly kind: "stroke"; readonly id: number }
   | { readonly kind: "drag"; readonly id: number; readonly mode: "pan" | "orbit"; x: number; y: number }
   /** Two or more fingers move the view; `rotated` once three did, until all are lifted. */
   | { readonly kind: "fingers"; rotated: boolean };
+
+/** One is down that may yet become a stroke, choose what is under it, or be the first of two fingers. */
+interface Waiting {
+  readonly kind: "waiting";
+  readonly id: number;
+  readonly since: number;
+  readonly slop: number;
+  readonly holdable: boolean;
+  /** Whether `hold-begin` has gone out. */
+  shown: boolean;
+  readonly points: StrokePoint[];
+}
 
 interface Finger {
   x: number;
@@ -56,7 +82,8 @@ interface Finger {
  * Turns pointers into strokes and camera moves.
  *
  * A touch is held back until it has moved or rested a little, so that the first finger of a pinch draws no dot;
- * what it went through meanwhile is delivered with the stroke.
+ * what it went through meanwhile is delivered with the stroke. Where holding still chooses something, any pointer is
+ * held back until it has moved or chosen.
  */
 export class GestureRecogniser {
   #state: State = { kind: "idle" };
@@ -66,7 +93,8 @@ export class GestureRecogniser {
 
   /** When `tick` is due, or null. */
   get deadline(): number | null {
-    return this.#state.kind === "waiting" ? this.#state.since + HOLD : null;
+    const state = this.#state;
+    return state.kind === "waiting" ? state.since + (state.shown ? CHOOSE : HOLD) : null;
   }
 
   /** Whether a stroke is under way. */
@@ -112,6 +140,7 @@ export class GestureRecogniser {
       case "fingers":
         return this.#moveFinger(state, last);
       case "idle":
+      case "held":
         return [];
     }
   }
@@ -128,7 +157,23 @@ export class GestureRecogniser {
   /** The hold time has passed. */
   tick(now: number): Gesture[] {
     const state = this.#state;
-    return state.kind === "waiting" && now >= state.since + HOLD ? this.#draw(state) : [];
+    const point = state.kind === "waiting" ? state.points[0] : undefined;
+    if (state.kind !== "waiting" || point === undefined || now < state.since + HOLD) {
+      return [];
+    }
+    if (!state.holdable) {
+      return this.#draw(state);
+    }
+    const { x, y } = point;
+    if (now >= state.since + CHOOSE) {
+      this.#state = { kind: "held", id: state.id };
+      return [...ended(state), { kind: "choose", x, y }];
+    }
+    if (state.shown) {
+      return [];
+    }
+    state.shown = true;
+    return [{ kind: "hold-begin", x, y, milliseconds: state.since + CHOOSE - now }];
   }
 
   #mouseDown(press: PointerPress): Gesture[] {
@@ -136,7 +181,7 @@ export class GestureRecogniser {
       return [];
     }
     if (press.button === 0 && !press.hand) {
-      return this.#begin(press);
+      return this.#press(press);
     }
     const mode = press.button === 2 ? "orbit" : "pan";
     this.#state = { kind: "drag", id: press.id, mode, x: press.x, y: press.y };
@@ -145,66 +190,83 @@ export class GestureRecogniser {
 
   #penDown(press: PointerPress): Gesture[] {
     this.#penSeen = press.time;
-    if (this.#state.kind === "stroke" && !this.#fingers.has(this.#state.id)) {
+    const state = this.#state;
+    if ((state.kind === "stroke" || state.kind === "waiting") && !this.#fingers.has(state.id)) {
       return [];
     }
     // Whatever a palm had begun ends: the pen is what draws.
-    const ended: Gesture[] = this.#state.kind === "stroke" ? [{ kind: "stroke-end" }] : [];
+    const before = ended(this.#state);
     this.#fingers.clear();
     if (press.hand) {
       this.#state = { kind: "drag", id: press.id, mode: "pan", x: press.x, y: press.y };
-      return ended;
+      return before;
     }
-    return [...ended, ...this.#begin(press)];
+    return [...before, ...this.#press(press)];
   }
 
   #touchDown(press: PointerPress): Gesture[] {
     const state = this.#state;
-    if (state.kind === "stroke" || state.kind === "drag") {
+    const busy = state.kind === "stroke" || state.kind === "drag";
+    // A palm beside a pen that is held still is no second finger.
+    if (busy || (state.kind === "waiting" && !this.#fingers.has(state.id))) {
       return [];
     }
     this.#fingers.set(press.id, { x: press.x, y: press.y });
     if (this.#fingers.size > 1) {
       const rotated = this.#fingers.size > 2 || (state.kind === "fingers" && state.rotated);
       this.#state = { kind: "fingers", rotated };
-      return [];
+      return ended(state);
     }
     if (press.hand) {
       this.#state = { kind: "drag", id: press.id, mode: "pan", x: press.x, y: press.y };
     } else if (press.time - this.#penSeen < PEN_MEMORY) {
       this.#state = { kind: "fingers", rotated: false };
     } else {
-      this.#state = { kind: "waiting", id: press.id, since: press.time, points: [strokePoint(press)] };
+      this.#wait(press, SLOP);
     }
     return [];
   }
 
-  #wander(state: Extract<State, { kind: "waiting" }>, samples: readonly PointerSample[]): Gesture[] {
+  /** A mouse or pen draws at once, except where it may be held. */
+  #press(press: PointerPress): Gesture[] {
+    if (press.choose) {
+      this.#state = { kind: "held", id: press.id };
+      return [{ kind: "choose", x: press.x, y: press.y }];
+    }
+    if (press.holdable) {
+      this.#wait(press, FINE_SLOP);
+      return [];
+    }
+    this.#state = { kind: "stroke", id: press.id };
+    return [{ kind: "stroke-begin", point: strokePoint(press) }];
+  }
+
+  #wait(press: PointerPress, slop: number): void {
+    const { id, time: since, holdable } = press;
+    this.#state = { kind: "waiting", id, since, slop, holdable, shown: false, points: [strokePoint(press)] };
+  }
+
+  #wander(state: Waiting, samples: readonly PointerSample[]): Gesture[] {
     const first = state.points[0];
     let far = false;
     for (const sample of samples) {
       state.points.push(strokePoint(sample));
-      far ||= first !== undefined && Math.hypot(sample.x - first.x, sample.y - first.y) > SLOP;
+      far ||= first !== undefined && Math.hypot(sample.x - first.x, sample.y - first.y) > state.slop;
       this.#place(sample);
     }
-    const late = (samples[samples.length - 1]?.time ?? 0) >= state.since + HOLD;
-    return far || late ? this.#draw(state) : [];
+    const now = samples[samples.length - 1]?.time ?? 0;
+    return far ? this.#draw(state) : this.tick(now);
   }
 
   /** A candidate becomes a stroke, with all it went through. */
-  #draw(state: Extract<State, { kind: "waiting" }>): Gesture[] {
+  #draw(state: Waiting): Gesture[] {
     const [first, ...rest] = state.points;
     if (first === undefined) {
       return [];
     }
+    const gestures: Gesture[] = [...ended(state), { kind: "stroke-begin", point: first }];
     this.#state = { kind: "stroke", id: state.id };
-    const begin: Gesture = { kind: "stroke-begin", point: first };
-    return rest.length > 0 ? [begin, { kind: "stroke-move", points: rest }] : [begin];
-  }
-
-  #begin(press: PointerPress): Gesture[] {
-    this.#state = { kind: "stroke", id: press.id };
-    return [{ kind: "stroke-begin", point: strokePoint(press) }];
+    return rest.length > 0 ? [...gestures, { kind: "stroke-move", points: rest }] : gestures;
   }
 
   #place(sample: PointerSample): void {
@@ -250,12 +312,20 @@ export class GestureRecogniser {
     if (state.kind === "idle" || state.id !== id) {
       return [];
     }
-    // A quick tap is a stroke of one place.
-    const gestures = state.kind === "waiting" && !cancelled ? this.#draw(state) : [];
+    // A quick tap is a stroke of one place; what was nearly held long enough is not.
+    const tap = state.kind === "waiting" && !cancelled && !state.shown;
+    const gestures = tap ? [...this.#draw(state), ...ended(this.#state)] : ended(state);
     this.#state = { kind: "idle" };
-    const stroke = state.kind === "stroke" || gestures.length > 0;
-    return stroke ? [...gestures, { kind: "stroke-end" }] : [];
+    return gestures;
   }
+}
+
+/** What has to be said when a state is left before its time. */
+function ended(state: State): Gesture[] {
+  if (state.kind === "stroke") {
+    return [{ kind: "stroke-end" }];
+  }
+  return state.kind === "waiting" && state.shown ? [{ kind: "hold-end" }] : [];
 }
 
 /** How a turn of the wheel zooms: above 1 comes closer. `mode` is the event's deltaMode. */

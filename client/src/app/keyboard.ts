@@ -1,9 +1,13 @@
+import type { ToolName } from "./tools/toolbox";
+
 /** What the keyboard can do. */
 export interface KeyActions {
   undo(): void;
   redo(): void;
   frame(): void;
   help(): void;
+  tool(tool: ToolName): void;
+  escape(): void;
   widen(notches: number): void;
   /** 1 grows, −1 takes back, 0 rests. */
   grow(direction: -1 | 0 | 1): void;
@@ -57,6 +61,18 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
       case "]":
         actions.widen(1);
         break;
+      case "b":
+        actions.tool("brush");
+        break;
+      case "l":
+        actions.tool("lasso");
+        break;
+      case "p":
+        actions.tool("seed");
+        break;
+      case "escape":
+        actions.escape();
+        break;
       case "f":
         actions.frame();
         break;
@@ -81,5 +97,9 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
 }
 
 function typing(target: EventTarget | null): boolean {
-  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
+  if (target instanceof HTMLInputElement) {
+    // A slider or a switch takes no letters.
+    return target.type === "text" || target.type === "number";
+  }
+  return target instanceof HTMLTextAreaElement;
 }

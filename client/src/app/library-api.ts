@@ -66,22 +66,29 @@ export function socketAddress(session: string, page: { protocol: string; host: s
 }
 
 async function ask<Answer>(method: string, path: string, body?: object): Promise<Answer> {
-  const request: RequestInit = { method };
-  if (body) {
-    request.headers = { "content-type": "application/json" };
-    request.body = JSON.stringify(body);
-  }
+  const sent = body && { type: "application/json", body: JSON.stringify(body) };
+  const response = await askFor(method, path, sent);
+  return (await response.json().catch(() => undefined)) as Answer;
+}
+
+/** Asks the server; what it refuses, and silence, are thrown as `RequestFailed`. */
+export async function askFor(
+  method: string,
+  path: string,
+  sent?: { readonly type: string; readonly body: BodyInit },
+): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(path, request);
+    const body = sent && { headers: { "content-type": sent.type }, body: sent.body };
+    response = await fetch(path, { method, ...body });
   } catch {
     throw new RequestFailed(0, UNREACHABLE);
   }
-  const json: unknown = await response.json().catch(() => undefined);
   if (!response.ok) {
+    const json: unknown = await response.json().catch(() => undefined);
     throw new RequestFailed(response.status, asProblem(json) ?? unexplained(response.status));
   }
-  return json as Answer;
+  return response;
 }
 
 function asProblem(json: unknown): Problem | null {

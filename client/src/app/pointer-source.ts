@@ -8,6 +8,8 @@ export interface PointerHandlers {
   widen(factor: number): void;
   /** Whether the space bar is held. */
   handHeld(): boolean;
+  /** Whether holding still at a place chooses something. */
+  holdable(x: number, y: number): boolean;
 }
 
 /** Feeds a canvas' pointer events to a gesture recogniser; returns what ends it. */
@@ -57,7 +59,11 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
     } catch {
       // A pointer that is gone already will send its end all the same.
     }
-    const press: PointerPress = { ...sample(event), button: event.button, hand: event.shiftKey || handlers.handHeld() };
+    const at = sample(event);
+    const { button, altKey: choose } = event;
+    const hand = event.shiftKey || handlers.handHeld();
+    const holdable = button === 0 && !hand && handlers.holdable(at.x, at.y);
+    const press: PointerPress = { ...at, button, hand, choose, holdable };
     deliver(recogniser.down(press));
   });
   on("pointermove", (event) => {

@@ -8,7 +8,7 @@ export interface BrushView {
   /** Where the ray through a pixel meets the plane parallel to the screen through a point. */
   pointOnPlane(x: number, y: number, through: Point): Point | null;
   /** The branch nearest to a pixel, within a tolerance in pixels. */
-  pick(x: number, y: number, tolerance: number): { readonly point: Point } | null;
+  pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Point } | null;
   showBrush(point: Point, radius: number): void;
   hideBrush(): void;
 }

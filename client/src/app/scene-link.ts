@@ -32,3 +32,14 @@ export function nearestBase(table: TreeTable, view: BrushView, x: number, y: num
   }
   return nearest;
 }
+
+/** Where seeds lie that have not grown yet, at most `most`. */
+export function seedsToGrow(table: TreeTable, most: number): Point[] {
+  const seeds: Point[] = [];
+  for (let row = 0; row < table.rows && seeds.length < most; row += 1) {
+    if (table.parent[row] === -1 && (table.successor[row] ?? -1) < 0) {
+      seeds.push([0, 1, 2].map((axis) => table.position[3 * row + axis] ?? 0) as [number, number, number]);
+    }
+  }
+  return seeds;
+}

@@ -10,6 +10,8 @@ export interface Settings {
   readonly radius: Signal<number>;
   /** Whether the first stroke has been drawn, after which the hint rests. */
   readonly hasDrawn: Signal<boolean>;
+  /** The same for the first outline. */
+  readonly hasOutlined: Signal<boolean>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
 }
@@ -18,9 +20,10 @@ export interface Settings {
 export function loadSettings(store: Storage): Settings {
   return {
     side: kept(store, "side", "left", (value) => value === "left" || value === "right"),
-    pressureWidens: kept(store, "pressure", false, (value) => typeof value === "boolean"),
+    pressureWidens: kept(store, "pen-pressure", true, (value) => typeof value === "boolean"),
     radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
     hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
+    hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
   };
 }

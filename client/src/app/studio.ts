@@ -1,34 +1,38 @@
 import { batch, effect, signal } from "@preact/signals";
+import { axisStart } from "../scene/branch-rows";
 import { TreeTable } from "../scene/tree-table";
 import { Viewport } from "../scene/viewport";
 import { decodeFrame, type Frame } from "../wire/frame";
-import type { Command, DocumentState, Parameters, Problem } from "../wire/generated";
+import type { Command, DocumentState, Parameters, ParametersPatch, Problem } from "../wire/generated";
 import { stepRadius } from "./brush-radius";
-import { BrushTool, SEND_EVERY } from "./brush-tool";
+import { ChosenBud } from "./chosen-bud";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { browserClock, Connection } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
-import type { Gesture } from "./gestures";
-import { deflectionFor, GrowPacer, growthRate, KEY_RATE } from "./grow-pacer";
+import { GrowControl } from "./grow-control";
+import { deflectionFor, KEY_RATE } from "./grow-pacer";
 import { listenToKeys } from "./keyboard";
 import { createSession, sessionExists, socketAddress } from "./library-api";
-import { pace } from "./pacing";
+import { ObstacleList } from "./obstacle-list";
+import { publishFacts } from "./page-facts";
+import { followPageLife } from "./page-life";
 import { listenToPointers } from "./pointer-source";
-import type { BrushView } from "./ports";
 import { mayReload } from "./reload-guard";
-import { nearestBase, rowStore } from "./scene-link";
-import { type ScreenPlace, screenPlace } from "./screen-place";
+import { rowStore } from "./scene-link";
 import { loadSettings } from "./settings";
+import { Stage } from "./stage";
 import { Toasts } from "./toasts";
+import { PICK_TOLERANCE } from "./tools/tool";
+import { Toolbox } from "./tools/toolbox";
 
 export type SheetName = "save" | "library" | "share" | "help";
+export type PanelName = "growth" | "scene";
 
 /** What keeps the workspace from being used, with a way on. */
-export type Obstacle = "unknown-session" | "version" | "no-server" | "no-webgl";
+export type Hindrance = "unknown-session" | "version" | "no-server" | "no-webgl";
 
-/** How long the brush stays visible after its radius changed. */
-const RADIUS_SHOWN_FOR = 900;
 const RETRY_START = 2000;
+const BUD_LOST = "The chosen branch is gone; every branch grows again.";
 
 /** One open page: the session it shows and the tools at hand. */
 export class Studio {
@@ -37,27 +41,50 @@ export class Studio {
   readonly session = signal<string | null>(null);
   readonly phase = signal<Phase>("idle");
   readonly attempts = signal(0);
-  readonly obstacle = signal<Obstacle | null>(null);
+  readonly hindrance = signal<Hindrance | null>(null);
   readonly document = signal<DocumentState | null>(null);
   readonly parameters = signal<Parameters | null>(null);
   readonly rows = signal(0);
+  /** Counts the frames of rows that came in. */
+  readonly revision = signal(0);
   readonly sent = signal(0);
   readonly settled = signal(0);
   readonly sheet = signal<SheetName | null>(null);
-  readonly drawing = signal(false);
-  /** Deflection of the grow control, −1 to 1. */
-  readonly growing = signal(0);
+  readonly panel = signal<PanelName | null>(null);
+  readonly table = new TreeTable();
+  readonly bud = new ChosenBud(this.table);
+  readonly obstacles = new ObstacleList({
+    submit: (command) => this.submit(command),
+    session: () => this.session.peek(),
+    failed: (error) => this.toasts.show(sentence(error)),
+  });
+  readonly growth = new GrowControl({
+    submit: (command) => this.submit(command),
+    ready: () => this.phase.peek() === "connected",
+    newGesture: () => this.#next(),
+    unsettled: () => this.#unsettled("grow") + this.#unsettled("ungrow"),
+    pendingSteps: () => this.document.peek()?.pending_steps ?? 0,
+    bud: () => this.bud.row.peek(),
+    held: (held) => this.stage.hold(held),
+  });
+  readonly tools = new Toolbox({
+    table: this.table,
+    settings: this.settings,
+    toasts: this.toasts,
+    bud: this.bud,
+    obstacles: this.obstacles,
+    submit: (command) => this.submit(command),
+    next: () => this.#next(),
+    // What is durable may still have to grow: a heavy tree must not fall behind the finger.
+    unsettledMoves: () => Math.max(this.#unsettled("stroke_move"), this.document.peek()?.pending_steps ?? 0),
+    ready: () => this.#connection !== null && this.hindrance.peek() === null,
+    arranging: () => this.panel.peek() === "scene",
+    choose: (x, y) => this.chooseBud(x, y),
+  });
 
-  #table = new TreeTable();
-  #canvas: HTMLCanvasElement | null = null;
-  #viewport: Viewport | null = null;
-  #brush: BrushTool | null = null;
+  readonly stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
+
   #connection: Connection<Frame> | null = null;
-  #pacer = new GrowPacer();
-  #growLoop = 0;
-  #stopSending = () => {};
-  #radiusTimer = 0;
-  #hoverFrame = 0;
   #framed = false;
   /** The view is no longer that of a fresh page. */
   #moved = false;
@@ -66,54 +93,54 @@ export class Studio {
   attach(canvas: HTMLCanvasElement): () => void {
     let viewport: Viewport;
     try {
-      viewport = new Viewport(canvas, this.#table);
+      viewport = new Viewport(canvas, this.table);
     } catch (error) {
       console.error(error);
-      this.obstacle.value = "no-webgl";
+      this.hindrance.value = "no-webgl";
       return () => {};
     }
-    this.#canvas = canvas;
-    this.#viewport = viewport;
-    const view: BrushView = viewport;
-    this.#brush = new BrushTool({
-      view,
-      submit: (command) => this.#submit(command),
-      newStroke: () => this.#connection?.next ?? 1,
-      // What is durable may still have to grow: a heavy tree must not fall behind the finger.
-      unsettledMoves: () =>
-        Math.max(this.#connection?.unsettled("stroke_move") ?? 0, this.document.peek()?.pending_steps ?? 0),
-      radius: () => this.settings.radius.peek(),
-      pressureWidens: () => this.settings.pressureWidens.peek(),
-      base: (x, y) => nearestBase(this.#table, view, x, y),
-    });
+    this.stage.attach(viewport, canvas);
+    this.tools.attach(viewport);
     const keys = listenToKeys({
       undo: () => this.undo(),
       redo: () => this.redo(),
-      frame: () => this.frameTree(),
+      frame: () => this.stage.frameTree(),
       help: () => {
         this.sheet.value = "help";
       },
-      widen: (notches) => this.setRadius(stepRadius(this.settings.radius.peek(), notches)),
-      grow: (direction) => (direction === 0 ? this.growRelease() : this.growTo(direction * deflectionFor(KEY_RATE))),
+      tool: (tool) => this.tools.choose(tool),
+      escape: () => this.escape(),
+      widen: (notches) => this.stage.setRadius(stepRadius(this.settings.radius.peek(), notches)),
+      grow: (direction) =>
+        direction === 0 ? this.growth.release() : this.growth.to(direction * deflectionFor(KEY_RATE)),
       busy: () => this.sheet.peek() !== null,
     });
     const stopPointers = listenToPointers(canvas, {
-      gesture: (gesture) => this.#gesture(gesture),
-      hover: (place) => this.#hover(place),
-      widen: (factor) => this.setRadius(stepRadius(this.settings.radius.peek(), Math.log(factor) * 8)),
+      gesture: (gesture) => {
+        this.stage.radiusSeen();
+        this.tools.gesture(gesture);
+      },
+      hover: (place) => this.tools.hover(place),
+      widen: (factor) => this.stage.setRadius(stepRadius(this.settings.radius.peek(), Math.log(factor) * 8)),
       handHeld: keys.handHeld,
+      holdable: (x, y) => this.tools.holdable(x, y),
     });
-    const stopPublishing = effect(() => this.#publish());
+    const stopPublishing = effect(() => publishFacts(this));
+    const stopScene = effect(() => {
+      const chosen = this.panel.value === "scene" ? this.obstacles.chosen.value : null;
+      viewport.showObstacles(this.obstacles.drawn.value, chosen);
+    });
     const stopLife = this.#followPageLife();
     return () => {
       stopLife();
+      stopScene();
       stopPublishing();
       stopPointers();
       keys.stop();
       this.#leave();
+      this.tools.detach();
+      this.stage.detach();
       viewport.dispose();
-      this.#viewport = null;
-      this.#brush = null;
     };
   }
 
@@ -130,7 +157,7 @@ export class Studio {
       history.replaceState(null, "", `/s/${session}`);
       this.#open(session);
     } catch {
-      this.obstacle.value = "no-server";
+      this.hindrance.value = "no-server";
       setTimeout(() => {
         if (this.session.peek() === null) {
           void this.start();
@@ -152,154 +179,64 @@ export class Studio {
   }
 
   undo(): void {
-    this.#submit({ kind: "undo" });
+    this.submit({ kind: "undo" });
   }
 
   redo(): void {
-    this.#submit({ kind: "redo" });
+    this.submit({ kind: "redo" });
   }
 
-  frameTree(): void {
-    this.#viewport?.frameTree();
+  /** Ends growth that is under way; what has grown stays. */
+  stop(): void {
+    this.submit({ kind: "stop" });
   }
 
-  /** Sets the brush's radius and shows it for a moment where it would draw. */
-  setRadius(radius: number): void {
-    this.settings.radius.value = radius;
-    const canvas = this.#canvas;
-    if (!this.#viewport || !canvas || this.drawing.peek()) {
+  setParameters(parameters: ParametersPatch): void {
+    this.submit({ kind: "set_parameters", parameters });
+  }
+
+  /** Chooses the branch at a place, so that it alone grows; where there is none, or the same, every branch grows. */
+  chooseBud(x: number, y: number): void {
+    const picked = this.stage.pickRow(x, y, PICK_TOLERANCE);
+    const before = this.bud.row.peek();
+    const axis = (row: number) => axisStart(this.table, row);
+    if (picked === null || (before !== null && axis(picked) === axis(before))) {
+      this.bud.release();
       return;
     }
-    const { clientWidth: width, clientHeight: height } = canvas;
-    const base = nearestBase(this.#table, this.#viewport, width / 2, height / 2);
-    const place = this.#viewport.pointOnPlane(width / 2, height / 2, base);
-    if (place) {
-      this.#viewport.showBrush(place, radius);
-      clearTimeout(this.#radiusTimer);
-      this.#radiusTimer = window.setTimeout(() => {
-        if (!this.drawing.peek()) {
-          this.#viewport?.hideBrush();
-        }
-      }, RADIUS_SHOWN_FOR);
+    this.bud.choose(picked);
+    this.stage.hideBrush();
+    // Where the device can, the hand feels that it may let go.
+    navigator.vibrate?.(12);
+  }
+
+  /** Steps back from what is most at hand: a drawing, a tool, a choice, a panel. */
+  escape(): void {
+    if (this.tools.drawing.peek()) {
+      this.tools.cancel();
+    } else if (this.tools.chosen.peek() !== "brush") {
+      this.tools.choose("brush");
+    } else if (this.bud.row.peek() !== null) {
+      this.bud.release();
+    } else {
+      this.panel.value = null;
     }
   }
 
-  /** The grow control is at a deflection from −1 to 1. */
-  growTo(deflection: number): void {
-    const held = this.#growLoop !== 0;
-    this.growing.value = deflection;
-    if (!held) {
-      this.#pacer.press(this.#connection?.next ?? 1);
-      this.#growLoop = requestAnimationFrame(this.#grow);
-      this.#viewport?.hold(true);
-    }
+  togglePanel(panel: PanelName): void {
+    this.panel.value = this.panel.peek() === panel ? null : panel;
   }
 
-  growRelease(): void {
-    if (this.#growLoop !== 0) {
-      this.#viewport?.hold(false);
-    }
-    cancelAnimationFrame(this.#growLoop);
-    this.#growLoop = 0;
-    this.growing.value = 0;
-  }
-
-  /** Where on the canvas the plant nearest to its middle has its base. */
-  seedPlace(): ScreenPlace | null {
-    const viewport = this.#viewport;
-    const canvas = this.#canvas;
-    if (!viewport || !canvas) {
-      return null;
-    }
-    const { clientWidth: width, clientHeight: height } = canvas;
-    return screenPlace(viewport, nearestBase(this.#table, viewport, width / 2, height / 2), width, height);
-  }
-
-  /** A picture of the tree as a data URL, or undefined where none can be made. */
-  async thumbnail(size: number): Promise<string | undefined> {
-    return await this.#viewport?.thumbnail(size, size);
-  }
-
-  #grow = (now: number) => {
-    this.#growLoop = requestAnimationFrame(this.#grow);
-    const connection = this.#connection;
-    if (!connection || this.phase.peek() !== "connected") {
-      return;
-    }
-    const command = this.#pacer.tick(now, this.growing.peek(), {
-      unsettled: connection.unsettled("grow") + connection.unsettled("ungrow"),
-      pendingSteps: growthRate(this.growing.peek()) > 0 ? (this.document.peek()?.pending_steps ?? 0) : 0,
-    });
-    if (command) {
-      this.#submit(command);
-    }
-  };
-
-  #submit(command: Command): void {
+  submit(command: Command): void {
     this.#connection?.submit(command);
   }
 
-  #gesture(gesture: Gesture): void {
-    const viewport = this.#viewport;
-    switch (gesture.kind) {
-      case "stroke-begin":
-        if (this.#connection && this.obstacle.peek() === null) {
-          clearTimeout(this.#radiusTimer);
-          this.#brush?.begin(gesture.point);
-          this.drawing.value = true;
-          this.#stopSending();
-          this.#stopSending = pace(SEND_EVERY, () => this.#brush?.tick());
-          viewport?.hold(true);
-        }
-        break;
-      case "stroke-move":
-        this.#brush?.move(gesture.points);
-        break;
-      case "stroke-end":
-        this.#endStroke();
-        break;
-      case "pan":
-        viewport?.pan(gesture.dx, gesture.dy);
-        break;
-      case "orbit":
-        viewport?.orbit(gesture.dx, gesture.dy);
-        break;
-      case "zoom":
-        viewport?.zoom(gesture.factor, gesture.x, gesture.y);
-        break;
-    }
+  #next(): number {
+    return this.#connection?.next ?? 1;
   }
 
-  #endStroke(): void {
-    this.#stopSending();
-    if (this.drawing.peek()) {
-      this.#viewport?.hold(false);
-      this.#brush?.end();
-      this.drawing.value = false;
-      this.settings.hasDrawn.value = true;
-    }
-  }
-
-  #abandonStroke(): void {
-    this.#stopSending();
-    this.#viewport?.hold(false);
-    this.#brush?.abandon();
-    this.drawing.value = false;
-  }
-
-  #hover(place: { readonly x: number; readonly y: number } | null): void {
-    cancelAnimationFrame(this.#hoverFrame);
-    if (this.drawing.peek()) {
-      return;
-    }
-    // Picking looks at the whole tree, so it is done once a frame and not once an event.
-    this.#hoverFrame = requestAnimationFrame(() => {
-      if (place && !this.drawing.peek()) {
-        this.#brush?.hover(place.x, place.y);
-      } else if (!place) {
-        this.#viewport?.hideBrush();
-      }
-    });
+  #unsettled(kind: Command["kind"]): number {
+    return this.#connection?.unsettled(kind) ?? 0;
   }
 
   #open(session: string): void {
@@ -308,19 +245,22 @@ export class Studio {
       this.session.value = session;
       this.settings.lastSession.value = session;
       // Another session does not make a browser draw that cannot.
-      this.obstacle.value = this.#viewport ? null : "no-webgl";
+      this.hindrance.value = this.stage.lit ? null : "no-webgl";
       this.document.value = null;
       this.rows.value = 0;
+      this.bud.release();
+      this.tools.outline.clear();
+      this.obstacles.clear();
     });
     this.#moved ||= this.#framed;
     this.#framed = false;
-    this.#table.clear();
-    this.#viewport?.changed();
+    this.table.clear();
+    this.stage.changed();
     const record = takeRecord(sessionStorage, session);
     this.#connection = new Connection<Frame>({
       openSocket: () => new WebSocket(socketAddress(session, location)),
       clock: browserClock,
-      rows: rowStore(this.#table),
+      rows: rowStore(this.table),
       decode: decodeFrame,
       newKey: newClientKey,
       ...(record ? { record } : {}),
@@ -334,14 +274,22 @@ export class Studio {
         },
         state: (state) => {
           this.document.value = state;
+          this.tools.outline.told(this.#connection?.settled ?? 0, state.pending_steps);
         },
         parameters: (parameters) => {
           this.parameters.value = parameters;
-          this.#viewport?.setLeafSize(parameters.leaf_size);
+          this.stage.setLeafSize(parameters.leaf_size);
         },
-        problem: (problem) => this.#onProblem(problem),
+        obstacles: (obstacles) => {
+          // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
+          obstacles.length === 0 ? this.obstacles.clear() : this.obstacles.receive(obstacles);
+        },
+        problem: (problem, command) => this.#onProblem(problem, command),
         rows: () => this.#onRows(),
-        rekeyed: () => this.#abandonStroke(),
+        rekeyed: () => {
+          this.tools.abandon();
+          this.tools.outline.clear();
+        },
         reload: () => {
           if (mayReload(sessionStorage, Date.now())) {
             location.reload();
@@ -356,7 +304,7 @@ export class Studio {
       this.phase.value = phase;
       this.attempts.value = attempts;
       if (stopped !== null) {
-        this.obstacle.value = stopped;
+        this.hindrance.value = stopped;
       }
     });
     if (stopped === "unknown-session" && this.settings.lastSession.peek() === this.session.peek()) {
@@ -364,13 +312,23 @@ export class Studio {
     }
   }
 
-  #onProblem(problem: Problem): void {
+  #onProblem(problem: Problem, command?: Command): void {
+    if (command?.kind === "lasso") {
+      this.tools.outline.clear();
+    }
+    if (command?.kind.endsWith("_obstacle")) {
+      this.obstacles.preview(null);
+    }
+    if (problem.code === "not_found" && problem.field === "bud") {
+      this.#loseBud();
+      return;
+    }
     if (problem.code === "not_found" && problem.field === "stroke") {
       // Someone went back in time, which ends every stroke; what was still under way of this one is refused.
-      if (this.drawing.peek()) {
+      if (this.tools.drawing.peek()) {
         this.toasts.show("The tree went back in time; your stroke ended there.");
       }
-      this.#abandonStroke();
+      this.tools.abandon();
       return;
     }
     this.toasts.show(problem.message);
@@ -378,68 +336,61 @@ export class Studio {
   }
 
   #onRows(): void {
-    this.rows.value = this.#table.rows;
-    this.#viewport?.changed();
-    if (!this.#framed && this.#table.rows > 0) {
+    this.rows.value = this.table.rows;
+    this.revision.value += 1;
+    if (!this.bud.keep()) {
+      this.toasts.show(BUD_LOST);
+    }
+    this.stage.changed();
+    if (!this.#framed && this.table.rows > 0) {
       this.#framed = true;
       // A page opens with a view that suits a seed; a tree that is there already is shown as a whole.
-      if (this.#moved || this.#table.parent.subarray(0, this.#table.rows).some((parent) => parent >= 0)) {
-        this.#viewport?.frameTree();
+      if (this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0)) {
+        this.stage.frameTree();
       }
     }
   }
 
+  /** The server does not know the chosen branch: it was shed, or someone went back to before it grew. */
+  #loseBud(): void {
+    this.tools.abandon();
+    if (this.bud.row.peek() !== null) {
+      this.bud.release();
+      this.toasts.show(BUD_LOST);
+    }
+  }
+
   #leave(): void {
-    this.#endStroke();
-    this.growRelease();
+    this.tools.end();
+    this.growth.release();
     this.#connection?.close();
     this.#connection = null;
   }
 
   /** Ends strokes and keeps what is unsent when the page goes, wakes the connection when it comes back. */
   #followPageLife(): () => void {
-    const stop = new AbortController();
-    const options = { signal: stop.signal };
-    const leaving = () => {
-      this.#endStroke();
-      this.growRelease();
-      const session = this.session.peek();
-      if (session !== null && this.#connection) {
-        leaveRecord(sessionStorage, session, this.#connection.record());
-      }
-    };
-    const returning = () => {
-      // This page still lives and has all of it; the copy was for a page after it.
-      takeRecord(sessionStorage, this.session.peek() ?? "");
-      this.#connection?.wake();
-    };
-    addEventListener("pagehide", leaving, options);
-    addEventListener("pageshow", returning, options);
-    addEventListener("online", () => this.#connection?.wake(), options);
-    document.addEventListener("visibilitychange", () => (document.hidden ? leaving : returning)(), options);
-    addEventListener(
-      "popstate",
-      () => {
+    return followPageLife({
+      leaving: () => {
+        this.tools.end();
+        this.growth.release();
+        const session = this.session.peek();
+        if (session !== null && this.#connection) {
+          leaveRecord(sessionStorage, session, this.#connection.record());
+        }
+      },
+      returning: () => {
+        // This page still lives and has all of it; the copy was for a page after it.
+        takeRecord(sessionStorage, this.session.peek() ?? "");
+        this.#connection?.wake();
+      },
+      online: () => this.#connection?.wake(),
+      navigated: () => {
         const session = sessionInPath(location.pathname);
         if (session !== null && session !== this.session.peek()) {
           this.#open(session);
         }
       },
-      options,
-    );
-    return () => stop.abort();
-  }
-
-  /** What automated tests and assistive scripts can read of the page. */
-  #publish(): void {
-    const { dataset } = document.documentElement;
-    dataset.connection = this.phase.value;
-    dataset.sent = String(this.sent.value);
-    dataset.acknowledged = String(this.settled.value);
-    dataset.rows = String(this.rows.value);
-    dataset.metamers = String(this.document.value?.metamers ?? 0);
-    dataset.step = String(this.document.value?.step ?? 0);
-    dataset.pending = String(this.document.value?.pending_steps ?? 0);
+    });
   }
 }
 

@@ -1,23 +1,28 @@
-import { Matrix4, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+import { Scene, WebGLRenderer } from "three";
+import type { DrawingPlane } from "../wire/generated";
 import { Branches } from "./branches";
 import { BrushShell } from "./brush-shell";
-import { CameraRig, FIELD_OF_VIEW, fitted, type Pose } from "./camera-rig";
+import { type Box, CameraRig, fitted } from "./camera-rig";
 import { Environment } from "./environment";
 import { Foliage } from "./foliage";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import { NodeTexture } from "./node-texture";
 import { NoiseTextures } from "./noise-texture";
-import { type Pick, type Projection, pickBranch } from "./picking";
+import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
+import { type Pick, pickBranch } from "./picking";
 import { QualityControl } from "./quality";
 import { Screen } from "./screen";
+import { Sight } from "./sight";
 import { Sun } from "./sun";
 import { encodePicture } from "./thumbnail";
 import { Dirty, type TreeTable } from "./tree-table";
-import type { Ray, Vec3 } from "./vector";
+import type { Vec3 } from "./vector";
 
 const MAX_PIXEL_RATIO = 2;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
+/** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
+const SHADOW_REACH = 40;
 /** What the first frame after a pause counts as, in seconds: the pause itself is no part of any movement. */
 const FIRST_STEP = 1 / 60;
 
@@ -25,7 +30,7 @@ const FIRST_STEP = 1 / 60;
 export class Viewport {
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
-  private readonly camera = new PerspectiveCamera((FIELD_OF_VIEW * 180) / Math.PI, 1, 0.1, 2000);
+  private readonly sight = new Sight();
   private readonly rig = new CameraRig();
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
@@ -35,13 +40,11 @@ export class Viewport {
   private readonly foliage: Foliage;
   private readonly environment: Environment;
   private readonly sun: Sun;
+  private readonly obstacles: ObstacleMeshes;
   private readonly brush: BrushShell;
   private readonly screen: Screen;
   private readonly control = new QualityControl();
   private readonly resizing: ResizeObserver;
-  private readonly worldFromClip = new Matrix4();
-  private width = 1;
-  private height = 1;
   private request = 0;
   /** When the movement under way was last drawn. */
   private lastFrame: number | null = null;
@@ -66,15 +69,17 @@ export class Viewport {
     this.uniforms.uNodes = this.nodes.uniform;
     this.uniforms.uNoise = { value: this.noise.space };
     this.uniforms.uFlatNoise = { value: this.noise.plane };
-    this.uniforms.uWorldFromClip = { value: this.worldFromClip };
+    this.uniforms.uWorldFromClip = { value: this.sight.worldFromClip };
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
     this.branches = new Branches(this.materials);
     this.foliage = new Foliage(this.materials);
     this.environment = new Environment(this.materials, this.uniforms);
+    this.obstacles = new ObstacleMeshes(this.materials);
     this.brush = new BrushShell(this.materials, this.uniforms);
     this.scene.add(...this.environment.meshes, ...this.branches.meshes, this.foliage.mesh, this.brush.mesh);
-    this.sun.casters.add(...this.branches.casters, this.foliage.caster);
+    this.scene.add(this.obstacles.bodies);
+    this.sun.casters.add(...this.branches.casters, this.foliage.caster, this.obstacles.casters);
     canvas.addEventListener("webglcontextrestored", this.restored);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
@@ -103,52 +108,69 @@ export class Viewport {
 
   /** Moves the picture with the fingers. */
   pan(dxPixels: number, dyPixels: number): void {
-    this.rig.pan(dxPixels, dyPixels, this.height);
+    this.rig.pan(dxPixels, dyPixels, this.sight.height);
     this.stir();
   }
 
   /** Brings what is under a place on the canvas nearer (factor above 1) or further away. */
   zoom(factor: number, x: number, y: number): void {
-    this.rig.zoom(factor, (2 * x - this.width) / this.height, 1 - (2 * y) / this.height);
+    const { width, height } = this.sight;
+    this.rig.zoom(factor, (2 * x - width) / height, 1 - (2 * y) / height);
     this.stir();
   }
 
   /** Eases the camera to a view of the whole tree. */
   frameTree(): void {
-    this.rig.frame(this.table.bounds(), this.width / this.height);
+    this.rig.frame(this.table.bounds(), this.sight.width / this.sight.height);
     this.stir();
   }
 
-  /** From the eye through a place on the canvas, in CSS pixels. */
-  rayAt(x: number, y: number): Ray {
-    this.aim(this.rig.pose, this.width / this.height);
-    const origin = this.camera.position;
-    const through = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera);
-    const direction = through.sub(origin).normalize();
-    return { origin: [origin.x, origin.y, origin.z], direction: [direction.x, direction.y, direction.z] };
+  /** Where a place on the canvas, in CSS pixels, lies in the plane that faces the camera and holds `through`. */
+  pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null {
+    return this.aimed().pointOnPlane(x, y, through);
   }
 
-  /** Where a place on the canvas lies in the plane that faces the camera and holds `through`. */
-  pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null {
-    const { origin, direction } = this.rayAt(x, y);
-    const forward = this.camera.getWorldDirection(new Vector3());
-    const towards = forward.x * direction[0] + forward.y * direction[1] + forward.z * direction[2];
-    const depth = this.depthOf(through, forward);
-    if (towards < 1e-6 || depth < this.camera.near) return null;
-    const length = depth / towards;
-    return [origin[0] + direction[0] * length, origin[1] + direction[1] * length, origin[2] + direction[2] * length];
+  /** Where it lies in the horizontal plane that holds `through`. */
+  pointOnLevel(x: number, y: number, through: Vec3): Vec3 | null {
+    return this.aimed().pointOnLevel(x, y, through);
+  }
+
+  /** The plane that faces the camera and holds `through`. */
+  drawingPlane(through: Vec3): DrawingPlane {
+    return this.aimed().drawingPlane(through);
+  }
+
+  /** What turns points of the world into places on the canvas, as the camera stands now. */
+  projector(): (point: Vec3) => readonly [number, number] | null {
+    return this.aimed().projector();
+  }
+
+  /** Whether a finger moves over the ground rather than up and down. */
+  looksDown(): boolean {
+    return this.aimed().looksDown();
   }
 
   /** The branch under or near a place on the canvas. */
   pick(x: number, y: number, tolerancePixels: number): Pick | null {
-    return pickBranch(this.table, this.projection(), x, y, tolerancePixels);
+    return pickBranch(this.table, this.aimed().projection(), x, y, tolerancePixels);
   }
 
-  /** How long one CSS pixel is at a point, in internodes. */
-  metersPerPixelAt(point: Vec3): number {
-    this.aim(this.rig.pose, this.width / this.height);
-    const depth = Math.max(this.camera.near, this.depthOf(point, this.camera.getWorldDirection(new Vector3())));
-    return (2 * depth * Math.tan(FIELD_OF_VIEW / 2)) / this.height;
+  /** The obstacle under a place on the canvas. */
+  pickObstacle(x: number, y: number): { id: number; point: Vec3 } | null {
+    return this.obstacles.pick(this.aimed().rayAt(x, y));
+  }
+
+  /** How far an obstacle reaches below its own origin; null if it has no lowest point. */
+  depthBelow(id: number): number | null {
+    return this.obstacles.depthBelow(id);
+  }
+
+  /** Draws these obstacles and no others; one may be marked. */
+  showObstacles(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
+    this.obstacles.show(obstacles, chosen);
+    this.rig.keep(this.extent());
+    this.shadowStale = true;
+    this.stir();
   }
 
   /** A finger is down or a lever is held: the picture is not the one at rest until it is let go. */
@@ -177,7 +199,7 @@ export class Viewport {
     this.sync();
     this.detail(false);
     if (this.shadowStale) this.drawShadow();
-    this.aim(pose, width / height);
+    this.sight.aim(pose, this.rig.eye(pose), width / height);
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
     this.brush.mesh.visible = brushShown;
     return picture;
@@ -193,6 +215,7 @@ export class Viewport {
       this.branches,
       this.foliage,
       this.environment,
+      this.obstacles,
       this.brush,
       this.screen,
       this.nodes,
@@ -238,8 +261,7 @@ export class Viewport {
       // One more frame after the last growth shows everything full grown.
       this.shadowStale = growing;
     }
-    this.aim(this.rig.pose, this.width / this.height);
-    this.screen.draw(this.scene, this.camera, quality.scale, quality.smooth);
+    this.screen.draw(this.scene, this.aimed().camera, quality.scale, quality.smooth);
     // A frame at rest is followed by a pause, which tells nothing.
     this.began = control.resting ? null : began;
     this.awaitRest();
@@ -296,51 +318,41 @@ export class Viewport {
     this.branches.upload();
     this.foliage.upload();
     this.environment.update(table);
-    this.rig.keep(table.bounds());
+    this.rig.keep(this.extent());
   }
 
   private drawShadow(): void {
-    this.sun.render(this.renderer, this.uniforms, this.table.bounds());
+    this.sun.render(this.renderer, this.uniforms, this.extent());
   }
 
   private drawScene(): void {
     this.renderer.clear();
-    this.renderer.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.sight.camera);
   }
 
-  private aim(pose: Pose, aspect: number): void {
-    const { camera } = this;
-    camera.aspect = aspect;
-    camera.near = Math.max(0.05, 0.02 * pose.distance);
-    camera.far = pose.distance + 1500;
-    camera.updateProjectionMatrix();
-    camera.position.set(...this.rig.eye(pose));
-    camera.lookAt(...pose.target);
-    camera.updateMatrixWorld();
-    this.worldFromClip.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
+  /** The tree with what stands around it; what stands far off has no shadow worth the map's pixels. */
+  private extent(): Box {
+    const tree = this.table.bounds();
+    const around = this.obstacles.bounds();
+    if (!around) return tree;
+    const reach = SHADOW_REACH + Math.max(...tree.max.map((high, axis) => high - tree.min[axis]!));
+    const axes = [0, 1, 2] as const;
+    const low = (axis: 0 | 1 | 2) => Math.min(tree.min[axis], Math.max(around.min[axis], tree.min[axis] - reach));
+    const high = (axis: 0 | 1 | 2) => Math.max(tree.max[axis], Math.min(around.max[axis], tree.max[axis] + reach));
+    return { min: axes.map(low) as [number, number, number], max: axes.map(high) as [number, number, number] };
   }
 
-  private projection(): Projection {
-    this.aim(this.rig.pose, this.width / this.height);
-    const { camera, width, height } = this;
-    return {
-      clipFromWorld: new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements,
-      width,
-      height,
-      pixelsPerInternode: height / (2 * Math.tan(FIELD_OF_VIEW / 2)),
-    };
-  }
-
-  private depthOf(point: Vec3, forward: Vector3): number {
-    return new Vector3(...point).sub(this.camera.position).dot(forward);
+  private aimed(): Sight {
+    this.sight.aim(this.rig.pose, this.rig.eye());
+    return this.sight;
   }
 
   private resize(): void {
     const width = this.canvas.clientWidth;
     const height = this.canvas.clientHeight;
     if (width === 0 || height === 0) return;
-    this.width = width;
-    this.height = height;
+    this.sight.width = width;
+    this.sight.height = height;
     this.screen.resize(width, height, Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
     this.invalidate();
   }

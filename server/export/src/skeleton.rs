@@ -68,7 +68,7 @@ impl Living<'_> {
             position: metamers.end(id).to_array(),
             radius: if is_seed { 0.0 } else { girth.radius(metamers.tips(id)) },
             order: self.plant.axes().order(metamers.axis(id)),
-            birth: plant.birth(id),
+            birth: self.plant.birth(id),
         }
     }
 }

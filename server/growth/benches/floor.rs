@@ -61,7 +61,7 @@ fn linear_passes(criterion: &mut Criterion) {
         let up = |shares: &mut Vec<f64>| {
             for index in rows.clone() {
                 if let Some(parent) = parents[index] {
-                    shares[index] = 0.5 * shares[parent] + shares[index];
+                    shares[index] += 0.5 * shares[parent];
                 }
             }
         };

@@ -10,17 +10,19 @@ use crate::{
     parameters::Parameters,
 };
 
+/// Edge of a voxel, in internodes: as coarse as shadows, which are a pyramid's, let it be.
+const VOXEL: f32 = 2.0;
 /// Fixed-point steps of one unit of light.
 const UNIT: f32 = 65536.0;
 
 /// Voxels in a chunk: along x, and along each of z and y.
-const WIDTH_BITS: i32 = 5;
+const WIDTH_BITS: i32 = 4;
 const DEPTH_BITS: i32 = 3;
 const WIDTH: i32 = 1 << WIDTH_BITS;
 const DEPTH: i32 = 1 << DEPTH_BITS;
 /// Voxels a row of a pyramid is padded to, and the one that its axis goes through.
-const ROW: usize = 16;
-const MIDDLE: i32 = 8;
+const ROW: usize = 8;
+const MIDDLE: i32 = 4;
 /// Values in a layer of a chunk, rows along z: a few more than voxels, or columns would crowd one corner of the
 /// cache.
 const PLANE: usize = (WIDTH * DEPTH) as usize + ROW;
@@ -28,7 +30,7 @@ const VALUES: usize = PLANE * DEPTH as usize;
 type Chunk = [u32; VALUES];
 
 /// Rows of this depth still fit, and pyramids of this depth meet no more than two chunks along y and three along z.
-const FITTING_DEPTH: i32 = 7;
+const FITTING_DEPTH: i32 = 3;
 
 /// The shadows of all metamers.
 #[derive(Clone, Debug)]
@@ -59,15 +61,8 @@ struct PyramidRow {
 impl ShadowGrid {
     /// No shadows yet.
     pub fn new(parameters: &Parameters) -> Self {
-        let depth = parameters.shadow_depth;
-        let mut fade = 1.0;
-        let strength: Vec<u32> = (0..=depth)
-            .map(|_| {
-                let shadow = libm::roundf(parameters.shadow_strength * fade * UNIT) as u32;
-                fade /= parameters.shadow_decay;
-                shadow
-            })
-            .collect();
+        let strength: Vec<u32> =
+            strengths(parameters).into_iter().map(|shadow| libm::roundf(shadow * UNIT) as u32).collect();
         let mut rows = Vec::new();
         for (depth, &shadow) in strength.iter().enumerate() {
             let depth = depth as i32;
@@ -176,8 +171,8 @@ impl ShadowGrid {
     /// The box of the places at which the shadow of a metamer with its node at `position` is seen.
     pub(crate) fn reach(&self, position: Vec3) -> (Vec3, Vec3) {
         // Shadows are interpolated: they are seen half a voxel beyond those they darken.
-        let reach = self.strength.len() as f32 + 0.5;
-        (position - reach, position + Vec3::new(reach, 1.5, reach))
+        let reach = (self.strength.len() as f32 + 0.5) * VOXEL;
+        (position - reach, position + Vec3::new(reach, 1.5 * VOXEL, reach))
     }
 
     /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
@@ -187,9 +182,9 @@ impl ShadowGrid {
 
     /// How to read the light at a place again and again.
     pub(crate) fn spot(&self, position: Vec3) -> Spot {
-        let low = voxel_of(position - 0.5);
-        let corner = directory::voxel_of(position - 0.5).map(|i| i as f32);
-        let fraction = position - 0.5 - Vec3::from_array(corner);
+        let low = voxel_of(position - 0.5 * VOXEL);
+        let at = position * (1.0 / VOXEL) - 0.5;
+        let fraction = at - Vec3::from_array(directory::voxel_of(at).map(|i| i as f32));
         let is_within = low[0] & (WIDTH - 1) != WIDTH - 1
             && low[1] & (DEPTH - 1) != DEPTH - 1
             && low[2] & (DEPTH - 1) != DEPTH - 1;
@@ -255,7 +250,7 @@ impl ShadowGrid {
     /// The same around a place whose eight voxels lie in several chunks.
     #[cold]
     fn scattered_octet(&self, place: Vec3) -> [u32; 8] {
-        let [x, y, z] = voxel_of(place - 0.5);
+        let [x, y, z] = voxel_of(place - 0.5 * VOXEL);
         let is_split = x & (WIDTH - 1) == WIDTH - 1;
         let mut octet = [0; 8];
         for (i, pair) in octet.chunks_exact_mut(2).enumerate() {
@@ -291,7 +286,7 @@ impl Spot {
 /// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk.
 #[inline]
 fn voxel_of(place: Vec3) -> [i32; 3] {
-    let [x, y, z] = directory::voxel_of(place);
+    let [x, y, z] = directory::voxel_of(place * (1.0 / VOXEL));
     [x + WIDTH / 2, y, z + DEPTH / 2]
 }
 
@@ -304,6 +299,22 @@ fn chunk_of([x, y, z]: [i32; 3]) -> [i32; 3] {
 fn offset([x, y, z]: [i32; 3]) -> usize {
     let (y, z) = ((y & (DEPTH - 1)) as usize, (z & (DEPTH - 1)) as usize);
     y * PLANE + (z << WIDTH_BITS) + (x & (WIDTH - 1)) as usize
+}
+
+/// The shadow of a metamer in its own voxel and in each layer below.
+///
+/// `a` and `b` speak of voxels of one internode, `q_max` of internodes. In larger voxels a shadow fades as fast
+/// with height and is as much in all: so many times smaller voxels as a layer holds, each in its own shade.
+fn strengths(parameters: &Parameters) -> Vec<f32> {
+    let (depth, decay) = (parameters.shadow_depth as i32, parameters.shadow_decay);
+    let area = |depth: i32| (-depth..=depth).map(|z| 2 * half_width(depth, z) + 1).sum::<i32>() as f32;
+    let fade = |decay: f32, layer: i32| libm::powf(decay, -(layer as f32));
+    let layers = (depth as f32 / VOXEL) as i32 + i32::from(depth % VOXEL as i32 > 0);
+    let wanted: f32 = (0..=depth).map(|layer| area(layer) * fade(decay, layer)).sum();
+    let decay = libm::powf(decay, VOXEL);
+    let held: f32 =
+        (0..=layers).map(|layer| area(layer) * fade(decay, layer)).sum::<f32>() * VOXEL * VOXEL * VOXEL;
+    (0..=layers).map(|layer| parameters.shadow_strength * wanted / held * fade(decay, layer)).collect()
 }
 
 /// Half the width along x of a layer's row at `z`. A layer is a disc of radius q + ½ voxels: square layers would
@@ -359,10 +370,19 @@ mod tests {
             grid.cast(reader);
             1.0 - grid.exposure(reader)
         };
-        assert!(shadow_at(22.5).abs() < 1e-4, "nothing above");
-        assert!((shadow_at(19.5) - 0.06).abs() < 1e-3, "a/b one voxel below");
-        assert!(shadow_at(18.5) < shadow_at(19.5) && shadow_at(16.5) < shadow_at(18.5));
-        assert!(shadow_at(12.5).abs() < 1e-4, "nothing beyond the depth");
+        assert!(shadow_at(25.0).abs() < 1e-4, "nothing above");
+        assert!(shadow_at(19.0) > shadow_at(17.0) && shadow_at(17.0) > shadow_at(15.0));
+        assert!(shadow_at(15.0) > 0.0 && shadow_at(10.0).abs() < 1e-4, "nothing beyond the depth");
+    }
+
+    #[test]
+    fn a_shadow_is_as_much_as_in_small_voxels() {
+        let parameters = Parameters::default();
+        let cells = |depth: i32| (-depth..=depth).map(|z| 2 * half_width(depth, z) + 1).sum::<i32>() as f32;
+        let small: f32 = (0..=6).map(|q| 0.12 * cells(q) * libm::powf(0.5, q as f32)).sum();
+        let large: f32 =
+            strengths(&parameters).iter().zip(0..).map(|(s, layer)| 8.0 * s * cells(layer)).sum();
+        assert!((small - large).abs() < 1e-3, "{small} and {large}");
     }
 
     #[test]
@@ -389,8 +409,9 @@ mod tests {
                 let voxel = [x + near.0, y + near.1, z + near.2];
                 prop_assert_eq!(grid.shadow(voxel), shadow_by_definition(&grid, &casters, voxel));
                 let corner = Vec3::new((voxel[0] - WIDTH / 2) as f32, voxel[1] as f32, (voxel[2] - DEPTH / 2) as f32);
-                let spot = grid.spot(corner + 0.75);
-                let octet = grid.scattered_octet(corner + 0.75);
+                let place = (corner + 0.75) * VOXEL;
+                let spot = grid.spot(place);
+                let octet = grid.scattered_octet(place);
                 prop_assert!(spot.at == Spot::SCATTERED || grid.octet(spot.at) == octet);
                 for (i, shadow) in (0..).zip(octet) {
                     let corner = [voxel[0] + (i & 1), voxel[1] + (i >> 2), voxel[2] + (i >> 1 & 1)];

@@ -1,11 +1,12 @@
 //! Files in the shapes that programs write them, and in shapes that no program should.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
-use espalier_growth::{MAX_TRIANGLES, ObstacleError, TriangleMesh};
-use espalier_import::{ImportError, obstacle_mesh};
+use espalier_import::{ImportError, Limits, Triangles};
 use glam::Vec3;
 use proptest::prelude::*;
 use serde_json::{Value, json};
+
+const LIMITS: Limits = Limits { vertices: 40, triangles: 60 };
 
 /// The corners of a tetrahedron, then its faces as bytes.
 fn tetrahedron() -> Vec<u8> {
@@ -56,8 +57,12 @@ fn one_node() -> Value {
     document(json!([{ "mesh": 0 }]))
 }
 
-fn read(document: &Value) -> Result<TriangleMesh, ImportError> {
-    obstacle_mesh(&glb(document, &tetrahedron()), 1.0)
+fn read_file(bytes: &[u8]) -> Result<Triangles, ImportError> {
+    espalier_import::read(bytes, LIMITS)
+}
+
+fn read(document: &Value) -> Result<Triangles, ImportError> {
+    read_file(&glb(document, &tetrahedron()))
 }
 
 fn set(document: &mut Value, at: &str, value: Value) {
@@ -66,10 +71,42 @@ fn set(document: &mut Value, at: &str, value: Value) {
 
 #[test]
 fn a_glb_gives_its_triangles() {
-    let mesh = obstacle_mesh(&glb(&one_node(), &tetrahedron()), 10.0).expect("a mesh");
-    assert_eq!(mesh.vertices(), [Vec3::ZERO, Vec3::X * 10.0, Vec3::Y * 10.0, Vec3::Z * 10.0]);
-    assert_eq!(mesh.triangles(), [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]);
-    assert!(mesh.is_closed());
+    let mesh = read(&one_node()).expect("a mesh");
+    // In the order in which corners first name them.
+    assert_eq!(mesh.vertices, [Vec3::ZERO, Vec3::Y, Vec3::X, Vec3::Z]);
+    assert_eq!(mesh.corners, [[0, 1, 2], [0, 2, 3], [0, 3, 1], [2, 1, 3]]);
+}
+
+#[test]
+fn corners_at_one_place_are_one_vertex() {
+    // As exporters write a square with hard edges: no vertex is shared, one zero is negative, one is not used.
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [-0.0, 0.0], [1.0, 1.0], [0.0, 1.0], [9.0, 9.0]];
+    let mut bytes: Vec<u8> =
+        corners.iter().flat_map(|&[x, y]| [x, y, 0f32]).flat_map(f32::to_le_bytes).collect();
+    bytes.extend([0u8, 1, 2, 3, 4, 5, 1, 1, 2]);
+    let mut document = one_node();
+    set(&mut document, "/accessors/0/count", json!(7));
+    set(&mut document, "/accessors/1/count", json!(9));
+    document["bufferViews"] =
+        json!([{ "buffer": 0, "byteLength": 84 }, { "buffer": 0, "byteOffset": 84, "byteLength": 9 }]);
+    set(&mut document, "/buffers/0/byteLength", json!(93));
+    let mesh = read_file(&glb(&document, &bytes)).expect("a mesh");
+    assert_eq!(mesh.vertices, [Vec3::ZERO, Vec3::X, Vec3::X + Vec3::Y, Vec3::Y]);
+    assert_eq!(mesh.corners, [[0, 1, 2], [0, 2, 3]], "the third has no area");
+}
+
+#[test]
+fn a_mirrored_node_keeps_its_outside() {
+    let mirrored = document(json!([{ "mesh": 0, "scale": [-1, 1, 1] }]));
+    let outward = |mesh: &Triangles| {
+        let middle = mesh.vertices.iter().sum::<Vec3>() / 4.0;
+        mesh.corners.iter().all(|corners| {
+            let [a, b, c] = corners.map(|corner| mesh.vertices[corner as usize]);
+            (b - a).cross(c - a).dot(a - middle) > 0.0
+        })
+    };
+    assert!(outward(&read(&one_node()).expect("a mesh")));
+    assert!(outward(&read(&mirrored).expect("a mesh")));
 }
 
 #[test]
@@ -78,7 +115,7 @@ fn json_with_embedded_buffers_reads_alike() {
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(tetrahedron()));
     text["buffers"][0]["uri"] = json!(uri);
     let bytes = serde_json::to_vec(&text).expect("JSON");
-    assert_eq!(obstacle_mesh(&bytes, 1.0), read(&one_node()));
+    assert_eq!(read_file(&bytes), read(&one_node()));
 }
 
 #[test]
@@ -91,15 +128,15 @@ fn nodes_put_meshes_where_they_say() {
         { "mesh": 0, "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1] }
     ]));
     let mesh = read(&nested).expect("a mesh");
-    assert_eq!(mesh.triangles().len(), 8);
+    assert_eq!(mesh.corners.len(), 8);
     let expected = [
         Vec3::new(10.0, 2.0, 0.0),
-        Vec3::new(10.0, 2.0, -2.0),
         Vec3::new(10.0, 4.0, 0.0),
+        Vec3::new(10.0, 2.0, -2.0),
         Vec3::new(12.0, 2.0, 0.0),
         Vec3::new(20.0, 12.0, 14.0),
     ];
-    for (found, expected) in mesh.vertices().iter().zip(expected) {
+    for (&found, expected) in mesh.vertices.iter().zip(expected) {
         assert!(found.distance(expected) < 1e-5, "{found} {expected}");
     }
 }
@@ -117,8 +154,10 @@ fn transforms_agree_with_the_gltf_crate() {
         glam::Mat4::from_cols_array_2d(&columns)
     };
     let world = matrix(0) * matrix(1);
-    let mesh = obstacle_mesh(&bytes, 1.0).expect("a mesh");
-    for (found, local) in mesh.vertices().iter().zip([Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z]) {
+    let mesh = read_file(&bytes).expect("a mesh");
+    let of_first_face = mesh.corners[0].map(|corner| mesh.vertices[corner as usize]);
+    // The nodes mirror, so the face [0, 2, 1] has changed its sense.
+    for (found, local) in of_first_face.into_iter().zip([Vec3::ZERO, Vec3::X, Vec3::Y]) {
         assert!(found.distance(world.transform_point3(local)) < 1e-4);
     }
 }
@@ -132,13 +171,13 @@ fn strips_fans_and_plain_vertices_are_triangles() {
         if !indexed {
             primitive.as_object_mut().expect("an object").remove("indices");
         }
-        read(&document).map(|mesh| mesh.triangles().to_vec())
+        read(&document).map(|mesh| mesh.corners)
     };
     assert_eq!(triangles(5, false), Ok(vec![[0, 1, 2], [1, 3, 2]]));
     assert_eq!(triangles(6, false), Ok(vec![[0, 1, 2], [0, 2, 3]]));
     assert_eq!(triangles(4, false), Ok(vec![[0, 1, 2]]));
     for points_or_lines in 0..4 {
-        assert_eq!(triangles(points_or_lines, true), Err(ObstacleError::EmptyMesh.into()));
+        assert_eq!(triangles(points_or_lines, true), Err(ImportError::Empty));
     }
 }
 
@@ -159,7 +198,7 @@ fn interleaved_vertices_are_read_by_their_stride() {
         { "buffer": 0, "byteOffset": 72, "byteLength": 12 }
     ]);
     document["buffers"] = json!([{ "byteLength": 84 }]);
-    assert_eq!(obstacle_mesh(&glb(&document, &bytes), 1.0), read(&one_node()));
+    assert_eq!(read_file(&glb(&document, &bytes)), read(&one_node()));
 }
 
 #[test]
@@ -169,10 +208,9 @@ fn what_is_not_read_is_named() {
         document["extensionsRequired"] = json!([name]);
         read(&document).err()
     };
-    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression"] {
-        assert_eq!(required(name), Some(ImportError::Compressed(name.to_owned())));
+    for name in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"] {
+        assert_eq!(required(name), Some(ImportError::Unsupported(format!("the extension {name}"))));
     }
-    assert!(matches!(required("KHR_mesh_quantization"), Some(ImportError::Unsupported(_))));
     assert_eq!(required("KHR_materials_unlit"), None);
     let mut external = one_node();
     external["buffers"][0]["uri"] = json!("house.bin");
@@ -183,14 +221,13 @@ fn what_is_not_read_is_named() {
     let mut sparse = one_node();
     sparse["accessors"][0]["sparse"] = json!({ "count": 1 });
     assert!(matches!(read(&sparse), Err(ImportError::Unsupported(_))));
-    assert!(matches!(obstacle_mesh(b"hello", 1.0), Err(ImportError::NotGltf(_))));
-    assert!(matches!(obstacle_mesh(b"", 1.0), Err(ImportError::NotGltf(_))));
-    for scale in [0.0, -1.0, f32::NAN, f32::INFINITY] {
-        assert!(matches!(
-            obstacle_mesh(&glb(&one_node(), &tetrahedron()), scale),
-            Err(ImportError::Scale(_))
-        ));
-    }
+    assert!(matches!(read_file(b"hello"), Err(ImportError::NotGltf(_))));
+    assert!(matches!(read_file(b""), Err(ImportError::NotGltf(_))));
+    let far = document(json!([{ "mesh": 0, "scale": [1e39, 1, 1] }]));
+    assert_eq!(read(&far), Err(ImportError::NotFinite));
+    let mut nothing = one_node();
+    nothing["scenes"] = json!([{}]);
+    assert_eq!(read(&nothing), Err(ImportError::Empty));
 }
 
 #[test]
@@ -221,7 +258,7 @@ fn damaged_files_are_refused() {
     }
     let whole = glb(&one_node(), &tetrahedron());
     for len in 0..whole.len() {
-        assert!(obstacle_mesh(&whole[..len], 1.0).is_err(), "cut to {len}");
+        assert!(read_file(&whole[..len]).is_err(), "cut to {len}");
     }
 }
 
@@ -237,12 +274,20 @@ fn nodes_that_bear_themselves_come_to_an_end() {
 }
 
 #[test]
-fn too_many_triangles_are_refused() {
-    let copies = MAX_TRIANGLES / 4 + 1;
-    let mut many = document(json!(vec![json!({ "mesh": 0 }); copies]));
-    many["scenes"][0]["nodes"] = json!((0..copies).collect::<Vec<_>>());
-    let error = read(&many).expect_err("four triangles too many");
-    assert_eq!(error, ImportError::Mesh(ObstacleError::TooManyTriangles(4 * copies)));
+fn limits_hold_for_the_whole_scene() {
+    let copies = |count: usize, apart: usize| {
+        let node = |i: usize| json!({ "mesh": 0, "translation": [i * apart, 0, 0] });
+        let mut many = document(json!((0..count).map(node).collect::<Vec<_>>()));
+        many["scenes"][0]["nodes"] = json!((0..count).collect::<Vec<_>>());
+        read(&many)
+    };
+    let whole = copies(10, 2).expect("forty vertices in all");
+    assert_eq!((whole.vertices.len(), whole.corners.len()), (40, 40));
+    assert_eq!(copies(11, 2), Err(ImportError::TooLarge(LIMITS)), "four vertices too many");
+    assert_eq!(copies(15, 0).expect("sixty triangles in all").vertices.len(), 4);
+    assert_eq!(copies(16, 0), Err(ImportError::TooLarge(LIMITS)), "four triangles too many");
+    let said = ImportError::TooLarge(LIMITS).to_string();
+    assert_eq!(said, "it has more than 60 triangles or 40 vertices; simplify it first");
 }
 
 proptest! {
@@ -254,6 +299,6 @@ proptest! {
             bytes[at % len] = byte;
         }
         // What counts is that it returns.
-        let _ = obstacle_mesh(&bytes, 1.0);
+        let _ = read_file(&bytes);
     }
 }

@@ -5,9 +5,10 @@ mod support;
 use espalier_plant::MetamerId;
 use espalier_session::{Action, Document, Sample};
 use glam::Vec3;
-use support::{Followed, report};
+use support::{Cost, Followed, report};
 
 const METAMERS: u32 = 100_000;
+const ROUNDS: u32 = 5;
 const STROKES: u32 = 40;
 const MOVES: u32 = 10;
 /// Shorter than a shoot, so that each move is one step.
@@ -16,16 +17,38 @@ const MOVE_LENGTH: f32 = 2.0;
 const MOST_ADDED: u32 = 500;
 
 fn main() {
-    let mut tree = Followed::tree(METAMERS);
+    let tree = Followed::tree(METAMERS);
     for radius in [3.0, 6.0, 10.0] {
-        brush(&mut tree, radius);
+        let (mut rounds, mut added, mut kept) = (Vec::new(), Vec::new(), 0);
+        let (mut undo_rounds, mut undone) = (Vec::new(), Vec::new());
+        for _ in 0..ROUNDS {
+            let brushing = brush(tree.clone(), radius);
+            rounds.push(brushing.costs);
+            undo_rounds.push(brushing.undos);
+            (added, undone, kept) = (brushing.added, brushing.undone, brushing.kept_bytes);
+        }
+        report(&format!("brush step of radius {radius}"), &rounds, &added);
+        report(&format!("undo of a stroke of {MOVES} such steps"), &undo_rounds, &undone);
+        println!("  memory kept for each step, bytes: {kept}");
     }
 }
 
+/// What many steps of one brush cost.
+#[derive(Debug, Default)]
+struct Brushing {
+    costs: Vec<Cost>,
+    /// Metamers each step added.
+    added: Vec<u32>,
+    /// What it cost to undo each stroke, and how many metamers went.
+    undos: Vec<Cost>,
+    undone: Vec<u32>,
+    /// Memory that a step took on average.
+    kept_bytes: u64,
+}
+
 /// Strokes outwards from all sides of the crown; each is undone, so that the tree stays as large as it is.
-fn brush(tree: &mut Followed, radius: f32) {
-    let (mut costs, mut added, mut wider) = (Vec::new(), Vec::new(), 0);
-    let (mut kept, mut steps) = (0, 0);
+fn brush(mut tree: Followed, radius: f32) -> Brushing {
+    let (mut brushing, mut kept, mut steps) = (Brushing::default(), 0, 0);
     for stroke in 0..STROKES {
         let outwards = direction(stroke);
         let from = outermost(&tree.document, outwards);
@@ -36,22 +59,21 @@ fn brush(tree: &mut Followed, radius: f32) {
             let position = from + outwards * (MOVE_LENGTH * i as f32);
             let samples = vec![Sample { position, radius }];
             let cost = tree.act(&Action::StrokeMove { stroke, samples });
-            let grown = tree.document.metamers() - before;
             steps += tree.document.plant().step() - step;
-            if grown > MOST_ADDED {
-                wider += 1;
-            } else {
-                costs.push(cost);
-                added.push(grown);
+            let grown = tree.document.metamers().saturating_sub(before);
+            if grown <= MOST_ADDED {
+                brushing.costs.push(cost);
+                brushing.added.push(grown);
             }
         }
         kept += resident_bytes().unwrap_or(0).saturating_sub(held.unwrap_or(0));
         tree.act(&Action::StrokeEnd { stroke });
-        tree.act(&Action::Undo);
+        let before = tree.document.metamers();
+        brushing.undos.push(tree.act(&Action::Undo));
+        brushing.undone.push(before.abs_diff(tree.document.metamers()));
     }
-    report(&format!("brush step of radius {radius}"), &costs, &added);
-    println!("  left out as they added more than {MOST_ADDED}: {wider}");
-    println!("  memory kept for each step, bytes: {}", kept / u64::from(steps.max(1)));
+    brushing.kept_bytes = kept / u64::from(steps.max(1));
+    brushing
 }
 
 /// The k-th of directions spread over the upper half of a sphere by the golden angle.

@@ -23,14 +23,16 @@ fn travel(tree: &mut Followed, title: &str, times: u32, back: &Action, forth: &A
     let (mut ways_back, mut ways_forth) = (Vec::new(), Vec::new());
     for _ in 0..ROUNDS {
         let top = tree.document.plant().step();
-        (0..times).for_each(|_| ways_back.push(timed(tree, back)));
+        ways_back.push((0..times).map(|_| timed(tree, back)).unzip());
+        let mut way = Vec::new();
         while tree.document.plant().step() < top {
-            ways_forth.push(timed(tree, forth));
+            way.push(timed(tree, forth));
         }
+        ways_forth.push(way.into_iter().unzip());
     }
-    for (way, costs) in [("back", ways_back), ("forth", ways_forth)] {
-        let (costs, metamers): (Vec<Cost>, Vec<u32>) = costs.into_iter().unzip();
-        report(&format!("{title}, {way}"), &costs, &metamers);
+    for (way, rounds) in [("back", ways_back), ("forth", ways_forth)] {
+        let (costs, metamers): (Vec<Vec<Cost>>, Vec<Vec<u32>>) = rounds.into_iter().unzip();
+        report(&format!("{title}, {way}"), &costs, &metamers[0]);
     }
 }
 

@@ -7,10 +7,17 @@ use axum::{
     http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
-use espalier_proto::{Command, Obstacle, Pose, Problem, ProblemCode, Shape, version::MAX_GLB_BYTES};
+use espalier_import::{ImportError, Limits};
+use espalier_proto::{
+    Command, Obstacle, Pose, Problem, ProblemCode, Shape,
+    version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
+};
+use espalier_session::Mesh;
 
 use super::{Shared, failure::Failure, sessions};
-use crate::glb_mesh;
+
+/// What the mesh of an upload may have (`LM6`).
+const LIMITS: Limits = Limits { vertices: MAX_MESH_VERTICES, triangles: MAX_MESH_TRIANGLES };
 
 /// Places the triangles of a file with its own origin at the scene's.
 pub(super) async fn upload(
@@ -21,7 +28,7 @@ pub(super) async fn upload(
     let file = body.map_err(unreadable)?;
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
-    let mesh = shared.pool.run(move || glb_mesh::read(&file).map(|mesh| mesh.to_base64())).await?;
+    let mesh = shared.pool.run(move || as_carried(&file)).await?;
     let mesh = mesh.map_err(|error| {
         Problem::new(ProblemCode::Malformed, format!("The file cannot be an obstacle: {error}."))
     })?;
@@ -45,6 +52,12 @@ pub(super) async fn mesh(
     let session = sessions::open(&shared, &session).await?;
     let mesh = session.mesh(obstacle).await?.ok_or_else(|| Failure::not_found("mesh"))?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
+}
+
+/// The triangles of a file as a command carries them.
+fn as_carried(file: &[u8]) -> Result<String, ImportError> {
+    let read = espalier_import::read(file, LIMITS)?;
+    Ok(Mesh { vertices: read.vertices, triangles: read.corners }.to_base64())
 }
 
 fn unreadable(rejection: BytesRejection) -> Failure {

@@ -246,7 +246,7 @@ test("parameters are set in the growth panel, for everyone", async () => {
     await parameters.tap();
   };
   await chosen(tablet);
-  await tablet.page.getByText("Priority", { exact: true }).tap();
+  await tablet.page.getByLabel("Priority", { exact: true }).tap();
   await tablet.page.getByText("Least weight").waitFor();
   await tablet.untilQuiet();
   await chosen(second);

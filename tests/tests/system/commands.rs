@@ -1,8 +1,6 @@
 use espalier_proto::{ClientMessage, Command, ParametersPatch, ProblemCode};
 use espalier_tests::{
     client::Client,
-    scratch::Scratch,
-    server::Server,
     strokes::{line, stroke, upward},
 };
 
@@ -10,17 +8,9 @@ fn grow(steps: u32) -> Command {
     Command::Grow { steps, gesture: None, bud: None }
 }
 
-async fn alone() -> (Client, Server, Scratch) {
-    let scratch = Scratch::new();
-    let server = Server::start(&scratch.path("trees.db"));
-    let session = server.new_session(7);
-    let client = Client::connect(server.port(), &session, "browser-1").await;
-    (client, server, scratch)
-}
-
 #[tokio::test]
 async fn cm1_a_number_taken_before_is_not_done_twice() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     let id = client.send(grow(3)).await;
     client.until_settled().await;
     let step = client.state.step;
@@ -36,7 +26,7 @@ async fn cm1_a_number_taken_before_is_not_done_twice() {
 
 #[tokio::test]
 async fn cm1_a_gap_is_refused_and_what_fills_it_is_done() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     client.send_message(&ClientMessage::Command { id: 3, command: grow(50) }).await;
     client.until("the gap is refused", |client| !client.refused.is_empty()).await;
     let (id, problem) = &client.refused[0];
@@ -52,7 +42,7 @@ async fn cm1_a_gap_is_refused_and_what_fills_it_is_done() {
 
 #[tokio::test]
 async fn cm4_commands_of_one_client_run_in_their_order() {
-    let (mut client, server, _scratch) = alone().await;
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
     // Only in this order is the second tree smaller and the redo refused.
     client.send(grow(6)).await;
     client.send(Command::Ungrow { steps: 2 }).await;
@@ -69,7 +59,7 @@ async fn cm4_commands_of_one_client_run_in_their_order() {
 
 #[tokio::test]
 async fn cm5_overlapping_strokes_are_one_operation() {
-    let (mut first, server, _scratch) = alone().await;
+    let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     let left = stroke(1, &line([0.0; 3], [-8.0, 10.0, 0.0], 12), 2.0, 3);
     let right = stroke(1, &line([0.0; 3], [8.0, 10.0, 0.0], 12), 2.0, 3);
@@ -90,7 +80,7 @@ async fn cm5_overlapping_strokes_are_one_operation() {
 
 #[tokio::test]
 async fn cm7_undo_and_redo_give_the_same_rows_back() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     for command in upward(1, 12.0, 3.0) {
         client.send(command).await;
     }
@@ -111,7 +101,7 @@ async fn cm7_undo_and_redo_give_the_same_rows_back() {
 
 #[tokio::test]
 async fn cm7_ungrow_takes_steps_back_exactly() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     client.send(grow(8)).await;
     client.until_settled().await;
     let rows = client.table.form();
@@ -127,7 +117,7 @@ async fn cm7_ungrow_takes_steps_back_exactly() {
 
 #[tokio::test]
 async fn cm3_nothing_to_undo_is_refused() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     let id = client.send(Command::Undo {}).await;
     client.until("it is refused", |client| !client.refused.is_empty()).await;
     assert_eq!(client.refused[0].0, id);
@@ -139,7 +129,7 @@ async fn cm3_nothing_to_undo_is_refused() {
 
 #[tokio::test]
 async fn parameters_reach_everyone_and_change_growth() {
-    let (mut first, server, _scratch) = alone().await;
+    let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     let patch = ParametersPatch { max_shoot_length: Some(1), leaves_per_node: Some(0), ..Default::default() };
     first.send(Command::SetParameters { parameters: patch }).await;
@@ -153,7 +143,7 @@ async fn parameters_reach_everyone_and_change_growth() {
 
 #[tokio::test]
 async fn another_seed_grows_another_plant() {
-    let (mut client, _server, _scratch) = alone().await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     client.send(Command::PlantSeed { position: [30.0, 0.0, 0.0] }).await;
     client.send(grow(6)).await;
     client.until_settled().await;

@@ -1,5 +1,5 @@
 use espalier_proto::{Command, DrawingPlane, ProblemCode};
-use espalier_tests::{client::Client, scratch::Scratch, server::Server};
+use espalier_tests::{client::Client, server::Server};
 
 fn grow(steps: u32) -> Command {
     Command::Grow { steps, gesture: None, bud: None }
@@ -14,17 +14,9 @@ fn heart(size: f32, bud: Option<u32>) -> Command {
     Command::Lasso { outline: outline.collect(), plane, depth: 1.0, bud }
 }
 
-async fn alone(options: &[&str]) -> (Client, Server, Scratch) {
-    let scratch = Scratch::new();
-    let server = Server::start_with(&scratch.path("trees.db"), 0, options);
-    let session = server.new_session(7);
-    let client = Client::connect(server.port(), &session, "browser-1").await;
-    (client, server, scratch)
-}
-
 #[tokio::test]
 async fn la1_a_lasso_grows_for_everybody_and_undoes() {
-    let (mut first, server, _scratch) = alone(&[]).await;
+    let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     first.send(heart(10.0, None)).await;
     first.until_settled().await;
@@ -40,7 +32,7 @@ async fn la1_a_lasso_grows_for_everybody_and_undoes() {
 
 #[tokio::test]
 async fn st1_what_was_stopped_survives_a_crash() {
-    let (mut client, server, _scratch) = alone(&[]).await;
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
     client.send(grow(1000)).await;
     client.until("it grows", |client| client.state.step > 0).await;
     client.send(Command::Stop { tick: None }).await;
@@ -56,7 +48,7 @@ async fn st1_what_was_stopped_survives_a_crash() {
 
 #[tokio::test]
 async fn sg1_a_branch_grows_alone() {
-    let (mut client, _server, _scratch) = alone(&[]).await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     client.send(grow(6)).await;
     client.until_settled().await;
     let before = client.table.rows.len() as u32;
@@ -85,7 +77,7 @@ async fn sg1_a_branch_grows_alone() {
 
 #[tokio::test]
 async fn lm4_the_budget_of_a_session_is_the_one_it_began_with() {
-    let (mut client, server, scratch) = alone(&["--metamer-budget", "600"]).await;
+    let (mut client, server, scratch) = Client::alone(&["--metamer-budget", "600"]).await;
     client.send(grow(1000)).await;
     client.until("the budget is reached", |client| client.state.budget_reached).await;
     client.until_settled().await;
@@ -107,7 +99,7 @@ async fn lm4_the_budget_of_a_session_is_the_one_it_began_with() {
 
 #[tokio::test]
 async fn a_thousand_seeds_fit_in_one_scene() {
-    let (mut client, _server, _scratch) = alone(&[]).await;
+    let (mut client, _server, _scratch) = Client::alone(&[]).await;
     for number in 0..1000u32 {
         let place = |n: u32| n as f32 * 9.0 - 140.0;
         client.send(Command::PlantSeed { position: [place(number % 32), 0.0, place(number / 32)] }).await;

@@ -2,7 +2,6 @@ use espalier_proto::{Command, Obstacle, PlacedShape, Pose, Shape, version::MAX_G
 use espalier_tests::{
     client::Client,
     http::{self, Answer},
-    scratch::Scratch,
     server::Server,
 };
 use serde_json::json;
@@ -43,17 +42,9 @@ fn upload(server: &Server, session: &str, file: &[u8]) -> Answer {
     http::send_bytes(server.port(), "POST", &path, GLB, file).expect("the server answers")
 }
 
-async fn alone() -> (Client, Server, Scratch) {
-    let scratch = Scratch::new();
-    let server = Server::start(&scratch.path("trees.db"));
-    let session = server.new_session(7);
-    let client = Client::connect(server.port(), &session, "browser-1").await;
-    (client, server, scratch)
-}
-
 #[tokio::test]
 async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
-    let (mut first, server, _scratch) = alone().await;
+    let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     let shape = Shape::Box { size: [1.0, 40.0, 40.0] };
     first.send(Command::PlaceObstacle { obstacle: Obstacle { shape, pose: at(2.0, 20.0, 0.0) } }).await;
@@ -82,7 +73,7 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
 
 #[tokio::test]
 async fn ob6_a_gltf_file_becomes_an_obstacle() {
-    let (mut client, server, _scratch) = alone().await;
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
     let session = client.session.clone();
     let answer = upload(&server, &session, &triangle());
     assert_eq!(answer.status, 201, "{}", answer.text());
@@ -109,7 +100,7 @@ async fn ob6_a_gltf_file_becomes_an_obstacle() {
 
 #[tokio::test]
 async fn ob6_what_is_no_mesh_is_refused_in_words() {
-    let (mut client, server, _scratch) = alone().await;
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
     let session = client.session.clone();
     let mut cut = triangle();
     cut.truncate(cut.len() - 4);

@@ -1,10 +1,15 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { SheetName, Studio } from "../studio";
+import type { PanelName, SheetName, Studio } from "../studio";
+import { BudMarker, HoldRing } from "./bud-marker";
+import { Chips } from "./chips";
+import { GrowthPanel } from "./growth-panel";
 import { HelpSheet } from "./help-sheet";
 import { LibrarySheet } from "./library-sheet";
-import { Hint, ObstacleCard, ToastList } from "./notices";
+import { HindranceCard, Hint, ToastList } from "./notices";
+import { OutlineOverlay } from "./outline-overlay";
 import { SaveSheet } from "./save-sheet";
-import { Seedling } from "./seedling";
+import { ScenePanel } from "./scene-panel";
+import { Seedlings } from "./seedling";
 import { ShareSheet } from "./share-sheet";
 import { SideBar } from "./side-bar";
 import { Status } from "./status";
@@ -16,6 +21,8 @@ const SHEETS: Record<SheetName, typeof SaveSheet> = {
   share: ShareSheet,
   help: HelpSheet,
 };
+
+const PANELS: Record<PanelName, typeof GrowthPanel> = { growth: GrowthPanel, scene: ScenePanel };
 
 /** The whole page: the workspace, and around it as little as possible. */
 export function App({ studio }: { studio: Studio }) {
@@ -30,15 +37,27 @@ export function App({ studio }: { studio: Studio }) {
   }, [studio]);
   const sheet = studio.sheet.value;
   const Open = sheet === null ? null : SHEETS[sheet];
+  const panel = studio.panel.value;
+  const Pulled = panel === null ? null : PANELS[panel];
   return (
-    <div class="app" data-side={studio.settings.side.value} data-drawing={studio.drawing.value}>
+    <div
+      class="app"
+      data-side={studio.settings.side.value}
+      data-drawing={studio.tools.drawing.value}
+      data-panel={panel ?? undefined}
+    >
       <canvas id="workspace" ref={canvas} aria-label="The tree. Draw to make it grow." role="img" />
-      <Seedling studio={studio} />
+      <Seedlings studio={studio} />
+      <OutlineOverlay studio={studio} />
+      <BudMarker studio={studio} />
+      <HoldRing studio={studio} />
       <SideBar studio={studio} />
       <TopBar studio={studio} />
+      {Pulled !== null && <Pulled studio={studio} />}
+      <Chips studio={studio} />
       <Status studio={studio} />
       <Hint studio={studio} />
-      <ObstacleCard studio={studio} />
+      <HindranceCard studio={studio} />
       <ToastList studio={studio} />
       {Open !== null && <Open studio={studio} />}
     </div>

@@ -8,7 +8,7 @@ const KEY_PUSH = deflectionFor(KEY_RATE);
 export function GrowJog({ studio }: { studio: Studio }) {
   const lever = useRef<HTMLDivElement>(null);
   const held = useRef<number | null>(null);
-  const deflection = studio.growing.value;
+  const deflection = studio.growth.deflection.value;
   const rate = Math.round(growthRate(deflection));
 
   const follow = (event: PointerEvent) => {
@@ -16,13 +16,13 @@ export function GrowJog({ studio }: { studio: Studio }) {
     if (frame) {
       const way = (frame.height - frame.width) / 2;
       const offset = frame.top + frame.height / 2 - event.clientY;
-      studio.growTo(Math.max(-1, Math.min(1, offset / way)));
+      studio.growth.to(Math.max(-1, Math.min(1, offset / way)));
     }
   };
   const release = (event: PointerEvent) => {
     if (held.current === event.pointerId) {
       held.current = null;
-      studio.growRelease();
+      studio.growth.release();
     }
   };
   const pushed = (key: string) => ({ ArrowUp: KEY_PUSH, PageUp: 1, ArrowDown: -KEY_PUSH, PageDown: -1 })[key];
@@ -65,15 +65,15 @@ export function GrowJog({ studio }: { studio: Studio }) {
         const push = pushed(event.key);
         if (push !== undefined) {
           event.preventDefault();
-          studio.growTo(push);
+          studio.growth.to(push);
         }
       }}
       onKeyUp={(event) => {
         if (pushed(event.key) !== undefined) {
-          studio.growRelease();
+          studio.growth.release();
         }
       }}
-      onBlur={() => studio.growRelease()}
+      onBlur={() => studio.growth.release()}
     >
       <svg class="jog-scale" viewBox="0 0 44 140" aria-hidden="true">
         <path d="M22 14v16M22 24c-4.5.2-7-2-7.3-6 4.5-.2 7 2 7.3 6ZM22 20c0-4 2.2-6.5 6.6-7 .2 4.3-2.2 6.8-6.6 7Z" />

@@ -1,18 +1,29 @@
 import type { Studio } from "../studio";
 import { Sheet } from "./sheet";
 
-const GESTURES: readonly (readonly [string, string])[] = [
+type Line = readonly [string, string];
+
+const DRAWING: readonly Line[] = [
   ["One finger, pen, left button", "Brush: the tree grows into the stroke"],
   ["Begin on a branch", "Draw at that branch’s depth"],
   ["Rest the finger", "Growth goes on under it"],
-  ["Two fingers, middle button", "Move and zoom"],
-  ["Three fingers, right button", "Turn around the tree"],
   ["Radius at the bottom", "Sketch: one limb, exactly along the stroke"],
-  ["Grow, pushed up or pulled down", "Grow on alone, or backwards; further is faster"],
+  ["Lasso", "Draw an outline: the tree grows to fill it"],
+  ["Press and hold a branch, or Alt click", "Only this branch grows, until you hold elsewhere"],
+  ["Plant a seed", "Tap the ground; trees shade and crowd each other"],
+  ["Scene", "Walls and models to grow around; drag them"],
 ];
 
-const KEYS: readonly (readonly [string, string])[] = [
+const LOOKING: readonly Line[] = [
+  ["Two fingers, middle button", "Move and zoom"],
+  ["Three fingers, right button", "Turn around the tree"],
+  ["Grow, pushed up or pulled down", "Grow on alone, or backwards"],
+];
+
+const KEYS: readonly Line[] = [
   ["[  ]", "Narrower, wider"],
+  ["B  L  P", "Brush, lasso, plant a seed"],
+  ["Esc", "Cancel a drawing, let every branch grow"],
   ["G  U", "Grow, ungrow while held"],
   ["F", "Show the whole tree"],
   ["Ctrl Z", "Undo, with Shift redo"],
@@ -26,24 +37,20 @@ export function HelpSheet({ studio }: { studio: Studio }) {
   return (
     <Sheet studio={studio} title="How to draw a tree" wide>
       <div class="help">
-        <dl>
-          {GESTURES.map(([gesture, effect]) => (
-            <div key={gesture}>
-              <dt>{gesture}</dt>
-              <dd>{effect}</dd>
-            </div>
-          ))}
-        </dl>
-        <dl class="keys">
-          {KEYS.map(([keys, effect]) => (
-            <div key={keys}>
-              <dt>
-                <kbd>{keys}</kbd>
-              </dt>
-              <dd>{effect}</dd>
-            </div>
-          ))}
-        </dl>
+        <Gestures lines={DRAWING} />
+        <div>
+          <Gestures lines={LOOKING} />
+          <dl class="keys">
+            {KEYS.map(([keys, effect]) => (
+              <div key={keys}>
+                <dt>
+                  <kbd>{keys}</kbd>
+                </dt>
+                <dd>{effect}</dd>
+              </div>
+            ))}
+          </dl>
+        </div>
       </div>
       <div class="options">
         <fieldset class="segments">
@@ -74,5 +81,18 @@ export function HelpSheet({ studio }: { studio: Studio }) {
         </label>
       </div>
     </Sheet>
+  );
+}
+
+function Gestures({ lines }: { lines: readonly Line[] }) {
+  return (
+    <dl>
+      {lines.map(([gesture, effect]) => (
+        <div key={gesture}>
+          <dt>{gesture}</dt>
+          <dd>{effect}</dd>
+        </div>
+      ))}
+    </dl>
   );
 }

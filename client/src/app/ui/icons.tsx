@@ -110,6 +110,83 @@ export const PeopleIcon = () => (
   </Icon>
 );
 
+/** A loop of rope with its end hanging. */
+export const LassoIcon = () => (
+  <Icon>
+    <path
+      d="M12.5 3.5c4.7 0 8.2 2.2 8.2 5.300s-3.5 5.3-8.2 5.3-8.2-2.2-8.2-5.3 3.5-5.3 8.2-5.300Z"
+      stroke-dasharray="3.6 2.9"
+    />
+    <path d="M6.8 13.100a2.3 2.3 0 1 0 2.2 2.400c.1 2.4-1 4.2-3.4 5.2" />
+  </Icon>
+);
+
+/** A seed half in the ground, with a first root. */
+export const SeedIcon = () => (
+  <Icon>
+    <path d="M12 3.500c2.6 2 3.7 4 3.7 5.800a3.7 3.7 0 0 1-7.4 0c0-1.8 1.1-3.8 3.7-5.800Z" />
+    <path d="M3.5 14.500h3.300c.7 3.6 2.6 5.3 5.2 5.300s4.5-1.7 5.2-5.300h3.3" />
+  </Icon>
+);
+
+export const StopIcon = () => (
+  <Icon>
+    <rect x="6.5" y="6.5" width="11" height="11" rx="2" fill="currentColor" />
+  </Icon>
+);
+
+/** Two sliders. */
+export const GrowthIcon = () => (
+  <Icon>
+    <path d="M4 7h7.500M16.5 7H20M4 17h2.500M11.5 17H20" />
+    <circle cx="14" cy="7" r="2.5" />
+    <circle cx="9" cy="17" r="2.5" />
+  </Icon>
+);
+
+/** A box and a ball on the ground. */
+export const SceneIcon = () => (
+  <Icon>
+    <path d="M3 20h18" />
+    <path d="M4.5 20V6.500h7.500V20" />
+    <circle cx="16.7" cy="16.2" r="3.8" />
+  </Icon>
+);
+
+export const BoxIcon = () => (
+  <Icon>
+    <path d="m12 4 7 3.7v8.6L12 20l-7-3.7V7.7L12 4Z" />
+    <path d="m5.3 7.9 6.7 3.6 6.7-3.6M12 11.5V20" />
+  </Icon>
+);
+
+export const SphereIcon = () => (
+  <Icon>
+    <circle cx="12" cy="12" r="8" />
+    <path d="M4.3 13.5c2 1.5 4.7 2.2 7.7 2.2s5.7-.7 7.7-2.2" />
+  </Icon>
+);
+
+export const WallIcon = () => (
+  <Icon>
+    <rect x="3.5" y="5.5" width="17" height="13" rx="1" />
+    <path d="M3.5 9.8h17M3.5 14.2h17M9 5.5v4.3M15 5.5v4.3M6.5 9.8v4.4M12 9.8v4.4M17.5 9.8v4.4M9 14.2v4.3M15 14.2v4.3" />
+  </Icon>
+);
+
+export const PlaneIcon = () => (
+  <Icon>
+    <path d="M7 8.5h13.5L17 16H3.5L7 8.5Z" />
+    <path d="M3.5 16v2.5H17L20.5 11V8.5" />
+  </Icon>
+);
+
+export const ModelIcon = () => (
+  <Icon>
+    <path d="M5 20h14M7.5 20c-.3-3 .2-5 1.5-6.5C7.3 12.2 6.8 9 8.5 6.5 9.8 4.6 11 4 12 4s2.2.6 3.5 2.5c1.7 2.5 1.2 5.7-.5 7 1.3 1.5 1.8 3.5 1.5 6.5" />
+  </Icon>
+);
+
 /** A bare tree for trees saved without a picture. */
 export const TreeIcon = () => (
   <Icon>

@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { Obstacle, Studio } from "../studio";
+import type { Hindrance, Studio } from "../studio";
 
-const OBSTACLES: Record<Obstacle, { title: string; text: string }> = {
+const HINDRANCES: Record<Hindrance, { title: string; text: string }> = {
   "unknown-session": {
     title: "This tree is not here",
     text: "The link names a tree this server does not know. It may have been started on another machine.",
@@ -21,22 +21,22 @@ const OBSTACLES: Record<Obstacle, { title: string; text: string }> = {
 };
 
 /** What keeps the workspace from being used, and the way on. */
-export function ObstacleCard({ studio }: { studio: Studio }) {
-  const obstacle = studio.obstacle.value;
-  if (obstacle === null) {
+export function HindranceCard({ studio }: { studio: Studio }) {
+  const hindrance = studio.hindrance.value;
+  if (hindrance === null) {
     return null;
   }
-  const { title, text } = OBSTACLES[obstacle];
+  const { title, text } = HINDRANCES[hindrance];
   return (
-    <section class="panel obstacle" role="alert">
+    <section class="panel hindrance" role="alert">
       <h2>{title}</h2>
       <p>{text}</p>
-      {obstacle === "unknown-session" && (
+      {hindrance === "unknown-session" && (
         <button type="button" class="primary" onClick={() => studio.newSession()}>
           Plant a new tree
         </button>
       )}
-      {obstacle === "version" && (
+      {hindrance === "version" && (
         <button type="button" class="primary" onClick={() => location.reload()}>
           Reload
         </button>
@@ -73,17 +73,31 @@ export function ToastList({ studio }: { studio: Studio }) {
   );
 }
 
-/** The one line a first visit needs; it fades with the first stroke. */
+/** The one line a first use needs; it fades once the hand has done it. */
 export function Hint({ studio }: { studio: Studio }) {
-  const visible =
-    studio.obstacle.value === null &&
-    !studio.settings.hasDrawn.value &&
-    studio.document.value?.metamers === 0 &&
-    studio.phase.value === "connected" &&
-    !studio.drawing.value;
+  const text = hint(studio);
+  // The text stays while the line fades.
+  const last = useRef("");
+  last.current = text ?? last.current;
   return (
-    <p class="hint" data-visible={visible} aria-hidden={!visible}>
-      Draw upward from the seedling
+    <p class="hint" data-visible={text !== null} aria-hidden={text === null}>
+      {last.current}
     </p>
   );
+}
+
+function hint(studio: Studio): string | null {
+  const { tools, settings } = studio;
+  const usable = studio.hindrance.value === null && studio.phase.value === "connected" && !tools.drawing.value;
+  if (!usable) {
+    return null;
+  }
+  if (tools.chosen.value === "seed") {
+    return "Tap the ground to plant a seed";
+  }
+  if (tools.chosen.value === "lasso" && tools.outline.shown.value === null && !settings.hasOutlined.value) {
+    return "Draw the outline of a crown";
+  }
+  const untouched = !settings.hasDrawn.value && studio.document.value?.metamers === 0;
+  return tools.chosen.value === "brush" && untouched ? "Draw upward from the seedling" : null;
 }

@@ -2,7 +2,17 @@ import { useRef } from "preact/hooks";
 import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../brush-radius";
 import type { Studio } from "../studio";
 
-/** A vertical slider for the brush's radius, with the brush itself in small above it. */
+/** The brush itself, in small. */
+export function BrushSample({ studio }: { studio: Studio }) {
+  const radius = studio.settings.radius.value;
+  return (
+    <span class="brush-sample">
+      <i style={{ "--size": `${radius === 0 ? 5 : 8 + 24 * placeOf(radius)}px` }} data-sketch={radius === 0} />
+    </span>
+  );
+}
+
+/** A vertical slider for the brush's radius. */
 export function RadiusSlider({ studio }: { studio: Studio }) {
   const track = useRef<HTMLDivElement>(null);
   const radius = studio.settings.radius.value;
@@ -11,15 +21,15 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
   const follow = (event: PointerEvent) => {
     const frame = track.current?.getBoundingClientRect();
     if (frame && (event.type === "pointerdown" || event.buttons > 0)) {
-      studio.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
+      studio.stage.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
     }
   };
   const onKeyDown = (event: KeyboardEvent) => {
     const notches = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 4, PageDown: -4 }[event.key];
     if (notches !== undefined) {
-      studio.setRadius(stepRadius(radius, notches));
+      studio.stage.setRadius(stepRadius(radius, notches));
     } else if (event.key === "Home" || event.key === "End") {
-      studio.setRadius(event.key === "Home" ? 0 : MAX_RADIUS);
+      studio.stage.setRadius(event.key === "Home" ? 0 : MAX_RADIUS);
     } else {
       return;
     }
@@ -27,10 +37,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
   };
 
   return (
-    <div class="radius">
-      <div class="radius-dot" aria-hidden="true">
-        <span style={{ "--size": `${radius === 0 ? 3 : 6 + 30 * place}px` }} data-sketch={radius === 0} />
-      </div>
+    <div class="radius" data-idle={studio.tools.chosen.value !== "brush"}>
       <div class="radius-value" aria-hidden="true">
         {radiusLabel(radius)}
       </div>

@@ -59,7 +59,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
 /** The largest picture that fits; a tree can be saved without one. */
 async function picture(studio: Studio): Promise<string | undefined> {
   for (const size of [512, 384, 256]) {
-    const url = await studio.thumbnail(size).catch(() => undefined);
+    const url = await studio.stage.thumbnail(size).catch(() => undefined);
     if (url === undefined || url.length <= MAX_PICTURE) {
       return url;
     }

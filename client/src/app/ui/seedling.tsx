@@ -1,40 +1,49 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useMemo, useRef } from "preact/hooks";
+import type { Point } from "../ports";
+import { seedsToGrow } from "../scene-link";
 import type { Studio } from "../studio";
+import { useFrames } from "./use-frames";
 
-/** How high the seedling stands, in internodes, and at least in pixels: from afar it must still be found. */
+/** How high a seedling stands, in internodes, and at least in pixels: from afar it must still be found. */
 const HEIGHT = 1.6;
 const LEAST_PIXELS = 42;
+/** A thousand sprouts on the page would be slower than the forest they become. */
+const MOST_SHOWN = 60;
 
-/** A sprout where the first stroke begins; the mesh shows nothing of a seed that has not grown yet. */
-export function Seedling({ studio }: { studio: Studio }) {
-  const sprout = useRef<SVGSVGElement>(null);
-  const visible = studio.document.value?.metamers === 0 && studio.rows.value > 0;
-  useEffect(() => {
-    if (!visible) {
-      return undefined;
-    }
-    let frame = 0;
-    const follow = () => {
-      frame = requestAnimationFrame(follow);
-      const place = studio.seedPlace();
-      const element = sprout.current;
-      if (element) {
-        element.style.visibility = place ? "visible" : "hidden";
-        if (place) {
-          const size = Math.max(LEAST_PIXELS, HEIGHT * place.pixelsPerInternode);
-          element.style.width = `${size}px`;
-          element.style.transform = `translate(${place.x}px, ${place.y}px) translate(-50%, -90%)`;
+/** A sprout for each seed that has not grown yet, since the mesh shows nothing of it; and for one about to be planted. */
+export function Seedlings({ studio }: { studio: Studio }) {
+  const bed = useRef<HTMLDivElement>(null);
+  // Each frame of rows may have sown seeds, or let them grow.
+  const revision = studio.revision.value;
+  const waiting = useMemo(() => seedsToGrow(studio.table, MOST_SHOWN), [studio, revision]);
+  const coming = studio.tools.seed.value;
+  const places: readonly Point[] = coming ? [...waiting, coming] : waiting;
+  useFrames(places.length > 0, () => {
+    const project = studio.stage.projector();
+    places.forEach((place, i) => {
+      const sprout = bed.current?.children[i];
+      const at = project?.(place);
+      if (sprout instanceof SVGElement) {
+        sprout.style.visibility = at ? "visible" : "hidden";
+        if (at) {
+          sprout.style.width = `${Math.max(LEAST_PIXELS, HEIGHT * studio.stage.scaleAt(place))}px`;
+          sprout.style.transform = `translate(${at[0]}px, ${at[1]}px) translate(-50%, -90%)`;
         }
       }
-    };
-    follow();
-    return () => cancelAnimationFrame(frame);
-  }, [visible, studio]);
-  if (!visible) {
-    return null;
-  }
+    });
+  });
   return (
-    <svg class="seedling" ref={sprout} viewBox="0 0 60 60" aria-hidden="true">
+    <div ref={bed}>
+      {places.map((place, i) => (
+        <Sprout key={i < waiting.length ? place.join() : "coming"} coming={i >= waiting.length} />
+      ))}
+    </div>
+  );
+}
+
+function Sprout({ coming }: { coming: boolean }) {
+  return (
+    <svg class="seedling" data-coming={coming} viewBox="0 0 60 60" aria-hidden="true">
       <ellipse cx="33" cy="54" rx="17" ry="3.6" fill="#33422a" opacity="0.28" />
       <path d="M30 54c-1.2-9-.8-17 .6-26" fill="none" stroke="#6d8a45" stroke-width="3" stroke-linecap="round" />
       <path d="M30.3 31C18 32.5 10 26.5 8 13.5 21 13 29.5 19 30.3 31Z" fill="#79a84f" />

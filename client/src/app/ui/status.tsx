@@ -1,18 +1,14 @@
 import type { Studio } from "../studio";
 import { PeopleIcon } from "./icons";
 
-/** Pending steps below this come and go with every stroke and are not worth a word. */
-const LONG_GROWTH = 20;
-
 /** How things stand, in as few words as possible. */
 export function Status({ studio }: { studio: Studio }) {
   const document = studio.document.value;
   const phase = studio.phase.value;
   const attempts = studio.attempts.value;
   const people = document?.people ?? 1;
-  const pending = document?.pending_steps ?? 0;
-  const full = document !== null && Math.max(document.metamers, studio.rows.value) >= document.metamer_budget;
-  const away = phase !== "connected" && studio.obstacle.value === null && studio.session.value !== null;
+  const full = document?.budget_reached === true;
+  const away = phase !== "connected" && studio.hindrance.value === null && studio.session.value !== null;
   const unsent = studio.sent.value - studio.settled.value;
   return (
     <div class="status" role="status">
@@ -24,7 +20,6 @@ export function Status({ studio }: { studio: Studio }) {
         </p>
       )}
       {full && <p class="note full">The tree has all the growth this document holds. Undo or ungrow to draw on.</p>}
-      {pending >= LONG_GROWTH && <p class="note">Growing… {pending} steps to go</p>}
       {document && (
         <p class="figures">
           {people > 1 && (

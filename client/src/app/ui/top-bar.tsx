@@ -1,12 +1,33 @@
 import { gltfAddress } from "../library-api";
 import type { Studio } from "../studio";
-import { DownloadIcon, HelpIcon, LibraryIcon, NewIcon, SaveIcon, ShareIcon } from "./icons";
+import { DownloadIcon, GrowthIcon, HelpIcon, LibraryIcon, NewIcon, SaveIcon, SceneIcon, ShareIcon } from "./icons";
 
 /** What is done with a tree as a whole. */
 export function TopBar({ studio }: { studio: Studio }) {
   const session = studio.session.value;
   return (
     <header class="panel top-bar">
+      <button
+        type="button"
+        class="tool"
+        aria-label="Growth"
+        title="Growth: species and parameters"
+        aria-pressed={studio.panel.value === "growth"}
+        onClick={() => studio.togglePanel("growth")}
+      >
+        <GrowthIcon />
+      </button>
+      <button
+        type="button"
+        class="tool"
+        aria-label="Scene"
+        title="Scene: obstacles and seeds"
+        aria-pressed={studio.panel.value === "scene"}
+        onClick={() => studio.togglePanel("scene")}
+      >
+        <SceneIcon />
+      </button>
+      <hr />
       <button type="button" class="tool" aria-label="New tree" title="New tree" onClick={() => studio.newSession()}>
         <NewIcon />
       </button>

@@ -176,7 +176,7 @@ fn lm6_a_mesh_that_is_none_is_refused() {
     check(&text(&loose.to_base64(), 1.0), Err((BAD, field)));
     let mut flat = sound;
     flat.triangles = vec![[0, 0, 1]];
-    check(&text(&flat.to_base64(), 1.0), Err((OUT, Some("obstacle.shape"))));
+    check(&text(&flat.to_base64(), 1.0), Err((OUT, field)));
 }
 
 #[test]

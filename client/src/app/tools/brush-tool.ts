@@ -1,17 +1,15 @@
-import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../wire/generated";
-import { MAX_RADIUS } from "./brush-radius";
-import type { StrokePoint } from "./gestures";
-import type { BrushView, Point } from "./ports";
+import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../../wire/generated";
+import { MAX_RADIUS } from "../brush-radius";
+import type { StrokePoint } from "../gestures";
+import type { BrushView, Point } from "../ports";
+import { FeltPressure, radiusShare } from "../pressure";
 import { SampleQueue } from "./sample-queue";
+import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "./tool";
 
 /** How often the brush is sent while it is down, in milliseconds. */
 export const SEND_EVERY = 33;
-/** How near to a branch a stroke must begin to begin on it, in pixels. */
-const PICK_TOLERANCE = 24;
 /** Messages that may be under way; beyond it places gather for the next one. */
 const MAX_UNSETTLED = 8;
-/** Positions beyond this are refused (`LM2`). */
-const REACH = 1000;
 
 export interface BrushOptions {
   readonly view: BrushView;
@@ -23,6 +21,8 @@ export interface BrushOptions {
   readonly radius: () => number;
   /** Whether a pen's pressure widens and narrows the brush. */
   readonly pressureWidens: () => boolean;
+  /** The branch that alone may grow, as a row (`SG1`). */
+  readonly bud: () => number | null;
   /** Where a stroke lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Point;
 }
@@ -32,11 +32,11 @@ interface Stroke {
   /** The drawing plane passes through this point, parallel to the screen. */
   readonly through: Point;
   readonly samples: SampleQueue;
-  pressure: number | null;
+  readonly pressure: FeltPressure;
 }
 
 /** Turns the strokes of a finger into commands. */
-export class BrushTool {
+export class BrushTool implements Tool {
   #options: BrushOptions;
   #stroke: Stroke | null = null;
 
@@ -52,8 +52,9 @@ export class BrushTool {
     this.end();
     const number = this.#options.newStroke();
     const through = this.#through(point.x, point.y);
-    this.#stroke = { number, through, samples: new SampleQueue(), pressure: null };
-    this.#options.submit({ kind: "stroke_begin", stroke: number });
+    this.#stroke = { number, through, samples: new SampleQueue(), pressure: new FeltPressure() };
+    const bud = this.#options.bud();
+    this.#options.submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
     this.move([point]);
   }
 
@@ -65,8 +66,8 @@ export class BrushTool {
     for (const point of points) {
       const place = this.#options.view.pointOnPlane(point.x, point.y, stroke.through);
       if (place) {
-        stroke.pressure = point.pressure;
-        stroke.samples.add({ position: withinReach(place), radius: this.#radius(point.pressure) });
+        const radius = this.#radius(stroke.pressure.follow(point.pressure));
+        stroke.samples.add({ position: withinReach(place), radius });
       }
     }
     const { latest } = stroke.samples;
@@ -82,7 +83,7 @@ export class BrushTool {
       return;
     }
     const { latest } = stroke.samples;
-    const radius = this.#radius(stroke.pressure);
+    const radius = this.#radius(stroke.pressure.value);
     if (latest && latest.radius !== radius) {
       // The other hand has moved the slider while this one rests.
       stroke.samples.add({ position: latest.position, radius });
@@ -137,18 +138,7 @@ export class BrushTool {
 
   #radius(pressure: number | null): number {
     const radius = this.#options.radius();
-    const share = pressure !== null && this.#options.pressureWidens() ? 0.25 + 1.5 * pressure : 1;
+    const share = pressure !== null && this.#options.pressureWidens() ? radiusShare(pressure) : 1;
     return tidy(Math.min(MAX_RADIUS, Math.max(0, radius * share)));
   }
-}
-
-/** The nearest place the server accepts; nothing is sown below the ground. */
-function withinReach([x, y, z]: Point): [number, number, number] {
-  const clamp = (value: number, least: number) => tidy(Math.min(REACH, Math.max(least, value)));
-  return [clamp(x, -REACH), clamp(y, 0), clamp(z, -REACH)];
-}
-
-/** A thousandth of an internode is far below what anyone can see, and the message is half as long. */
-function tidy(value: number): number {
-  return Math.round(value * 1000) / 1000;
 }

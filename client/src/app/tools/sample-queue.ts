@@ -1,4 +1,4 @@
-import type { StrokeSample } from "../wire/generated";
+import type { StrokeSample } from "../../wire/generated";
 
 /** Places closer than this to the one before say nothing new, in internodes. */
 export const MIN_SPACING = 0.1;

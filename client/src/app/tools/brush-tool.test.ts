@@ -1,18 +1,25 @@
 import { describe, expect, it } from "vitest";
-import type { Command, StrokeSample } from "../wire/generated";
+import type { Command, StrokeSample } from "../../wire/generated";
+import type { Point } from "../ports";
 import { BrushTool } from "./brush-tool";
-import type { Point } from "./ports";
 import { MIN_SPACING } from "./sample-queue";
 
 /** A view in which a pixel is a tenth of an internode, y up from pixel 1000, at the depth of the plane's point. */
 function setUp() {
   const sent: Command[] = [];
-  const world = { radius: 4, unsettled: 0, pressure: false, branch: null as Point | null, planes: true };
+  const world = {
+    radius: 4,
+    unsettled: 0,
+    pressure: false,
+    branch: null as Point | null,
+    planes: true,
+    bud: null as number | null,
+  };
   const shown: { point: Point; radius: number }[] = [];
   const tool = new BrushTool({
     view: {
       pointOnPlane: (x, y, through) => (world.planes ? [x / 10, (1000 - y) / 10, through[2]] : null),
-      pick: () => (world.branch ? { point: world.branch } : null),
+      pick: () => (world.branch ? { row: 1, point: world.branch } : null),
       showBrush: (point, radius) => shown.push({ point, radius }),
       hideBrush: () => shown.splice(0),
     },
@@ -21,6 +28,7 @@ function setUp() {
     unsettledMoves: () => world.unsettled,
     radius: () => world.radius,
     pressureWidens: () => world.pressure,
+    bud: () => world.bud,
     base: () => [0, 0, 2],
   });
   const samples = (): StrokeSample[] =>
@@ -140,11 +148,36 @@ describe("brush tool", () => {
     const { tool, world, samples } = setUp();
     tool.begin(at(0, 900, 1));
     world.pressure = true;
-    tool.move([at(50, 900, 1), at(90, 900, 0)]);
+    tool.move([at(50, 900, 1)]);
     world.radius = 40;
     tool.move([at(150, 900, 1)]);
     tool.end();
-    expect(samples().map(({ radius }) => radius)).toEqual([4, 7, 1, 40]);
+    expect(samples().map(({ radius }) => radius)).toEqual([4, 7.2, 40]);
+  });
+
+  it("every sample carries the radius its own pressure gave", () => {
+    const { tool, world, samples } = setUp();
+    world.pressure = true;
+    tool.begin(at(0, 900, 0.5));
+    tool.move(Array.from({ length: 30 }, (_, i) => at(20 * (i + 1), 900, 0.1)));
+    tool.end();
+    const radii = samples().map(({ radius }) => radius);
+    expect(radii[0]).toBe(4);
+    expect(radii.every((radius, i) => i === 0 || radius <= radii[i - 1]!)).toBe(true);
+    expect(radii[30]).toBeLessThan(1.1);
+  });
+
+  it("SG1: names the branch that alone may grow when it begins", () => {
+    const { tool, world, sent } = setUp();
+    world.bud = 17;
+    tool.begin(at(0, 900));
+    world.bud = null;
+    tool.end();
+    tool.begin(at(0, 900));
+    expect(sent.filter(({ kind }) => kind === "stroke_begin")).toEqual([
+      { kind: "stroke_begin", stroke: 1, bud: 17 },
+      { kind: "stroke_begin", stroke: 4 },
+    ]);
   });
 
   it("a view without a plane costs places, not the stroke", () => {

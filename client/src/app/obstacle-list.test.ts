@@ -1,0 +1,112 @@
+import { describe, expect, it } from "vitest";
+import type { Command, PlacedObstacle } from "../wire/generated";
+import { ObstacleList } from "./obstacle-list";
+
+const mesh = { positions: new Float32Array(9), triangles: new Uint32Array(3) };
+
+function setUp() {
+  const sent: Command[] = [];
+  const world = { fetched: [] as number[], failures: [] as unknown[], fail: false };
+  const list = new ObstacleList({
+    submit: (command) => sent.push(command),
+    session: () => "glade",
+    fetchMesh: async (_, id) => {
+      world.fetched.push(id);
+      if (world.fail) throw new Error("gone");
+      return mesh;
+    },
+    uploadModel: async () => model(9),
+    failed: (error) => world.failures.push(error),
+  });
+  return { list, sent, world };
+}
+
+const box = (id: number, x = 0): PlacedObstacle => ({
+  id,
+  shape: { kind: "box", size: [1, 2, 3] },
+  pose: { position: [x, 0, 0] },
+});
+const model = (id: number): PlacedObstacle => ({
+  id,
+  shape: { kind: "mesh", vertices: 3, triangles: 1, scale: 1 },
+  pose: { position: [0, 0, 0] },
+});
+const settle = () => new Promise((resolve) => setTimeout(resolve));
+
+describe("obstacle list", () => {
+  it("OB3: is what the server said last", () => {
+    const { list } = setUp();
+    list.receive([box(1), box(2)]);
+    list.chosen.value = 2;
+    list.receive([box(1)]);
+    expect(list.drawn.value).toEqual([box(1)]);
+    expect(list.chosen.value, "what is gone is no longer at hand").toBeNull();
+  });
+
+  it("shows a thing where the hand has it until the server says", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1), box(2, 5)]);
+    list.move(2, { position: [7, 0, 0] });
+    expect(sent).toEqual([{ kind: "move_obstacle", id: 2, pose: { position: [7, 0, 0] } }]);
+    expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 7]);
+    list.receive([box(1), box(2, 6)]);
+    expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 6]);
+  });
+
+  it("what this hand placed is at hand when it appears", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1)]);
+    list.receive([box(1), box(2)]);
+    expect(list.chosen.value, "someone else's is not").toBeNull();
+    list.place({ kind: "sphere", radius: 3 }, { position: [0, 3, 0] });
+    list.receive([box(1), box(2), box(3)]);
+    expect([sent.length, list.chosen.value]).toEqual([1, 3]);
+  });
+
+  it("OB5: fetches each mesh once, and again in another epoch", async () => {
+    const { list, world } = setUp();
+    list.receive([model(4)]);
+    expect(list.drawn.value[0]?.mesh, "not here yet").toBeUndefined();
+    await settle();
+    list.receive([model(4), box(5)]);
+    await settle();
+    expect([world.fetched, list.drawn.value[0]?.mesh]).toEqual([[4], mesh]);
+    list.clear();
+    list.receive([model(4)]);
+    await settle();
+    expect(world.fetched).toEqual([4, 4]);
+  });
+
+  it("a mesh that could not be fetched is asked for again with the next list", async () => {
+    const { list, world } = setUp();
+    world.fail = true;
+    list.receive([model(4)]);
+    await settle();
+    expect(world.failures.length).toBe(1);
+    world.fail = false;
+    list.receive([model(4)]);
+    await settle();
+    expect(list.drawn.value[0]?.mesh).toBe(mesh);
+  });
+
+  it("another shape is another obstacle in the same place", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1, 4)]);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    expect(sent).toEqual([
+      {
+        kind: "place_obstacle",
+        obstacle: { shape: { kind: "box", size: [9, 9, 9] }, pose: { position: [4, 0, 0] } },
+      },
+      { kind: "remove_obstacle", id: 1 },
+    ]);
+  });
+
+  it("an imported model is at hand, a broken one is told of", async () => {
+    const { list, world } = setUp();
+    await list.import([{ name: "a.glb", bytes: new Uint8Array(4) }]);
+    expect([list.chosen.value, list.importing.value]).toEqual([9, false]);
+    await list.import([{ name: "a.obj", bytes: new Uint8Array(4) }]);
+    expect([world.failures.length, list.importing.value]).toEqual([1, false]);
+  });
+});

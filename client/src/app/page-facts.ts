@@ -1,0 +1,22 @@
+import type { Studio } from "./studio";
+
+/** What automated tests and assistive scripts can read of the page, on its root element. */
+export function publishFacts(studio: Studio): void {
+  const { dataset } = document.documentElement;
+  const state = studio.document.value;
+  const facts = {
+    connection: studio.phase.value,
+    sent: studio.sent.value,
+    acknowledged: studio.settled.value,
+    rows: studio.rows.value,
+    metamers: state?.metamers ?? 0,
+    step: state?.step ?? 0,
+    pending: state?.pending_steps ?? 0,
+    tool: studio.tools.chosen.value,
+    bud: studio.bud.row.value ?? "",
+    obstacles: studio.obstacles.list.value.length,
+  };
+  for (const [name, value] of Object.entries(facts)) {
+    dataset[name] = String(value);
+  }
+}

@@ -1,0 +1,121 @@
+import type { TreeTable } from "../scene/tree-table";
+import type { Viewport } from "../scene/viewport";
+import type { Point } from "./ports";
+import { nearestBase } from "./scene-link";
+import type { Settings } from "./settings";
+
+/** How long the brush stays visible after its radius changed. */
+const RADIUS_SHOWN_FOR = 900;
+
+/** The picture, and what lies over it needs to know of it; there may be none yet. */
+export class Stage {
+  #table: TreeTable;
+  #settings: Settings;
+  #busy: () => boolean;
+  #view: Viewport | null = null;
+  #canvas: HTMLCanvasElement | null = null;
+  #radiusTimer = 0;
+
+  /** `busy` tells whether a tool shows itself, which the radius then must not. */
+  constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
+    this.#table = table;
+    this.#settings = settings;
+    this.#busy = busy;
+  }
+
+  attach(view: Viewport, canvas: HTMLCanvasElement): void {
+    this.#view = view;
+    this.#canvas = canvas;
+  }
+
+  detach(): void {
+    clearTimeout(this.#radiusTimer);
+    this.#view = null;
+    this.#canvas = null;
+  }
+
+  /** Whether there is a picture. */
+  get lit(): boolean {
+    return this.#view !== null;
+  }
+
+  /** A finger is down or a lever held: the picture is not at rest. */
+  hold(held: boolean): void {
+    this.#view?.hold(held);
+  }
+
+  /** Rows have changed; draw. */
+  changed(): void {
+    this.#view?.changed();
+  }
+
+  setLeafSize(size: number): void {
+    this.#view?.setLeafSize(size);
+  }
+
+  frameTree(): void {
+    this.#view?.frameTree();
+  }
+
+  hideBrush(): void {
+    this.#view?.hideBrush();
+  }
+
+  /** The row of the branch nearest to a place, within a tolerance in pixels. */
+  pickRow(x: number, y: number, tolerance: number): number | null {
+    return this.#view?.pick(x, y, tolerance)?.row ?? null;
+  }
+
+  /** Sets the brush's radius and shows it for a moment where it would draw. */
+  setRadius(radius: number): void {
+    this.#settings.radius.value = radius;
+    const [view, canvas] = [this.#view, this.#canvas];
+    if (!view || !canvas || this.#busy()) {
+      return;
+    }
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const base = nearestBase(this.#table, view, width / 2, height / 2);
+    const place = view.pointOnPlane(width / 2, height / 2, base);
+    if (place) {
+      view.showBrush(place, radius);
+      clearTimeout(this.#radiusTimer);
+      this.#radiusTimer = window.setTimeout(() => {
+        if (!this.#busy()) {
+          view.hideBrush();
+        }
+      }, RADIUS_SHOWN_FOR);
+    }
+  }
+
+  /** A tool shows itself now; the radius need not. */
+  radiusSeen(): void {
+    clearTimeout(this.#radiusTimer);
+  }
+
+  /** What turns points of the world into places on the canvas, as the camera stands now. */
+  projector(): ((point: Point) => readonly [number, number] | null) | null {
+    return this.#view?.projector() ?? null;
+  }
+
+  /** The base of the plant nearest to the middle of the canvas, and which way is right on the screen. */
+  middle(): { readonly base: Point; readonly right: Point } {
+    const [view, canvas] = [this.#view, this.#canvas];
+    if (!view || !canvas) {
+      return { base: [0, 0, 0], right: [1, 0, 0] };
+    }
+    const base = nearestBase(this.#table, view, canvas.clientWidth / 2, canvas.clientHeight / 2);
+    return { base, right: view.drawingPlane(base).right };
+  }
+
+  /** How many pixels an internode is long at a point. */
+  scaleAt(point: Point): number {
+    const view = this.#view;
+    const [a, b] = [view?.pointOnPlane(0, 0, point), view?.pointOnPlane(100, 0, point)];
+    return a && b ? 100 / Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) : 0;
+  }
+
+  /** A picture of the tree as a data URL, or undefined where none can be made. */
+  async thumbnail(size: number): Promise<string | undefined> {
+    return await this.#view?.thumbnail(size, size);
+  }
+}

@@ -1,0 +1,160 @@
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { TreeTable } from "../../scene/tree-table";
+import type { Viewport } from "../../scene/viewport";
+import type { Command } from "../../wire/generated";
+import { ChosenBud } from "../chosen-bud";
+import { ObstacleList } from "../obstacle-list";
+import type { Point } from "../ports";
+import { loadSettings } from "../settings";
+import { Toasts } from "../toasts";
+import { Toolbox } from "./toolbox";
+
+afterEach(() => vi.useRealTimers());
+
+/** A view in which a pixel is a tenth of an internode and y goes up from pixel 1000; a branch at x = 50, a box at 80. */
+function setUp() {
+  vi.useFakeTimers();
+  const sent: Command[] = [];
+  const world = { arranging: false, ready: true, chosen: [] as number[][] };
+  const store = { getItem: () => null, setItem: () => {} } as unknown as Storage;
+  const view = {
+    pointOnPlane: (x: number, y: number, through: Point) => [x / 10, (1000 - y) / 10, through[2]],
+    pointOnLevel: (x: number, y: number) => (y > 500 ? [x / 10, 0, y / 10] : null),
+    drawingPlane: (through: Point) => ({ origin: [...through], right: [1, 0, 0], up: [0, 1, 0] }),
+    pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
+    pickObstacle: (x: number) => (Math.abs(x - 800) < 24 ? { id: 1, point: [80, 0, 0] } : null),
+    depthBelow: () => null,
+    looksDown: () => false,
+    showBrush: () => {},
+    hideBrush: () => {},
+    hold: () => {},
+  } as unknown as Viewport;
+  const submit = (command: Command) => {
+    sent.push(command);
+  };
+  const obstacles = new ObstacleList({ submit, session: () => null, failed: () => {} });
+  obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);
+  const toasts = new Toasts();
+  const tools = new Toolbox({
+    table: new TreeTable(),
+    settings: loadSettings(store),
+    toasts,
+    bud: new ChosenBud({ rows: 0, position: [], radiusCode: [] }),
+    obstacles,
+    submit,
+    next: () => sent.length + 1,
+    unsettledMoves: () => 0,
+    ready: () => world.ready,
+    arranging: () => world.arranging,
+    choose: (x, y) => world.chosen.push([x, y]),
+  });
+  tools.attach(view);
+  const at = (x: number, y: number) => ({ x, y, pressure: null });
+  const begin = (points: readonly (readonly [number, number])[]) => {
+    const [first, ...rest] = points.map(([x, y]) => at(x, y));
+    tools.gesture({ kind: "stroke-begin", point: first! });
+    tools.gesture({ kind: "stroke-move", points: rest });
+  };
+  const draw = (points: readonly (readonly [number, number])[]) => {
+    begin(points);
+    tools.gesture({ kind: "stroke-end" });
+  };
+  return { tools, sent, world, toasts, obstacles, begin, draw };
+}
+
+const kinds = (commands: Command[]) => commands.map(({ kind }) => kind);
+const ring: [number, number][] = [
+  [200, 300],
+  [400, 300],
+  [400, 100],
+  [200, 100],
+];
+
+describe("toolbox", () => {
+  it("a stroke goes to the tool that was chosen", () => {
+    const { tools, sent, draw } = setUp();
+    draw(ring);
+    expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_end"]);
+    tools.choose("lasso");
+    draw(ring);
+    expect(kinds(sent.splice(0)).slice(3)).toEqual(["lasso"]);
+    expect(tools.outline.shown.value?.stage).toBe("growing");
+  });
+
+  it("after a seed the brush is at hand again", () => {
+    const { tools, sent, toasts, draw } = setUp();
+    tools.choose("seed");
+    draw([[300, 200]]);
+    expect([sent, tools.chosen.value, toasts.list.value.length]).toEqual([[], "seed", 1]);
+    draw([[300, 700]]);
+    expect(sent).toEqual([{ kind: "plant_seed", position: [30, 0, 70] }]);
+    expect([tools.chosen.value, tools.seed.value]).toEqual(["brush", null]);
+  });
+
+  it("a tool that changes ends its stroke", () => {
+    const { tools, sent, begin } = setUp();
+    begin(ring);
+    tools.choose("lasso");
+    expect([kinds(sent).at(-1), tools.drawing.value]).toEqual(["stroke_end", false]);
+    tools.gesture({ kind: "stroke-move", points: [{ x: 1, y: 1, pressure: null }] });
+    tools.gesture({ kind: "stroke-end" });
+    expect(kinds(sent).at(-1)).toBe("stroke_end");
+  });
+
+  it("cancelling forgets an outline and ends a brush stroke", () => {
+    const { tools, sent, begin } = setUp();
+    tools.choose("lasso");
+    begin(ring);
+    tools.cancel();
+    tools.gesture({ kind: "stroke-end" });
+    expect([sent, tools.outline.shown.value, tools.drawing.value]).toEqual([[], null, false]);
+    tools.choose("brush");
+    begin(ring);
+    tools.cancel();
+    expect(kinds(sent).at(-1)).toBe("stroke_end");
+  });
+
+  it("a finger on an obstacle moves it while the scene is arranged, and draws otherwise", () => {
+    const { sent, world, obstacles, draw } = setUp();
+    const across: [number, number][] = [
+      [800, 500],
+      [900, 500],
+    ];
+    draw(across);
+    expect(kinds(sent.splice(0))).toContain("stroke_begin");
+    world.arranging = true;
+    draw(across);
+    expect(kinds(sent)).toEqual(["move_obstacle"]);
+    expect(obstacles.poseOf(1)?.position[0]).toBe(90);
+    draw(ring);
+    expect(kinds(sent), "beside it the brush still draws").toContain("stroke_begin");
+  });
+
+  it("a branch can be held with the tools that grow", () => {
+    const { tools, world } = setUp();
+    expect([tools.holdable(500, 500), tools.holdable(900, 500)]).toEqual([true, false]);
+    tools.choose("lasso");
+    expect(tools.holdable(500, 500)).toBe(true);
+    tools.choose("seed");
+    expect(tools.holdable(500, 500)).toBe(false);
+    tools.choose("brush");
+    world.ready = false;
+    expect(tools.holdable(500, 500), "nor without a session").toBe(false);
+  });
+
+  it("what was held long enough is chosen", () => {
+    const { tools, sent, world } = setUp();
+    tools.gesture({ kind: "hold-begin", x: 5, y: 6, milliseconds: 340 });
+    expect(tools.hold.value).toMatchObject({ x: 5, y: 6, milliseconds: 340 });
+    tools.gesture({ kind: "hold-end" });
+    tools.gesture({ kind: "choose", x: 5, y: 6 });
+    expect([tools.hold.value, world.chosen, sent]).toEqual([null, [[5, 6]], []]);
+  });
+
+  it("without a session nothing is drawn", () => {
+    const { tools, sent, world, draw } = setUp();
+    world.ready = false;
+    draw(ring);
+    expect([sent, tools.drawing.value]).toEqual([[], false]);
+  });
+});

@@ -1,0 +1,66 @@
+import { useEffect, useState } from "preact/hooks";
+import type { Studio } from "../studio";
+import { CloseIcon, StopIcon } from "./icons";
+
+/** Growth that is done sooner is not worth a word. */
+const WORTH_A_WORD = 450;
+/** So many steps are, whatever the hand is doing. */
+const LONG_GROWTH = 20;
+
+/** What is under way and can be ended: growth, and the choice of one branch. */
+export function Chips({ studio }: { studio: Studio }) {
+  return (
+    <div class="chips" role="status">
+      <GrowthChip studio={studio} />
+      {studio.bud.row.value !== null && (
+        <p class="chip">
+          <i class="bud-sign" aria-hidden="true" />
+          Only this branch grows
+          <button
+            type="button"
+            aria-label="Let every branch grow"
+            title="Let every branch grow (Esc)"
+            onClick={() => studio.bud.release()}
+          >
+            <CloseIcon />
+          </button>
+        </p>
+      )}
+    </div>
+  );
+}
+
+function GrowthChip({ studio }: { studio: Studio }) {
+  const pending = studio.document.value?.pending_steps ?? 0;
+  const outline = studio.tools.outline.shown.value?.stage === "growing";
+  const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
+  const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
+  const shown = useLasting(growing && studio.phase.value === "connected");
+  if (!shown) {
+    return null;
+  }
+  return (
+    <p class="chip">
+      <i class="spinner" aria-hidden="true" />
+      {outline ? "Growing into the outline…" : pending > 1 ? `Growing… ${pending} steps to go` : "Growing…"}
+      <button type="button" class="chip-stop" onClick={() => studio.stop()}>
+        <StopIcon />
+        Stop
+      </button>
+    </p>
+  );
+}
+
+/** Whether something has been so for a while. */
+function useLasting(now: boolean): boolean {
+  const [lasting, setLasting] = useState(false);
+  useEffect(() => {
+    if (!now) {
+      setLasting(false);
+      return undefined;
+    }
+    const timer = setTimeout(() => setLasting(true), WORTH_A_WORD);
+    return () => clearTimeout(timer);
+  }, [now]);
+  return now && lasting;
+}

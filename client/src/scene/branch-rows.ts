@@ -1,0 +1,37 @@
+/** What is asked of the table. */
+interface Rows {
+  readonly rows: number;
+  readonly parent: ArrayLike<number>;
+  /** 1 where a row begins an axis. */
+  readonly startsAxis: ArrayLike<number>;
+  /** 0 for the dead. */
+  readonly radiusCode: ArrayLike<number>;
+}
+
+/** The row at which the axis of a row begins. */
+export function axisStart(table: Rows, row: number): number {
+  let first = row;
+  for (;;) {
+    const parent = table.parent[first] ?? -1;
+    if (table.startsAxis[first] === 1 || parent < 0 || table.parent[parent]! < 0) {
+      return first;
+    }
+    first = parent;
+  }
+}
+
+/** The living rows of the axis a row belongs to and of all it bears, parents first; at most `most`. */
+export function branchRows(table: Rows, row: number, most: number): number[] {
+  const first = axisStart(table, row);
+  const on = new Uint8Array(table.rows - first);
+  on[0] = 1;
+  const found = [first];
+  for (let next = first + 1; next < table.rows && found.length < most; next += 1) {
+    const parent = table.parent[next]! - first;
+    if (parent >= 0 && on[parent] === 1 && table.radiusCode[next] !== 0) {
+      on[next - first] = 1;
+      found.push(next);
+    }
+  }
+  return found;
+}

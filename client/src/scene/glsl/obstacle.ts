@@ -1,0 +1,56 @@
+import { HEAD, LIGHT, NOISE } from "./common";
+
+export const OBSTACLE_VERTEX = /* glsl */ `${HEAD}
+in vec3 position;
+in vec3 normal;
+uniform mat4 modelMatrix;
+out vec3 vWorld;
+out vec3 vNormal;
+out vec3 vOwn;
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vWorld = world.xyz;
+  vOwn = position;
+  vNormal = mat3(modelMatrix) * normal;
+  gl_Position = projectionMatrix * viewMatrix * world;
+}
+`;
+
+/** Unfired clay: matt, of no colour that a plant has, and a little darker where it meets the ground. */
+export const OBSTACLE_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
+in vec3 vWorld;
+in vec3 vNormal;
+in vec3 vOwn;
+out vec4 colour;
+void main() {
+  vec3 toEye = cameraPosition - vWorld;
+  float away = length(toEye);
+  vec3 face = cross(dFdx(vWorld), dFdy(vWorld));
+  face = length(face) > 0.0 ? normalize(face) : vec3(0, 1, 0);
+  face *= sign(dot(face, toEye));
+  vec3 normal = length(vNormal) > 1e-4 ? normalize(vNormal) : face;
+  normal *= dot(normal, face) < 0.0 ? -1.0 : 1.0;
+  // Corner normals that are averaged over an edge say nothing of either side.
+  normal = normalize(mix(face, normal, smoothstep(0.80, 0.90, dot(face, normal))));
+  float grain = noise(vWorld * 0.35) * 0.6 + noise(vWorld * 2.7 + 9.0) * 0.4;
+  vec3 albedo = vec3(0.335, 0.275, 0.225) * (0.86 + 0.28 * grain);
+#ifdef PLANE
+  float rim = length(vOwn.xz) / PLANE;
+  float opacity = 1.0 - smoothstep(0.3, 1.0, rim);
+#else
+  float opacity = 1.0;
+#endif
+#ifdef CHOSEN
+  vec3 sight = toEye / max(away, 1e-3);
+  albedo = mix(albedo, vec3(0.62, 0.36, 0.24), 0.5);
+  float edge = pow(1.0 - abs(dot(normal, sight)), 2.5);
+#else
+  float edge = 0.0;
+#endif
+  float open = mix(0.62, 1.0, smoothstep(0.0, 2.5, vWorld.y));
+  float sun = sunlit(vWorld, normal, 2.0);
+  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * max(dot(normal, uSun), 0.0) * sun);
+  lit += edge * vec3(0.9, 0.3, 0.16);
+  colour = vec4(finished(hazed(lit, away)), opacity);
+}
+`;
