@@ -119,15 +119,15 @@ parameters! {
     gravimorphism_shift: f32,
     /// Markers the brush sows per cubic internode and step.
     marker_density: f32,
-    /// Markers sown in each bud's perception volume while growing without guidance.
+    /// Markers a bud perceives on average while growing without guidance.
     markers_per_bud: u32,
     /// Steps a brush marker lives.
     marker_max_age: u32,
-    /// Shadow cast into a metamer's own voxel (a in a·b^-q); full light is 1.
+    /// Shadow cast into the cubic internode around a metamer (a in a·b^-q); full light is 1.
     shadow_strength: f32,
-    /// Factor by which a shadow fades per voxel below (b).
+    /// Factor by which a shadow fades with each internode of height (b).
     shadow_decay: f32,
-    /// Voxels below a metamer that its shadow reaches (q_max).
+    /// Internodes below a metamer that its shadow reaches (q_max).
     shadow_depth: u32,
     /// Exponent of da Vinci's rule for girth (n in d^n = Σ d_i^n).
     girth_exponent: f32,

@@ -162,7 +162,7 @@ gravimorphism_shift: number,
  */
 marker_density: number, 
 /**
- * Markers sown in each bud's perception volume while growing without guidance.
+ * Markers a bud perceives on average while growing without guidance.
  */
 markers_per_bud: number, 
 /**
@@ -170,15 +170,15 @@ markers_per_bud: number,
  */
 marker_max_age: number, 
 /**
- * Shadow cast into a metamer's own voxel (a in a·b^-q); full light is 1.
+ * Shadow cast into the cubic internode around a metamer (a in a·b^-q); full light is 1.
  */
 shadow_strength: number, 
 /**
- * Factor by which a shadow fades per voxel below (b).
+ * Factor by which a shadow fades with each internode of height (b).
  */
 shadow_decay: number, 
 /**
- * Voxels below a metamer that its shadow reaches (q_max).
+ * Internodes below a metamer that its shadow reaches (q_max).
  */
 shadow_depth: number, 
 /**
@@ -320,7 +320,7 @@ gravimorphism_shift?: number,
  */
 marker_density?: number, 
 /**
- * Markers sown in each bud's perception volume while growing without guidance.
+ * Markers a bud perceives on average while growing without guidance.
  */
 markers_per_bud?: number, 
 /**
@@ -328,15 +328,15 @@ markers_per_bud?: number,
  */
 marker_max_age?: number, 
 /**
- * Shadow cast into a metamer's own voxel (a in a·b^-q); full light is 1.
+ * Shadow cast into the cubic internode around a metamer (a in a·b^-q); full light is 1.
  */
 shadow_strength?: number, 
 /**
- * Factor by which a shadow fades per voxel below (b).
+ * Factor by which a shadow fades with each internode of height (b).
  */
 shadow_decay?: number, 
 /**
- * Voxels below a metamer that its shadow reaches (q_max).
+ * Internodes below a metamer that its shadow reaches (q_max).
  */
 shadow_depth?: number, 
 /**

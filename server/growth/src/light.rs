@@ -1,7 +1,8 @@
 //! Light by shadow propagation (Pałubicki et al. 2009 §4.1; TreeSketch §3.2, Figure 4).
 //!
 //! Every metamer darkens its own voxel by `a` and a pyramid below it by `a·b^-q` at depth q. Shadows are kept
-//! as whole numbers, so that taking one back leaves exactly what was there before.
+//! as whole numbers, so that taking one back leaves exactly what was there before. A voxel is two internodes
+//! wide: shadows are smoother than that, and eight times fewer voxels are eight times less to write and to hold.
 
 use glam::Vec3;
 

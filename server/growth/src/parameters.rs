@@ -111,11 +111,11 @@ values! {
         markers_per_bud: u32 = 6, in 1, 32;
         /// Steps a brush marker lives.
         marker_max_age: u32 = 8, in 1, 60;
-        /// Shadow cast into a metamer's own voxel, full light being 1 (a in a·b^-q).
+        /// Shadow cast into the cubic internode around a metamer, full light being 1 (a in a·b^-q).
         shadow_strength: f32 = 0.12, in 0.0, 1.0;
-        /// Factor by which a shadow fades per voxel below (b).
+        /// Factor by which a shadow fades with each internode of height (b).
         shadow_decay: f32 = 2.0, in 1.1, 4.0;
-        /// Voxels below a metamer that its shadow reaches (q_max).
+        /// Internodes below a metamer that its shadow reaches (q_max).
         shadow_depth: u32 = 6, in 0, 8;
         /// Exponent of da Vinci's rule (n).
         girth_exponent: f32 = 2.5, in 2.0, 3.0;

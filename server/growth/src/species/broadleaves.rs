@@ -55,7 +55,7 @@ fn oak() -> Species {
 fn beech() -> Species {
     let parameters = with(|p| {
         p.internode_length = 0.35;
-        p.apical_control = 0.503;
+        p.apical_control = 0.512;
         p.branching_angle = 42.0;
         p.phyllotactic_angle = 170.0;
         p.setpoint_angle = 12.0;
