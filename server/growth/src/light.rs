@@ -17,8 +17,8 @@ const VOXEL: f32 = 2.0;
 const UNIT: f32 = 65536.0;
 
 /// Voxels in a chunk: along x, and along each of z and y.
-const WIDTH_BITS: i32 = 4;
-const DEPTH_BITS: i32 = 3;
+const WIDTH_BITS: i32 = 5;
+const DEPTH_BITS: i32 = 4;
 const WIDTH: i32 = 1 << WIDTH_BITS;
 const DEPTH: i32 = 1 << DEPTH_BITS;
 /// Voxels a row of a pyramid is padded to, and the one that its axis goes through.
