@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::voxel_grid::{VoxelGrid, voxel_of};
 
 /// Points in one block: as many as the processor compares at once.
-const LANES: usize = 4;
+const LANES: usize = 8;
 
 /// What a block holds beside its points, lane by lane.
 pub(crate) trait Lanes: Clone + core::fmt::Debug {
