@@ -3,8 +3,19 @@
 use espalier_plant::AxisId;
 use glam::Vec3;
 
+use crate::parameters::Parameters;
+
 /// Steps of a unit vector's coordinate: sums of whole numbers are the same in any order.
 const UNIT: f32 = 32_768.0;
+
+impl Claimed {
+    /// The internodes of a shoot that would have so many: in an envelope it ends where its markers do, with its
+    /// own zone still inside.
+    pub(crate) fn limit(self, length: u32, parameters: &Parameters) -> u32 {
+        self.envelope
+            .map_or(length, |far| length.min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32))
+    }
+}
 
 /// Sums of unit vectors, bud by bud.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +29,17 @@ pub(crate) struct Claims {
 struct Claim {
     axis: AxisId,
     sum: [i32; 3],
+    /// How far the farthest marker is, if all belong to an envelope; else infinite.
+    far: f32,
+}
+
+/// What a bud has claimed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Claimed {
+    /// The direction E to it.
+    pub space: Vec3,
+    /// Where the envelope ends that all of it belongs to: the farthest marker's distance.
+    pub envelope: Option<f32>,
 }
 
 impl Claims {
@@ -27,25 +49,36 @@ impl Claims {
         self.slots.resize(axes, 0);
     }
 
-    /// A bud claims a marker that lies this way.
-    pub(crate) fn add(&mut self, axis: AxisId, towards: Vec3) {
-        let Some(unit) = towards.try_normalize() else { return };
+    /// A bud claims a marker that lies there, seen from it.
+    pub(crate) fn add(&mut self, axis: AxisId, offset: Vec3) {
+        self.add_as_far(axis, offset, f32::INFINITY);
+    }
+
+    /// A bud claims a marker of an envelope.
+    pub(crate) fn add_in_envelope(&mut self, axis: AxisId, offset: Vec3) {
+        self.add_as_far(axis, offset, offset.length());
+    }
+
+    fn add_as_far(&mut self, axis: AxisId, offset: Vec3, far: f32) {
+        let Some(unit) = offset.try_normalize() else { return };
         let slot = &mut self.slots[axis.index()];
         if self.claims.get(*slot as usize).is_none_or(|claim| claim.axis != axis) {
             *slot = self.claims.len() as u32;
-            self.claims.push(Claim { axis, sum: [0; 3] });
+            self.claims.push(Claim { axis, sum: [0; 3], far: 0.0 });
         }
-        let sum = &mut self.claims[*slot as usize].sum;
-        for (sum, along) in sum.iter_mut().zip(unit.to_array()) {
+        let claim = &mut self.claims[*slot as usize];
+        claim.far = claim.far.max(far);
+        for (sum, along) in claim.sum.iter_mut().zip(unit.to_array()) {
             *sum += (along * UNIT) as i32;
         }
     }
 
-    /// Each bud that claims anything, and the direction E of what it claims; where that cancels out, none.
-    pub(crate) fn directions(&self) -> impl Iterator<Item = (AxisId, Vec3)> + '_ {
+    /// Each bud that claims anything, unless the directions of what it claims cancel out.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (AxisId, Claimed)> + '_ {
         self.claims.iter().filter_map(|claim| {
             let [x, y, z] = claim.sum.map(|sum| sum as f32);
-            Some((claim.axis, (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?))
+            let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
+            Some((claim.axis, Claimed { space, envelope: claim.far.is_finite().then_some(claim.far) }))
         })
     }
 }

@@ -37,16 +37,16 @@ pub(crate) fn azimuth(chance: Draw) -> Vec3 {
     Vec3::new(cos, 0.0, sin)
 }
 
-/// H′ from the heading H, tropism, and the direction E to free space where there is one.
+/// H′ from the heading H, tropism, and the direction E to free space where there is one, by their weights.
 pub(crate) fn next_heading(
     heading: Vec3,
     tropism: Tropism,
     space: Option<Vec3>,
+    [alpha, beta, gamma]: [f32; 3],
     parameters: &Parameters,
 ) -> Vec3 {
-    let sum = parameters.heading_weight * heading
-        + parameters.tropism_weight * tropism.vector(heading, parameters)
-        + parameters.space_weight * space.unwrap_or(Vec3::ZERO);
+    let sum =
+        alpha * heading + beta * tropism.vector(heading, parameters) + gamma * space.unwrap_or(Vec3::ZERO);
     // Forces that cancel leave the axis as it goes.
     if sum.length_squared() < 1e-6 { heading } else { sum.normalize() }
 }
@@ -91,7 +91,7 @@ mod tests {
         let mut heading = Vec3::new(0.6, 0.8, 0.0);
         for _ in 0..60 {
             let chance = Draw::new(1, Purpose::Azimuth, 0, 0);
-            heading = next_heading(heading, Tropism::SetPoint { chance }, None, &parameters);
+            heading = next_heading(heading, Tropism::SetPoint { chance }, None, [0.7, 0.3, 0.0], &parameters);
         }
         heading.y
     }

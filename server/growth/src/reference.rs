@@ -9,12 +9,14 @@ use glam::Vec3;
 
 use crate::{
     BrushPiece, StepInput,
-    claims::Claims,
+    claims::{Claimed, Claims},
     field::{marker_in, spacing},
     gravimorphism::propensity,
     light::ShadowGrid,
+    markers::MarkerSource,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
+    shoot::Aim,
     simulation::Simulation,
     space::Cone,
     vigor::{self, Flow, Split},
@@ -45,21 +47,23 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     // Growth asks space whether a place is taken, and light for the way to it: both made afresh.
     plain.rebuild();
     let stroke = input.pieces.iter().find_map(BrushPiece::direction);
-    let mut shoots: Vec<(u32, AxisId, Vec3)> = Vec::new();
-    let vigors: Vec<(AxisId, Vec3, f64)> = claims
-        .directions()
-        .map(|(axis, space)| (axis, space, vigor.of_bud(&plain.plant, axis, &plain.parameters)))
+    let mut shoots: Vec<(u32, AxisId, Claimed)> = Vec::new();
+    let vigors: Vec<(AxisId, Claimed, f64)> = claims
+        .iter()
+        .map(|(axis, claimed)| (axis, claimed, vigor.of_bud(&plain.plant, axis, &plain.parameters)))
         .collect();
     let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
-    for (axis, space, vigor) in vigors.into_iter().filter(|&(.., vigor)| vigor > 0.0) {
-        shoots.push((vigor::shoot_length(vigor, greatest, plain.parameters.of(axis)), axis, space));
+    for (axis, claimed, vigor) in vigors.into_iter().filter(|&(.., vigor)| vigor > 0.0) {
+        let parameters = plain.parameters.of(axis);
+        let length = claimed.limit(vigor::shoot_length(vigor, greatest, parameters), parameters);
+        shoots.push((length, axis, claimed));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
-    for (length, axis, space) in shoots {
+    for (length, axis, Claimed { space, envelope }) in shoots {
         plain.grow_shoot(
             axis,
             length,
-            crate::shoot::Aim { space: Some(plain.lit_side(axis, space)), stroke },
+            Aim { space: Some(plain.lit_side(axis, space)), stroke, is_enclosed: envelope.is_some() },
         );
     }
     plain.plant.end_step();
@@ -90,7 +94,8 @@ fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
         !obstacles.contains(place) && nodes.iter().all(|node| node.distance_squared(place) > zone)
     };
     plain.markers.clear(tick, parameters.marker_max_age, is_free);
-    let mut markers: Vec<Vec3> = plain.markers.as_slice().iter().map(|marker| marker.position).collect();
+    let mut markers: Vec<(Vec3, MarkerSource)> =
+        plain.markers.as_slice().iter().map(|marker| (marker.position, marker.source)).collect();
     if input.autonomous {
         let edge = spacing(&parameters);
         let reach = Vec3::splat(parameters.perception_radius());
@@ -103,7 +108,7 @@ fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
                 for z in cells(low.z, high.z) {
                     let marker = marker_in(plain.seed, edge, [x, y, z]);
                     if marker.y > 0.0 && is_free(marker) {
-                        markers.push(marker);
+                        markers.push((marker, MarkerSource::Brush));
                     }
                 }
             }
@@ -117,7 +122,7 @@ fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
         all_axes(plant).filter(|&axis| plant.is_axis_alive(axis) && descends(axis)).collect();
     let mut claims = Claims::default();
     claims.clear(plant.axis_count());
-    for marker in markers {
+    for (marker, source) in markers {
         let nearest = buds
             .iter()
             .filter_map(|&axis| {
@@ -129,7 +134,11 @@ fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
             })
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         if let Some((_, axis)) = nearest {
-            claims.add(axis, marker - plant.bud_position(axis));
+            let offset = marker - plant.bud_position(axis);
+            match source {
+                MarkerSource::Brush => claims.add(axis, offset),
+                MarkerSource::Lasso => claims.add_in_envelope(axis, offset),
+            }
         }
     }
     claims
@@ -226,10 +235,13 @@ fn bud_input(plant: &Plant, axis: AxisId, light: f32, parameters: &ParameterTabl
 }
 
 mod tests {
+    use glam::Vec2;
     use proptest::prelude::*;
 
     use super::*;
-    use crate::{BrushSample, NoObserver, Obstacle, ParameterValues, Parameters, Shape, StrokeId};
+    use crate::{
+        BrushSample, Envelope, NoObserver, Obstacle, ParameterValues, Parameters, Plane, Shape, StrokeId,
+    };
 
     /// What the two are made to do side by side.
     #[derive(Clone, Debug)]
@@ -242,6 +254,7 @@ mod tests {
         Light(f32, f32),
         Select(u32),
         Obstacle(Vec3, f32),
+        Enclose(Vec3, f32),
     }
 
     fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -253,6 +266,7 @@ mod tests {
             1 => (-9f32..9.0, -9f32..9.0).prop_map(|(x, z)| Event::Sow(Vec3::new(x, 0.0, z))),
             1 => (0f32..0.4).prop_map(Event::Shedding),
             1 => any::<u32>().prop_map(Event::Select),
+            1 => (place.clone(), 2f32..6.0).prop_map(|(centre, radius)| Event::Enclose(centre, radius)),
             1 => (place, 0.5f32..4.0).prop_map(|(centre, radius)| Event::Obstacle(centre, radius)),
             1 => (0f32..0.9, 0.5f32..3.0).prop_map(|(a, kappa)| Event::Light(a, kappa)),
         ];
@@ -309,13 +323,22 @@ mod tests {
                             }
                             _ => Vec::new(),
                         };
-                        let input = StepInput { autonomous: pieces.is_empty(), pieces, chosen };
+                        // A lasso's markers are grown into without more, by the brush's steps.
+                        let input = StepInput { autonomous: pieces.is_empty() && number % 3 > 0, pieces, chosen };
                         fast.step(&input, &mut NoObserver);
                         step(&mut plain, &input);
                     }
                     Event::Select(n) => {
                         let axes = fast.plant().axis_count() as u32;
                         chosen = (n % 2 == 0).then(|| AxisId::new((n % axes) as usize));
+                    }
+                    Event::Enclose(origin, radius) => {
+                        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                        let square = corners.map(|(x, y)| Vec2::new(x, y) * radius);
+                        let plane = Plane { origin, right: Vec3::X, up: Vec3::Y };
+                        let envelope = Envelope::inflate(&square, plane, 1.0, 1.5).expect("a square");
+                        fast.enclose(&envelope);
+                        plain.enclose(&envelope);
                     }
                     Event::Obstacle(centre, radius) => {
                         let ball = Obstacle::new(Shape::Sphere { centre, radius }).expect("a ball");

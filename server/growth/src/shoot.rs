@@ -9,7 +9,7 @@ use crate::{
     direction::{Tropism, across, azimuth, next_heading, transport, turn},
     guide::Waypoint,
     obstacles::CLEARANCE,
-    parameters::MAX_LATERALS,
+    parameters::{MAX_LATERALS, Parameters},
     random::{Draw, Purpose},
     simulation::{Simulation, WORLD_EXTENT},
 };
@@ -24,6 +24,22 @@ pub(crate) struct Aim {
     pub space: Option<Vec3>,
     /// The direction of the stroke that guides this step.
     pub stroke: Option<Vec3>,
+    /// Whether it fills an envelope.
+    pub is_enclosed: bool,
+}
+
+/// Weights of heading, tropism and space in an envelope: its form is what was asked for, so the room that is left
+/// in it counts for more than the habit of the plant.
+const ENVELOPE_WEIGHTS: [f32; 3] = [0.45, 0.05, 0.5];
+
+impl Aim {
+    /// The weights α, β and γ (TreeSketch Figure 11).
+    fn weights(&self, parameters: &Parameters) -> [f32; 3] {
+        if self.is_enclosed && parameters.space_weight < ENVELOPE_WEIGHTS[2] {
+            return ENVELOPE_WEIGHTS;
+        }
+        [parameters.heading_weight, parameters.tropism_weight, parameters.space_weight]
+    }
 }
 
 /// Whether a leader turned aside by an obstacle still follows its path: neither straight past it nor back along
@@ -70,7 +86,8 @@ impl Simulation {
         let base = self.plant.metamers().end(node);
         let parameters = self.parameters.of(axis);
         let laid_down = self.laid_down_heading(axis, node);
-        let mut heading = next_heading(laid_down, self.tropism(axis, aim), aim.space, parameters);
+        let mut heading =
+            next_heading(laid_down, self.tropism(axis, aim), aim.space, aim.weights(parameters), parameters);
         if let Some(Waypoint { position, weight }) = waypoint {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);

@@ -27,6 +27,9 @@ pub const WORLD_EXTENT: f32 = 1000.0;
 /// Metamers a scene may hold, dead ones included, unless told otherwise. What was undone does not count.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
 
+/// Markers of an envelope per cubic internode, at least: with fewer a narrow neck may have a gap that no bud sees
+/// across.
+const LEAST_LASSO_DENSITY: f32 = 0.25;
 /// Lasso markers a scene holds at most; a larger envelope is filled more thinly.
 const MAX_LASSO_MARKERS: usize = 200_000;
 
@@ -186,7 +189,8 @@ impl Simulation {
 
     /// Sows lasting markers in an envelope, as densely as the brush does and above ground.
     pub fn enclose(&mut self, envelope: &Envelope) {
-        let wanted = envelope.volume() * f64::from(self.parameters().marker_density);
+        let density = self.parameters().marker_density.max(LEAST_LASSO_DENSITY);
+        let wanted = envelope.volume() * f64::from(density);
         let room = MAX_LASSO_MARKERS.saturating_sub(self.markers.count(MarkerSource::Lasso));
         // At least one: a speck of an envelope still says where to grow.
         let count = (wanted.round() as usize).max(1).min(room);

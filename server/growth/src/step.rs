@@ -12,8 +12,10 @@ use glam::Vec3;
 
 use crate::{
     brush::BrushPiece,
+    claims::Claimed,
     directory::nearness,
     field::MarkerField,
+    markers::{Marker, MarkerSource},
     observer::{Observer, Phase},
     selection::Selection,
     shedding,
@@ -50,8 +52,8 @@ struct Shoot {
     axis: AxisId,
     /// Internodes.
     length: u32,
-    /// The direction E to free space.
-    space: Vec3,
+    /// What it grows towards.
+    claimed: Claimed,
 }
 
 impl Simulation {
@@ -68,7 +70,7 @@ impl Simulation {
         let selection = Selection::new(&self.plant, input.chosen);
         self.sow_and_clear_markers(input, &selection);
         self.claim_markers(input, &selection);
-        let enabled: Vec<(AxisId, Vec3)> = self.claims.directions().collect();
+        let enabled: Vec<(AxisId, Claimed)> = self.claims.iter().collect();
         let buds_enabled = enabled.len() as u32;
 
         observer.enter(Phase::Growth);
@@ -109,11 +111,15 @@ impl Simulation {
         }
         let Self { plant, space, markers, claims, parameters, field, obstacles, .. } = self;
         claims.clear(plant.axis_count());
-        for marker in markers.as_slice().iter().map(|marker| marker.position) {
+        for &Marker { position: marker, source, .. } in markers.as_slice() {
             let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
             let counts = |axis| selection.includes(axis) && (obstacles.is_empty() || sees(axis));
             if let Some((axis, _)) = space.nearest_perceiving(marker, parameters, counts) {
-                claims.add(axis, marker - plant.bud_position(axis));
+                let offset = marker - plant.bud_position(axis);
+                match source {
+                    MarkerSource::Brush => claims.add(axis, offset),
+                    MarkerSource::Lasso => claims.add_in_envelope(axis, offset),
+                }
             }
         }
         let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
@@ -171,7 +177,7 @@ impl Simulation {
     }
 
     /// Lets buds grow: leaders of strokes along their paths, others into the space they have claimed.
-    fn grow(&mut self, enabled: Vec<(AxisId, Vec3)>, stroke: Option<Vec3>, selection: &Selection) {
+    fn grow(&mut self, enabled: Vec<(AxisId, Claimed)>, stroke: Option<Vec3>, selection: &Selection) {
         let mut led = BTreeSet::new();
         let mut guides = core::mem::take(&mut self.guides);
         for guide in guides.values_mut() {
@@ -183,9 +189,9 @@ impl Simulation {
             if !selection.includes(leader) {
                 continue;
             }
-            let space = enabled.iter().find(|(axis, _)| *axis == leader).map(|&(_, space)| space);
+            let space = enabled.iter().find(|(axis, _)| *axis == leader).map(|(_, claimed)| claimed.space);
             let longest = self.parameters.of(leader).max_shoot_length;
-            let aim = Aim { space, stroke };
+            let aim = Aim { space, stroke, is_enclosed: false };
             if self.grow_guided(leader, longest, aim, |tip, is_blocked| guide.next_node(tip, is_blocked)) > 0
             {
                 led.insert(leader);
@@ -193,7 +199,9 @@ impl Simulation {
         }
         self.guides = guides;
         for shoot in self.shoots(enabled.into_iter().filter(|(axis, _)| !led.contains(axis))) {
-            let aim = Aim { space: Some(self.lit_side(shoot.axis, shoot.space)), stroke };
+            let Claimed { space, envelope } = shoot.claimed;
+            let space = Some(self.lit_side(shoot.axis, space));
+            let aim = Aim { space, stroke, is_enclosed: envelope.is_some() };
             self.grow_shoot(shoot.axis, shoot.length, aim);
         }
     }
@@ -211,16 +219,21 @@ impl Simulation {
     }
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
-    fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Vec3)>) -> Vec<Shoot> {
-        let vigors: Vec<(AxisId, Vec3, f64)> = enabled
-            .map(|(axis, space)| (axis, space, self.canopy.bud_vigor(&self.plant, axis, &self.parameters)))
+    fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Claimed)>) -> Vec<Shoot> {
+        let vigors: Vec<(AxisId, Claimed, f64)> = enabled
+            .map(|(axis, claimed)| {
+                (axis, claimed, self.canopy.bud_vigor(&self.plant, axis, &self.parameters))
+            })
             .collect();
         let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
-        let length = |axis, vigor| vigor::shoot_length(vigor, greatest, self.parameters.of(axis));
+        let length = |axis, claimed: Claimed, vigor| {
+            let parameters = self.parameters.of(axis);
+            claimed.limit(vigor::shoot_length(vigor, greatest, parameters), parameters)
+        };
         let mut shoots: Vec<Shoot> = vigors
             .into_iter()
             .filter(|&(.., vigor)| vigor > 0.0)
-            .map(|(axis, space, vigor)| Shoot { axis, length: length(axis, vigor), space })
+            .map(|(axis, claimed, vigor)| Shoot { axis, length: length(axis, claimed, vigor), claimed })
             .filter(|shoot| shoot.length > 0)
             .collect();
         shoots.sort_unstable_by_key(|shoot| (Reverse(shoot.length), shoot.axis));

@@ -10,19 +10,9 @@ const FRONT: Plane = Plane { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y };
 /// What a twig's leaves cover around its node: a little more than an internode.
 const FOLIAGE: f32 = 1.25;
 
-/// A seedling that is fit for topiary: its buds look around, go where there is room, and do not overshoot; and
-/// narrow necks hold markers enough to be found.
-fn topiary(seed: u32) -> Simulation {
-    seedling(seed, |values| {
-        (values.perception_angle, values.max_shoot_length) = (150.0, 2);
-        values.marker_density = 0.25;
-        (values.heading_weight, values.tropism_weight, values.space_weight) = (0.45, 0.05, 0.5);
-    })
-}
-
-/// Grows a tree into an outline. Where the outline begins far above the seed, a trunk is sketched up to it first.
+/// Grows a tree of default parameters into an outline. Where the outline begins far above the seed, a trunk is sketched up to it first.
 fn grown_into(outline: &[Vec2], seed: u32) -> Simulation {
-    let mut tree = topiary(seed);
+    let mut tree = simulation(seed);
     let above_seed = (0..60u8).map(|half| 0.5 * f32::from(half));
     let lowest =
         above_seed.into_iter().find(|&y| is_inside(outline, Vec2::new(0.0, y))).expect("above the seed");
