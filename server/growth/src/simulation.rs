@@ -187,7 +187,7 @@ impl Simulation {
         self.guides.clear();
     }
 
-    /// Sows lasting markers in an envelope, as densely as the brush does and above ground.
+    /// Sows lasting markers in an envelope, as densely as the brush does or more, and above ground.
     pub fn enclose(&mut self, envelope: &Envelope) {
         let density = self.parameters().marker_density.max(LEAST_LASSO_DENSITY);
         let wanted = envelope.volume() * f64::from(density);

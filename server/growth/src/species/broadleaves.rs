@@ -193,12 +193,12 @@ fn maple() -> Species {
         p.internode_length = 0.3;
         p.buds_per_node = 2;
         p.phyllotactic_angle = 90.0;
-        p.apical_control = 0.5;
+        p.apical_control = 0.507;
         p.branching_angle = 42.0;
-        p.setpoint_angle = 5.0;
+        p.setpoint_angle = 20.0;
         weigh(p, 0.45, 0.25);
-        p.shadow_strength = 0.2;
-        p.shedding_threshold = 0.15;
+        p.shadow_strength = 0.25;
+        p.shedding_threshold = 0.25;
         p.leaves_per_node = 4;
         p.leaf_size = 1.5;
     });
@@ -213,7 +213,7 @@ fn maple() -> Species {
         bark: BarkKind::Furrowed,
         bark_tint: [112, 104, 94],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 5), [Grow(14)]),
+        schedule: life(pole(&parameters, 6), [Grow(14)]),
         parameters,
     }
 }
@@ -288,7 +288,7 @@ fn apple() -> Species {
         weigh(p, 0.45, 0.12);
         p.max_shoot_length = 3;
         p.shadow_strength = 0.35;
-        p.shedding_threshold = 0.2;
+        p.shedding_threshold = 0.23;
         p.leaves_per_node = 5;
         p.leaf_size = 1.3;
     });
@@ -319,8 +319,8 @@ fn olive() -> Species {
         weigh(p, 0.35, 0.05);
         p.light_sensitivity = 1.5;
         p.max_shoot_length = 3;
-        p.shadow_strength = 0.35;
-        p.shedding_threshold = 0.15;
+        p.shadow_strength = 0.3;
+        p.shedding_threshold = 0.12;
         p.girth_exponent = 2.05;
         p.twig_diameter = 0.08;
         p.leaves_per_node = 8;
@@ -393,11 +393,11 @@ fn baobab() -> Species {
         p.apical_control = 0.47;
         p.branching_angle = 65.0;
         p.deflection_angle = 4.0;
-        p.setpoint_angle = 70.0;
+        p.setpoint_angle = 80.0;
         weigh(p, 0.5, 0.15);
         p.max_shoot_length = 3;
-        p.shadow_strength = 0.5;
-        p.shedding_threshold = 0.25;
+        p.shadow_strength = 0.4;
+        p.shedding_threshold = 0.2;
         p.girth_exponent = 2.0;
         p.twig_diameter = 0.28;
         p.leaves_per_node = 3;
@@ -414,7 +414,7 @@ fn baobab() -> Species {
         bark: BarkKind::Smooth,
         bark_tint: [158, 138, 122],
         stand: Stand::Ground,
-        schedule: life(pole(&parameters, 5), [Grow(7)]),
+        schedule: life(pole(&parameters, 7), [Grow(7)]),
         parameters,
     }
 }

@@ -78,8 +78,8 @@ fn stone_pine() -> Species {
         p.light_sensitivity = 1.0;
         p.twig_diameter = 0.09;
         weigh(p, 0.5, 0.25);
-        p.shadow_strength = 0.37;
-        p.shedding_threshold = 0.28;
+        p.shadow_strength = 0.4;
+        p.shedding_threshold = 0.4;
         p.girth_exponent = 2.3;
         p.leaves_per_node = 6;
         p.leaf_size = 1.4;
@@ -105,7 +105,7 @@ fn stone_pine() -> Species {
         bark_tint: [136, 106, 84],
         stand: Stand::Ground,
         schedule: life(
-            pole(&parameters, 11),
+            pole(&parameters, 15),
             [Grow(3), dome, canopy(54.0, 7.0, 20.0, 7.0), cleared, Grow(1)],
         ),
         parameters,
