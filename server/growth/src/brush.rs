@@ -69,15 +69,21 @@ impl BrushPiece {
         let disc = core::f32::consts::PI * radius * radius;
         let expected = (parameters.marker_density * disc * (4.0 / 3.0 * radius + length)).min(MAX_MARKERS);
         let draw = Draw::new(seed, Purpose::Brush, self.stroke.0, tick);
+        // One marker where the brush is: however few a narrow brush sows, there is always one to follow.
+        let mut sow = |position: Vec3| {
+            if position.y > 0.0 {
+                markers.sow(Marker { position, born: tick, source: MarkerSource::Brush });
+            }
+        };
+        if radius > 0.0 {
+            sow(self.at(length).position);
+        }
         let count = (expected + draw.unit(0)) as u32;
         for marker in 0..count {
             let unit = |i| draw.unit(1 + 4 * marker + i);
             let centre = self.at(length * unit(0));
             let offset = sphere_point(unit(1), unit(2)) * (centre.radius * libm::cbrtf(unit(3)));
-            let position = centre.position + offset;
-            if position.y > 0.0 {
-                markers.sow(Marker { position, born: tick, source: MarkerSource::Brush });
-            }
+            sow(centre.position + offset);
         }
     }
 }

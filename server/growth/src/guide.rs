@@ -2,8 +2,9 @@
 //!
 //! Markers alone cannot do this: there are none left to sow in a sphere without volume, and an axis that
 //! turns towards a cloud of markers cuts corners. So a narrow brush also leads: the bud nearest to where the
-//! stroke begins becomes its leader and grows from point to point of the path. How strongly it is led rises
-//! from 0, where the radius equals the occupancy radius, to 1 at radius 0; in between both forces mix.
+//! stroke begins becomes its leader and grows from point to point of the path. How strongly it is led rises from
+//! one half, where the radius is the occupancy radius, to 1 at half of it; there both forces mix.
+//! A leader that is led more weakly would lose the path, and wider brushes sow markers enough to do without.
 
 use std::collections::VecDeque;
 
@@ -30,6 +31,8 @@ pub struct Guide {
     pub path: VecDeque<Waypoint>,
 }
 
+/// A leader that heeds its path less than this would stray from it.
+const LEAST_WEIGHT: f32 = 0.5;
 /// A node must lie this near to the end of the path for it to be followed.
 const ARRIVED: f32 = 0.5;
 /// Points nearer together than this say nothing new.
@@ -42,7 +45,8 @@ const MAX_WAYPOINTS: usize = 4096;
 impl Guide {
     /// How strongly a brush of this radius leads.
     pub(crate) fn weight(radius: f32, occupancy_radius: f32) -> f32 {
-        (1.0 - radius / occupancy_radius).clamp(0.0, 1.0)
+        let weight = 1.0 + LEAST_WEIGHT - radius / occupancy_radius;
+        if weight < LEAST_WEIGHT { 0.0 } else { weight.min(1.0) }
     }
 
     /// Takes in more of the stroke.
@@ -181,6 +185,9 @@ mod tests {
 
     #[test]
     fn weight_passes_from_brush_to_pencil() {
-        assert_eq!([0.0, 1.0, 2.0, 9.0].map(|r| Guide::weight(r, 2.0)), [1.0, 0.5, 0.0, 0.0]);
+        assert_eq!(
+            [0.0, 1.0, 1.5, 2.0, 2.1, 9.0].map(|r| Guide::weight(r, 2.0)),
+            [1.0, 1.0, 0.75, 0.5, 0.0, 0.0]
+        );
     }
 }

@@ -92,7 +92,8 @@ impl Simulation {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
         }
-        let is_led = waypoint.is_some_and(|waypoint| waypoint.weight >= 1.0);
+        // Who is led goes where the finger went, through others' zones as well.
+        let is_led = waypoint.is_some();
         let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis)));
         let is_free = |free: &Vec3| {
             *free == heading || waypoint.is_none() || follows(*free, heading, self.plant.bud_direction(axis))

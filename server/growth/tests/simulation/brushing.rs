@@ -120,6 +120,40 @@ fn passing_from_brush_to_pencil_is_gradual() {
 }
 
 #[test]
+fn narrow_strokes_of_every_width_go_their_way() {
+    for radius in [0.0, 0.5, 0.9, 1.1, 1.2, 1.45] {
+        let (mut strays, mut short) = (0, 0);
+        for seed in [1, 2, 3] {
+            let mut simulation = simulation(seed);
+            brush(&mut simulation, 1, &[(Vec3::ZERO, 0.0), (Vec3::Y * 20.0, 0.0)]);
+            let path: Vec<(Vec3, f32)> =
+                (0..=60u8).map(|i| (Vec3::new(0.5 * f32::from(i), 20.0, 0.0), radius)).collect();
+            brush(&mut simulation, 2, &path);
+            let nodes = nodes(&simulation);
+            let far = nodes.iter().map(|n| n.x).fold(0.0, f32::max);
+            let high = nodes.iter().map(|n| n.y).fold(0.0, f32::max);
+            strays += u32::from(high > 26.0 + radius);
+            short += u32::from(far < 24.0);
+        }
+        assert_eq!((strays, short), (0, 0), "radius {radius}");
+    }
+}
+
+#[test]
+fn a_brush_may_narrow_to_a_pencil() {
+    for seed in [1, 2, 3] {
+        let mut simulation = simulation(seed);
+        brush(&mut simulation, 1, &[(Vec3::ZERO, 0.0), (Vec3::Y * 20.0, 0.0)]);
+        let path: Vec<(Vec3, f32)> = (0..=60u8)
+            .map(|i| (Vec3::new(0.5 * f32::from(i), 20.0, 0.0), (5.0 - 0.15 * f32::from(i)).max(0.0)))
+            .collect();
+        brush(&mut simulation, 2, &path);
+        let far = nodes(&simulation).iter().map(|n| n.x).fold(0.0, f32::max);
+        assert!(far > 28.0, "the pencil goes to the end: {far}");
+    }
+}
+
+#[test]
 fn old_brush_markers_do_not_linger() {
     let mut simulation = simulation(2);
     let far = BrushSample { position: Vec3::new(60.0, 60.0, 0.0), radius: 6.0 };
