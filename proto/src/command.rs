@@ -49,7 +49,7 @@ pub enum Command {
     StrokeBegin {
         /// The client's own number for this stroke.
         stroke: u32,
-        /// The row of a metamer: only the axis at its node, and what grows from it, follows the brush (`SG1`).
+        /// The row of a metamer: only the buds at its node and above follow the brush (`SG1`).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]
         bud: Option<u32>,
@@ -75,7 +75,7 @@ pub enum Command {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]
         gesture: Option<u32>,
-        /// The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+        /// The row of a metamer: only the buds at its node and above grow (`SG1`).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]
         bud: Option<u32>,
@@ -91,7 +91,7 @@ pub enum Command {
         #[serde(default = "whole_depth")]
         #[ts(as = "Option<f32>", optional)]
         depth: f32,
-        /// The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+        /// The row of a metamer: only the buds at its node and above grow (`SG1`).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]
         bud: Option<u32>,

@@ -450,7 +450,7 @@ export type Command = { "kind": "stroke_begin",
  */
 stroke: number, 
 /**
- * The row of a metamer: only the axis at its node, and what grows from it, follows the brush (`SG1`).
+ * The row of a metamer: only the buds at its node and above follow the brush (`SG1`).
  */
 bud?: number, } | { "kind": "stroke_move", 
 /**
@@ -474,7 +474,7 @@ steps: number,
  */
 gesture?: number, 
 /**
- * The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+ * The row of a metamer: only the buds at its node and above grow (`SG1`).
  */
 bud?: number, } | { "kind": "lasso", 
 /**
@@ -490,7 +490,7 @@ plane: DrawingPlane,
  */
 depth?: number, 
 /**
- * The row of a metamer: only the axis at its node, and what grows from it, grows (`SG1`).
+ * The row of a metamer: only the buds at its node and above grow (`SG1`).
  */
 bud?: number, } | { "kind": "stop", } | { "kind": "ungrow", 
 /**

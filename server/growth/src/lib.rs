@@ -49,4 +49,4 @@ pub use space::Space;
 pub use step::{StepInput, StepOutcome};
 
 /// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
-pub const SIMULATION_VERSION: u32 = 1;
+pub const SIMULATION_VERSION: u32 = 2;

@@ -115,8 +115,10 @@ fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
         }
     }
     let descends = |axis: AxisId| {
-        let below = |&axis: &AxisId| plant.axes().bearer(axis).map(|bearer| plant.metamers().axis(bearer));
-        input.chosen.is_none_or(|chosen| core::iter::successors(Some(axis), below).any(|axis| axis == chosen))
+        let mut below = core::iter::successors(Some(plant.bud_node(axis)), |&id| plant.metamers().parent(id));
+        input.chosen.is_none_or(|chosen| {
+            chosen.index() < plant.metamer_count() && plant.is_alive(chosen) && below.any(|id| id == chosen)
+        })
     };
     let buds: Vec<AxisId> =
         all_axes(plant).filter(|&axis| plant.is_axis_alive(axis) && descends(axis)).collect();
@@ -329,8 +331,8 @@ mod tests {
                         step(&mut plain, &input);
                     }
                     Event::Select(n) => {
-                        let axes = fast.plant().axis_count() as u32;
-                        chosen = (n % 2 == 0).then(|| AxisId::new((n % axes) as usize));
+                        let metamers = fast.plant().metamer_count() as u32;
+                        chosen = (n % 2 == 0).then(|| MetamerId::new((n % metamers) as usize));
                     }
                     Event::Enclose(origin, radius) => {
                         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];

@@ -1,6 +1,6 @@
-//! Selective growth (TreeSketch §3.2, Figure 9): only the branch of one chosen bud competes for markers.
+//! Selective growth (TreeSketch §3.2, Figure 9): only what a chosen node bears competes for markers.
 
-use espalier_plant::{AxisId, Plant};
+use espalier_plant::{AxisId, MetamerId, Plant};
 
 /// Which buds may claim markers in a step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -10,23 +10,22 @@ pub(crate) struct Selection {
 }
 
 impl Selection {
-    /// All buds, or those of the chosen axis and of every axis borne on it.
+    /// All buds, or those at the node of the chosen metamer and on all that grows above it.
     ///
-    /// A chosen axis that is dead, or not born at this time, lets nobody grow: growing everywhere instead is
+    /// A chosen metamer that is dead, or not born at this time, lets nobody grow: growing everywhere instead is
     /// not what its chooser asked for.
-    pub(crate) fn new(plant: &Plant, chosen: Option<AxisId>) -> Self {
+    pub(crate) fn new(plant: &Plant, chosen: Option<MetamerId>) -> Self {
         let allowed = chosen.map(|chosen| {
-            let mut allowed = vec![false; plant.axis_count()];
-            if chosen.index() < plant.axis_count() && plant.is_axis_alive(chosen) {
-                allowed[chosen.index()] = true;
-                // Bearers are born before what they bear.
-                for index in chosen.index() + 1..plant.axis_count() {
-                    let bearer = plant.axes().bearer(AxisId::new(index));
-                    allowed[index] =
-                        bearer.is_some_and(|bearer| allowed[plant.metamers().axis(bearer).index()]);
+            let mut above = vec![false; plant.metamer_count()];
+            if chosen.index() < above.len() && plant.is_alive(chosen) {
+                above[chosen.index()] = true;
+                // Parents are born before what they bear.
+                for index in chosen.index() + 1..above.len() {
+                    let parent = plant.metamers().parent(MetamerId::new(index));
+                    above[index] = parent.is_some_and(|parent| above[parent.index()]);
                 }
             }
-            allowed
+            (0..plant.axis_count()).map(|axis| above[plant.bud_node(AxisId::new(axis)).index()]).collect()
         });
         Self { allowed }
     }

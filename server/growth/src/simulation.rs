@@ -212,12 +212,6 @@ impl Simulation {
         self.markers.remove(MarkerSource::Lasso);
     }
 
-    /// The axis that a living metamer belongs to: what to choose when a finger holds the metamer.
-    pub fn axis_at(&self, metamer: MetamerId) -> Option<AxisId> {
-        let is_alive = metamer.index() < self.plant.metamer_count() && self.plant.is_alive(metamer);
-        is_alive.then(|| self.plant.metamers().axis(metamer))
-    }
-
     /// What stands in the way of growth and light.
     pub fn obstacles(&self) -> &[Obstacle] {
         self.obstacles.as_slice()

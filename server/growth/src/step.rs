@@ -32,9 +32,9 @@ pub struct StepInput {
     pub pieces: Vec<BrushPiece>,
     /// Whether buds also look for room on their own.
     pub autonomous: bool,
-    /// Selective growth: only the bud of this axis and those borne on it, however far up, grow; every bud
-    /// still keeps its zone free.
-    pub chosen: Option<AxisId>,
+    /// Selective growth: only the buds at this metamer's node and those above it, however far up, grow; every
+    /// bud still keeps its zone free.
+    pub chosen: Option<MetamerId>,
 }
 
 /// What a step brought about.

@@ -95,11 +95,6 @@ impl Plant {
         self.timeline.ends.len() as u32 - 1
     }
 
-    /// Rows of metamers the plant holds in memory, its future included.
-    pub fn row_count(&self) -> usize {
-        self.metamers.parent.len()
-    }
-
     /// The step in which a metamer of the present was born.
     pub fn birth(&self, id: MetamerId) -> u32 {
         self.timeline.step_of(|end| end.metamers, id.raw())

@@ -33,18 +33,23 @@ fn lobe(simulation: &Simulation) -> AxisId {
         .expect("a tree of six steps has limbs")
 }
 
-fn sphere_of_brush(centre: Vec3, radius: f32, chosen: Option<AxisId>) -> StepInput {
+/// The first metamer of an axis: all of it and what it bears is above.
+fn first(simulation: &Simulation, axis: AxisId) -> Option<MetamerId> {
+    simulation.plant().axes().first(axis)
+}
+
+fn sphere_of_brush(centre: Vec3, radius: f32, chosen: Option<MetamerId>) -> StepInput {
     let samples = vec![BrushSample { position: centre, radius }];
     StepInput { pieces: vec![BrushPiece { stroke: StrokeId(1), samples }], chosen, ..StepInput::default() }
 }
 
-fn check_only_the_chosen_grew(name: &str, input: impl Fn(Option<AxisId>, Vec3) -> StepInput) {
+fn check_only_the_chosen_grew(name: &str, input: impl Fn(Option<MetamerId>, Vec3) -> StepInput) {
     let mut simulation = crown();
     let chosen = lobe(&simulation);
     let before = simulation.plant().metamer_count();
     for _ in 0..4 {
         let tip = simulation.plant().bud_position(chosen);
-        simulation.step(&input(Some(chosen), tip), &mut NoObserver);
+        simulation.step(&input(first(&simulation, chosen), tip), &mut NoObserver);
     }
     let plant = simulation.plant();
     let grown = before..plant.metamer_count();
@@ -82,7 +87,8 @@ fn buds_not_chosen_still_clear_markers() {
     let mut simulation = crown();
     let chosen = lobe(&simulation);
     let base = simulation.plant().metamers().end(simulation.plant().bud_node(AxisId::new(0)));
-    simulation.step(&sphere_of_brush(base, 6.0, Some(chosen)), &mut NoObserver);
+    let chosen = first(&simulation, chosen);
+    simulation.step(&sphere_of_brush(base, 6.0, chosen), &mut NoObserver);
     let radius = simulation.parameters().occupancy_radius;
     // Markers were cleared before this step's growth, so the nodes that stood before count.
     let nodes = nodes(&crown());
@@ -95,15 +101,16 @@ fn buds_not_chosen_still_clear_markers() {
 #[test]
 fn choosing_what_is_gone_grows_nothing() {
     let mut simulation = crown();
-    let present = simulation.plant().axis_count();
-    for chosen in [AxisId::new(present), AxisId::new(present + 1000)] {
+    let present = simulation.plant().metamer_count();
+    for chosen in [MetamerId::new(present), MetamerId::new(present + 1000)] {
         let input = StepInput { autonomous: true, chosen: Some(chosen), ..StepInput::default() };
         assert_eq!(simulation.step(&input, &mut NoObserver).metamers_grown, 0);
     }
     let chosen = lobe(&simulation);
     let birth = simulation.plant().axis_birth(chosen);
+    let chosen = first(&simulation, chosen);
     simulation.go_to(birth - 1);
-    let input = StepInput { autonomous: true, chosen: Some(chosen), ..StepInput::default() };
+    let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
     assert_eq!(simulation.step(&input, &mut NoObserver).metamers_grown, 0);
 }
 
@@ -117,7 +124,8 @@ fn a_sketch_starts_at_the_chosen_branch() {
         let at = |t: f32| BrushSample { position: tip + Vec3::new(1.0, 1.0, 0.0) * t, radius: 0.0 };
         let samples = vec![at(3.0 * i as f32), at(3.0 * (i + 1) as f32)];
         let piece = BrushPiece { stroke: StrokeId(1), samples };
-        let input = StepInput { pieces: vec![piece], chosen: Some(chosen), ..StepInput::default() };
+        let input =
+            StepInput { pieces: vec![piece], chosen: first(&simulation, chosen), ..StepInput::default() };
         simulation.step(&input, &mut NoObserver);
     }
     let plant = simulation.plant();
@@ -128,11 +136,23 @@ fn a_sketch_starts_at_the_chosen_branch() {
 }
 
 #[test]
-fn a_metamer_names_its_axis_while_it_lives() {
+fn what_lies_below_the_chosen_node_rests() {
     let mut simulation = crown();
-    let last = MetamerId::new(simulation.plant().metamer_count() - 1);
-    assert_eq!(simulation.axis_at(last), Some(simulation.plant().metamers().axis(last)));
-    assert_eq!(simulation.axis_at(MetamerId::new(last.index() + 1)), None);
-    simulation.go_to(1);
-    assert_eq!(simulation.axis_at(last), None);
+    let plant = simulation.plant();
+    let trunk: Vec<MetamerId> = (0..plant.metamer_count())
+        .map(MetamerId::new)
+        .filter(|&id| plant.metamers().axis(id) == AxisId::new(0))
+        .collect();
+    let middle = trunk[trunk.len() / 2];
+    let before = plant.metamer_count();
+    for _ in 0..4 {
+        let input = StepInput { autonomous: true, chosen: Some(middle), ..StepInput::default() };
+        simulation.step(&input, &mut NoObserver);
+    }
+    let plant = simulation.plant();
+    assert!(plant.metamer_count() > before + 20);
+    for id in (before..plant.metamer_count()).map(MetamerId::new) {
+        let mut below = std::iter::successors(Some(id), |&id| plant.metamers().parent(id));
+        assert!(below.any(|id| id == middle), "{id:?} grew below the chosen node");
+    }
 }

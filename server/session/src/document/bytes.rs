@@ -15,7 +15,7 @@ use espalier_growth::{
     BrushSample, Guide, Marker, MarkerSource, Parameters, SIMULATION_VERSION, Simulation, SimulationState,
     StrokeId, Waypoint,
 };
-use espalier_plant::{AxisId, Plant, PlantParts, hash::StableHash};
+use espalier_plant::{AxisId, MetamerId, Plant, PlantParts, hash::StableHash};
 use espalier_proto::ParametersPatch;
 use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use glam::Vec3;
@@ -30,7 +30,7 @@ use super::{
 use settings::Shelf;
 
 const MAGIC: &[u8; 8] = b"ESPALIER";
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 const HEADER: usize = 24;
 /// No document is larger than this: the budget's metamers with all their columns fit many times over.
 const MAX_BODY: u64 = 4 << 30;
@@ -272,7 +272,7 @@ fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
         out.text(&stroke.author);
         out.u32(stroke.number);
         out.u32(stroke.id.0);
-        out.option(stroke.chosen.map(AxisId::raw));
+        out.option(stroke.chosen.map(MetamerId::raw));
         out.list(stroke.last.as_slice(), |out, last| {
             out.vector(last.position);
             out.f32(last.radius);
@@ -284,7 +284,7 @@ fn read_strokes(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenStrokes, D
     let begun = reader.u32()?;
     let open = reader.list(|r| {
         let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
-        let chosen = r.axis(plant)?;
+        let chosen = r.metamer(plant)?;
         let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
         Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
     })?;
@@ -369,6 +369,13 @@ impl Reader<'_> {
         match self.option()?.map(|axis| axis as usize) {
             Some(axis) if axis >= plant.axis_count() => Err(damaged("an axis is not there")),
             axis => Ok(axis.map(AxisId::new)),
+        }
+    }
+
+    fn metamer(&mut self, plant: &Plant) -> Result<Option<MetamerId>, DocumentError> {
+        match self.option()?.map(|metamer| metamer as usize) {
+            Some(metamer) if metamer >= plant.metamer_count() => Err(damaged("a metamer is not there")),
+            metamer => Ok(metamer.map(MetamerId::new)),
         }
     }
 

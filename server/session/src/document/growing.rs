@@ -1,7 +1,7 @@
 //! Growth of a document: what an action asks for becomes steps, and steps are run one by one.
 
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
-use espalier_plant::{AxisId, MetamerId};
+use espalier_plant::MetamerId;
 use espalier_proto::{Problem, ProblemCode};
 
 use super::{Document, history::Kind, refused};
@@ -16,11 +16,11 @@ pub(super) enum Pending {
     /// One step of brushing.
     Brush(StepInput),
     /// So many steps without guidance.
-    Autonomous { left: u32, chosen: Option<AxisId> },
+    Autonomous { left: u32, chosen: Option<MetamerId> },
     /// At most so many steps, while the markers of a lasso make anything grow.
-    Lasso { left: u32, chosen: Option<AxisId> },
+    Lasso { left: u32, chosen: Option<MetamerId> },
     /// At most so many steps for a lifted brush, while buds find what it left.
-    Settle { stroke: StrokeId, left: u32, chosen: Option<AxisId> },
+    Settle { stroke: StrokeId, left: u32, chosen: Option<MetamerId> },
 }
 
 impl Document {
@@ -160,12 +160,13 @@ impl Document {
         Ok(())
     }
 
-    /// The axis at the node of the metamer with this row, if one is asked for (`SG1`).
-    fn chosen(&self, row: Option<u32>) -> Result<Option<AxisId>, Problem> {
+    /// The metamer with this row, if one is asked for (`SG1`).
+    fn chosen(&self, row: Option<u32>) -> Result<Option<MetamerId>, Problem> {
         let Some(row) = row else { return Ok(None) };
-        let known = (row as usize) < self.plant().metamer_count();
-        let axis = known.then(|| self.simulation.axis_at(MetamerId::new(row as usize))).flatten();
-        axis.map(Some).ok_or_else(|| Problem {
+        let plant = self.plant();
+        let is_known = (row as usize) < plant.metamer_count();
+        let metamer = is_known.then(|| MetamerId::new(row as usize)).filter(|&id| plant.is_alive(id));
+        metamer.map(Some).ok_or_else(|| Problem {
             code: ProblemCode::NotFound,
             field: Some("bud".into()),
             allowed: Some("the row of a living metamer".into()),

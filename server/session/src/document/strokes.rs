@@ -1,7 +1,7 @@
 //! Strokes in progress, cut into the pieces that guide single steps.
 
 use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
-use espalier_plant::{AxisId, hash::StableHash};
+use espalier_plant::{MetamerId, hash::StableHash};
 use espalier_proto::{Problem, ProblemCode};
 
 use super::refused;
@@ -21,7 +21,7 @@ pub(super) struct OpenStroke {
     /// The document's own name for it.
     pub id: StrokeId,
     /// The axis that alone grows; all of them without one.
-    pub chosen: Option<AxisId>,
+    pub chosen: Option<MetamerId>,
     /// Where the brush was last.
     pub last: Option<BrushSample>,
 }
@@ -43,7 +43,7 @@ impl OpenStrokes {
         self.open.iter().filter(|s| s.author == author).map(|s| s.number).collect()
     }
 
-    pub fn open(&mut self, author: &str, number: u32, chosen: Option<AxisId>) -> Result<(), Problem> {
+    pub fn open(&mut self, author: &str, number: u32, chosen: Option<MetamerId>) -> Result<(), Problem> {
         if self.find(author, number).is_some() {
             return Err(refused(format!("stroke {number} has begun already")));
         }
@@ -62,7 +62,7 @@ impl OpenStrokes {
     }
 
     /// Ends a stroke; its name and what it had chosen.
-    pub fn close(&mut self, author: &str, number: u32) -> Result<(StrokeId, Option<AxisId>), Problem> {
+    pub fn close(&mut self, author: &str, number: u32) -> Result<(StrokeId, Option<MetamerId>), Problem> {
         let index = self.find(author, number).ok_or_else(|| unknown(number))?;
         let stroke = self.open.remove(index);
         Ok((stroke.id, stroke.chosen))
@@ -101,7 +101,7 @@ impl OpenStrokes {
         hash.word(u64::from(self.begun));
         for stroke in &self.open {
             hash.word(u64::from(stroke.number) | u64::from(stroke.id.0) << 32);
-            hash.word(stroke.chosen.map_or(u64::MAX, |axis| u64::from(axis.raw())));
+            hash.word(stroke.chosen.map_or(u64::MAX, |metamer| u64::from(metamer.raw())));
             if let Some(last) = stroke.last {
                 hash.vector(last.position);
                 hash.word(u64::from(last.radius.to_bits()));

@@ -1,7 +1,6 @@
 //! What light does: sensitivity κ, shedding Th (TreeSketch §3.2), and phototropism (Pałubicki et al. 2009).
 
 use espalier_growth::{Envelope, Plane};
-use espalier_plant::AxisId;
 use glam::Vec2;
 use measure::{densities, light, limbs, mean};
 
@@ -88,7 +87,7 @@ fn axes_beside_a_canopy_turn_to_the_light() {
                     (values.heading_weight, values.tropism_weight, values.space_weight) = (0.5, 0.0, 0.5);
                     (values.max_shoot_length, values.trunk_upward) = (2, false);
                 }));
-                let chosen = Some(AxisId::new(0));
+                let chosen = Some(MetamerId::new(0));
                 for _ in 0..4 {
                     scene.step(
                         &StepInput { autonomous: true, chosen, ..StepInput::default() },
