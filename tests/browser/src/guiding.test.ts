@@ -104,7 +104,7 @@ test("an outline is cancelled with Escape, and a small one is a slip", async () 
 test("a long growth can be stopped, and what has grown stays", async () => {
   const { tablet, metamers } = await stem();
   // From so far away an outline as large as the glass takes long to fill.
-  for (let pinch = 0; pinch < 2; pinch++) {
+  for (let pinch = 0; pinch < 3; pinch++) {
     await tablet.swipe([way({ x: 350, y: 420 }, { x: 510, y: 420 }), way({ x: 850, y: 420 }, { x: 690, y: 420 })]);
   }
   await tablet.tap("Lasso");

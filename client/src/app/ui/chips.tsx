@@ -3,7 +3,7 @@ import type { Studio } from "../studio";
 import { CloseIcon, StopIcon } from "./icons";
 
 /** Growth that is done sooner is not worth a word. */
-const WORTH_A_WORD = 450;
+const WORTH_A_WORD = 200;
 /** So many steps are, whatever the hand is doing. */
 const LONG_GROWTH = 20;
 
