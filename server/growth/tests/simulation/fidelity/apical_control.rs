@@ -23,7 +23,8 @@ fn apical_control_turns_decurrent_into_excurrent() {
     let column = |i: usize| forms.map(|form| form[i]);
     let [trunk, largest, big] = [column(0), column(1), column(2)];
     assert!(trunk[..2].iter().all(|&share| share < 0.65), "the trunk dissolves: {trunk:?}");
-    assert!(trunk[2..].iter().all(|&share| share > 0.95), "the trunk reaches the top: {trunk:?}");
+    assert!(trunk[2] > 0.95, "the trunk all but reaches the top: {trunk:?}");
+    assert!(trunk[3..].iter().all(|&share| share > 0.99), "the trunk reaches the top: {trunk:?}");
     assert!(largest.is_sorted_by(|a, b| a > b), "the largest limb carries: {largest:?}");
     assert!(largest[0] > 2.5 * largest[4], "the largest limb carries: {largest:?}");
     assert!(big.is_sorted_by(|a, b| a > b), "limbs with a tenth of the tree: {big:?}");
