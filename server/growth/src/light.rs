@@ -201,6 +201,17 @@ impl ShadowGrid {
     /// Shadows are interpolated between voxel centres; read at one voxel they would come in blocks.
     #[inline]
     pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
+        let (shadow, f) = self.interpolated(spot, place);
+        // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
+        let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
+        let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
+        let own = self.first * (x * y * z) + self.second * below;
+        (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
+    }
+
+    /// The shadow at a spot, and where the spot lies between the centres of its voxels.
+    #[inline(always)]
+    fn interpolated(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> (f32, Vec3) {
         let octet =
             if spot.at == Spot::SCATTERED { self.scattered_octet(place()) } else { self.octet(spot.at) };
         let f = Vec3::from_array(spot.fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
@@ -212,23 +223,15 @@ impl ShadowGrid {
         let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
         let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
         let shadow = along_z(0) * (1.0 - f.y) + along_z(4) * f.y;
-        // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
-        let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
-        let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
-        let own = self.first * (x * y * z) + self.second * below;
-        (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
+        (shadow, f)
     }
 
-    /// The direction towards more light at a place, −∇s by central differences over one voxel (Pałubicki et
-    /// al. 2009 §4.1); none where shadows are even.
+    /// The direction towards more light at a place, −∇s by central differences (Pałubicki et al. 2009 §4.1) of the
+    /// shadows an internode to each side; none where shadows are even.
     pub fn towards_light(&self, position: Vec3) -> Option<Vec3> {
-        let [x, y, z] = voxel_of(position);
-        let difference = |low: [i32; 3], high: [i32; 3]| self.shadow(low) as f32 - self.shadow(high) as f32;
-        let gradient = Vec3::new(
-            difference([x - 1, y, z], [x + 1, y, z]),
-            difference([x, y - 1, z], [x, y + 1, z]),
-            difference([x, y, z - 1], [x, y, z + 1]),
-        );
+        let shadow = |place: Vec3| self.interpolated(self.spot(place), || place).0;
+        let difference = |axis: Vec3| shadow(position - axis) - shadow(position + axis);
+        let gradient = Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z));
         (gradient * (1.0 / UNIT)).try_normalize()
     }
 
