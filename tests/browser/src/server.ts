@@ -68,6 +68,15 @@ export class Server {
     await ended;
   }
 
+  /** It answers nothing until it is resumed; what is sent to it waits. */
+  pause(): void {
+    this.#child?.kill("SIGSTOP");
+  }
+
+  resume(): void {
+    this.#child?.kill("SIGCONT");
+  }
+
   async stop(): Promise<void> {
     await this.kill();
     rmSync(this.#folder, { recursive: true, force: true });
