@@ -5,7 +5,10 @@ import "./app/ui/styles/base.css";
 import "./app/ui/styles/bars.css";
 import "./app/ui/styles/status.css";
 import "./app/ui/styles/tools.css";
+import "./app/ui/styles/shaping.css";
 import "./app/ui/styles/panels.css";
+import "./app/ui/styles/timeline.css";
+import "./app/ui/styles/branch.css";
 import "./app/ui/styles/sheets.css";
 
 const root = document.getElementById("app");

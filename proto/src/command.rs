@@ -140,4 +140,89 @@ pub enum Command {
         /// Its id, as in `obstacles`.
         id: u32,
     },
+    /// Fingers take hold of a branch to bend it; one bend, begin to end, is one operation for undo (`BE1`).
+    BendBegin {
+        /// The client's own number for this bend.
+        bend: u32,
+        /// The row of the metamer that stays where it is; the wood above it bends.
+        base: u32,
+        /// 1 to 8 rows above the base, all on one way up from it; the farthest is where the bend ends.
+        touches: Vec<u32>,
+        /// From 0, stiff in length, to 1, stretchy.
+        stretch: f32,
+    },
+    /// The fingers move (`BE3`).
+    BendMove {
+        /// The number given in `bend_begin`.
+        bend: u32,
+        /// Where the end of each touched metamer is wanted, in internode lengths, in the order of `touches`.
+        targets: Vec<[f32; 3]>,
+    },
+    /// The fingers let go: the branch keeps its new pose.
+    BendEnd {
+        /// The number given in `bend_begin`.
+        bend: u32,
+    },
+    /// The branch goes back to where it was, and nothing has happened.
+    BendCancel {
+        /// The number given in `bend_begin`.
+        bend: u32,
+    },
+    /// Set, change or remove a width constraint (`WI1`).
+    SetWidth {
+        /// The row of a living metamer.
+        row: u32,
+        /// How thick it is from now on, in internode lengths, 0.01 to 100; `null` removes the constraint.
+        diameter: Option<f32>,
+        /// Changes of one client to the same row with the same gesture, one after the other, are one operation.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
+    },
+    /// Cut branches off, each at the branching point below its row (`PR1`).
+    Prune {
+        /// 1 to 1024 rows of living metamers.
+        rows: Vec<u32>,
+        /// Commands of one client that follow each other with the same gesture are one operation for undo.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
+    },
+    /// Cut every lateral branch that stands in the dark as a whole (`PR3`).
+    PruneDim {
+        /// No node of such a branch receives more light than this, 0 to 1.
+        exposure: f32,
+    },
+    /// Turn a whole branch about the place where it is borne (`BR1`).
+    TurnBranch {
+        /// The row that the branch begins with.
+        row: u32,
+        /// By what it is turned: a quaternion (x, y, z, w) of length 1.
+        rotation: [f32; 4],
+        /// Turns of one client of the same branch with the same gesture, one after the other, are one operation.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
+    },
+    /// Copy or move a branch onto another limb (`BR2`).
+    Graft {
+        /// The row that the branch begins with.
+        row: u32,
+        /// The row of the metamer whose node bears it from now on.
+        onto: u32,
+        /// By what it is turned: a quaternion (x, y, z, w) of length 1.
+        rotation: [f32; 4],
+        /// Whether the branch stays where it was as well.
+        keep: bool,
+    },
+    /// Go to a step of the present line of time, back or forth (`TT2`).
+    GoTo {
+        /// 0 to the line's last step.
+        step: u32,
+    },
+    /// Leave the present line of time for another one, at its end (`TT4`).
+    TakeFuture {
+        /// Its number, as in `timeline`.
+        future: u32,
+    },
 }

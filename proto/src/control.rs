@@ -3,7 +3,14 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::{command::Command, obstacle::PlacedObstacle, parameters::Parameters, problem::Problem};
+use crate::{
+    command::Command,
+    envelope::FrameKind,
+    obstacle::PlacedObstacle,
+    parameters::Parameters,
+    problem::Problem,
+    timeline::{Timeline, WidthConstraint},
+};
 
 /// What a returning client still has (`RS1`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
@@ -15,6 +22,15 @@ pub struct Resume {
     pub generations: Vec<u32>,
     /// How many rows it holds.
     pub rows: u32,
+}
+
+fn mesh_delta() -> u8 {
+    FrameKind::MeshDelta.code()
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_mesh_delta(kind: &u8) -> bool {
+    *kind == mesh_delta()
 }
 
 /// From a client.
@@ -44,6 +60,17 @@ pub enum ClientMessage {
     Received {
         /// The sequence of the newest frame.
         sequence: u32,
+        /// The kind of that frame as in its header; 1, a mesh delta, if left out.
+        #[serde(default = "mesh_delta", skip_serializing_if = "is_mesh_delta")]
+        #[ts(as = "Option<u8>", optional)]
+        kind: u8,
+    },
+    /// How would the plants grow on without these branches? The answer is a ghost, for this client alone (`PD1`).
+    Predict {
+        /// Up to 1024 rows, each as in `prune`.
+        rows: Vec<u32>,
+        /// Up to 100 simulation steps; 0 without rows ends the ghost.
+        steps: u32,
     },
     /// Is the server there?
     Ping {
@@ -112,7 +139,7 @@ pub enum ServerMessage {
         /// Why.
         problem: Problem,
     },
-    /// A message could not be read at all; nothing in the document changed.
+    /// A message could not be read at all, or a prediction not be made; nothing in the document changed.
     Problem {
         /// Why.
         problem: Problem,
@@ -131,6 +158,13 @@ pub enum ServerMessage {
     Obstacles {
         /// In order of their ids.
         obstacles: Vec<PlacedObstacle>,
+    },
+    /// What was done, line by line: after the welcome, and when it changed (`TT1`).
+    Timeline(Box<Timeline>),
+    /// The width constraints in force, all of them: after the welcome if there are any, and when they change (`WI2`).
+    Widths {
+        /// In order of their rows.
+        widths: Vec<WidthConstraint>,
     },
     /// The answer to a ping.
     Pong {

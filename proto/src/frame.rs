@@ -3,11 +3,12 @@
 //! A frame is a 16-byte header and a body of [`ChunkChange`]s. Rows are metamers in birth order; a chunk is
 //! [`CHUNK_ROWS`] consecutive rows with one generation. `PROTOCOL.md` gives the layout byte by byte (`FR`).
 
-use std::io::{Read, Write};
+use crate::{
+    envelope::{self, FLAG_CATCH_UP, FrameKind, Header},
+    varint,
+};
 
-use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
-
-use crate::varint;
+pub use crate::envelope::{FrameError, HEADER_BYTES, MAX_BODY_BYTES};
 
 /// Rows in a full chunk.
 pub const CHUNK_ROWS: usize = 256;
@@ -17,20 +18,8 @@ pub const POSITION_STEPS: f32 = 256.0;
 pub const MIN_RADIUS: f32 = 0.001;
 /// Ratio of neighbouring radius codes, as a natural logarithm.
 pub const RADIUS_LOG_STEP: f32 = 0.01;
-/// Bytes before the body.
-pub const HEADER_BYTES: usize = 16;
-/// The most bytes a body may unpack to (`FR2`).
-pub const MAX_BODY_BYTES: usize = 64 * 1024 * 1024;
 
-const VERSION: u8 = 1;
-const KIND_MESH_DELTA: u8 = 1;
-const CODEC_RAW: u8 = 0;
-const CODEC_DEFLATE: u8 = 1;
-const FLAG_CATCH_UP: u8 = 1;
-/// Bodies shorter than this travel raw: the compressor's overhead would eat the gain.
-const MIN_COMPRESSED_BYTES: usize = 64;
-
-/// One binary message.
+/// One change to the table of rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     /// Frames of one epoch build on each other.
@@ -128,32 +117,6 @@ pub struct Rows {
     pub foliage: Vec<u8>,
     /// See [`Values::Light`].
     pub light: Vec<u8>,
-}
-
-/// Why bytes are not a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum FrameError {
-    /// Fewer bytes than the header, or than a value needs.
-    #[error("the frame is cut short")]
-    Truncated,
-    /// Another version of the format.
-    #[error("frame version {0} is not 1")]
-    Version(u8),
-    /// Another kind of frame.
-    #[error("frame kind {0} is not 1, a mesh delta")]
-    Kind(u8),
-    /// A codec other than raw or deflate.
-    #[error("codec {0} is neither 0, raw, nor 1, deflate")]
-    Codec(u8),
-    /// A flag that has no meaning yet.
-    #[error("reserved flags {0:#04x} are set")]
-    Flags(u8),
-    /// The body does not unpack to the length the header states.
-    #[error("the body's length differs from the header's, or exceeds 64 MiB")]
-    Length,
-    /// An unknown change or column, or a count out of range.
-    #[error("the body is malformed")]
-    Body,
 }
 
 impl Rows {
@@ -319,82 +282,30 @@ impl ChunkChange {
 impl Frame {
     /// The frame as bytes; the body is deflated where that makes it shorter.
     pub fn encode(&self) -> Vec<u8> {
-        let mut body = Vec::new();
-        for change in &self.changes {
-            change.write(&mut body);
-        }
-        let packed = if body.len() >= MIN_COMPRESSED_BYTES { deflate(&body) } else { None };
-        let (codec, payload) = match &packed {
-            Some(packed) if packed.len() < body.len() => (CODEC_DEFLATE, packed),
-            _ => (CODEC_RAW, &body),
-        };
-        let mut out = Vec::with_capacity(HEADER_BYTES + payload.len());
-        out.extend_from_slice(&[
-            VERSION,
-            KIND_MESH_DELTA,
-            codec,
-            if self.catch_up { FLAG_CATCH_UP } else { 0 },
-        ]);
-        out.extend_from_slice(&self.epoch.to_le_bytes());
-        out.extend_from_slice(&self.sequence.to_le_bytes());
-        out.extend_from_slice(&(body.len() as u32).to_le_bytes());
-        out.extend_from_slice(payload);
-        out
+        let flags = if self.catch_up { FLAG_CATCH_UP } else { 0 };
+        let header = Header { flags, epoch: self.epoch, sequence: self.sequence };
+        envelope::seal(FrameKind::MeshDelta, header, &write_changes(&self.changes))
     }
 
     /// Reads a frame; any bytes at all give a frame or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
-        let (header, payload) = bytes.split_at_checked(HEADER_BYTES).ok_or(FrameError::Truncated)?;
-        let &[version, kind, codec, flags, ..] = header else { return Err(FrameError::Truncated) };
-        if version != VERSION {
-            return Err(FrameError::Version(version));
-        }
-        if kind != KIND_MESH_DELTA {
-            return Err(FrameError::Kind(kind));
-        }
-        if flags & !FLAG_CATCH_UP != 0 {
-            return Err(FrameError::Flags(flags));
-        }
-        let word =
-            |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
-        let length = word(12) as usize;
-        if length > MAX_BODY_BYTES {
-            return Err(FrameError::Length);
-        }
-        let unpacked;
-        let mut body = match codec {
-            CODEC_RAW => payload,
-            CODEC_DEFLATE => {
-                unpacked = inflate(payload, length)?;
-                &unpacked
-            }
-            other => return Err(FrameError::Codec(other)),
-        };
-        if body.len() != length {
-            return Err(FrameError::Length);
-        }
-        let mut changes = Vec::new();
-        while !body.is_empty() {
-            changes.push(ChunkChange::read(&mut body)?);
-        }
-        Ok(Self { epoch: word(4), sequence: word(8), catch_up: flags & FLAG_CATCH_UP != 0, changes })
+        let (Header { flags, epoch, sequence }, body) = envelope::open(bytes, FrameKind::MeshDelta)?;
+        Ok(Self { epoch, sequence, catch_up: flags & FLAG_CATCH_UP != 0, changes: read_changes(&body)? })
     }
 }
 
-fn deflate(body: &[u8]) -> Option<Vec<u8>> {
-    let mut encoder = DeflateEncoder::new(Vec::with_capacity(body.len() / 2), Compression::new(4));
-    encoder.write_all(body).ok()?;
-    encoder.finish().ok()
+pub(crate) fn write_changes(changes: &[ChunkChange]) -> Vec<u8> {
+    let mut body = Vec::new();
+    changes.iter().for_each(|change| change.write(&mut body));
+    body
 }
 
-fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
-    // One byte more than promised is enough to see that the promise was false.
-    let mut out = Vec::new();
-    DeflateDecoder::new(payload)
-        .take(length as u64 + 1)
-        .read_to_end(&mut out)
-        .map_err(|_| FrameError::Length)?;
-    Ok(out)
+pub(crate) fn read_changes(mut body: &[u8]) -> Result<Vec<ChunkChange>, FrameError> {
+    let mut changes = Vec::new();
+    while !body.is_empty() {
+        changes.push(ChunkChange::read(&mut body)?);
+    }
+    Ok(changes)
 }
 
 fn write_column<T>(out: &mut Vec<u8>, values: &[T], code: impl Fn(&T) -> u32) {

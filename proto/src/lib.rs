@@ -7,19 +7,27 @@
 
 pub mod command;
 pub mod control;
+pub mod envelope;
 pub mod frame;
+pub mod ghost;
 pub mod library;
 pub mod obstacle;
 pub mod parameters;
+pub mod pose;
 pub mod problem;
 pub mod species;
+pub mod timeline;
 pub mod typescript;
 pub mod varint;
 pub mod version;
 
 pub use command::{Command, DrawingPlane, StrokeSample};
 pub use control::{ClientMessage, DocumentState, Resume, ServerMessage};
+pub use envelope::FrameKind;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
+pub use ghost::GhostFrame;
 pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape};
 pub use parameters::{Parameters, ParametersPatch, VigorModel};
+pub use pose::{PoseFrame, RowMotion};
 pub use problem::{Problem, ProblemCode};
+pub use timeline::{OperationKind, Timeline, TimelineFuture, TimelineOperation, WidthConstraint};

@@ -2,7 +2,9 @@
 
 use ts_rs::{Config, TS};
 
-use crate::{command, control, frame, library, obstacle, parameters, problem, species, version};
+use crate::{
+    command, control, envelope, frame, library, obstacle, parameters, problem, species, timeline, version,
+};
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
 pub fn declarations() -> String {
@@ -17,6 +19,12 @@ pub fn declarations() -> String {
     constant("MAX_STEPS_PER_COMMAND", version::MAX_STEPS_PER_COMMAND.to_string());
     constant("MIN_OUTLINE_POINTS", version::MIN_OUTLINE_POINTS.to_string());
     constant("MAX_OUTLINE_POINTS", version::MAX_OUTLINE_POINTS.to_string());
+    constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());
+    constant("MIN_DIAMETER", version::MIN_DIAMETER.to_string());
+    constant("MAX_DIAMETER", version::MAX_DIAMETER.to_string());
+    constant("MAX_PRUNED_ROWS", version::MAX_PRUNED_ROWS.to_string());
+    constant("MAX_PREDICTED_STEPS", version::MAX_PREDICTED_STEPS.to_string());
+    constant("MAX_FUTURES", version::MAX_FUTURES.to_string());
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
@@ -25,8 +33,8 @@ pub fn declarations() -> String {
     constant("POSITION_STEPS", frame::POSITION_STEPS.to_string());
     constant("MIN_RADIUS", frame::MIN_RADIUS.to_string());
     constant("RADIUS_LOG_STEP", frame::RADIUS_LOG_STEP.to_string());
-    constant("HEADER_BYTES", frame::HEADER_BYTES.to_string());
-    constant("MAX_BODY_BYTES", frame::MAX_BODY_BYTES.to_string());
+    constant("HEADER_BYTES", envelope::HEADER_BYTES.to_string());
+    constant("MAX_BODY_BYTES", envelope::MAX_BODY_BYTES.to_string());
     out.push_str("\nexport const CloseCode = {\n");
     for (name, code) in [
         ("GoingAway", version::CloseCode::GoingAway),
@@ -59,6 +67,11 @@ pub fn declarations() -> String {
         species::Species::decl(&config),
         problem::ProblemCode::decl(&config),
         problem::Problem::decl(&config),
+        timeline::OperationKind::decl(&config),
+        timeline::TimelineOperation::decl(&config),
+        timeline::TimelineFuture::decl(&config),
+        timeline::Timeline::decl(&config),
+        timeline::WidthConstraint::decl(&config),
         control::Resume::decl(&config),
         control::DocumentState::decl(&config),
         control::ClientMessage::decl(&config),

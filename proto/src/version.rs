@@ -18,6 +18,24 @@ pub const MIN_OUTLINE_POINTS: usize = 3;
 /// The most points of a lasso's outline (`LM5`).
 pub const MAX_OUTLINE_POINTS: usize = 4096;
 
+/// The most touches of one bend (`LM7`).
+pub const MAX_BEND_TOUCHES: usize = 8;
+
+/// The thinnest width that can be asked for, as a diameter in internode lengths (`LM8`).
+pub const MIN_DIAMETER: f32 = 0.01;
+
+/// The thickest width that can be asked for, as a diameter in internode lengths (`LM8`).
+pub const MAX_DIAMETER: f32 = 100.0;
+
+/// The most rows in one `prune` or `predict` (`LM9`).
+pub const MAX_PRUNED_ROWS: usize = 1024;
+
+/// The most steps that can be predicted (`LM10`).
+pub const MAX_PREDICTED_STEPS: u32 = 100;
+
+/// The most lines of time that are kept beside the present one (`LM11`).
+pub const MAX_FUTURES: usize = 64;
+
 /// The most obstacles in a scene (`LM6`).
 pub const MAX_OBSTACLES: usize = 64;
 

@@ -1,7 +1,7 @@
 //! Frames survive the journey, and no bytes at all bring the decoder down.
 
 use espalier_proto::{
-    ChunkChange, Frame, FrameError, Rows, Values,
+    ChunkChange, Frame, FrameError, GhostFrame, PoseFrame, RowMotion, Rows, Values,
     frame::{CHUNK_ROWS, HEADER_BYTES},
 };
 use proptest::{collection::vec, prelude::*, sample::subsequence};
@@ -64,6 +64,18 @@ fn frame() -> impl Strategy<Value = Frame> {
         .prop_map(|(epoch, sequence, catch_up, changes)| Frame { epoch, sequence, catch_up, changes })
 }
 
+fn finite() -> impl Strategy<Value = f32> {
+    use prop::num::f32::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
+    POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO
+}
+
+fn pose() -> impl Strategy<Value = PoseFrame> {
+    let motion = (any::<u32>(), prop::array::uniform4(finite()), prop::array::uniform3(finite()))
+        .prop_map(|(row, rotation, to)| RowMotion { row, rotation, to });
+    (any::<u32>(), any::<u32>(), any::<u32>(), vec(motion, 0..40))
+        .prop_map(|(epoch, sequence, bend, motions)| PoseFrame { epoch, sequence, bend, motions })
+}
+
 /// A valid header in front of any body at all: what is most likely to reach the depths of the decoder.
 fn headed(body: &[u8]) -> Vec<u8> {
     let mut bytes = vec![1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
@@ -89,6 +101,22 @@ proptest! {
         let body = headed(&bytes);
         if let Ok(frame) = Frame::decode(&body) {
             prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
+        }
+    }
+
+    #[test]
+    fn poses_and_ghosts_survive_the_journey(pose in pose(), changes in vec(change(), 0..3)) {
+        prop_assert_eq!(PoseFrame::decode(&pose.encode()), Ok(pose));
+        let ghost = GhostFrame { epoch: 1, sequence: 2, changes };
+        prop_assert_eq!(GhostFrame::decode(&ghost.encode()), Ok(ghost));
+    }
+
+    #[test]
+    fn arbitrary_poses_never_panic(bytes in vec(any::<u8>(), 0..80)) {
+        let mut pose = headed(&bytes);
+        pose[1] = 2;
+        if let Ok(pose) = PoseFrame::decode(&pose) {
+            prop_assert_eq!(PoseFrame::decode(&pose.encode()), Ok(pose));
         }
     }
 
@@ -122,6 +150,7 @@ fn fr1_what_is_reserved_is_refused() {
     assert!(Frame::decode(&valid).is_ok());
     assert_eq!(with(0, 2), Err(FrameError::Version(2)));
     assert_eq!(with(1, 0), Err(FrameError::Kind(0)));
+    assert_eq!(with(1, 2), Err(FrameError::Kind(2)), "a pose is no mesh delta");
     assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
     assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
     assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
@@ -136,4 +165,23 @@ fn fr2_a_body_has_the_stated_length() {
     let mut vast = headed(&[]);
     vast[12..16].copy_from_slice(&u32::MAX.to_le_bytes());
     assert_eq!(Frame::decode(&vast), Err(FrameError::Length));
+}
+
+#[test]
+fn fr1_flags_belong_to_mesh_deltas_alone() {
+    let mut bytes = GhostFrame { epoch: 0, sequence: 0, changes: Vec::new() }.encode();
+    assert!(GhostFrame::decode(&bytes).is_ok());
+    bytes[3] = 1;
+    assert_eq!(GhostFrame::decode(&bytes), Err(FrameError::Flags(1)));
+}
+
+#[test]
+fn fr1_a_pose_holds_finite_numbers() {
+    let at = |to| {
+        let motions = vec![RowMotion { row: 1, rotation: [0.0, 0.0, 0.0, 1.0], to }];
+        PoseFrame::decode(&PoseFrame { epoch: 0, sequence: 0, bend: 1, motions }.encode())
+    };
+    assert!(at([0.0; 3]).is_ok());
+    assert_eq!(at([0.0, f32::NAN, 0.0]), Err(FrameError::Body));
+    assert_eq!(at([f32::INFINITY, 0.0, 0.0]), Err(FrameError::Body));
 }

@@ -4,7 +4,7 @@
 
 use std::{fs, path::PathBuf};
 
-use espalier_proto::{ChunkChange, Frame, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{ChunkChange, Frame, GhostFrame, PoseFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
 use serde_json::{Value, json};
 
 /// A seed, a trunk of three metamers and a lateral, in so few bytes that they travel raw.
@@ -146,20 +146,54 @@ fn described_rows(rows: &Rows) -> Value {
     })
 }
 
-/// The stored bytes decode to `frame`; the encoder still writes a frame that decodes to it, with the same body.
-fn check(name: &str, frame: &Frame) {
+fn described_pose(pose: &PoseFrame) -> Value {
+    let motion = |m: &RowMotion| json!({ "row": m.row, "rotation": m.rotation, "to": m.to });
+    json!({
+        "epoch": pose.epoch,
+        "sequence": pose.sequence,
+        "bend": pose.bend,
+        "motions": pose.motions.iter().map(motion).collect::<Vec<_>>(),
+    })
+}
+
+fn described_ghost(ghost: &GhostFrame) -> Value {
+    json!({
+        "epoch": ghost.epoch,
+        "sequence": ghost.sequence,
+        "changes": ghost.changes.iter().map(described_change).collect::<Vec<_>>(),
+    })
+}
+
+/// The stored bytes are what the encoder writes, and the stored description what they mean.
+fn check_sample(name: &str, encoded: &[u8], description: &Value) {
     let file = |extension: &str| {
         PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("golden/{name}.{extension}"))
     };
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        fs::write(file("bin"), frame.encode()).expect("the sample can be written");
-        fs::write(file("json"), format!("{}\n", described(frame))).expect("the description can be written");
+        fs::write(file("bin"), encoded).expect("the sample can be written");
+        fs::write(file("json"), format!("{description}\n")).expect("the description can be written");
     }
     let bytes = fs::read(file("bin")).expect("the sample can be read");
-    assert_eq!(Frame::decode(&bytes).as_ref(), Ok(frame), "{name}.bin");
-    assert_eq!(bytes, frame.encode(), "{name}.bin is what the encoder writes");
+    assert_eq!(bytes, encoded, "{name}.bin is what the encoder writes");
     let stored = fs::read_to_string(file("json")).expect("the description can be read");
-    assert_eq!(serde_json::from_str::<Value>(&stored).ok(), Some(described(frame)), "{name}.json");
+    let stored: Value = serde_json::from_str(&stored).expect("the description is JSON");
+    let written: Value = serde_json::from_str(&description.to_string()).expect("so is this one");
+    assert_eq!(stored, written, "{name}.json");
+}
+
+fn check(name: &str, frame: &Frame) {
+    assert_eq!(Frame::decode(&frame.encode()).as_ref(), Ok(frame), "{name}");
+    check_sample(name, &frame.encode(), &described(frame));
+}
+
+fn check_pose(name: &str, pose: &PoseFrame) {
+    assert_eq!(PoseFrame::decode(&pose.encode()).as_ref(), Ok(pose), "{name}");
+    check_sample(name, &pose.encode(), &described_pose(pose));
+}
+
+fn check_ghost(name: &str, ghost: &GhostFrame) {
+    assert_eq!(GhostFrame::decode(&ghost.encode()).as_ref(), Ok(ghost), "{name}");
+    check_sample(name, &ghost.encode(), &described_ghost(ghost));
 }
 
 #[test]
@@ -187,4 +221,29 @@ fn every_column_can_be_patched() {
 #[test]
 fn a_frame_may_change_nothing() {
     check("empty", &empty());
+}
+
+#[test]
+fn be5_a_pose_is_a_path_of_motions() {
+    let motions = vec![
+        RowMotion { row: 3, rotation: [0.0, 0.0, 0.0, 1.0], to: [0.5, 4.0, -0.25] },
+        RowMotion { row: 300, rotation: [0.5, -0.5, 0.5, 0.5], to: [-1000.0, 1.0e-6, 3.5] },
+    ];
+    check_pose("pose", &PoseFrame { epoch: 7, sequence: 12, bend: 130, motions });
+}
+
+#[test]
+fn be5_a_pose_without_motions_is_over() {
+    check_pose("pose-over", &PoseFrame { epoch: 7, sequence: 13, bend: 1, motions: Vec::new() });
+}
+
+#[test]
+fn pd2_a_ghost_has_a_table_of_its_own() {
+    let changes = vec![ChunkChange::Replace { chunk: 0, generation: 1, rows: sapling() }];
+    check_ghost("ghost", &GhostFrame { epoch: 7, sequence: 1, changes });
+}
+
+#[test]
+fn pd2_an_empty_ghost_is_none_any_more() {
+    check_ghost("ghost-over", &GhostFrame { epoch: 7, sequence: 2, changes: Vec::new() });
 }

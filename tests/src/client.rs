@@ -3,7 +3,8 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, Parameters, PlacedObstacle, Problem, ServerMessage,
+    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, Parameters, PlacedObstacle,
+    PoseFrame, Problem, ServerMessage, Timeline, WidthConstraint,
 };
 use futures_util::{SinkExt, StreamExt};
 use tokio::{net::TcpStream, time};
@@ -47,6 +48,14 @@ pub struct Client {
     pub parameters: Parameters,
     /// The newest list of obstacles.
     pub obstacles: Vec<PlacedObstacle>,
+    /// The newest lines of time.
+    pub timeline: Timeline,
+    /// The newest width constraints.
+    pub widths: Vec<WidthConstraint>,
+    /// Poses of bends, in the order they came.
+    pub poses: Vec<PoseFrame>,
+    /// Ghosts of predictions, in the order they came.
+    pub ghosts: Vec<GhostFrame>,
     /// The highest durable command.
     pub acknowledged: u32,
     /// What was sent and is not known to be durable.
@@ -149,6 +158,10 @@ impl Client {
             state,
             parameters: *parameters,
             obstacles: Vec::new(),
+            timeline: Timeline::default(),
+            widths: Vec::new(),
+            poses: Vec::new(),
+            ghosts: Vec::new(),
             acknowledged,
             unacknowledged: VecDeque::new(),
             resumed,
@@ -298,13 +311,31 @@ impl Client {
     }
 
     async fn take_frame(&mut self, bytes: &[u8]) {
+        let kind = FrameKind::of(bytes).unwrap_or(FrameKind::MeshDelta);
+        let sequence = match kind {
+            FrameKind::MeshDelta => return self.take_delta(bytes).await,
+            FrameKind::Pose => {
+                self.poses.push(PoseFrame::decode(bytes).expect("every pose is valid"));
+                self.poses.last().map(|pose| pose.sequence)
+            }
+            FrameKind::Ghost => {
+                self.ghosts.push(GhostFrame::decode(bytes).expect("every ghost is valid"));
+                self.ghosts.last().map(|ghost| ghost.sequence)
+            }
+        };
+        if let (Receipts::Sent, Some(sequence)) = (self.receipts, sequence) {
+            self.send_message(&ClientMessage::Received { sequence, kind: kind.code() }).await;
+        }
+    }
+
+    async fn take_delta(&mut self, bytes: &[u8]) {
         let frame =
             Frame::decode(bytes).unwrap_or_else(|error| panic!("the server sent a broken frame: {error}"));
         self.table.apply(&frame).unwrap_or_else(|error| panic!("the server broke the protocol: {error}"));
         self.frame_bytes += bytes.len();
         self.frames += 1;
         if self.receipts == Receipts::Sent {
-            self.send_message(&ClientMessage::Received { sequence: frame.sequence }).await;
+            self.send_message(&ClientMessage::Received { sequence: frame.sequence, kind: 1 }).await;
         }
     }
 
@@ -317,8 +348,9 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
-                // A list follows if there are any (`OB3`).
+                // Lists follow if there are any (`OB3`, `WI2`).
                 self.obstacles.clear();
+                self.widths.clear();
                 self.state = state;
                 self.take_acknowledgement(acknowledged);
             }
@@ -331,6 +363,8 @@ impl Client {
             ServerMessage::State { state } => self.state = state,
             ServerMessage::Parameters { parameters } => self.parameters = *parameters,
             ServerMessage::Obstacles { obstacles } => self.obstacles = obstacles,
+            ServerMessage::Timeline(timeline) => self.timeline = *timeline,
+            ServerMessage::Widths { widths } => self.widths = widths,
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }

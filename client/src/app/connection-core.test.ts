@@ -88,7 +88,7 @@ describe("handshake", () => {
     core.opened(0);
     core.effects();
     welcome(0, 0, { resumed: false });
-    expect(kinds(core.effects())).toEqual(["forget-rows", "parameters", "state", "obstacles"]);
+    expect(kinds(core.effects())).toEqual(["forget-rows", "parameters", "state", "obstacles", "widths"]);
   });
 
   it("keeps its rows when the resume was taken up", () => {

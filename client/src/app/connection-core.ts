@@ -9,6 +9,8 @@ import {
   type Problem,
   type Resume,
   type ServerMessage,
+  type Timeline,
+  type WidthConstraint,
 } from "../wire/generated";
 
 /** Silence after which the server is asked whether it is there, in milliseconds. */
@@ -50,6 +52,8 @@ export type Effect =
   | { readonly kind: "state"; readonly state: DocumentState }
   | { readonly kind: "parameters"; readonly parameters: Parameters }
   | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
+  | { readonly kind: "timeline"; readonly timeline: Timeline }
+  | { readonly kind: "widths"; readonly widths: readonly WidthConstraint[] }
   | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
 
 export interface CoreOptions {
@@ -68,6 +72,12 @@ export interface FrameHead {
   readonly epoch: number;
   readonly sequence: number;
   readonly catchUp: boolean;
+}
+
+/** What is no change of the rows but something beside them, of which only the newest counts: a pose or a ghost. */
+export interface AsideHead {
+  readonly epoch: number;
+  readonly sequence: number;
 }
 
 /** One client's side of the protocol, without socket or clock: call a method, then drain `effects()`. */
@@ -196,6 +206,14 @@ export class ConnectionCore {
       case "obstacles":
         this.#effects.push({ kind: "obstacles", obstacles: message.obstacles });
         break;
+      case "timeline": {
+        const { type: _, ...timeline } = message;
+        this.#effects.push({ kind: "timeline", timeline });
+        break;
+      }
+      case "widths":
+        this.#effects.push({ kind: "widths", widths: message.widths });
+        break;
       case "pong":
         break;
     }
@@ -219,6 +237,24 @@ export class ConnectionCore {
     this.#sequence = frame.sequence;
     this.#resumable = true;
     this.#send({ type: "received", sequence: frame.sequence });
+  }
+
+  /** A frame beside the rows has come: say so; false if it is of another epoch and tells nothing. */
+  took(kind: number, { epoch, sequence }: AsideHead): boolean {
+    if (this.#phase !== "connected") {
+      return false;
+    }
+    this.#send({ type: "received", sequence, kind });
+    return epoch === this.#epoch;
+  }
+
+  /** Asks the server something that is no command; false if there is none to ask. */
+  ask(message: Extract<ClientMessage, { type: "predict" }>): boolean {
+    if (this.#phase !== "connected") {
+      return false;
+    }
+    this.#send(message);
+    return true;
   }
 
   /** A frame was invalid or out of order: connect again and forget what is held (`FR1`). */
@@ -341,8 +377,8 @@ export class ConnectionCore {
     this.#acknowledge(welcome.acknowledged);
     this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
     this.#effects.push({ kind: "state", state: welcome.state });
-    // The list follows only if there is something on it.
-    this.#effects.push({ kind: "obstacles", obstacles: [] });
+    // The lists follow only if there is something on them.
+    this.#effects.push({ kind: "obstacles", obstacles: [] }, { kind: "widths", widths: [] });
     for (const { id, command } of this.#pending) {
       this.#send({ type: "command", id, command });
     }

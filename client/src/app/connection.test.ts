@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { type DocumentState, type Parameters, PROTOCOL_VERSION, type ServerMessage } from "../wire/generated";
-import { type Clock, Connection, type Socket } from "./connection";
+import { type AsideFrame, type Clock, Connection, type Socket } from "./connection";
 import type { FrameHead } from "./connection-core";
 
 class FakeSocket implements Socket {
@@ -8,7 +8,7 @@ class FakeSocket implements Socket {
   onopen: ((event: Event) => void) | null = null;
   onmessage: ((event: MessageEvent) => void) | null = null;
   onclose: ((event: CloseEvent) => void) | null = null;
-  sent: { type: string; id?: number; sequence?: number }[] = [];
+  sent: { type: string; id?: number; sequence?: number; kind?: number; rows?: number[] }[] = [];
   closed = false;
   send(text: string) {
     this.sent.push(JSON.parse(text));
@@ -35,12 +35,12 @@ class FakeSocket implements Socket {
     const head = { protocol: PROTOCOL_VERSION, session: "s", epoch: 1, resumed: false };
     this.say({ type: "welcome", ...head, acknowledged, parameters, state });
   }
-  /** A frame of the test is one byte, its sequence; the second says how long decoding takes. */
-  frame(sequence: number, turns: number) {
-    this.arrive(new Uint8Array([sequence, turns]).buffer);
+  /** A frame of the test is one byte, its sequence; then how long decoding takes, its kind and its epoch. */
+  frame(sequence: number, turns: number, kind = 1, epoch = 1) {
+    this.arrive(new Uint8Array([sequence, turns, kind, epoch]).buffer);
   }
   get received() {
-    return this.sent.flatMap((message) => (message.type === "received" ? [message.sequence] : []));
+    return this.sent.flatMap(({ type, sequence, kind = 1 }) => (type === "received" && kind === 1 ? [sequence] : []));
   }
   get commands() {
     return this.sent.flatMap((message) => (message.type === "command" ? [message.id] : []));
@@ -63,7 +63,8 @@ function setUp() {
   let cleared = 0;
   let reloads = 0;
   const nothing = () => {};
-  const connection = new Connection<FrameHead>({
+  const asides: [number, number][] = [];
+  const connection = new Connection<FrameHead, AsideFrame>({
     openSocket: () => {
       const socket = new FakeSocket();
       sockets.push(socket);
@@ -85,9 +86,10 @@ function setUp() {
       },
     },
     decode: async (bytes) => {
-      const [sequence = 0, turns = 0] = new Uint8Array(bytes);
+      const [sequence = 0, turns = 0, kind = 1, epoch = 1] = new Uint8Array(bytes);
       for (let i = 0; i < turns; i++) await Promise.resolve();
-      return { epoch: 1, sequence, catchUp: sequence > 50 };
+      const frame = { epoch, sequence, catchUp: sequence > 50 };
+      return kind === 1 ? { kind, frame } : { kind, frame };
     },
     events: {
       phase: nothing,
@@ -95,6 +97,9 @@ function setUp() {
       state: nothing,
       parameters: nothing,
       obstacles: nothing,
+      timeline: nothing,
+      widths: nothing,
+      aside: ({ kind, frame }) => asides.push([kind, frame.sequence]),
       problem: nothing,
       rows: nothing,
       rekeyed: nothing,
@@ -112,7 +117,7 @@ function setUp() {
     }
   };
   const socket = (index: number) => sockets[index] as FakeSocket;
-  return { connection, socket, sockets, applied, cleared: () => cleared, reloads: () => reloads, settle, pass };
+  return { connection, socket, sockets, applied, asides, cleared: () => cleared, reloads: () => reloads, settle, pass };
 }
 
 describe("connection", () => {
@@ -125,6 +130,36 @@ describe("connection", () => {
     await settle();
     expect(applied).toEqual([1, 2, 3, 4]);
     expect(socket(0).received).toEqual([1, 2, 3, 4]);
+  });
+
+  it("FL1: answers a frame beside the rows with its own number and kind", async () => {
+    const { socket, applied, asides, settle } = setUp();
+    socket(0).welcome();
+    socket(0).frame(1, 20);
+    socket(0).frame(9, 0, 3);
+    socket(0).frame(2, 0);
+    await settle();
+    expect(applied).toEqual([1, 2]);
+    expect(asides).toEqual([[3, 9]]);
+    expect(socket(0).sent.filter(({ kind }) => kind === 3)).toEqual([{ type: "received", sequence: 9, kind: 3 }]);
+  });
+
+  it("takes nothing from a frame of another epoch beside the rows", async () => {
+    const { socket, sockets, asides, settle } = setUp();
+    socket(0).welcome();
+    socket(0).frame(1, 0, 2, 7);
+    await settle();
+    expect([asides, sockets.length]).toEqual([[], 1]);
+  });
+
+  it("asks for a ghost only while there is a server", () => {
+    const { connection, socket } = setUp();
+    expect(connection.predict([4], 10)).toBe(false);
+    socket(0).welcome();
+    expect(connection.predict([4], 10)).toBe(true);
+    expect(socket(0).sent.filter(({ type }) => type === "predict")).toEqual([
+      { type: "predict", rows: [4], steps: 10 },
+    ]);
   });
 
   it("FR4: a missing frame opens a new socket", async () => {

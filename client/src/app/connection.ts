@@ -6,8 +6,17 @@ import type {
   PlacedObstacle,
   Problem,
   ServerMessage,
+  Timeline,
+  WidthConstraint,
 } from "../wire/generated";
-import { type ClientRecord, ConnectionCore, type FrameHead, type Phase, type StopReason } from "./connection-core";
+import {
+  type AsideHead,
+  type ClientRecord,
+  ConnectionCore,
+  type FrameHead,
+  type Phase,
+  type StopReason,
+} from "./connection-core";
 import type { RowStore } from "./ports";
 
 /** The part of a WebSocket that is used; tests bring their own. */
@@ -26,14 +35,29 @@ export interface Clock {
   after(delay: number, run: () => void): () => void;
 }
 
+/** The kind of a frame that changes the rows. */
+const MESH_DELTA = 1;
+
+/** A frame that is no change of the rows, under its kind. */
+export interface AsideFrame {
+  readonly kind: number;
+  readonly frame: AsideHead;
+}
+
 /** What the page is told. */
-export interface ConnectionEvents {
+export interface ConnectionEvents<Aside> {
   phase(phase: Phase, attempts: number, stopped: StopReason | null): void;
   commands(sent: number, settled: number): void;
   state(state: DocumentState): void;
   parameters(parameters: Parameters): void;
   /** All obstacles there are. */
   obstacles(obstacles: readonly PlacedObstacle[]): void;
+  /** What was done, and all other futures. */
+  timeline(timeline: Timeline): void;
+  /** All width constraints there are. */
+  widths(widths: readonly WidthConstraint[]): void;
+  /** A branch that is being bent, or a prediction. */
+  aside(aside: Aside): void;
   problem(problem: Problem, command?: Command): void;
   /** Rows have changed; draw. */
   rows(): void;
@@ -43,13 +67,13 @@ export interface ConnectionEvents {
   reload(): void;
 }
 
-export interface ConnectionOptions<Frame> {
+export interface ConnectionOptions<Frame, Aside> {
   readonly openSocket: () => Socket;
   readonly clock: Clock;
   readonly rows: RowStore<Frame>;
-  readonly decode: (bytes: ArrayBuffer) => Promise<Frame>;
+  readonly decode: (bytes: ArrayBuffer) => Promise<{ readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside>;
   readonly newKey: () => string;
-  readonly events: ConnectionEvents;
+  readonly events: ConnectionEvents<Aside>;
   readonly random?: () => number;
   readonly record?: ClientRecord;
 }
@@ -63,8 +87,8 @@ export const browserClock: Clock = {
 };
 
 /** Keeps one session's socket alive and its commands and frames in order. */
-export class Connection<Frame extends FrameHead> {
-  #options: ConnectionOptions<Frame>;
+export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
+  #options: ConnectionOptions<Frame, Aside>;
   #core: ConnectionCore;
   #socket: Socket | null = null;
   #frames: Promise<void> = Promise.resolve();
@@ -72,7 +96,7 @@ export class Connection<Frame extends FrameHead> {
   #timerAt: number | null = null;
   #closed = false;
 
-  constructor(options: ConnectionOptions<Frame>) {
+  constructor(options: ConnectionOptions<Frame, Aside>) {
     this.#options = options;
     this.#core = new ConnectionCore({
       newKey: options.newKey,
@@ -103,6 +127,13 @@ export class Connection<Frame extends FrameHead> {
 
   unsettled(kind: Command["kind"]): number {
     return this.#core.unsettled(kind);
+  }
+
+  /** Asks for a ghost: how the plants would grow on without some branches; false while there is nobody to ask. */
+  predict(rows: number[], steps: number): boolean {
+    const asked = this.#core.ask({ type: "predict", rows, steps });
+    this.#settle();
+    return asked;
   }
 
   record(): ClientRecord {
@@ -162,10 +193,18 @@ export class Connection<Frame extends FrameHead> {
         return;
       }
       try {
-        const frame = await this.#options.decode(bytes);
+        const incoming = await this.#options.decode(bytes);
         if (!ours()) {
           return;
         }
+        if (!isDelta(incoming)) {
+          if (this.#core.took(incoming.kind, incoming.frame)) {
+            this.#options.events.aside(incoming);
+          }
+          this.#settle();
+          return;
+        }
+        const { frame } = incoming;
         if (!this.#core.admits(frame)) {
           throw new Error(`frame ${frame.sequence} is out of order`);
         }
@@ -228,6 +267,12 @@ export class Connection<Frame extends FrameHead> {
         case "obstacles":
           events.obstacles(effect.obstacles);
           break;
+        case "timeline":
+          events.timeline(effect.timeline);
+          break;
+        case "widths":
+          events.widths(effect.widths);
+          break;
         case "problem":
           events.problem(effect.problem, effect.command);
           break;
@@ -258,4 +303,10 @@ export class Connection<Frame extends FrameHead> {
       });
     }
   }
+}
+
+function isDelta<Frame, Aside extends AsideFrame>(
+  incoming: { readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside,
+): incoming is { readonly kind: typeof MESH_DELTA; readonly frame: Frame } {
+  return incoming.kind === MESH_DELTA;
 }

@@ -1,5 +1,15 @@
 import { describe, expect, it } from "vitest";
-import { CHOOSE, type Gesture, GestureRecogniser, HOLD, PEN_MEMORY, type PointerSample, wheelFactor } from "./gestures";
+import {
+  CHOOSE,
+  type Gesture,
+  GestureRecogniser,
+  HOLD,
+  LONGEST_TAP,
+  PEN_MEMORY,
+  type PointerSample,
+  SECOND_TAP,
+  wheelFactor,
+} from "./gestures";
 
 type Device = PointerSample["device"];
 
@@ -177,6 +187,136 @@ describe("holding on a branch", () => {
     const { down, up } = hand();
     expect(down(1, 7, 8, 0, "mouse", { choose: true })).toEqual([{ kind: "choose", x: 7, y: 8 }]);
     expect(up(1, 7, 8, 20, "mouse")).toEqual([]);
+  });
+});
+
+describe("two taps", () => {
+  const branch = { holdable: true, doubles: true };
+  const nothing = { doubles: true };
+
+  it("a double tap on a branch is one gesture and draws nothing", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 50, 60, 0, "touch", branch);
+    expect(up(1, 50, 60, 60)).toEqual([]);
+    down(2, 54, 63, 200, "touch", branch);
+    expect(up(2, 54, 63, 260)).toEqual([{ kind: "double-tap", x: 54, y: 63 }]);
+    expect([recogniser.deadline, ...recogniser.tick(5000)]).toEqual([null]);
+  });
+
+  it("a double tap beside every branch does nothing", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 50, 60, 0, "touch", nothing);
+    up(1, 50, 60, 60);
+    down(2, 52, 60, 200, "touch", nothing);
+    expect(up(2, 52, 60, 260)).toEqual([]);
+    expect(recogniser.tick(5000)).toEqual([]);
+  });
+
+  it("a tap that stays alone draws when no second one can come", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    up(1, 5, 5, 60);
+    expect(recogniser.deadline).toBe(60 + SECOND_TAP);
+    expect(recogniser.tick(60 + SECOND_TAP - 1)).toEqual([]);
+    expect(kinds(recogniser.tick(60 + SECOND_TAP))).toEqual(["stroke-begin", "stroke-end"]);
+  });
+
+  it("slow taps count as well, until they are holds", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    recogniser.tick(HOLD);
+    expect(kinds(up(1, 5, 5, LONGEST_TAP))).toEqual(["hold-end"]);
+    down(2, 5, 5, LONGEST_TAP + 100, "touch", branch);
+    expect(kinds(up(2, 5, 5, LONGEST_TAP + 200))).toEqual(["double-tap"]);
+    down(3, 5, 5, 2000, "touch", branch);
+    recogniser.tick(2000 + HOLD);
+    expect(kinds(up(3, 5, 5, 2000 + LONGEST_TAP + 1))).toEqual(["hold-end"]);
+    expect(recogniser.tick(5000), "a long one draws nothing, not even later").toEqual([]);
+  });
+
+  it("a tap far from the first one is another tap", () => {
+    const { recogniser, down, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    up(1, 5, 5, 60);
+    expect(kinds(down(2, 90, 5, 150, "touch", branch))).toEqual(["stroke-begin", "stroke-end"]);
+    expect(up(2, 90, 5, 200)).toEqual([]);
+    expect(kinds(recogniser.tick(1000))).toEqual(["stroke-begin", "stroke-end"]);
+  });
+
+  it("a tap and then a stroke from the same place are both drawn", () => {
+    const { down, move, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    up(1, 5, 5, 60);
+    down(2, 6, 5, 180, "touch", branch);
+    const drawn = kinds(move(2, 60, 5, 200));
+    expect(drawn).toEqual(["stroke-begin", "stroke-end", "stroke-begin", "stroke-move"]);
+  });
+
+  it("a tap and then a pinch: the tap is drawn, the pinch moves the view", () => {
+    const { down, move, up } = hand();
+    down(1, 5, 5, 0, "touch", branch);
+    up(1, 5, 5, 60);
+    down(2, 6, 5, 180, "touch", branch);
+    expect(kinds(down(3, 90, 5, 190, "touch", branch))).toEqual(["stroke-begin", "stroke-end"]);
+    expect(kinds(move(3, 120, 5, 200))).toEqual(["pan", "zoom"]);
+  });
+
+  it("a mouse clicks twice on a branch", () => {
+    const { down, up } = hand();
+    down(1, 5, 5, 0, "mouse", branch);
+    up(1, 5, 5, 60, "mouse");
+    down(1, 5, 5, 150, "mouse", branch);
+    expect(kinds(up(1, 5, 5, 210, "mouse"))).toEqual(["double-tap"]);
+  });
+});
+
+describe("a tool that takes hold", () => {
+  const take = { grip: "take" };
+
+  it("gets each finger by itself, from the first place on", () => {
+    const { recogniser, down, move, up } = hand();
+    expect(down(1, 5, 5, 0, "touch", take)).toMatchObject([{ kind: "grip-begin", id: 1, x: 5, y: 5 }]);
+    expect(recogniser.deadline, "nothing waits").toBeNull();
+    expect(kinds(down(2, 90, 5, 10, "touch", take))).toEqual(["grip-begin"]);
+    expect(move(2, 95, 5, 20)).toEqual([{ kind: "grip-move", id: 2, x: 95, y: 5 }]);
+    expect([...up(1, 5, 5, 30), ...up(2, 95, 5, 40)]).toEqual([
+      { kind: "grip-end", id: 1 },
+      { kind: "grip-end", id: 2 },
+    ]);
+    expect(kinds(down(3, 5, 5, 50, "touch", take))).toEqual(["grip-begin"]);
+  });
+
+  it("leaves its fingers to the view when one more does not fit", () => {
+    const { down, move, up } = hand();
+    down(1, 100, 100, 0, "touch", take);
+    expect(kinds(down(2, 200, 100, 10, "touch", { grip: "leave" }))).toEqual(["grip-drop"]);
+    expect(kinds(move(2, 300, 100, 20))).toEqual(["pan", "zoom"]);
+    expect([...up(1, 100, 100, 30), ...up(2, 300, 100, 40)]).toEqual([]);
+  });
+
+  it("a finger that is ignored changes nothing, also when it stays last", () => {
+    const { down, move, up } = hand();
+    down(1, 100, 100, 0, "touch", take);
+    expect(down(2, 200, 100, 10, "touch", { grip: "ignore" })).toEqual([]);
+    expect(move(2, 300, 100, 20)).toEqual([]);
+    expect(kinds(up(1, 100, 100, 30))).toEqual(["grip-end"]);
+    expect([...move(2, 350, 100, 40), ...up(2, 350, 100, 50)]).toEqual([]);
+    expect(kinds(down(3, 5, 5, 60, "touch", take))).toEqual(["grip-begin"]);
+  });
+
+  it("a pen takes hold while a palm rests", () => {
+    const { down, move, up } = hand();
+    down(1, 300, 300, 0, "touch", take);
+    expect(kinds(down(9, 10, 20, 40, "pen", take))).toEqual(["grip-drop", "grip-begin"]);
+    expect(down(2, 320, 300, 50, "touch", take)).toEqual([]);
+    expect(kinds(move(9, 30, 20, 60, "pen"))).toEqual(["grip-move"]);
+    expect(kinds(up(9, 30, 20, 70, "pen"))).toEqual(["grip-end"]);
+  });
+
+  it("one that the system takes away is let go of", () => {
+    const { recogniser, down } = hand();
+    down(1, 5, 5, 0, "touch", take);
+    expect(kinds(recogniser.cancel(1))).toEqual(["grip-end"]);
   });
 });
 

@@ -6,6 +6,12 @@ export const FINE_SLOP = 5;
 export const HOLD = 110;
 /** How long one is held on a branch to choose it. */
 export const CHOOSE = 450;
+/** Longer than this, in milliseconds, a press is no tap. */
+export const LONGEST_TAP = 260;
+/** How soon after a tap a second one makes it a double tap, in milliseconds. */
+export const SECOND_TAP = 260;
+/** And how near to it, in pixels. */
+const SAME_PLACE = 28;
 /** How long after a pen was last seen touches do not draw. */
 export const PEN_MEMORY = 20_000;
 
@@ -28,7 +34,17 @@ export interface PointerPress extends PointerSample {
   readonly choose: boolean;
   /** Holding still here chooses something. */
   readonly holdable: boolean;
+  /** Two taps mean something here, so that a tap has to wait for a second one; or nothing, but may not draw. */
+  readonly doubles?: boolean;
+  /** What the tool at hand does with a finger that comes down here; without one it draws strokes. */
+  readonly grip?: Grip;
 }
+
+/**
+ * What a tool that takes hold of things does with one more finger: takes it, leaves it and all it has taken to moving
+ * the view, or lets it rest where it is.
+ */
+export type Grip = "take" | "leave" | "ignore";
 
 /** A place a stroke went through. */
 export interface StrokePoint {
@@ -47,6 +63,13 @@ export type Gesture =
   /** It was let go, or has moved on. */
   | { readonly kind: "hold-end" }
   | { readonly kind: "choose"; readonly x: number; readonly y: number }
+  | { readonly kind: "double-tap"; readonly x: number; readonly y: number }
+  /** A tool's finger comes down, moves, lifts; `slop` is how far it may wander and still be a tap. */
+  | { readonly kind: "grip-begin"; readonly id: number; readonly x: number; readonly y: number; readonly slop: number }
+  | { readonly kind: "grip-move"; readonly id: number; readonly x: number; readonly y: number }
+  | { readonly kind: "grip-end"; readonly id: number }
+  /** The fingers that were taken move the view after all. */
+  | { readonly kind: "grip-drop" }
   | { readonly kind: "pan"; readonly dx: number; readonly dy: number }
   | { readonly kind: "orbit"; readonly dx: number; readonly dy: number }
   | { readonly kind: "zoom"; readonly factor: number; readonly x: number; readonly y: number };
@@ -54,6 +77,9 @@ export type Gesture =
 type State =
   | { readonly kind: "idle" }
   | Waiting
+  | Tapped
+  /** A tool has these pointers; `pen` if they are no touches. */
+  | { readonly kind: "grips"; readonly ids: Set<number>; readonly pen: boolean }
   /** What is under it has been chosen; nothing more comes of it. */
   | { readonly kind: "held"; readonly id: number }
   | { readonly kind: "stroke"; readonly id: number }
@@ -68,9 +94,23 @@ interface Waiting {
   readonly since: number;
   readonly slop: number;
   readonly holdable: boolean;
+  readonly doubles: boolean;
+  /** The tap that came before it, if this one may make it a double tap. */
+  readonly before: Tapped | null;
   /** Whether `hold-begin` has gone out. */
   shown: boolean;
   readonly points: StrokePoint[];
+}
+
+/** One was tapped, and may be again: only then is it known whether it draws. */
+interface Tapped {
+  readonly kind: "tapped";
+  readonly until: number;
+  readonly holdable: boolean;
+  readonly x: number;
+  readonly y: number;
+  /** What it draws if it stays alone; none if it was nearly a hold. */
+  readonly points: readonly StrokePoint[];
 }
 
 interface Finger {
@@ -94,6 +134,9 @@ export class GestureRecogniser {
   /** When `tick` is due, or null. */
   get deadline(): number | null {
     const state = this.#state;
+    if (state.kind === "tapped") {
+      return state.until;
+    }
     return state.kind === "waiting" ? state.since + (state.shown ? CHOOSE : HOLD) : null;
   }
 
@@ -103,14 +146,16 @@ export class GestureRecogniser {
   }
 
   down(press: PointerPress): Gesture[] {
-    switch (press.device) {
-      case "mouse":
-        return this.#mouseDown(press);
-      case "pen":
-        return this.#penDown(press);
-      case "touch":
-        return this.#touchDown(press);
+    const state = this.#state;
+    if (state.kind !== "tapped") {
+      return this.#down(press, null);
     }
+    this.#state = { kind: "idle" };
+    const near = Math.hypot(press.x - state.x, press.y - state.y) <= SAME_PLACE;
+    if (near && press.time < state.until && press.button === 0 && !press.hand) {
+      return this.#down(press, state);
+    }
+    return [...drawn(state), ...this.#down(press, null)];
   }
 
   /** The pointer went through these places since the last call; `samples` is in time order. */
@@ -139,24 +184,32 @@ export class GestureRecogniser {
       }
       case "fingers":
         return this.#moveFinger(state, last);
+      case "grips":
+        this.#place(last);
+        return state.ids.has(last.id) ? [{ kind: "grip-move", id: last.id, x: last.x, y: last.y }] : [];
       case "idle":
       case "held":
+      case "tapped":
         return [];
     }
   }
 
   up(sample: PointerSample): Gesture[] {
-    return this.#lift(sample.id, false);
+    return this.#lift(sample.id, sample.time);
   }
 
   /** The system took the pointer away: a stroke ends where it is, a candidate never was one. */
   cancel(id: number): Gesture[] {
-    return this.#lift(id, true);
+    return this.#lift(id, null);
   }
 
   /** The hold time has passed. */
   tick(now: number): Gesture[] {
     const state = this.#state;
+    if (state.kind === "tapped" && now >= state.until) {
+      this.#state = { kind: "idle" };
+      return drawn(state);
+    }
     const point = state.kind === "waiting" ? state.points[0] : undefined;
     if (state.kind !== "waiting" || point === undefined || now < state.since + HOLD) {
       return [];
@@ -176,42 +229,61 @@ export class GestureRecogniser {
     return [{ kind: "hold-begin", x, y, milliseconds: state.since + CHOOSE - now }];
   }
 
-  #mouseDown(press: PointerPress): Gesture[] {
+  #down(press: PointerPress, before: Tapped | null): Gesture[] {
+    switch (press.device) {
+      case "mouse":
+        return this.#mouseDown(press, before);
+      case "pen":
+        return this.#penDown(press, before);
+      case "touch":
+        return this.#touchDown(press, before);
+    }
+  }
+
+  #mouseDown(press: PointerPress, before: Tapped | null): Gesture[] {
     if (this.#state.kind !== "idle") {
       return [];
     }
     if (press.button === 0 && !press.hand) {
-      return this.#press(press);
+      return this.#press(press, before);
     }
     const mode = press.button === 2 ? "orbit" : "pan";
     this.#state = { kind: "drag", id: press.id, mode, x: press.x, y: press.y };
     return [];
   }
 
-  #penDown(press: PointerPress): Gesture[] {
+  #penDown(press: PointerPress, tapped: Tapped | null): Gesture[] {
     this.#penSeen = press.time;
     const state = this.#state;
     if ((state.kind === "stroke" || state.kind === "waiting") && !this.#fingers.has(state.id)) {
       return [];
     }
+    if (state.kind === "grips" && state.pen) {
+      return [];
+    }
     // Whatever a palm had begun ends: the pen is what draws.
     const before = ended(this.#state);
+    this.#state = { kind: "idle" };
     this.#fingers.clear();
     if (press.hand) {
       this.#state = { kind: "drag", id: press.id, mode: "pan", x: press.x, y: press.y };
       return before;
     }
-    return [...before, ...this.#press(press)];
+    return [...before, ...this.#press(press, tapped)];
   }
 
-  #touchDown(press: PointerPress): Gesture[] {
+  #touchDown(press: PointerPress, before: Tapped | null): Gesture[] {
     const state = this.#state;
-    const busy = state.kind === "stroke" || state.kind === "drag";
+    const busy = state.kind === "stroke" || state.kind === "drag" || (state.kind === "grips" && state.pen);
     // A palm beside a pen that is held still is no second finger.
     if (busy || (state.kind === "waiting" && !this.#fingers.has(state.id))) {
       return [];
     }
     this.#fingers.set(press.id, { x: press.x, y: press.y });
+    const draws = !press.hand && press.time - this.#penSeen >= PEN_MEMORY;
+    if (press.grip && (state.kind === "grips" || (state.kind === "idle" && draws))) {
+      return this.#gripTouch(press, press.grip);
+    }
     if (this.#fingers.size > 1) {
       const rotated = this.#fingers.size > 2 || (state.kind === "fingers" && state.rotated);
       this.#state = { kind: "fingers", rotated };
@@ -222,28 +294,55 @@ export class GestureRecogniser {
     } else if (press.time - this.#penSeen < PEN_MEMORY) {
       this.#state = { kind: "fingers", rotated: false };
     } else {
-      this.#wait(press, SLOP);
+      this.#wait(press, SLOP, before);
     }
     return [];
   }
 
-  /** A mouse or pen draws at once, except where it may be held. */
-  #press(press: PointerPress): Gesture[] {
+  #gripTouch(press: PointerPress, grip: Grip): Gesture[] {
+    const state = this.#state;
+    if (grip === "take") {
+      return this.#grip(press, SLOP, false);
+    }
+    if (grip === "ignore") {
+      return [];
+    }
+    this.#state = { kind: "fingers", rotated: this.#fingers.size > 2 };
+    return ended(state);
+  }
+
+  #grip(press: PointerPress, slop: number, pen: boolean): Gesture[] {
+    const { id, x, y } = press;
+    if (this.#state.kind === "grips") {
+      this.#state.ids.add(id);
+    } else {
+      this.#state = { kind: "grips", ids: new Set([id]), pen };
+    }
+    return [{ kind: "grip-begin", id, x, y, slop }];
+  }
+
+  /** A mouse or pen draws at once, except where it may be held or tapped twice. */
+  #press(press: PointerPress, before: Tapped | null): Gesture[] {
+    if (press.grip) {
+      return this.#grip(press, FINE_SLOP, true);
+    }
     if (press.choose) {
       this.#state = { kind: "held", id: press.id };
       return [{ kind: "choose", x: press.x, y: press.y }];
     }
     if (press.holdable) {
-      this.#wait(press, FINE_SLOP);
+      this.#wait(press, FINE_SLOP, before);
       return [];
     }
+    const tap = before ? drawn(before) : [];
     this.#state = { kind: "stroke", id: press.id };
-    return [{ kind: "stroke-begin", point: strokePoint(press) }];
+    return [...tap, { kind: "stroke-begin", point: strokePoint(press) }];
   }
 
-  #wait(press: PointerPress, slop: number): void {
-    const { id, time: since, holdable } = press;
-    this.#state = { kind: "waiting", id, since, slop, holdable, shown: false, points: [strokePoint(press)] };
+  #wait(press: PointerPress, slop: number, before: Tapped | null): void {
+    const { id, time: since, holdable, doubles = false } = press;
+    const points = [strokePoint(press)];
+    this.#state = { kind: "waiting", id, since, slop, holdable, doubles, before, shown: false, points };
   }
 
   #wander(state: Waiting, samples: readonly PointerSample[]): Gesture[] {
@@ -300,7 +399,8 @@ export class GestureRecogniser {
     return [pan, { kind: "zoom", factor: after.distance / before.distance, x: after.x, y: after.y }];
   }
 
-  #lift(id: number, cancelled: boolean): Gesture[] {
+  /** `time` is null where the system took the pointer away. */
+  #lift(id: number, time: number | null): Gesture[] {
     this.#fingers.delete(id);
     const state = this.#state;
     if (state.kind === "fingers") {
@@ -309,13 +409,41 @@ export class GestureRecogniser {
       }
       return [];
     }
-    if (state.kind === "idle" || state.id !== id) {
+    if (state.kind === "grips") {
+      if (!state.ids.delete(id)) {
+        return [];
+      }
+      if (state.ids.size === 0) {
+        // Fingers that were only resting on the glass do not draw either.
+        this.#state = this.#fingers.size > 0 ? { kind: "fingers", rotated: true } : { kind: "idle" };
+      }
+      return [{ kind: "grip-end", id }];
+    }
+    if (state.kind === "idle" || state.kind === "tapped" || state.id !== id) {
       return [];
     }
+    if (state.kind === "waiting" && time !== null && state.doubles && time - state.since <= LONGEST_TAP) {
+      return this.#tapped(state, time);
+    }
     // A quick tap is a stroke of one place; what was nearly held long enough is not.
-    const tap = state.kind === "waiting" && !cancelled && !state.shown;
-    const gestures = tap ? [...this.#draw(state), ...ended(this.#state)] : ended(state);
+    if (state.kind !== "waiting" || time === null || state.shown) {
+      this.#state = { kind: "idle" };
+      return ended(state);
+    }
+    const gestures = [...this.#draw(state), ...ended(this.#state)];
     this.#state = { kind: "idle" };
+    return gestures;
+  }
+
+  /** A tap waits for a second one; two are a double tap where there is a branch, and nothing elsewhere. */
+  #tapped({ holdable, points, before, shown }: Waiting, time: number): Gesture[] {
+    const { x, y } = points[0] ?? { x: 0, y: 0 };
+    const gestures: Gesture[] = shown ? [{ kind: "hold-end" }] : [];
+    if (before) {
+      this.#state = { kind: "idle" };
+      return before.holdable && holdable ? [...gestures, { kind: "double-tap", x, y }] : gestures;
+    }
+    this.#state = { kind: "tapped", until: time + SECOND_TAP, holdable, x, y, points: shown ? [] : points };
     return gestures;
   }
 }
@@ -325,7 +453,30 @@ function ended(state: State): Gesture[] {
   if (state.kind === "stroke") {
     return [{ kind: "stroke-end" }];
   }
+  if (state.kind === "grips") {
+    return [{ kind: "grip-drop" }];
+  }
+  if (state.kind === "tapped") {
+    return drawn(state);
+  }
+  if (state.kind === "waiting" && state.before) {
+    return [...drawn(state.before), ...(state.shown ? [{ kind: "hold-end" } as const] : [])];
+  }
   return state.kind === "waiting" && state.shown ? [{ kind: "hold-end" }] : [];
+}
+
+/** A tap that stayed alone: a stroke of one place. */
+function drawn({ points }: Tapped): Gesture[] {
+  const [first, ...rest] = points;
+  if (first === undefined) {
+    return [];
+  }
+  const begin: Gesture[] = [{ kind: "stroke-begin", point: first }];
+  return [
+    ...begin,
+    ...(rest.length > 0 ? [{ kind: "stroke-move", points: rest } as const] : []),
+    { kind: "stroke-end" },
+  ];
 }
 
 /** How a turn of the wheel zooms: above 1 comes closer. `mode` is the event's deltaMode. */

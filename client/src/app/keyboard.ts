@@ -9,11 +9,22 @@ export interface KeyActions {
   tool(tool: ToolName): void;
   escape(): void;
   widen(notches: number): void;
+  /** Turns what is held, in small steps: sideways, up, or about itself; false if nothing is. */
+  turn(right: number, up: number, twist: number): boolean;
+  /** Travels so many steps in time, or (`edge`) to where an operation begins or ends. */
+  travel(direction: -1 | 1, edge: boolean): void;
   /** 1 grows, −1 takes back, 0 rests. */
   grow(direction: -1 | 0 | 1): void;
   /** Whether a sheet is open, which then has the keys. */
   busy(): boolean;
 }
+
+const ARROWS: Record<string, readonly [number, number]> = {
+  arrowleft: [-1, 0],
+  arrowright: [1, 0],
+  arrowup: [0, 1],
+  arrowdown: [0, -1],
+};
 
 /** Listens to the keyboard; `handHeld` says whether the space bar is down. */
 export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop(): void } {
@@ -40,6 +51,11 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
       }
       return;
     }
+    const [right, up] = ARROWS[key] ?? [0, 0];
+    if ((right !== 0 || up !== 0) && actions.turn(event.shiftKey ? 0 : right, up, event.shiftKey ? right : 0)) {
+      event.preventDefault();
+      return;
+    }
     switch (key) {
       case " ":
         // On a focused button the space bar presses it.
@@ -55,6 +71,14 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
           actions.grow(key === "g" ? 1 : -1);
         }
         break;
+      case ",":
+      case ".":
+        actions.travel(key === "." ? 1 : -1, event.altKey);
+        break;
+      case "<":
+      case ">":
+        actions.travel(key === ">" ? 1 : -1, true);
+        break;
       case "[":
         actions.widen(-1);
         break;
@@ -69,6 +93,18 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
         break;
       case "p":
         actions.tool("seed");
+        break;
+      case "t":
+        actions.tool("branch");
+        break;
+      case "n":
+        actions.tool("bend");
+        break;
+      case "w":
+        actions.tool("width");
+        break;
+      case "x":
+        actions.tool("prune");
         break;
       case "escape":
         actions.escape();

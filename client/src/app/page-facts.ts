@@ -4,6 +4,7 @@ import type { Studio } from "./studio";
 export function publishFacts(studio: Studio): void {
   const { dataset } = document.documentElement;
   const state = studio.document.value;
+  const timeline = studio.time.told.value;
   const facts = {
     connection: studio.phase.value,
     sent: studio.sent.value,
@@ -15,6 +16,13 @@ export function publishFacts(studio: Studio): void {
     tool: studio.tools.chosen.value,
     bud: studio.bud.row.value ?? "",
     obstacles: studio.obstacles.list.value.length,
+    present: timeline?.step ?? 0,
+    lastStep: timeline?.last_step ?? 0,
+    operations: timeline?.operations.map(({ kind }) => kind).join(" ") ?? "",
+    done: timeline?.done ?? 0,
+    futures: timeline?.futures.length ?? 0,
+    branch: studio.branches.hand.row.value ?? "",
+    ghost: studio.branches.prediction.grown.value ?? "",
   };
   for (const [name, value] of Object.entries(facts)) {
     dataset[name] = String(value);

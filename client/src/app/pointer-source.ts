@@ -1,4 +1,11 @@
-import { type Gesture, GestureRecogniser, type PointerPress, type PointerSample, wheelFactor } from "./gestures";
+import {
+  type Gesture,
+  GestureRecogniser,
+  type Grip,
+  type PointerPress,
+  type PointerSample,
+  wheelFactor,
+} from "./gestures";
 
 export interface PointerHandlers {
   gesture(gesture: Gesture): void;
@@ -10,6 +17,10 @@ export interface PointerHandlers {
   handHeld(): boolean;
   /** Whether holding still at a place chooses something. */
   holdable(x: number, y: number): boolean;
+  /** Whether two taps mean something to the tool at hand. */
+  doubles(): boolean;
+  /** What the tool at hand does with one more finger at a place; null if it draws strokes. */
+  grip(x: number, y: number): Grip | null;
 }
 
 /** Feeds a canvas' pointer events to a gesture recogniser; returns what ends it. */
@@ -63,7 +74,9 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
     const { button, altKey: choose } = event;
     const hand = event.shiftKey || handlers.handHeld();
     const holdable = button === 0 && !hand && handlers.holdable(at.x, at.y);
-    const press: PointerPress = { ...at, button, hand, choose, holdable };
+    const grip = button === 0 && !hand ? handlers.grip(at.x, at.y) : null;
+    const doubles = handlers.doubles();
+    const press: PointerPress = { ...at, button, hand, choose, holdable, doubles, ...(grip ? { grip } : {}) };
     deliver(recogniser.down(press));
   });
   on("pointermove", (event) => {

@@ -1,6 +1,11 @@
 import type { TreeTable } from "../scene/tree-table";
+import type { FrameKind } from "../wire/envelope";
 import type { Frame } from "../wire/frame";
+import type { ServerFrame } from "../wire/server-frame";
 import type { BrushView, Point, RowStore } from "./ports";
+
+/** A frame that is no change of the table. */
+export type AsideServerFrame = Exclude<ServerFrame, { readonly kind: typeof FrameKind.MeshDelta }>;
 
 /** The table of rows as the connection sees it. */
 export function rowStore(table: TreeTable): RowStore<Frame> {
@@ -42,4 +47,10 @@ export function seedsToGrow(table: TreeTable, most: number): Point[] {
     }
   }
   return seeds;
+}
+
+/** How many pixels an internode is long at a point. */
+export function scaleAt(view: Pick<BrushView, "pointOnPlane">, point: Point): number {
+  const [a, b] = [view.pointOnPlane(0, 0, point), view.pointOnPlane(100, 0, point)];
+  return a && b ? 100 / Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) : 0;
 }

@@ -1,7 +1,7 @@
 import type { TreeTable } from "../scene/tree-table";
 import type { Viewport } from "../scene/viewport";
 import type { Point } from "./ports";
-import { nearestBase } from "./scene-link";
+import { nearestBase, scaleAt } from "./scene-link";
 import type { Settings } from "./settings";
 
 /** How long the brush stays visible after its radius changed. */
@@ -97,21 +97,35 @@ export class Stage {
     return this.#view?.projector() ?? null;
   }
 
-  /** The base of the plant nearest to the middle of the canvas, and which way is right on the screen. */
-  middle(): { readonly base: Point; readonly right: Point } {
+  /** Where a row is drawn. */
+  placeOf(row: number): Point | null {
+    return row < this.#table.rows ? (this.#view?.placeOf(row) ?? null) : null;
+  }
+
+  /** The screen's own directions in the world: right, up, and out of it towards the eye. */
+  screenAxes(): readonly [right: Point, up: Point, out: Point] | null {
+    const plane = this.#view?.drawingPlane([0, 0, 0]);
+    if (!plane) {
+      return null;
+    }
+    const { right: r, up: u } = plane;
+    return [r, u, [r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]]];
+  }
+
+  /** The base of the plant nearest to the middle of the canvas, and which ways are right and up on the screen. */
+  middle(): { readonly base: Point; readonly right: Point; readonly up: Point } {
     const [view, canvas] = [this.#view, this.#canvas];
     if (!view || !canvas) {
-      return { base: [0, 0, 0], right: [1, 0, 0] };
+      return { base: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0] };
     }
     const base = nearestBase(this.#table, view, canvas.clientWidth / 2, canvas.clientHeight / 2);
-    return { base, right: view.drawingPlane(base).right };
+    const { right, up } = view.drawingPlane(base);
+    return { base, right, up };
   }
 
   /** How many pixels an internode is long at a point. */
   scaleAt(point: Point): number {
-    const view = this.#view;
-    const [a, b] = [view?.pointOnPlane(0, 0, point), view?.pointOnPlane(100, 0, point)];
-    return a && b ? 100 / Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]) : 0;
+    return this.#view ? scaleAt(this.#view, point) : 0;
   }
 
   /** A picture of the tree as a data URL, or undefined where none can be made. */

@@ -2,8 +2,11 @@ import { batch, effect, signal } from "@preact/signals";
 import { axisStart } from "../scene/branch-rows";
 import { TreeTable } from "../scene/tree-table";
 import { Viewport } from "../scene/viewport";
-import { decodeFrame, type Frame } from "../wire/frame";
+import { FrameKind } from "../wire/envelope";
+import type { Frame } from "../wire/frame";
 import type { Command, DocumentState, Parameters, ParametersPatch, Problem } from "../wire/generated";
+import { decodeServerFrame } from "../wire/server-frame";
+import { BranchWork } from "./branch-work";
 import { stepRadius } from "./brush-radius";
 import { ChosenBud } from "./chosen-bud";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
@@ -16,11 +19,13 @@ import { createSession, sessionExists, socketAddress } from "./library-api";
 import { ObstacleList } from "./obstacle-list";
 import { publishFacts } from "./page-facts";
 import { followPageLife } from "./page-life";
+import { plainly } from "./plain-words";
 import { listenToPointers } from "./pointer-source";
 import { mayReload } from "./reload-guard";
-import { rowStore } from "./scene-link";
+import { type AsideServerFrame, rowStore } from "./scene-link";
 import { loadSettings } from "./settings";
 import { Stage } from "./stage";
+import { TimelineControl } from "./timeline-control";
 import { Toasts } from "./toasts";
 import { PICK_TOLERANCE } from "./tools/tool";
 import { Toolbox } from "./tools/toolbox";
@@ -67,16 +72,41 @@ export class Studio {
     bud: () => this.bud.row.peek(),
     held: (held) => this.stage.hold(held),
   });
+  readonly time = new TimelineControl({
+    goTo: (step) => this.submit({ kind: "go_to", step }),
+    takeFuture: (future) => this.submit({ kind: "take_future", future }),
+    ready: () => this.phase.peek() === "connected",
+    unsettled: () => this.#unsettled("go_to"),
+    revision: () => this.revision.peek(),
+    held: (held) => this.stage.hold(held),
+  });
+  readonly branches: BranchWork = new BranchWork({
+    table: this.table,
+    submit: (command) => this.submit(command),
+    newGesture: () => this.#next(),
+    predict: (rows, steps) => this.#connection?.predict(rows, steps) ?? false,
+    limits: () => this.tools.shaping.peek()?.width.limits.peek() ?? new Set(),
+    cut: (rows) => this.tools.shaping.peek()?.prune.cut(rows),
+    screen: () => this.stage.middle(),
+    say: (sentence) => this.toasts.show(sentence),
+  });
   readonly tools = new Toolbox({
     table: this.table,
     settings: this.settings,
     toasts: this.toasts,
     bud: this.bud,
     obstacles: this.obstacles,
+    branch: this.branches.hand,
     submit: (command) => this.submit(command),
     next: () => this.#next(),
     // What is durable may still have to grow: a heavy tree must not fall behind the finger.
     unsettledMoves: () => Math.max(this.#unsettled("stroke_move"), this.document.peek()?.pending_steps ?? 0),
+    unsettled: (kind) => this.#unsettled(kind),
+    girth: () => {
+      const { girth_exponent: exponent = 2.5, twig_diameter: twigDiameter = 0.07 } = this.parameters.peek() ?? {};
+      return { exponent, twigDiameter };
+    },
+    predict: (rows) => this.branches.predict(rows),
     ready: () => this.#connection !== null && this.hindrance.peek() === null,
     arranging: () => this.panel.peek() === "scene",
     choose: (x, y) => this.chooseBud(x, y),
@@ -84,7 +114,7 @@ export class Studio {
 
   readonly stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
-  #connection: Connection<Frame> | null = null;
+  #connection: Connection<Frame, AsideServerFrame> | null = null;
   #framed = false;
   /** The view is no longer that of a fresh page. */
   #moved = false;
@@ -100,6 +130,7 @@ export class Studio {
       return () => {};
     }
     this.stage.attach(viewport, canvas);
+    this.branches.attach(viewport);
     this.tools.attach(viewport);
     const keys = listenToKeys({
       undo: () => this.undo(),
@@ -111,6 +142,8 @@ export class Studio {
       tool: (tool) => this.tools.choose(tool),
       escape: () => this.escape(),
       widen: (notches) => this.stage.setRadius(stepRadius(this.settings.radius.peek(), notches)),
+      turn: (right, up, twist) => this.branches.step(right, up, twist),
+      travel: (direction, edge) => (edge ? this.time.toEdge(direction) : this.time.by(direction)),
       grow: (direction) =>
         direction === 0 ? this.growth.release() : this.growth.to(direction * deflectionFor(KEY_RATE)),
       busy: () => this.sheet.peek() !== null,
@@ -120,8 +153,14 @@ export class Studio {
         this.stage.radiusSeen();
         this.tools.gesture(gesture);
       },
+      doubles: () => this.tools.doubles(),
+      grip: (x, y) => this.tools.grip(x, y),
       hover: (place) => this.tools.hover(place),
-      widen: (factor) => this.stage.setRadius(stepRadius(this.settings.radius.peek(), Math.log(factor) * 8)),
+      widen: (factor) => {
+        if (!this.branches.step(0, 0, Math.log(factor) * 8)) {
+          this.stage.setRadius(stepRadius(this.settings.radius.peek(), Math.log(factor) * 8));
+        }
+      },
       handHeld: keys.handHeld,
       holdable: (x, y) => this.tools.holdable(x, y),
     });
@@ -139,6 +178,7 @@ export class Studio {
       keys.stop();
       this.#leave();
       this.tools.detach();
+      this.branches.detach();
       this.stage.detach();
       viewport.dispose();
     };
@@ -212,8 +252,12 @@ export class Studio {
 
   /** Steps back from what is most at hand: a drawing, a tool, a choice, a panel. */
   escape(): void {
-    if (this.tools.drawing.peek()) {
+    if (this.branches.prediction.rows.peek() !== null) {
+      this.branches.prediction.discard();
+    } else if (this.tools.drawing.peek()) {
       this.tools.cancel();
+    } else if (this.tools.release()) {
+      // What the tool had marked was most at hand.
     } else if (this.tools.chosen.peek() !== "brush") {
       this.tools.choose("brush");
     } else if (this.bud.row.peek() !== null) {
@@ -251,17 +295,19 @@ export class Studio {
       this.bud.release();
       this.tools.outline.clear();
       this.obstacles.clear();
+      this.time.clear();
+      this.branches.clear();
     });
     this.#moved ||= this.#framed;
     this.#framed = false;
     this.table.clear();
     this.stage.changed();
     const record = takeRecord(sessionStorage, session);
-    this.#connection = new Connection<Frame>({
+    this.#connection = new Connection<Frame, AsideServerFrame>({
       openSocket: () => new WebSocket(socketAddress(session, location)),
       clock: browserClock,
       rows: rowStore(this.table),
-      decode: decodeFrame,
+      decode: decodeServerFrame,
       newKey: newClientKey,
       ...(record ? { record } : {}),
       events: {
@@ -271,6 +317,7 @@ export class Studio {
             this.sent.value = sent;
             this.settled.value = settled;
           });
+          this.tools.told();
         },
         state: (state) => {
           this.document.value = state;
@@ -284,6 +331,15 @@ export class Studio {
           // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
           obstacles.length === 0 ? this.obstacles.clear() : this.obstacles.receive(obstacles);
         },
+        aside: (aside) => {
+          if (aside.kind === FrameKind.Ghost) {
+            this.branches.prediction.receive(aside.frame);
+          } else {
+            this.tools.shaping.peek()?.poses.receive(aside.frame);
+          }
+        },
+        widths: (widths) => this.tools.shaping.peek()?.width.receive(widths),
+        timeline: (timeline) => this.time.receive(timeline),
         problem: (problem, command) => this.#onProblem(problem, command),
         rows: () => this.#onRows(),
         rekeyed: () => {
@@ -300,6 +356,10 @@ export class Studio {
   }
 
   #onPhase(phase: Phase, attempts: number, stopped: StopReason | null): void {
+    if (phase !== "connected" && this.phase.peek() === "connected") {
+      this.tools.shaping.peek()?.poses.clear();
+      this.branches.prediction.lost();
+    }
     batch(() => {
       this.phase.value = phase;
       this.attempts.value = attempts;
@@ -316,6 +376,11 @@ export class Studio {
     if (command?.kind === "lasso") {
       this.tools.outline.clear();
     }
+    if (command?.kind === "go_to") {
+      this.time.stop();
+    }
+    this.branches.refused(command);
+    this.tools.refused(command);
     if (command?.kind.endsWith("_obstacle")) {
       this.obstacles.preview(null);
     }
@@ -331,13 +396,15 @@ export class Studio {
       this.tools.abandon();
       return;
     }
-    this.toasts.show(problem.message);
+    this.toasts.show(plainly(problem, command));
     console.warn("The server refused:", problem);
   }
 
   #onRows(): void {
     this.rows.value = this.table.rows;
     this.revision.value += 1;
+    this.branches.hand.keep();
+    this.tools.told();
     if (!this.bud.keep()) {
       this.toasts.show(BUD_LOST);
     }

@@ -20,9 +20,23 @@ export function axisStart(table: Rows, row: number): number {
   }
 }
 
+/** The rows from one up to another above it, both included; null if it is not above. */
+export function pathUp(table: Pick<Rows, "parent">, base: number, top: number): number[] | null {
+  const path: number[] = [];
+  for (let row = top; row >= base; row = table.parent[row]!) {
+    path.push(row);
+    if (row === base) return path.reverse();
+  }
+  return null;
+}
+
 /** The living rows of the axis a row belongs to and of all it bears, parents first; at most `most`. */
 export function branchRows(table: Rows, row: number, most: number): number[] {
-  const first = axisStart(table, row);
+  return subtreeRows(table, axisStart(table, row), most);
+}
+
+/** A row and the living rows above it, parents first; at most `most`. */
+export function subtreeRows(table: Rows, first: number, most: number): number[] {
   const on = new Uint8Array(table.rows - first);
   on[0] = 1;
   const found = [first];

@@ -9,8 +9,6 @@ import { Foliage } from "./foliage";
 import { makeMaterials } from "./materials";
 import { Dirty, TreeTable } from "./tree-table";
 
-const FULL_LEAF = 0.5;
-
 /** Every row that instances of these meshes draw, with its parent. */
 function drawn(meshes: Mesh[]): Map<number, number> {
   const rows = new Map<number, number>();
@@ -30,10 +28,10 @@ function leaves(mesh: Mesh): Map<number, number> {
   const counts = new Map<number, number>();
   const { geometry } = mesh;
   const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-  const base = geometry.getAttribute("base");
-  const direction = geometry.getAttribute("direction");
+  const leaf = geometry.getAttribute("leaf");
+  const tint = geometry.getAttribute("tint");
   for (let i = 0; i < count; i += 1) {
-    if (base.getW(i) > FULL_LEAF) counts.set(direction.getW(i), (counts.get(direction.getW(i)) ?? 0) + 1);
+    if (tint.getX(i) >= 0) counts.set(leaf.getX(i), (counts.get(leaf.getX(i)) ?? 0) + 1);
   }
   return counts;
 }

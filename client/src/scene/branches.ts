@@ -31,7 +31,7 @@ export class Branches {
   private sizeOf = new Int8Array(0);
   private known = 0;
 
-  constructor(materials: Materials) {
+  constructor(materials: Pick<Materials, "bark" | "twig" | "branchDepth">) {
     this.sizes = [new Size(THICK), new Size(MEDIUM), new Size(TWIG)];
     this.meshes = this.sizes.map((size, i) => mesh(size.fine, i < 2 ? materials.bark : materials.twig));
     this.casters = this.sizes.map((size) => mesh(size.coarse, materials.branchDepth));

@@ -60,6 +60,43 @@ describe("the camera", () => {
     expect(before - rig.pose.target[0]).toBeCloseTo((100 / 800) * 40, 4);
   });
 
+  it("goes back to where it was before it framed something", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    rig.zoom(3, 0.2, 0.1);
+    settle(rig);
+    const before = structuredClone(rig.pose);
+    rig.frame(tree, 1.4);
+    settle(rig);
+    expect(rig.pose.distance).toBeGreaterThan(before.distance);
+    rig.unframe();
+    settle(rig);
+    expect(rig.pose).toEqual(before);
+  });
+
+  it("stays where a hand has moved it meanwhile", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    rig.frame(tree, 1.4);
+    rig.orbit(40, 0);
+    settle(rig);
+    const moved = structuredClone(rig.pose);
+    rig.unframe();
+    settle(rig);
+    expect(rig.pose).toEqual(moved);
+  });
+
+  it("leaves room at the foot of the picture", () => {
+    const rig = new CameraRig();
+    rig.frame(tree, 1.4, 0.2);
+    settle(rig);
+    const { target, distance } = rig.pose;
+    const half = Math.tan(FIELD_OF_VIEW / 2) * distance;
+    // The ground lies above the lowest fifth of what is seen, and the crown's top below the upper edge.
+    expect(target[1] - half * 0.6).toBeLessThanOrEqual(0);
+    expect(target[1] + half).toBeGreaterThan(tree.max[1]);
+  });
+
   it("fits a wide tree into a tall picture", () => {
     const wide = { min: [-40, 0, 0], max: [40, 10, 0] } as const;
     const pose = fitted(wide, 0.7, 0);

@@ -43,6 +43,8 @@ export class CameraRig {
   private readonly quick = dampers(HALF_LIFE);
   private readonly slow = dampers(EASE_HALF_LIFE);
   private easing = false;
+  /** Where the goal was before the last `frame`, as long as nobody has moved the camera since. */
+  private before: Pose | null = null;
 
   constructor() {
     const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
@@ -67,7 +69,7 @@ export class CameraRig {
   }
 
   orbit(dx: number, dy: number): void {
-    this.easing = false;
+    this.take();
     this.goal.yaw -= dx * RADIANS_PER_PIXEL;
     this.goal.pitch += dy * RADIANS_PER_PIXEL;
     this.limit();
@@ -75,7 +77,7 @@ export class CameraRig {
 
   /** Moves the picture by pixels, at the target's depth. */
   pan(dx: number, dy: number, height: number): void {
-    this.easing = false;
+    this.take();
     const scale = (2 * this.goal.distance * Math.tan(FIELD_OF_VIEW / 2)) / height;
     const { yaw, pitch, target } = this.goal;
     target[0] += (-dx * Math.cos(yaw) - dy * Math.sin(pitch) * Math.sin(yaw)) * scale;
@@ -86,7 +88,7 @@ export class CameraRig {
 
   /** Brings what is seen at `right`, `up` from the middle, in halves of the picture's height, nearer or further. */
   zoom(factor: number, right: number, up: number): void {
-    this.easing = false;
+    this.take();
     const before = this.goal.distance;
     this.goal.distance = Math.min(Math.max(before / factor, MIN_DISTANCE), this.furthest());
     const shift = (before - this.goal.distance) * Math.tan(FIELD_OF_VIEW / 2);
@@ -97,10 +99,23 @@ export class CameraRig {
     this.limit();
   }
 
-  /** Eases to a view of the whole box. */
-  frame(box: Box, aspect: number): void {
+  /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
+  frame(box: Box, aspect: number, covered = 0): void {
+    this.before = structuredClone(this.goal);
     this.box = box;
-    Object.assign(this.goal, fitted(box, aspect, this.goal.yaw));
+    const pose = fitted(box, aspect, this.goal.yaw);
+    pose.distance /= 1 - covered;
+    pose.target[1] -= covered * pose.distance * Math.tan(FIELD_OF_VIEW / 2);
+    Object.assign(this.goal, pose);
+    this.easing = true;
+    this.limit();
+  }
+
+  /** Eases back to where the camera was before the last `frame`, unless somebody has moved it since. */
+  unframe(): void {
+    if (!this.before) return;
+    Object.assign(this.goal, this.before);
+    this.before = null;
     this.easing = true;
     this.limit();
   }
@@ -125,6 +140,12 @@ export class CameraRig {
       pose.target.every((value, axis) => value === goal.target[axis]);
     if (arrived) this.easing = false;
     return !arrived;
+  }
+
+  /** The hand takes the camera. */
+  private take(): void {
+    this.easing = false;
+    this.before = null;
   }
 
   private furthest(): number {

@@ -8,11 +8,14 @@ import {
 } from "three";
 import { grown } from "./column";
 import { LeafSlots } from "./leaf-slots";
-import { LEAF_NUMBERS, placeLeaf } from "./leaves";
+import { leafAzimuth, leafRandom } from "./leaves";
 import type { Materials } from "./materials";
 import type { TreeTable } from "./tree-table";
 
-const STRIDE = 12;
+/** Row, parent's row, azimuth and share of the way along; a random number with the vigor above the point. */
+const STRIDE = 5;
+const TINT = 4;
+const NO_LEAF = -1;
 /** With more leaves than this each is drawn with half the triangles: nobody sees single ones then. */
 const MANY_LEAVES = 60_000;
 
@@ -25,7 +28,6 @@ export class Foliage {
   private readonly slots = new LeafSlots();
   private instances = new Float32Array(1024 * STRIDE);
   private buffer = this.allocate();
-  private readonly placed = new Float32Array(LEAF_NUMBERS);
   private changedFrom = Number.POSITIVE_INFINITY;
   private changedTo = 0;
   private fine = true;
@@ -33,7 +35,7 @@ export class Foliage {
   private readonly plain = blade([0.42], [0.3]);
   private readonly geometry: { near: InstancedBufferGeometry; far: InstancedBufferGeometry };
 
-  constructor(materials: Materials) {
+  constructor(materials: Pick<Materials, "leaf" | "leafDepth">) {
     this.geometry = { near: new InstancedBufferGeometry(), far: new InstancedBufferGeometry() };
     for (const [geometry, source] of [
       [this.geometry.near, this.detailed],
@@ -65,15 +67,12 @@ export class Foliage {
     const vigor = table.foliage[row]! >> 4;
     for (let k = 0; k < count; k += 1) {
       const at = (first + k) * STRIDE;
-      const { placed, instances } = this;
-      if (!placeLeaf(placed, 0, row, k, count, table.position, parent, row)) {
-        instances[at + 3] = 0;
-        continue;
-      }
-      instances.set(placed.subarray(0, 7), at);
-      instances[at + 7] = row;
-      instances.set(placed.subarray(7, 10), at + 8);
-      instances[at + 11] = vigor + Math.min(placed[10]!, 0.999);
+      const { instances } = this;
+      instances[at] = row;
+      instances[at + 1] = parent;
+      instances[at + 2] = leafAzimuth(row, k, count);
+      instances[at + 3] = (k + 1) / count;
+      instances[at + TINT] = vigor + Math.min(leafRandom(row, k), 0.999);
     }
     this.touch(first, count);
   }
@@ -104,7 +103,7 @@ export class Foliage {
   }
 
   private readonly clear = (first: number, count: number): void => {
-    for (let slot = first; slot < first + count; slot += 1) this.instances[slot * STRIDE + 3] = 0;
+    for (let slot = first; slot < first + count; slot += 1) this.instances[slot * STRIDE + TINT] = NO_LEAF;
     this.touch(first, count);
   };
 
@@ -133,9 +132,8 @@ export class Foliage {
 
   private bind(): void {
     for (const geometry of [this.geometry.near, this.geometry.far]) {
-      geometry.setAttribute("base", new InterleavedBufferAttribute(this.buffer, 4, 0));
-      geometry.setAttribute("direction", new InterleavedBufferAttribute(this.buffer, 4, 4));
-      geometry.setAttribute("face", new InterleavedBufferAttribute(this.buffer, 4, 8));
+      geometry.setAttribute("leaf", new InterleavedBufferAttribute(this.buffer, 4, 0));
+      geometry.setAttribute("tint", new InterleavedBufferAttribute(this.buffer, 1, TINT));
     }
   }
 }

@@ -3,16 +3,20 @@ import { CHUNK_ROWS } from "../wire/generated";
 import { grown } from "./column";
 import { radiusOf, type TreeTable } from "./tree-table";
 
-/** Texels each row has: position and radius; frame and light; birth, duration, extension and arc. */
+/** Texels each row has: position and radius; frame, and light with the slot; birth, duration, extension and arc. */
 const TEXELS = 3;
 const LINE = CHUNK_ROWS * TEXELS * 4;
 const NEVER = 1e9;
+/** Light is a share of this below one, so that it leaves the whole numbers to the slot. */
+const LIGHT_STEPS = 256;
 
 /** The node table on the GPU: one line of the texture is one chunk, so that a delta uploads only its chunks. */
 export class NodeTexture {
   /** For the shaders' `uNodes`; the texture is another one when the table outgrows it. */
   readonly uniform: { value: DataTexture };
   private texels = new Float32Array(4 * LINE);
+  /** What each row wears, see `guises.ts`. */
+  private slots = new Int16Array(0);
   private readonly stale = new Set<number>();
   private whole = true;
 
@@ -23,6 +27,7 @@ export class NodeTexture {
   /** Makes room for `rows`. */
   reserve(rows: number): void {
     const lines = Math.ceil(rows / CHUNK_ROWS);
+    this.slots = grown(this.slots, lines * CHUNK_ROWS);
     let height = this.texels.length / LINE;
     if (lines <= height) return;
     while (height < lines) height *= 2;
@@ -51,11 +56,18 @@ export class NodeTexture {
     texels[at + 4] = table.frames[4 * row]!;
     texels[at + 5] = table.frames[4 * row + 1]!;
     texels[at + 6] = table.frames[4 * row + 2]!;
-    texels[at + 7] = table.light[row]! / 255;
+    texels[at + 7] = worn(this.slots[row]!, table.light[row]!);
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
     texels[at + 10] = successor < 0 ? NEVER : table.birth[successor]!;
     texels[at + 11] = table.arc[row]!;
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Has a row wear another slot: 0 for none, below 0 for its own. */
+  dress(table: TreeTable, row: number, slot: number): void {
+    this.slots[row] = slot;
+    this.texels[4 * TEXELS * row + 7] = worn(slot, table.light[row]!);
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
@@ -83,4 +95,10 @@ export class NodeTexture {
     texture.needsUpdate = true;
     return texture;
   }
+}
+
+/** One number for both, as the shaders take them apart. */
+function worn(slot: number, light: number): number {
+  const value = Math.abs(slot) + light / LIGHT_STEPS;
+  return slot < 0 ? -value : value;
 }

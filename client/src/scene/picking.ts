@@ -16,6 +16,12 @@ export interface Projection {
   pixelsPerInternode: number;
 }
 
+/** Where rows are drawn that are not where the table has them. */
+export interface DrawnElsewhere {
+  placeOf(table: TreeTable, row: number): Vec3;
+  hides(row: number): boolean;
+}
+
 const MIN_W = 1e-3;
 
 /**
@@ -28,6 +34,7 @@ export function pickBranch(
   x: number,
   y: number,
   tolerancePixels: number,
+  drawn: DrawnElsewhere | null = null,
 ): Pick | null {
   const { position, rows } = table;
   if (scratch.length < 3 * rows) scratch = new Float32Array(3 * table.parent.length);
@@ -42,9 +49,10 @@ export function pickBranch(
   let nearest = tolerancePixels;
   for (let row = 0, at = 0; row < rows; row += 1, at += 3) {
     // A parent's row is below its child's (FR5), so that one pass both projects and compares.
-    const px = position[at]!;
-    const py = position[at + 1]!;
-    const pz = position[at + 2]!;
+    let px = position[at]!;
+    let py = position[at + 1]!;
+    let pz = position[at + 2]!;
+    if (drawn) [px, py, pz] = drawn.placeOf(table, row);
     const wb = m3 * px + m7 * py + m11 * pz + m15;
     const per = 1 / wb;
     const bx = halfWidth + halfWidth * (m0 * px + m4 * py + m8 * pz + m12) * per;
@@ -54,7 +62,7 @@ export function pickBranch(
     screen[at + 2] = wb;
     const parent = table.parent[row]!;
     const code = table.radiusCode[row]!;
-    if (code === 0 || parent < 0) continue;
+    if (code === 0 || parent < 0 || drawn?.hides(row)) continue;
     const wa = screen[3 * parent + 2]!;
     if (wa < MIN_W || wb < MIN_W) continue;
     const ax = screen[3 * parent]!;
@@ -83,10 +91,10 @@ export function pickBranch(
   if (!best) return null;
   const { row, share } = best;
   const parent = table.parent[row]!;
-  const at = (axis: number) => {
-    const from = table.position[3 * parent + axis]!;
-    return from + (table.position[3 * row + axis]! - from) * share;
-  };
+  const place = (of: number) =>
+    drawn?.placeOf(table, of) ?? [position[3 * of]!, position[3 * of + 1]!, position[3 * of + 2]!];
+  const [a, b] = [place(parent), place(row)];
+  const at = (axis: 0 | 1 | 2) => a[axis]! + (b[axis]! - a[axis]!) * share;
   return { row, point: [at(0), at(1), at(2)] };
 }
 

@@ -5,6 +5,8 @@ import { BrushShell } from "./brush-shell";
 import { type Box, CameraRig, fitted } from "./camera-rig";
 import { Environment } from "./environment";
 import { Foliage } from "./foliage";
+import { Ghost, type GhostPose } from "./ghost";
+import { type Guise, Guises } from "./guises";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import { NodeTexture } from "./node-texture";
 import { NoiseTextures } from "./noise-texture";
@@ -35,6 +37,7 @@ export class Viewport {
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
   private readonly nodes = new NodeTexture();
+  private readonly guises = new Guises();
   private readonly noise = new NoiseTextures();
   private readonly branches: Branches;
   private readonly foliage: Foliage;
@@ -42,6 +45,7 @@ export class Viewport {
   private readonly sun: Sun;
   private readonly obstacles: ObstacleMeshes;
   private readonly brush: BrushShell;
+  private readonly ghost: Ghost;
   private readonly screen: Screen;
   private readonly control = new QualityControl();
   private readonly resizing: ResizeObserver;
@@ -49,6 +53,7 @@ export class Viewport {
   /** When the movement under way was last drawn. */
   private lastFrame: number | null = null;
   private tableChanged = true;
+  private guisesChanged = false;
   private shadowStale = true;
   private shadowDrawn = Number.NEGATIVE_INFINITY;
   /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
@@ -67,6 +72,7 @@ export class Viewport {
     this.uniforms.uTime = { value: 0 };
     this.uniforms.uLeafSize = { value: 0.7 };
     this.uniforms.uNodes = this.nodes.uniform;
+    this.uniforms.uGuises = this.guises.uniform;
     this.uniforms.uNoise = { value: this.noise.space };
     this.uniforms.uFlatNoise = { value: this.noise.plane };
     this.uniforms.uWorldFromClip = { value: this.sight.worldFromClip };
@@ -78,7 +84,8 @@ export class Viewport {
     this.obstacles = new ObstacleMeshes(this.materials);
     this.brush = new BrushShell(this.materials, this.uniforms);
     this.scene.add(...this.environment.meshes, ...this.branches.meshes, this.foliage.mesh, this.brush.mesh);
-    this.scene.add(this.obstacles.bodies);
+    this.ghost = new Ghost(this.uniforms);
+    this.scene.add(this.obstacles.bodies, this.ghost.group);
     this.sun.casters.add(...this.branches.casters, this.foliage.caster, this.obstacles.casters);
     canvas.addEventListener("webglcontextrestored", this.restored);
     this.resizing = new ResizeObserver(() => this.resize());
@@ -119,9 +126,21 @@ export class Viewport {
     this.stir();
   }
 
-  /** Eases the camera to a view of the whole tree. */
-  frameTree(): void {
-    this.rig.frame(this.table.bounds(), this.sight.width / this.sight.height);
+  /** Eases the camera to a view of the whole tree and the ghost beside it; something may cover a share of the foot. */
+  frameTree(covered = 0): void {
+    const ghost = this.ghost.bounds();
+    this.frameBox(ghost ? union(this.table.bounds(), ghost) : this.table.bounds(), covered);
+  }
+
+  /** Eases it to a view of what will be there. */
+  frameBox(box: Box, covered = 0): void {
+    this.rig.frame(box, this.sight.width / this.sight.height, covered);
+    this.stir();
+  }
+
+  /** Eases it back to where it was before it framed something, unless somebody has moved it since. */
+  unframe(): void {
+    this.rig.unframe();
     this.stir();
   }
 
@@ -152,7 +171,35 @@ export class Viewport {
 
   /** The branch under or near a place on the canvas. */
   pick(x: number, y: number, tolerancePixels: number): Pick | null {
-    return pickBranch(this.table, this.aimed().projection(), x, y, tolerancePixels);
+    const drawn = this.guises.active ? this.guises : null;
+    return pickBranch(this.table, this.aimed().projection(), x, y, tolerancePixels, drawn);
+  }
+
+  /** Draws rows otherwise than the table has them until it has caught up, or the guise is taken off. */
+  wear(guise: Guise): void {
+    this.guises.put(guise);
+    this.guiseChanged();
+  }
+
+  /** Draws them as they are again. */
+  doff(guise: Guise): void {
+    if (this.guises.take(guise)) this.guiseChanged();
+  }
+
+  wears(guise: Guise): boolean {
+    return this.guises.has(guise);
+  }
+
+  /** What a guise that is worn shows has changed. */
+  guiseChanged(): void {
+    this.guisesChanged = true;
+    this.shadowStale = true;
+    this.stir();
+  }
+
+  /** Where a row is drawn. */
+  placeOf(row: number): Vec3 {
+    return this.guises.placeOf(this.table, row);
   }
 
   /** The obstacle under a place on the canvas. */
@@ -168,8 +215,23 @@ export class Viewport {
   /** Draws these obstacles and no others; one may be marked. */
   showObstacles(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
     this.obstacles.show(obstacles, chosen);
-    this.rig.keep(this.extent());
+    this.rig.keep(this.reach());
     this.shadowStale = true;
+    this.stir();
+  }
+
+  /** Shows rows of a table, or all of them, as a ghost; null for none. */
+  showGhost(table: TreeTable | null, rows: Iterable<number> | null = null): void {
+    if (table) this.ghost.show(table, rows);
+    else this.ghost.hide();
+    this.rig.keep(this.reach());
+    this.stir();
+  }
+
+  /** Puts the ghost somewhere. */
+  placeGhost(pose: GhostPose): void {
+    this.ghost.place(pose);
+    this.rig.keep(this.reach());
     this.stir();
   }
 
@@ -194,14 +256,14 @@ export class Viewport {
   /** A picture of the whole tree as a data URL of at most 192 KiB; too small for every detail to be seen. */
   async thumbnail(width: number, height: number): Promise<string> {
     const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
-    const brushShown = this.brush.mesh.visible;
-    this.brush.hide();
+    const passing = [this.brush.mesh, this.ghost.group].filter(({ visible }) => visible);
+    for (const object of passing) object.visible = false;
     this.sync();
     this.detail(false);
     if (this.shadowStale) this.drawShadow();
     this.sight.aim(pose, this.rig.eye(pose), width / height);
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
-    this.brush.mesh.visible = brushShown;
+    for (const object of passing) object.visible = true;
     return picture;
   }
 
@@ -217,8 +279,10 @@ export class Viewport {
       this.environment,
       this.obstacles,
       this.brush,
+      this.ghost,
       this.screen,
       this.nodes,
+      this.guises,
       this.noise,
       this.sun,
     ])
@@ -298,7 +362,18 @@ export class Viewport {
 
   /** Takes over what changed in the table. */
   private sync(): void {
-    if (!this.tableChanged) return;
+    const { table, tableChanged } = this;
+    if (tableChanged) this.syncTable();
+    if (!tableChanged && !this.guisesChanged) return;
+    this.guisesChanged = false;
+    if (tableChanged) this.guises.settle(table);
+    if (!this.guises.dress(table, (row, slot) => this.nodes.dress(table, row, slot), tableChanged)) {
+      this.guises.write(table);
+    }
+    this.nodes.upload();
+  }
+
+  private syncTable(): void {
     this.tableChanged = false;
     this.shadowStale = true;
     const { table } = this;
@@ -314,11 +389,10 @@ export class Viewport {
         if ((bits & Dirty.Shape) !== 0) this.foliage.update(table, row);
       },
     );
-    this.nodes.upload();
     this.branches.upload();
     this.foliage.upload();
     this.environment.update(table);
-    this.rig.keep(this.extent());
+    this.rig.keep(this.reach());
   }
 
   private drawShadow(): void {
@@ -342,6 +416,12 @@ export class Viewport {
     return { min: axes.map(low) as [number, number, number], max: axes.map(high) as [number, number, number] };
   }
 
+  /** What the camera keeps in reach. */
+  private reach(): Box {
+    const ghost = this.ghost.bounds();
+    return ghost ? union(this.extent(), ghost) : this.extent();
+  }
+
   private aimed(): Sight {
     this.sight.aim(this.rig.pose, this.rig.eye());
     return this.sight;
@@ -360,7 +440,17 @@ export class Viewport {
   /** A restored context has lost every texture and buffer. */
   private readonly restored = (): void => {
     this.nodes.uploadWhole();
+    this.guises.uploadWhole();
+    this.ghost.restored();
     this.shadowStale = true;
     this.invalidate();
+  };
+}
+
+function union(a: Box, b: Box): Box {
+  const axes = [0, 1, 2] as const;
+  return {
+    min: axes.map((axis) => Math.min(a.min[axis], b.min[axis])) as [number, number, number],
+    max: axes.map((axis) => Math.max(a.max[axis], b.max[axis])) as [number, number, number],
   };
 }

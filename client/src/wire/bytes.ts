@@ -39,6 +39,12 @@ export class ByteReader {
     return (value >>> 1) ^ -(value & 1);
   }
 
+  /** A little-endian IEEE 754 number of 32 bits. */
+  float(): number {
+    const four = this.take(4);
+    return new DataView(four.buffer, four.byteOffset).getFloat32(0, true);
+  }
+
   take(count: number): Uint8Array {
     if (this.bytes.length - this.at < count) throw new FrameError("The frame is cut short.");
     const taken = this.bytes.slice(this.at, this.at + count);

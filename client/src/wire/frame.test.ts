@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../test/randoms";
 import { decodeFrame, FrameError } from "./frame";
+import { decodePose } from "./pose";
+import { decodeServerFrame } from "./server-frame";
 
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
   const bytes = new Uint8Array(16 + body.length);
@@ -19,6 +21,27 @@ async function deflated(body: Uint8Array<ArrayBuffer>): Promise<number[]> {
   const stream = new Blob([body]).stream().pipeThrough(new CompressionStream("deflate-raw"));
   return [...new Uint8Array(await new Response(stream).arrayBuffer())];
 }
+
+describe("a pose", () => {
+  const pose = (body: number[]) => {
+    const bytes = new Uint8Array(headed(body));
+    bytes[1] = 2;
+    return bytes.buffer;
+  };
+  const zeros = Array.from({ length: 28 }, () => 0);
+
+  it("FR1: holds finite numbers and nothing after them", async () => {
+    expect((await decodePose(pose([1, 1, 7, ...zeros]))).motions[0]?.row).toBe(7);
+    await expect(decodePose(pose([1, 1, 7, ...zeros, 0]))).rejects.toThrow(/follows/);
+    const infinite = [...zeros.slice(4), 0, 0, 0x80, 0x7f];
+    await expect(decodePose(pose([1, 1, 7, ...infinite]))).rejects.toThrow(/finite/);
+  });
+
+  it("is told from a mesh delta by its kind", async () => {
+    expect((await decodeServerFrame(pose([1, 0]))).kind).toBe(2);
+    await expect(decodeServerFrame(headed([1, 0, 0]))).rejects.toThrow(FrameError);
+  });
+});
 
 describe("a frame", () => {
   it("FR1: refuses what is reserved or unknown", async () => {

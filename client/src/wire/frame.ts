@@ -1,11 +1,11 @@
 import { ByteReader } from "./bytes";
+import { FrameKind, openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
-import { CHUNK_ROWS, HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
-import { inflateRaw } from "./inflate";
+import { CHUNK_ROWS } from "./generated";
 
 export { FrameError } from "./frame-error";
 
-/** One binary message; mirrors `proto/src/frame.rs`. */
+/** One change to the table of rows; mirrors `proto/src/frame.rs`. */
 export interface Frame {
   epoch: number;
   sequence: number;
@@ -37,44 +37,20 @@ export interface Rows {
 /** Values of one column, encoded as in `Rows`. */
 export type Values = { [C in keyof Rows]: { column: C; values: Rows[C] } }[keyof Rows];
 
-const VERSION = 1;
-const MESH_DELTA = 1;
 const CATCH_UP = 1;
 
-/** Reads a frame; any bytes at all give a frame or a `FrameError` (FR1–FR3). */
+/** Reads a mesh delta; any bytes at all give a frame or a `FrameError` (FR1–FR3). */
 export async function decodeFrame(bytes: ArrayBuffer): Promise<Frame> {
-  if (bytes.byteLength < HEADER_BYTES) throw new FrameError("The frame is cut short.");
-  const header = new DataView(bytes, 0, HEADER_BYTES);
-  const [version, kind, codec, flags] = [0, 1, 2, 3].map((at) => header.getUint8(at)) as [
-    number,
-    number,
-    number,
-    number,
-  ];
-  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 1.`);
-  if (kind !== MESH_DELTA) throw new FrameError(`Frame kind ${kind} is not 1, a mesh delta.`);
-  if ((flags & ~CATCH_UP) !== 0) throw new FrameError(`Reserved flags 0x${flags.toString(16)} are set.`);
-  const length = header.getUint32(12, true);
-  if (length > MAX_BODY_BYTES) throw new FrameError("The body is larger than 64 MiB.");
-  const body = await unpack(codec, new Uint8Array(bytes, HEADER_BYTES), length);
+  const { epoch, sequence, flags, body } = await openFrame(bytes, FrameKind.MeshDelta);
+  return { epoch, sequence, catchUp: (flags & CATCH_UP) !== 0, changes: readChanges(body) };
+}
+
+/** A body that is a list of changes. */
+export function readChanges(body: Uint8Array): ChunkChange[] {
   const reader = new ByteReader(body);
   const changes: ChunkChange[] = [];
   while (!reader.done) changes.push(readChange(reader));
-  return {
-    epoch: header.getUint32(4, true),
-    sequence: header.getUint32(8, true),
-    catchUp: (flags & CATCH_UP) !== 0,
-    changes,
-  };
-}
-
-async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
-  if (codec === 0) {
-    if (payload.length !== length) throw new FrameError("The body's length differs from the header's.");
-    return payload;
-  }
-  if (codec === 1) return inflateRaw(payload, length);
-  throw new FrameError(`Codec ${codec} is neither 0, raw, nor 1, deflate.`);
+  return changes;
 }
 
 function readChange(reader: ByteReader): ChunkChange {

@@ -6,6 +6,12 @@ export const MAX_STROKE_SAMPLES = 256;
 export const MAX_STEPS_PER_COMMAND = 1000;
 export const MIN_OUTLINE_POINTS = 3;
 export const MAX_OUTLINE_POINTS = 4096;
+export const MAX_BEND_TOUCHES = 8;
+export const MIN_DIAMETER = 0.01;
+export const MAX_DIAMETER = 100;
+export const MAX_PRUNED_ROWS = 1024;
+export const MAX_PREDICTED_STEPS = 100;
+export const MAX_FUTURES = 64;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
@@ -520,7 +526,99 @@ pose: Pose, } | { "kind": "remove_obstacle",
 /**
  * Its id, as in `obstacles`.
  */
-id: number, };
+id: number, } | { "kind": "bend_begin", 
+/**
+ * The client's own number for this bend.
+ */
+bend: number, 
+/**
+ * The row of the metamer that stays where it is; the wood above it bends.
+ */
+base: number, 
+/**
+ * 1 to 8 rows above the base, all on one way up from it; the farthest is where the bend ends.
+ */
+touches: Array<number>, 
+/**
+ * From 0, stiff in length, to 1, stretchy.
+ */
+stretch: number, } | { "kind": "bend_move", 
+/**
+ * The number given in `bend_begin`.
+ */
+bend: number, 
+/**
+ * Where the end of each touched metamer is wanted, in internode lengths, in the order of `touches`.
+ */
+targets: Array<[number, number, number]>, } | { "kind": "bend_end", 
+/**
+ * The number given in `bend_begin`.
+ */
+bend: number, } | { "kind": "bend_cancel", 
+/**
+ * The number given in `bend_begin`.
+ */
+bend: number, } | { "kind": "set_width", 
+/**
+ * The row of a living metamer.
+ */
+row: number, 
+/**
+ * How thick it is from now on, in internode lengths, 0.01 to 100; `null` removes the constraint.
+ */
+diameter: number | null, 
+/**
+ * Changes of one client to the same row with the same gesture, one after the other, are one operation.
+ */
+gesture?: number, } | { "kind": "prune", 
+/**
+ * 1 to 1024 rows of living metamers.
+ */
+rows: Array<number>, 
+/**
+ * Commands of one client that follow each other with the same gesture are one operation for undo.
+ */
+gesture?: number, } | { "kind": "prune_dim", 
+/**
+ * No node of such a branch receives more light than this, 0 to 1.
+ */
+exposure: number, } | { "kind": "turn_branch", 
+/**
+ * The row that the branch begins with.
+ */
+row: number, 
+/**
+ * By what it is turned: a quaternion (x, y, z, w) of length 1.
+ */
+rotation: [number, number, number, number], 
+/**
+ * Turns of one client of the same branch with the same gesture, one after the other, are one operation.
+ */
+gesture?: number, } | { "kind": "graft", 
+/**
+ * The row that the branch begins with.
+ */
+row: number, 
+/**
+ * The row of the metamer whose node bears it from now on.
+ */
+onto: number, 
+/**
+ * By what it is turned: a quaternion (x, y, z, w) of length 1.
+ */
+rotation: [number, number, number, number], 
+/**
+ * Whether the branch stays where it was as well.
+ */
+keep: boolean, } | { "kind": "go_to", 
+/**
+ * 0 to the line's last step.
+ */
+step: number, } | { "kind": "take_future", 
+/**
+ * Its number, as in `timeline`.
+ */
+future: number, };
 
 export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale" | "blossom";
 
@@ -601,6 +699,88 @@ allowed?: string,
  * A sentence that says what was wrong.
  */
 message: string, };
+
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft";
+
+export type TimelineOperation = { 
+/**
+ * What it was.
+ */
+kind: OperationKind, 
+/**
+ * Who did it: 0, 1, 2 … in the order in which people appear in this message.
+ */
+author: number, 
+/**
+ * The step before it.
+ */
+first: number, 
+/**
+ * The step it reached; the same as `first` where it took none.
+ */
+last: number, };
+
+export type TimelineFuture = { 
+/**
+ * Its number, for `take_future`.
+ */
+future: number, 
+/**
+ * The step at which it leaves the line it hangs on.
+ */
+from: number, 
+/**
+ * The future whose line it hangs on; the present line if none is named.
+ */
+on?: number, 
+/**
+ * How many steps it goes on from there.
+ */
+steps: number, 
+/**
+ * What was done there.
+ */
+operations: Array<TimelineOperation>, };
+
+export type Timeline = { 
+/**
+ * The number of the present line: it is a future's once another line is taken.
+ */
+line: number, 
+/**
+ * The present step.
+ */
+step: number, 
+/**
+ * The last step of the present line.
+ */
+last_step: number, 
+/**
+ * How many of the operations are in force.
+ */
+done: number, 
+/**
+ * Everything done on the present line, in order, also what lies ahead.
+ */
+operations: Array<TimelineOperation>, 
+/**
+ * Other lines, in order of their numbers.
+ */
+futures: Array<TimelineFuture>, };
+
+export type WidthConstraint = { 
+/**
+ * Its row.
+ */
+row: number, 
+/**
+ * The diameter asked for, in internode lengths.
+ */
+diameter: number, 
+/**
+ * The diameter it has: more where it bears something thicker.
+ */
+effective: number, };
 
 export type Resume = { 
 /**
@@ -683,7 +863,19 @@ command: Command, } | { "type": "received",
 /**
  * The sequence of the newest frame.
  */
-sequence: number, } | { "type": "ping", 
+sequence: number, 
+/**
+ * The kind of that frame as in its header; 1, a mesh delta, if left out.
+ */
+kind?: number, } | { "type": "predict", 
+/**
+ * Up to 1024 rows, each as in `prune`.
+ */
+rows: Array<number>, 
+/**
+ * Up to 100 simulation steps; 0 without rows ends the ghost.
+ */
+steps: number, } | { "type": "ping", 
 /**
  * Comes back in the pong.
  */
@@ -745,7 +937,11 @@ parameters: Parameters, } | { "type": "obstacles",
 /**
  * In order of their ids.
  */
-obstacles: Array<PlacedObstacle>, } | { "type": "pong", 
+obstacles: Array<PlacedObstacle>, } | { "type": "timeline" } & Timeline | { "type": "widths", 
+/**
+ * In order of their rows.
+ */
+widths: Array<WidthConstraint>, } | { "type": "pong", 
 /**
  * The ping's.
  */

@@ -1,7 +1,7 @@
 //! The skeleton as JSON: living metamers, their radii and how they hang together.
 
 use espalier_mesh::Style;
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant, Widths};
 use serde::{Serialize, Serializer, ser::SerializeSeq};
 
 /// The version of the format; it changes when a reader must.
@@ -13,7 +13,7 @@ pub fn skeleton_json(plant: &Plant, style: &Style) -> Vec<u8> {
         format: "espalier-skeleton",
         version: VERSION,
         unit: "internode",
-        metamers: Living { plant, style },
+        metamers: Living { plant, widths: Widths::of(plant, style.girth()) },
     };
     let mut bytes = Vec::new();
     // Writing to memory does not fail, and all keys are strings.
@@ -41,7 +41,7 @@ struct Metamer {
 /// Writes one metamer after the other, so that only the text is held in memory.
 struct Living<'a> {
     plant: &'a Plant,
-    style: &'a Style,
+    widths: Widths<'a>,
 }
 
 impl Serialize for Living<'_> {
@@ -61,12 +61,12 @@ impl Serialize for Living<'_> {
 
 impl Living<'_> {
     fn metamer(&self, id: MetamerId, place_of_row: &[u32]) -> Metamer {
-        let (metamers, girth) = (self.plant.metamers(), self.style.girth());
+        let metamers = self.plant.metamers();
         let is_seed = self.plant.is_seed(id);
         Metamer {
             parent: metamers.parent(id).map(|parent| place_of_row[parent.index()]),
             position: metamers.end(id).to_array(),
-            radius: if is_seed { 0.0 } else { girth.radius(metamers.tips(id)) },
+            radius: if is_seed { 0.0 } else { self.widths.radius(id) },
             order: self.plant.axes().order(metamers.axis(id)),
             birth: self.plant.birth(id),
         }

@@ -145,7 +145,9 @@ impl Canopy {
             }
             let propensity = propensity_of_buds(plant, id, parameters);
             self.slots.push(slot);
-            let kind = Node::TIP | if is_main { Node::MAIN } else { 0 };
+            // An axis that was cut has no bud any more.
+            let tip = if plant.is_axis_alive(metamers.axis(id)) { Node::TIP } else { 0 };
+            let kind = tip | if is_main { Node::MAIN } else { 0 };
             let bits = (of_plant as u32) << Node::PLANT_SHIFT | kind;
             self.nodes.push(Node { id, parent, bits, propensity });
         }
@@ -175,7 +177,8 @@ impl Canopy {
         self.plants.retain(|(seed, _)| seed.index() < count);
         for parent in orphaned {
             let node = &mut self.nodes[parent as usize];
-            node.set_tip(plant.axes().last(plant.metamers().axis(node.id)) == Some(node.id));
+            let axis = plant.metamers().axis(node.id);
+            node.set_tip(plant.axes().last(axis) == Some(node.id) && plant.is_axis_alive(axis));
             node.propensity = propensity_of_buds(plant, node.id, parameters);
         }
     }
@@ -219,7 +222,7 @@ impl Canopy {
     /// Lets light flow down and vigor up.
     pub(crate) fn distribute_vigor(&mut self, plant: &Plant, parameters: &ParameterTable) {
         for (seed, lambda) in &mut self.plants {
-            let age = plant.step() - plant.birth(*seed);
+            let age = plant.age(*seed);
             *lambda = f64::from(parameters.scene().apical_control_at(age));
         }
         let dark = self.gather_light(plant, parameters);

@@ -10,6 +10,7 @@ mod cells;
 mod claims;
 mod direction;
 mod directory;
+mod edits;
 mod field;
 mod gravimorphism;
 mod guide;
@@ -35,6 +36,7 @@ mod vigor;
 mod voxel_grid;
 
 pub use brush::{BrushPiece, BrushSample, StrokeId};
+pub use edits::{EditError, Original};
 pub use gravimorphism::propensity;
 pub use guide::{Guide, Waypoint};
 pub use lasso::{Envelope, LassoError, MAX_OUTLINE, Plane};

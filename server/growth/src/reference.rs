@@ -16,6 +16,7 @@ use crate::{
     markers::MarkerSource,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
+    parameters::VigorModel,
     shoot::Aim,
     simulation::Simulation,
     space::Cone,
@@ -27,8 +28,10 @@ struct Vigor {
     flows: Vec<Flow>,
     light: Vec<f32>,
     sizes: Vec<u32>,
-    /// The step they belong to.
-    step: u32,
+    /// Steps of growth each metamer has lived through.
+    ages: Vec<u32>,
+    /// Under the priority model, vigor of each axis.
+    of_axes: Vec<f64>,
 }
 
 /// One step of a simulation whose caches are thrown away first.
@@ -39,7 +42,7 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     let vigor = Vigor::of(&plain.plant, &plain.parameters, &plain.obstacles);
     plain.plant.begin_step();
     for axis in all_axes(&plain.plant) {
-        if plain.plant.is_axis_alive(axis) && vigor.condemns(&plain.plant, axis, &plain.parameters) {
+        if plain.plant.is_standing(axis) && vigor.condemns(&plain.plant, axis, &plain.parameters) {
             plain.plant.shed(axis);
         }
     }
@@ -158,7 +161,8 @@ impl Vigor {
             flows: vec![Flow::default(); count],
             light: vec![0.0; count],
             sizes: vec![0; count],
-            step: plant.step(),
+            ages: (0..count).map(|index| plant.age(MetamerId::new(index))).collect(),
+            of_axes: Vec::new(),
         };
         for &id in &nodes {
             let node = plant.metamers().end(id);
@@ -181,6 +185,10 @@ impl Vigor {
             vigor.sizes[id.index()] += 1;
             vigor.sizes[parent.index()] += vigor.sizes[id.index()];
         }
+        if parameters.scene().vigor_model == VigorModel::Priority {
+            vigor.share_by_rank(plant, parameters);
+            return vigor;
+        }
         for &id in &nodes {
             let light = vigor.flows[id.index()].light();
             vigor.flows[id.index()].vigor = match plant.metamers().parent(id) {
@@ -188,7 +196,7 @@ impl Vigor {
                 Some(parent) => {
                     let axis = plant.metamers().axis(parent);
                     let split =
-                        Split::new(&vigor.flows[parent.index()], lambda(plant, id, parameters, plant.step()));
+                        Split::new(&vigor.flows[parent.index()], lambda(plant, id, parameters, &vigor.ages));
                     if axis == plant.metamers().axis(id) { split.to_main() } else { split.to_lateral(light) }
                 }
             };
@@ -196,9 +204,83 @@ impl Vigor {
         vigor
     }
 
+    /// Vigor by the priority model (Pałubicki et al. 2009 §4.2). Light has flowed down.
+    fn share_by_rank(&mut self, plant: &Plant, parameters: &ParameterTable) {
+        let nodes = living_nodes(plant);
+        let mut buds = vec![0u128; plant.metamer_count()];
+        for axis in all_axes(plant).filter(|&axis| plant.is_axis_alive(axis)) {
+            buds[plant.bud_node(axis).index()] += 1;
+        }
+        for &id in nodes.iter().rev() {
+            if let Some(parent) = plant.metamers().parent(id) {
+                buds[parent.index()] += buds[id.index()];
+            }
+        }
+        self.of_axes = vec![0.0; plant.axis_count()];
+        for axis in all_axes(plant) {
+            let on_axis = |id: &&MetamerId| plant.metamers().axis(**id) == axis;
+            let nodes: Vec<MetamerId> = nodes.iter().filter(on_axis).copied().collect();
+            let Some(&first) = nodes.first() else { continue };
+            if plant.is_seed(first) {
+                let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
+                self.of_axes[axis.index()] = gain * self.flows[first.index()].light() as f64;
+            }
+            let lambda = lambda(plant, first, parameters, &self.ages);
+            // Who claims a share: whether it comes first, its light, its buds, its axis, and where it is borne.
+            let mut claimants: Vec<(bool, u64, u128, AxisId, usize)> = Vec::new();
+            for (place, &id) in nodes.iter().enumerate() {
+                let borne = all_axes(plant).filter(|&lateral| plant.axes().bearer(lateral) == Some(id));
+                for lateral in borne.filter(|&lateral| plant.is_standing(lateral)) {
+                    let (light, buds) = match plant.axes().first(lateral) {
+                        Some(wood) => (self.flows[wood.index()].light(), buds[wood.index()]),
+                        None => (bud_input(plant, lateral, self.light[id.index()], parameters), 1),
+                    };
+                    claimants.push((false, light, buds, lateral, place));
+                }
+                if plant.is_axis_alive(axis) && plant.bud_node(axis) == id {
+                    let light = bud_input(plant, axis, self.light[id.index()], parameters);
+                    claimants.push((lambda >= 0.5, light, 1, axis, place));
+                }
+            }
+            claimants.retain(|&(_, _, buds, ..)| buds > 0);
+            claimants.sort_by(|a, b| {
+                let share = (u128::from(b.1) * a.2).cmp(&(u128::from(a.1) * b.2));
+                b.0.cmp(&a.0).then(share).then(b.3.cmp(&a.3))
+            });
+            let values = parameters.of(axis);
+            let last = (claimants.len().max(2) - 1) as f64;
+            let (least, decline) =
+                (f64::from(values.priority_least_weight), f64::from(values.priority_decline));
+            let weight = |rank: usize| {
+                let x = rank as f64 / last;
+                if x < decline { 1.0 + (least - 1.0) * x / decline } else { least }
+            };
+            let shares: Vec<f64> = claimants
+                .iter()
+                .enumerate()
+                .map(|(rank, claimant)| claimant.1 as f64 * weight(rank))
+                .collect();
+            let all: f64 = shares.iter().sum();
+            let rate = if all > 0.0 { self.of_axes[axis.index()] / all } else { 0.0 };
+            let mut spent = vec![0.0; nodes.len()];
+            for (&(.., lateral, place), share) in claimants.iter().zip(shares) {
+                self.of_axes[lateral.index()] = rate * share;
+                spent[place] += rate * share;
+            }
+            let mut left: f64 = spent.iter().sum();
+            for (id, spent) in nodes.into_iter().zip(spent) {
+                self.flows[id.index()].vigor = left;
+                left = (left - spent).max(0.0);
+            }
+        }
+    }
+
     fn of_bud(&self, plant: &Plant, axis: AxisId, parameters: &ParameterTable) -> f64 {
+        if let Some(&vigor) = self.of_axes.get(axis.index()) {
+            return vigor;
+        }
         let node = plant.bud_node(axis);
-        let split = Split::new(&self.flows[node.index()], lambda(plant, node, parameters, self.step));
+        let split = Split::new(&self.flows[node.index()], lambda(plant, node, parameters, &self.ages));
         match plant.axes().last(axis) {
             Some(_) => split.to_main(),
             None => split.to_lateral(bud_input(plant, axis, self.light[node.index()], parameters)),
@@ -211,16 +293,15 @@ impl Vigor {
         };
         let threshold =
             f64::from(parameters.scene().vigor_gain) * f64::from(parameters.of(axis).shedding_threshold);
-        plant.step() - plant.birth(first) >= 3
+        plant.age(first) >= 3
             && self.flows[first.index()].vigor < threshold * f64::from(self.sizes[first.index()])
     }
 }
 
 /// λ of the plant that a metamer belongs to.
-fn lambda(plant: &Plant, id: MetamerId, parameters: &ParameterTable, step: u32) -> f64 {
+fn lambda(plant: &Plant, id: MetamerId, parameters: &ParameterTable, ages: &[u32]) -> f64 {
     let seed = core::iter::successors(Some(id), |&id| plant.metamers().parent(id)).last().unwrap_or(id);
-    let age = step - plant.birth(seed);
-    f64::from(parameters.scene().apical_control_at(age))
+    f64::from(parameters.scene().apical_control_at(ages[seed.index()]))
 }
 
 /// Q = bL^κ (TreeSketch §3.2).
@@ -237,12 +318,14 @@ fn bud_input(plant: &Plant, axis: AxisId, light: f32, parameters: &ParameterTabl
 }
 
 mod tests {
-    use glam::Vec2;
+    use espalier_plant::Motion;
+    use glam::{Quat, Vec2};
     use proptest::prelude::*;
 
     use super::*;
     use crate::{
-        BrushSample, Envelope, NoObserver, Obstacle, ParameterValues, Parameters, Plane, Shape, StrokeId,
+        BrushSample, Envelope, NoObserver, Obstacle, Original, ParameterValues, Parameters, Plane, Shape,
+        StrokeId,
     };
 
     /// What the two are made to do side by side.
@@ -257,6 +340,53 @@ mod tests {
         Select(u32),
         Obstacle(Vec3, f32),
         Enclose(Vec3, f32),
+        /// Cuts off some wood.
+        Prune(u32),
+        /// Turns some branch upside down about its foot.
+        Turn(u32),
+        /// Grafts some branch onto some wood; every other time the branch itself goes.
+        Graft(u32, u32),
+    }
+
+    /// Some living wood.
+    fn wood(plant: &Plant, pick: u32) -> Option<MetamerId> {
+        let wood: Vec<_> = living_nodes(plant).into_iter().filter(|&id| !plant.is_seed(id)).collect();
+        wood.get(pick as usize % wood.len().max(1)).copied()
+    }
+
+    /// Half a turn about where a branch begins, and what begins there to stand there.
+    fn half_turn(plant: &Plant, branch: MetamerId, to: Option<MetamerId>) -> Motion {
+        let foot = plant.metamers().parent(branch).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+        let to = to.map_or(foot, |onto| plant.metamers().end(onto));
+        Motion { rotation: Quat::from_xyzw(0.6, 0.0, 0.8, 0.0), from: foot, to }
+    }
+
+    fn edit(simulation: &mut Simulation, event: &Event) {
+        let plant = &simulation.plant;
+        match *event {
+            Event::Prune(pick) => {
+                let cuts: Vec<_> = wood(plant, pick).into_iter().collect();
+                simulation.prune(&cuts);
+            }
+            Event::Turn(pick) => {
+                let Some(branch) = wood(plant, pick) else { return };
+                let motion = half_turn(plant, branch, None);
+                simulation.carry(&[branch], &[motion]).expect("it stays in the world");
+            }
+            Event::Graft(pick, onto) => {
+                let (Some(branch), Some(onto)) = (wood(plant, pick), wood(plant, onto)) else { return };
+                if plant.above(branch).contains(&onto) {
+                    return;
+                }
+                let motion = half_turn(plant, branch, Some(onto));
+                let original = if pick % 2 == 0 { Original::Goes } else { Original::Stays };
+                let room =
+                    plant.metamer_count() + plant.above(branch).len() <= simulation.metamer_budget as usize;
+                let grafted = simulation.graft(branch, onto, &motion, original);
+                assert_eq!(grafted.is_ok(), room);
+            }
+            _ => {}
+        }
     }
 
     fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -270,6 +400,9 @@ mod tests {
             1 => any::<u32>().prop_map(Event::Select),
             1 => (place.clone(), 2f32..6.0).prop_map(|(centre, radius)| Event::Enclose(centre, radius)),
             1 => (place, 0.5f32..4.0).prop_map(|(centre, radius)| Event::Obstacle(centre, radius)),
+            1 => any::<u32>().prop_map(Event::Prune),
+            1 => any::<u32>().prop_map(Event::Turn),
+            1 => any::<(u32, u32)>().prop_map(|(branch, onto)| Event::Graft(branch, onto)),
             1 => (0f32..0.9, 0.5f32..3.0).prop_map(|(a, kappa)| Event::Light(a, kappa)),
         ];
         prop::collection::vec(event, 8..22)
@@ -277,13 +410,15 @@ mod tests {
 
     fn parameters() -> impl Strategy<Value = ParameterValues> {
         let angles = (20f32..360.0, 0f32..100.0, 0f32..180.0);
-        let ageing = (0u32..6, 0u32..8, 0.45f32..0.6, 0f32..1.0);
+        let model = prop_oneof![2 => Just(VigorModel::BorchertHonda), 1 => Just(VigorModel::Priority)];
+        let ageing = (0u32..6, 0u32..8, 0.45f32..0.6, 0f32..1.0, model);
         (0.5f32..3.0, 1f32..4.0, angles, 1u32..4, 1u32..6, (0.45f32..0.6, ageing), -0.9f32..0.9).prop_map(
             |(r, d, (zeta, psi, theta), buds, longest, (lambda, ageing), shift)| ParameterValues {
                 maturity_start: ageing.0,
                 maturity_steps: ageing.1,
                 mature_apical_control: ageing.2,
                 phototropism: ageing.3,
+                vigor_model: ageing.4,
                 occupancy_radius: r,
                 perception_depth: d,
                 perception_angle: zeta,
@@ -346,6 +481,10 @@ mod tests {
                         let ball = Obstacle::new(Shape::Sphere { centre, radius }).expect("a ball");
                         fast.set_obstacles(vec![ball.clone()]);
                         plain.set_obstacles(vec![ball]);
+                    }
+                    Event::Prune(_) | Event::Turn(_) | Event::Graft(..) => {
+                        edit(&mut fast, event);
+                        edit(&mut plain, event);
                     }
                     Event::Back(steps) => {
                         let to = fast.plant().step().saturating_sub(steps);

@@ -15,12 +15,11 @@ pub(crate) fn condemned(plant: &Plant, canopy: &Canopy, parameters: &ParameterTa
     }
     let gain = f64::from(parameters.scene().vigor_gain);
     let axes = (0..plant.axis_count()).map(AxisId::new);
-    axes.filter(|&axis| plant.is_axis_alive(axis) && plant.axes().order(axis) > 0)
+    axes.filter(|&axis| plant.is_standing(axis) && plant.axes().order(axis) > 0)
         .filter(|&axis| {
             plant.axes().first(axis).is_some_and(|first| {
                 let threshold = gain * f64::from(parameters.of(axis).shedding_threshold);
-                let age = plant.step() - plant.birth(first);
-                age >= GRACE && canopy.starves(first, threshold)
+                plant.age(first) >= GRACE && canopy.starves(first, threshold)
             })
         })
         .collect()

@@ -172,7 +172,7 @@ impl Simulation {
 
     /// Plants another seed, in a step of its own.
     pub fn sow(&mut self, position: Vec3) {
-        self.plant.begin_step();
+        self.plant.begin_edit();
         let axis = self.plant.sow(position);
         self.plant.end_step();
         self.field = None;
@@ -257,26 +257,24 @@ impl Simulation {
         self.field = None;
         let before = self.plant.metamer_count();
         let shift = self.plant.go_to(step);
-        // First in, then out: a long way back revives what was shed before it unmakes it.
-        for &id in &shift.metamers_in {
-            self.enter(id);
+        for &(id, place) in shift.metamers_out.iter().chain(&shift.moved) {
+            self.leave(id, place);
         }
-        for &id in &shift.metamers_out {
-            self.leave(id);
+        let moved = shift.moved.iter().map(|&(id, _)| id);
+        for id in shift.metamers_in.iter().copied().chain(moved) {
+            self.enter(id);
         }
         for &axis in &shift.axes {
             self.replace_bud(axis);
         }
-        let after = self.plant.metamer_count();
-        let unmade = shift.metamers_in.is_empty() && shift.metamers_out.iter().all(|id| id.index() >= after);
-        let made = shift.metamers_out.is_empty() && shift.metamers_in.iter().all(|id| id.index() >= before);
-        if unmade {
-            self.canopy.retreat(&self.plant, &self.parameters);
-        } else if !made {
+        if shift.is_edited {
             self.canopy.forget();
+        } else if self.plant.metamer_count() < before {
+            self.canopy.retreat(&self.plant, &self.parameters);
         }
-        let moved = shift.metamers_in.iter().chain(&shift.metamers_out);
-        let changed: Vec<Vec3> = moved.map(|&id| self.plant.metamers().end(id)).collect();
+        let gone = shift.metamers_out.iter().map(|&(_, place)| place);
+        let changed: Vec<Vec3> =
+            gone.chain(shift.metamers_in.iter().map(|&id| self.plant.metamers().end(id))).collect();
         self.see_light(&changed, &mut NoObserver);
     }
 
@@ -298,7 +296,7 @@ impl Simulation {
     }
 
     /// Casts the shadow of a living metamer and occupies its node.
-    fn enter(&mut self, id: MetamerId) {
+    pub(crate) fn enter(&mut self, id: MetamerId) {
         let node = self.plant.metamers().end(id);
         self.space.occupy(id, node);
         self.obstacles.survey_sky(node);
@@ -307,9 +305,8 @@ impl Simulation {
         }
     }
 
-    /// Undoes [`Simulation::enter`].
-    pub(crate) fn leave(&mut self, id: MetamerId) {
-        let node = self.plant.metamers().end(id);
+    /// Undoes [`Simulation::enter`], for a metamer whose node was here.
+    pub(crate) fn leave(&mut self, id: MetamerId, node: Vec3) {
         self.space.vacate(id, node);
         if let Some(field) = &mut self.field {
             let radius = self.parameters.scene().occupancy_radius;
@@ -338,7 +335,7 @@ impl Simulation {
     }
 
     /// Puts the bud of an axis where the plant says it is now, or nowhere.
-    fn replace_bud(&mut self, axis: AxisId) {
+    pub(crate) fn replace_bud(&mut self, axis: AxisId) {
         let is_present = axis.index() < self.plant.axis_count() && self.plant.is_axis_alive(axis);
         if is_present {
             let (position, direction) = (self.plant.bud_position(axis), self.plant.bud_direction(axis));

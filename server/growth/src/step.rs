@@ -160,7 +160,7 @@ impl Simulation {
             return gone;
         }
         for axis in condemned {
-            if !self.plant.is_axis_alive(axis) {
+            if !self.plant.is_standing(axis) {
                 continue;
             }
             let (_, axes) = self.plant.branch(axis);
@@ -168,8 +168,9 @@ impl Simulation {
                 self.space.remove_bud(axis);
             }
             for id in self.plant.shed(axis) {
-                self.leave(id);
-                gone.push(self.plant.metamers().end(id));
+                let node = self.plant.metamers().end(id);
+                self.leave(id, node);
+                gone.push(node);
             }
         }
         self.canopy.bury(&self.plant);
@@ -212,10 +213,20 @@ impl Simulation {
         if weight == 0.0 {
             return space;
         }
-        let Some(light) = self.shadows.towards_light(self.plant.bud_position(axis)) else { return space };
+        let Some(light) = self.towards_light(self.plant.bud_position(axis)) else { return space };
         // A canopy's shadow ends some way below it, so it is lighter farther down; but no light comes from there.
         let light = Vec3::new(light.x, light.y.max(0.0), light.z);
         (space * (1.0 - weight) + light * weight).try_normalize().unwrap_or(space)
+    }
+
+    /// The direction towards more light: that in which shadows end, and the sky past obstacles opens.
+    fn towards_light(&self, place: Vec3) -> Option<Vec3> {
+        if self.obstacles.is_empty() {
+            return self.shadows.towards_light(place);
+        }
+        let light = |place| self.shadows.exposure(place) * self.obstacles.sky_share(place);
+        let difference = |axis: Vec3| light(place + axis) - light(place - axis);
+        Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z)).try_normalize()
     }
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
@@ -273,5 +284,29 @@ impl Simulation {
         };
         rayon::join(cast, place);
         new.into_iter().map(|(_, id)| self.plant.metamers().end(id)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Quat;
+
+    use super::*;
+    use crate::{Obstacle, ParameterValues, Parameters, Shape};
+
+    #[test]
+    fn light_is_sought_away_from_a_wall() {
+        let values = ParameterValues { phototropism: 0.5, ..ParameterValues::default() };
+        let mut simulation = Simulation::new(1, Parameters::new(values).expect("in range"));
+        let side = |simulation: &Simulation| simulation.lit_side(AxisId::new(0), Vec3::Y);
+        assert_eq!(side(&simulation), Vec3::Y, "there is nothing to turn away from");
+        let wall = Shape::Box {
+            centre: Vec3::new(4.0, 0.0, 0.0),
+            half_extents: Vec3::new(1.0, 20.0, 20.0),
+            rotation: Quat::IDENTITY,
+        };
+        simulation.set_obstacles(vec![Obstacle::new(wall).expect("a wall")]);
+        let turned = side(&simulation);
+        assert!(turned.x < -0.3 && turned.y > 0.3 && turned.z.abs() < 0.1, "{turned}");
     }
 }

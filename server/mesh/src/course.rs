@@ -1,6 +1,6 @@
 //! The way an axis takes: its nodes and the radii there.
 
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant, Widths};
 use glam::Vec3;
 
 use crate::{radius_code::MIN_RADIUS, style::Style};
@@ -8,7 +8,7 @@ use crate::{radius_code::MIN_RADIUS, style::Style};
 /// The end of an axis is slimmer than its last node's tips make it, as long as nothing grows on from it.
 const TIP_SHARE: f32 = 0.45;
 
-/// One living axis, from the node that bears it to its tip.
+/// One axis with living wood, from the node that bears it to its tip.
 #[derive(Clone, Debug)]
 pub(crate) struct Course {
     /// At least two; the first is the bearer's node or the seed.
@@ -21,6 +21,17 @@ pub(crate) struct Course {
     pub normal: Vec3,
     /// How the beginning is thickened.
     pub flare: Flare,
+    /// What the last node is.
+    pub end: End,
+}
+
+/// How an axis ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// With a bud, or where a lateral took over.
+    Grown,
+    /// With the face of a cut.
+    Cut,
 }
 
 /// The swelling where an axis begins: a collar on its bearer, or roots that spread.
@@ -56,37 +67,43 @@ impl Flare {
     }
 }
 
-/// The courses of all living axes that have wood, in the order of the axes.
+/// The courses of all axes that have living wood, in the order of the axes.
 pub(crate) fn courses(plant: &Plant, style: &Style) -> Vec<Course> {
     let metamers = plant.metamers();
+    let widths = Widths::of(plant, style.girth());
     let mut course_of_axis: Vec<Option<Course>> = vec![None; plant.axis_count()];
     let mut bears = vec![false; plant.metamer_count()];
-    let mut tip_of_axis = vec![0; plant.axis_count()];
-    for index in 0..plant.metamer_count() {
-        let id = MetamerId::new(index);
+    let mut tip_of_axis = vec![MetamerId::new(0); plant.axis_count()];
+    for id in (0..plant.metamer_count()).map(MetamerId::new) {
         let Some(parent) = metamers.parent(id).filter(|_| plant.is_alive(id)) else { continue };
         bears[parent.index()] = true;
-        let axis = metamers.axis(id).index();
-        let course = course_of_axis[axis].get_or_insert_with(|| begin(plant, style, parent, id));
+        let axis = metamers.axis(id);
+        let course = course_of_axis[axis.index()].get_or_insert_with(|| begin(plant, &widths, parent, id));
         course.nodes.push(metamers.end(id));
-        course.radii.push(radius(plant, style, id));
-        tip_of_axis[axis] = index;
+        course.radii.push(radius(&widths, id));
+        tip_of_axis[axis.index()] = id;
     }
-    let slim_tips = |(course, tip): (Option<Course>, usize)| {
+    let finish = |(course, tip): (Option<Course>, MetamerId)| {
         let mut course = course?;
-        if let Some(radius) = course.radii.last_mut().filter(|_| !bears[tip]) {
-            *radius *= TIP_SHARE;
+        if !bears[tip.index()] {
+            // A cut is as thick as its wood, and so is a constrained tip.
+            let is_cut = !plant.is_axis_alive(metamers.axis(tip));
+            course.end = if is_cut { End::Cut } else { End::Grown };
+            let is_slim = !is_cut && widths.effective(tip).is_none();
+            if let Some(radius) = course.radii.last_mut().filter(|_| is_slim) {
+                *radius *= TIP_SHARE;
+            }
         }
         Some(course)
     };
-    course_of_axis.into_iter().zip(tip_of_axis).filter_map(slim_tips).collect()
+    course_of_axis.into_iter().zip(tip_of_axis).filter_map(finish).collect()
 }
 
 /// A course that begins at `bearer` with its first metamer `first`.
-fn begin(plant: &Plant, style: &Style, bearer: MetamerId, first: MetamerId) -> Course {
+fn begin(plant: &Plant, widths: &Widths<'_>, bearer: MetamerId, first: MetamerId) -> Course {
     let metamers = plant.metamers();
     let start = metamers.end(bearer);
-    let own = radius(plant, style, first);
+    let own = radius(widths, first);
     let below = metamers.parent(bearer).map(|below| metamers.end(below));
     Course {
         nodes: vec![start],
@@ -94,15 +111,12 @@ fn begin(plant: &Plant, style: &Style, bearer: MetamerId, first: MetamerId) -> C
         // A lateral leaves along its bearer and bends away; a trunk comes out of the ground as it goes on.
         before: below.unwrap_or(2.0 * start - metamers.end(first)),
         normal: metamers.normal(first),
-        flare: if below.is_some() {
-            Flare::collar(own, radius(plant, style, bearer))
-        } else {
-            Flare::root(own)
-        },
+        flare: if below.is_some() { Flare::collar(own, radius(widths, bearer)) } else { Flare::root(own) },
+        end: End::Grown,
     }
 }
 
-fn radius(plant: &Plant, style: &Style, id: MetamerId) -> f32 {
+fn radius(widths: &Widths<'_>, id: MetamerId) -> f32 {
     // Texture coordinates divide by it.
-    style.girth().radius(plant.metamers().tips(id)).max(MIN_RADIUS)
+    widths.radius(id).max(MIN_RADIUS)
 }

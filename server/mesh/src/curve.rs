@@ -125,7 +125,7 @@ impl Piece {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::course::Flare;
+    use crate::course::{End, Flare};
 
     fn course(nodes: &[Vec3]) -> Course {
         Course {
@@ -134,6 +134,7 @@ mod tests {
             before: 2.0 * nodes[0] - nodes[1],
             normal: Vec3::X,
             flare: Flare { amount: 0.0, hidden: 0.0, falloff: 1.0 },
+            end: End::Grown,
         }
     }
 

@@ -6,6 +6,8 @@ use espalier_plant::Girth;
 pub const MIN_RADIUS: f32 = 0.001;
 /// Natural logarithm of the ratio of neighbouring codes: one per cent, below what an eye can tell.
 pub const LOG_STEP: f32 = 0.01;
+/// Natural logarithm of [`MIN_RADIUS`].
+const LOG_MIN_RADIUS: f32 = -6.907_755_4;
 /// The code of what is not drawn: seeds and the dead.
 pub const NOT_DRAWN: u16 = 0;
 
@@ -15,7 +17,15 @@ const TABLE_LEN: u32 = 4096;
 /// The code nearest to a radius; radii under [`MIN_RADIUS`] get the code of that.
 pub fn encode(radius: f32) -> u16 {
     // Clamped first, so that the conversion never meets the -∞ of a radius of 0.
-    let steps = libm::logf(radius.max(MIN_RADIUS) / MIN_RADIUS) / LOG_STEP;
+    code_at(libm::logf(radius.max(MIN_RADIUS) / MIN_RADIUS) / LOG_STEP)
+}
+
+/// The same for the natural logarithm of a radius.
+pub fn encode_log(log_radius: f32) -> u16 {
+    code_at(((log_radius - LOG_MIN_RADIUS) / LOG_STEP).max(0.0))
+}
+
+fn code_at(steps: f32) -> u16 {
     (1.0 + steps.round()).min(f32::from(u16::MAX)) as u16
 }
 
@@ -65,6 +75,14 @@ mod tests {
         for code in 1..2000 {
             assert_eq!(encode(decode(code)), code);
         }
+    }
+
+    #[test]
+    fn logarithms_have_the_codes_of_radii() {
+        for code in [1, 2, 392, 692, 2000] {
+            assert_eq!(encode_log(libm::logf(decode(code))), code);
+        }
+        assert_eq!([f32::NEG_INFINITY, -50.0, 1e9].map(encode_log), [1, 1, u16::MAX]);
     }
 
     #[test]

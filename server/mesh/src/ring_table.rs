@@ -4,17 +4,22 @@
 //! what differs, so it does not matter what happened in between: growth, a slider, or a journey in time.
 //!
 //! Rows are held as the plant has them and quantised when they are read. So a chunk that stayed as it was is
-//! known by its plain columns, which compare many rows at once.
+//! known by its plain columns, which compare many rows at once. Only while width constraints hold, the codes of
+//! radii are held as well, for then tips alone do not tell them.
 
 mod changes;
 
 use std::ops::Range;
 
-use espalier_plant::{Appearance, AxisId, Columns, Plant};
+use espalier_plant::{Appearance, AxisId, Columns, MetamerId, Plant, Widths};
 use glam::Vec3;
 
 pub use self::changes::Changes;
-use crate::{foliage, radius_code::NOT_DRAWN, style::Style};
+use crate::{
+    foliage,
+    radius_code::{self, NOT_DRAWN},
+    style::Style,
+};
 
 /// Rows in a chunk.
 pub const CHUNK_ROWS: usize = 256;
@@ -43,6 +48,8 @@ pub struct RingTable {
     tips: Vec<u32>,
     /// Light and vigor as they were told.
     looks: Vec<Appearance>,
+    /// Codes of radii as they were told, if width constraints held; empty otherwise.
+    radii: Vec<u16>,
     /// What tips look like.
     style: Style,
     generations: Vec<u32>,
@@ -89,7 +96,10 @@ impl RingTable {
 
     /// The code of a row's radius (see [`crate::radius_code`]).
     pub fn radius(&self, row: u32) -> u16 {
-        radius(self.tips[row as usize], &self.style)
+        match self.radii.get(row as usize) {
+            Some(&code) => code,
+            None => radius(self.tips[row as usize], &self.style),
+        }
     }
 
     /// Leaves in the low four bits, vigor in the high four.
@@ -108,14 +118,24 @@ impl RingTable {
     pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
         let restyled = *style.options() != *self.style.options();
         let former = restyled.then(|| std::mem::replace(&mut self.style, style.clone()));
+        let widths = Widths::of(plant, style.girth());
+        let is_constrained = !widths.constraints().is_empty();
         let mut pass = Pass {
             plant,
             all: plant.columns(0..plant.metamer_count()),
             style,
             former: former.as_ref(),
+            radii: Vec::new(),
             renumbered: false,
             changes: Changes::default(),
         };
+        if is_constrained || !self.radii.is_empty() {
+            pass.radii = pass.radii(&widths);
+            if self.radii.is_empty() {
+                let told_style = pass.former.unwrap_or(style);
+                self.radii = self.tips.iter().map(|&tips| radius(tips, told_style)).collect();
+            }
+        }
         let count = plant.metamer_count();
         let mut kept = 0;
         while kept < self.rows().min(count) {
@@ -136,6 +156,8 @@ impl RingTable {
         }
         self.append(&pass, kept..count, generation);
         pass.changes.appended = kept as u32..count as u32;
+        // By now all rows are those of the plant.
+        self.radii = if is_constrained { pass.radii } else { Vec::new() };
         pass.changes
     }
 
@@ -164,7 +186,8 @@ impl RingTable {
     /// Takes over what may change in some rows of a chunk; returns whether clients will see anything of it.
     fn update(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
         let moved = self.update_ends(pass, rows.clone());
-        let is_as_drawn = pass.former.is_none() && self.is_as_drawn(pass.plant, rows.clone());
+        let is_as_wide = pass.radii.is_empty() || self.radii[rows.clone()] == pass.radii[rows.clone()];
+        let is_as_drawn = pass.former.is_none() && is_as_wide && self.is_as_drawn(pass.plant, rows.clone());
         let redrawn = !is_as_drawn && self.update_drawing(pass, rows);
         moved || redrawn
     }
@@ -228,11 +251,11 @@ impl RingTable {
             let light = steady(held.light, look.light, LIGHT_HYSTERESIS);
             let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, VIGOR_HYSTERESIS);
             let (held_leaves, leaves) = (leaves(held_tips, former), leaves(tips, style));
-            let differ = [
-                radius(held_tips, former) != radius(tips, style),
-                (held_leaves, held.vigor) != (leaves, vigor),
-                held.light != light,
-            ];
+            let is_as_wide = match pass.radii.get(row) {
+                Some(&code) => self.radii[row] == code,
+                None => radius(held_tips, former) == radius(tips, style),
+            };
+            let differ = [!is_as_wide, (held_leaves, held.vigor) != (leaves, vigor), held.light != light];
             self.tips[row] = tips;
             self.looks[row] = Appearance { light, vigor };
             self.leaves = self.leaves - u32::from(held_leaves) + u32::from(leaves);
@@ -284,6 +307,8 @@ struct Pass<'a> {
     style: &'a Style,
     /// The style before, if it is another now.
     former: Option<&'a Style>,
+    /// The codes of all radii, if width constraints hold or held; empty otherwise.
+    radii: Vec<u16>,
     /// Whether rows that stayed as they were have other axes by number.
     renumbered: bool,
     changes: Changes,
@@ -304,6 +329,15 @@ impl Pass<'_> {
         let Columns { parent, death, tips, .. } = self.all;
         let is_drawn = parent[row] != Columns::NO_PARENT && death[row] > self.plant.step();
         if is_drawn { tips[row] } else { NO_TIPS }
+    }
+
+    fn radii(&self, widths: &Widths<'_>) -> Vec<u16> {
+        let code = |row| match (self.tips(row), widths.log_radius(MetamerId::new(row))) {
+            (NO_TIPS, _) => NOT_DRAWN,
+            (_, Some(log)) => radius_code::encode_log(log),
+            (tips, None) => self.style.radius_code(tips),
+        };
+        (0..self.all.parent.len()).map(code).collect()
     }
 }
 

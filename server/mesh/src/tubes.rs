@@ -1,4 +1,5 @@
-//! Wood as triangles: a tube swept along each living axis. A lateral begins inside its bearer, with a collar.
+//! Wood as triangles: a tube swept along each axis. A lateral begins inside its bearer, with a collar; a stub ends
+//! with the face of its cut.
 
 use std::f32::consts::TAU;
 
@@ -6,7 +7,7 @@ use espalier_plant::Plant;
 use glam::{Vec2, Vec3};
 
 use crate::{
-    course::{Course, courses},
+    course::{Course, End, courses},
     curve::{Sample, samples},
     rotation_minimising,
     style::Style,
@@ -53,7 +54,10 @@ fn sweep(mesh: &mut TriangleMesh, course: &Course) {
         below = Some(ring);
     }
     if let (Some(ring), Some(last)) = (below, samples.last()) {
-        tube.close(mesh, ring, last, v);
+        match course.end {
+            End::Grown => tube.close(mesh, ring, last, v),
+            End::Cut => tube.cut(mesh, ring, last, v),
+        }
     }
 }
 
@@ -121,11 +125,27 @@ impl Tube {
             mesh.triangle(ring + side, ring + side + 1, top);
         }
     }
+
+    /// Closes a cut end with a flat face.
+    fn cut(&self, mesh: &mut TriangleMesh, ring: u32, end: &Sample, v: f32) {
+        // The rim once more, for the face has another normal than the sides; texels go on as they come over the rim.
+        let rim = mesh.positions.len() as u32;
+        for corner in ring..=ring + self.sides() {
+            let corner = corner as usize;
+            mesh.vertex(mesh.positions[corner], end.tangent, mesh.uvs[corner]);
+        }
+        let v = v + self.tiles_along(end.radius, end.radius);
+        for side in 0..self.sides() {
+            let u = self.tiles * (side as f32 + 0.5) / self.sides() as f32;
+            let middle = mesh.vertex(end.point, end.tangent, Vec2::new(u, v));
+            mesh.triangle(rim + side, rim + side + 1, middle);
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{AxisId, Internode};
+    use espalier_plant::{AxisId, Internode, MetamerId};
 
     use super::*;
     use crate::{checks, style::StyleOptions};
@@ -150,6 +170,12 @@ mod tests {
         Style::new(StyleOptions { twig_diameter, ..StyleOptions::default() })
     }
 
+    /// The largest distance from the trunk's middle at a height.
+    fn girth_at(mesh: &TriangleMesh, height: f32) -> f32 {
+        let ring = mesh.positions.iter().filter(|p| (p.y - height).abs() < 1e-5);
+        ring.map(|p| Vec3::new(p.x, 0.0, p.z).length()).fold(0.0, f32::max)
+    }
+
     #[test]
     fn seed_alone_has_no_wood() {
         assert!(bark_mesh(&Plant::new(Vec3::ZERO), &Style::default()).is_empty());
@@ -171,14 +197,10 @@ mod tests {
             let outward = Vec3::new(middle.x, 0.0, middle.z);
             assert!((b - a).cross(c - a).dot(outward) > 0.0, "a triangle at {middle} faces inwards");
         }
-        let girth_at = |height: f32| {
-            let ring = mesh.positions.iter().filter(|p| (p.y - height).abs() < 1e-5);
-            ring.map(|p| Vec3::new(p.x, 0.0, p.z).length()).fold(0.0, f32::max)
-        };
         // The roots spread by 0.65; the tip is slim.
-        assert!((girth_at(0.0) - 0.05 * 1.65).abs() < 1e-5);
-        assert!((girth_at(3.0) - 0.05).abs() < 1e-5);
-        assert!((girth_at(4.0) - 0.05 * 0.45).abs() < 1e-5);
+        assert!((girth_at(&mesh, 0.0) - 0.05 * 1.65).abs() < 1e-5);
+        assert!((girth_at(&mesh, 3.0) - 0.05).abs() < 1e-5);
+        assert!((girth_at(&mesh, 4.0) - 0.05 * 0.45).abs() < 1e-5);
     }
 
     #[test]
@@ -220,5 +242,72 @@ mod tests {
         let (first, last) = (0, sides(0.5) as usize);
         assert_eq!(mesh.positions[first], mesh.positions[last]);
         assert_eq!((mesh.uvs[first].x, mesh.uvs[last].x), (0.0, tiles));
+    }
+
+    /// Sets the diameters of rows, then cuts a row off.
+    fn edit(plant: &mut Plant, widths: &[(usize, f32)], cut: Option<usize>) {
+        plant.begin_edit();
+        for &(row, diameter) in widths {
+            plant.set_width(MetamerId::new(row), Some(diameter));
+        }
+        if let Some(cut) = cut {
+            plant.prune(MetamerId::new(cut));
+        }
+        plant.end_step();
+    }
+
+    #[test]
+    fn stub_keeps_its_width_and_ends_flat() {
+        let mut plant = trunk(5, false);
+        edit(&mut plant, &[(3, 0.4)], Some(4));
+        let mesh = bark_mesh(&plant, &style(0.1));
+        assert_eq!(checks::mesh(&mesh), Ok(()));
+        assert!(mesh.bounds().is_some_and(|[_, high]| (high.y - 3.0).abs() < 1e-6));
+        assert!((girth_at(&mesh, 3.0) - 0.2).abs() < 1e-5 && (girth_at(&mesh, 2.0) - 0.2).abs() < 1e-4);
+        // The face is a whole polygon of upright triangles.
+        let mut face = 0.0;
+        for corners in mesh.indices.as_chunks::<3>().0 {
+            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
+            if [a, b, c].iter().all(|p| (p.y - 3.0).abs() < 1e-5) {
+                let area = 0.5 * (b - a).cross(c - a);
+                assert!(area.y > 0.0 && area.x.abs() < 1e-6 && area.z.abs() < 1e-6);
+                assert!(corners.iter().all(|&corner| mesh.normals[corner as usize].y > 0.999));
+                face += area.y;
+            }
+        }
+        let sides = sides(0.2) as f32;
+        let polygon = 0.5 * sides * 0.04 * libm::sinf(TAU / sides);
+        assert!((face - polygon).abs() < 1e-5, "the face has {face}, not {polygon}");
+    }
+
+    #[test]
+    fn cut_without_a_width_is_a_twig() {
+        let mut plant = trunk(5, true);
+        edit(&mut plant, &[], Some(3));
+        let mesh = bark_mesh(&plant, &style(0.1));
+        assert_eq!(checks::mesh(&mesh), Ok(()));
+        // As if nothing had been above, but neither slim nor pointed.
+        assert!((girth_at(&mesh, 2.0) - 0.05).abs() < 1e-5);
+        assert!(mesh.bounds().is_some_and(|[_, high]| high.y < 2.0 + 1e-5 && high.x > 1.0));
+    }
+
+    #[test]
+    fn lateral_closes_the_cut_above_it() {
+        let mut plant = trunk(5, true);
+        edit(&mut plant, &[(1, 0.4)], Some(2));
+        let courses = courses(&plant, &style(0.1));
+        assert_eq!(courses.iter().map(|course| course.end).collect::<Vec<_>>(), [End::Grown; 2]);
+        assert_eq!(courses[0].nodes, [Vec3::ZERO, Vec3::Y]);
+        assert_eq!(checks::mesh(&bark_mesh(&plant, &style(0.1))), Ok(()));
+    }
+
+    #[test]
+    fn constrained_tip_is_not_slim() {
+        let mut plant = trunk(3, false);
+        edit(&mut plant, &[(1, 0.8), (3, 0.2)], None);
+        let mesh = bark_mesh(&plant, &style(0.1));
+        // Halved and halved again; at the second node the flare of the roots is gone but for a thousandth.
+        assert!((girth_at(&mesh, 2.0) - 0.2).abs() < 2e-3);
+        assert!((girth_at(&mesh, 3.0) - 0.1).abs() < 1e-3);
     }
 }

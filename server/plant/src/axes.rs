@@ -50,13 +50,26 @@ impl Axes {
         AxisId::new(self.bearer.len())
     }
 
-    pub(crate) fn truncate(&mut self, len: usize) {
-        self.bearer.truncate(len);
-        self.first.truncate(len);
-        self.last.truncate(len);
-        self.direction.truncate(len);
-        self.order.truncate(len);
-        self.death.truncate(len);
+    /// Cuts the columns off at a row and returns the rest.
+    pub(crate) fn split_off(&mut self, at: usize) -> Self {
+        Self {
+            bearer: self.bearer.split_off(at),
+            first: self.first.split_off(at),
+            last: self.last.split_off(at),
+            direction: self.direction.split_off(at),
+            order: self.order.split_off(at),
+            death: self.death.split_off(at),
+        }
+    }
+
+    /// Puts rows behind these.
+    pub(crate) fn append(&mut self, mut more: Self) {
+        self.bearer.append(&mut more.bearer);
+        self.first.append(&mut more.first);
+        self.last.append(&mut more.last);
+        self.direction.append(&mut more.direction);
+        self.order.append(&mut more.order);
+        self.death.append(&mut more.death);
     }
 
     /// The metamer whose node bears this axis; none for a trunk, which begins with its seed.

@@ -29,6 +29,16 @@ impl Girth {
         self.table.get(tips as usize).copied().unwrap_or_else(|| self.compute(tips))
     }
 
+    /// One divided by n.
+    pub fn inverse_exponent(&self) -> f32 {
+        self.inverse_exponent
+    }
+
+    /// Radius of a twig's tip in internodes, half of d_e.
+    pub fn twig_radius(&self) -> f32 {
+        self.twig_radius
+    }
+
     fn compute(&self, tips: u32) -> f32 {
         self.twig_radius * libm::powf(tips as f32, self.inverse_exponent)
     }

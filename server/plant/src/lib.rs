@@ -6,22 +6,32 @@
 //! and of its death, and the plant keeps its whole timeline: going back and forth in time only moves a cursor.
 
 pub mod axes;
+pub mod bend;
 pub mod checks;
 pub mod columns;
+pub mod edits;
+pub mod future;
 pub mod girth;
 pub mod hash;
 pub mod id;
 pub mod metamers;
+pub mod motion;
 pub mod parts;
 pub mod plant;
 pub mod time_travel;
 pub mod timeline;
+pub mod widths;
 
 pub use axes::Axes;
+pub use bend::{Bend, BendState};
 pub use columns::Columns;
+pub use edits::{Carried, Edit};
+pub use future::{Future, FutureParts};
 pub use girth::Girth;
 pub use id::{AxisId, MetamerId};
 pub use metamers::{Appearance, Metamers};
+pub use motion::Motion;
 pub use parts::{BrokenPlant, PlantParts};
 pub use plant::{Internode, Plant};
 pub use time_travel::TimeShift;
+pub use widths::{Width, Widths};

@@ -76,15 +76,30 @@ impl Metamers {
         self.lateral.reserve_exact(more);
     }
 
-    pub(crate) fn truncate(&mut self, len: usize) {
-        self.parent.truncate(len);
-        self.axis.truncate(len);
-        self.death.truncate(len);
-        self.end.truncate(len);
-        self.normal.truncate(len);
-        self.tips.truncate(len);
-        self.appearance.truncate(len);
-        self.lateral.truncate(len);
+    /// Cuts the columns off at a row and returns the rest.
+    pub(crate) fn split_off(&mut self, at: usize) -> Self {
+        Self {
+            parent: self.parent.split_off(at),
+            axis: self.axis.split_off(at),
+            death: self.death.split_off(at),
+            end: self.end.split_off(at),
+            normal: self.normal.split_off(at),
+            tips: self.tips.split_off(at),
+            appearance: self.appearance.split_off(at),
+            lateral: self.lateral.split_off(at),
+        }
+    }
+
+    /// Puts rows behind these.
+    pub(crate) fn append(&mut self, mut more: Self) {
+        self.parent.append(&mut more.parent);
+        self.axis.append(&mut more.axis);
+        self.death.append(&mut more.death);
+        self.end.append(&mut more.end);
+        self.normal.append(&mut more.normal);
+        self.tips.append(&mut more.tips);
+        self.appearance.append(&mut more.appearance);
+        self.lateral.append(&mut more.lateral);
     }
 
     /// The metamer this one grows from; none for a seed.

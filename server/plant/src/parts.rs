@@ -1,10 +1,13 @@
 //! A plant taken apart into plain columns, and put together again with every invariant checked.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 
 use crate::{
     axes::Axes,
     checks,
+    edits::Edit,
     id::{AxisId, MetamerId},
     metamers::{Appearance, Metamers},
     plant::Plant,
@@ -16,10 +19,12 @@ use crate::{
 pub struct PlantParts {
     /// The present step.
     pub now: u32,
-    /// Metamers, axes and losses at the end of each step recorded.
-    pub ends: Vec<[u32; 3]>,
-    /// Axes that were lost, in order.
-    pub losses: Vec<u32>,
+    /// Metamers, axes, edits and steps of growth at the end of each step recorded.
+    pub ends: Vec<[u32; 4]>,
+    /// What was done to wood, in order.
+    pub edits: Vec<Edit>,
+    /// Width constraints of the present, those on dead metamers included: metamers and diameters.
+    pub widths: Vec<(u32, f32)>,
     /// Each metamer's parent.
     pub parent: Vec<u32>,
     /// Each metamer's axis.
@@ -48,8 +53,9 @@ impl Plant {
     pub fn to_parts(&self) -> PlantParts {
         PlantParts {
             now: self.timeline.now,
-            ends: self.timeline.ends.iter().map(|e| [e.metamers, e.axes, e.losses]).collect(),
-            losses: self.timeline.losses.iter().map(|id| id.raw()).collect(),
+            ends: to_ends(&self.timeline.ends),
+            edits: self.timeline.edits.clone(),
+            widths: self.widths.iter().map(|(id, &diameter)| (id.raw(), diameter)).collect(),
             parent: self.metamers.parent.iter().map(|id| id.raw()).collect(),
             axis: self.metamers.axis.iter().map(|id| id.raw()).collect(),
             death: self.metamers.death.clone(),
@@ -71,10 +77,16 @@ impl Plant {
             order.push(below.map_or(0, |below: u32| below + 1));
         }
         let mut lateral = vec![AxisId::NONE; metamers];
-        for (axis, &bearer) in
-            parts.bearer.iter().enumerate().rev().filter(|(_, bearer)| **bearer != u32::MAX)
-        {
-            lateral[bearer as usize] = AxisId::new(axis);
+        let mut is_graft = vec![false; axes];
+        for edit in &parts.edits {
+            if let Edit::Grafted(axis) = edit {
+                is_graft[axis.index()] = true;
+            }
+        }
+        for (axis, &bearer) in parts.bearer.iter().enumerate().rev() {
+            if bearer != u32::MAX && !is_graft[axis] {
+                lateral[bearer as usize] = AxisId::new(axis);
+            }
         }
         let mut plant = Self {
             metamers: Metamers {
@@ -96,13 +108,16 @@ impl Plant {
                 death: parts.axis_death,
             },
             timeline: Timeline {
-                ends: (parts.ends.iter())
-                    .map(|&[metamers, axes, losses]| StepEnd { metamers, axes, losses })
-                    .collect(),
-                losses: parts.losses.iter().map(|&raw| AxisId::new(raw as usize)).collect(),
+                ends: from_ends(&parts.ends),
+                edits: parts.edits,
                 now: 0,
                 recording: false,
+                grows: false,
             },
+            grafts: BTreeMap::new(),
+            widths: (parts.widths.iter())
+                .map(|&(raw, diameter)| (MetamerId::new(raw as usize), diameter))
+                .collect(),
             living: 0,
         };
         plant.replay(parts.now);
@@ -111,14 +126,23 @@ impl Plant {
     }
 }
 
-fn id_of<T>(raw: u32, none: T, new: impl Fn(usize) -> T) -> T {
+pub(crate) fn id_of<T>(raw: u32, none: T, new: impl Fn(usize) -> T) -> T {
     if raw == u32::MAX { none } else { new(raw as usize) }
+}
+
+pub(crate) fn to_ends(ends: &[StepEnd]) -> Vec<[u32; 4]> {
+    ends.iter().map(|e| [e.metamers, e.axes, e.edits, e.growths]).collect()
+}
+
+pub(crate) fn from_ends(ends: &[[u32; 4]]) -> Vec<StepEnd> {
+    let end = |&[metamers, axes, edits, growths]: &[u32; 4]| StepEnd { metamers, axes, edits, growths };
+    ends.iter().map(end).collect()
 }
 
 /// Checks that every index points at an earlier row, so that nothing below can go out of bounds.
 fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
     let broken = |what: &str| Err(BrokenPlant(what.to_owned()));
-    let (metamers, axes, losses) = (parts.parent.len(), parts.bearer.len(), parts.losses.len());
+    let (metamers, axes, edits) = (parts.parent.len(), parts.bearer.len(), parts.edits.len());
     let columns = [
         (parts.axis.len(), metamers),
         (parts.death.len(), metamers),
@@ -133,11 +157,11 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
     if parts.now as usize >= parts.ends.len() {
         return broken("the present step is not recorded");
     }
-    if parts.ends.windows(2).any(|pair| (0..3).any(|i| pair[0][i] > pair[1][i])) {
+    if parts.ends.windows(2).any(|pair| (0..4).any(|i| pair[0][i] > pair[1][i])) {
         return broken("a step ends before it begins");
     }
     let last = parts.ends.last().map(|end| end.map(|n| n as usize));
-    if last != Some([metamers, axes, losses]) {
+    if last.map(|end| [end[0], end[1], end[2]]) != Some([metamers, axes, edits]) {
         return broken("the last step does not end at the last row");
     }
     if parts.parent.iter().enumerate().any(|(row, &parent)| parent != u32::MAX && parent as usize >= row) {
@@ -153,8 +177,16 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
     if parts.bearer.iter().enumerate().any(bearer_is_bad) {
         return broken("an axis is borne by nothing before it");
     }
-    if parts.losses.iter().any(|&axis| axis as usize >= axes) {
-        return broken("an axis was lost that never was");
+    if parts.widths.iter().any(|&(row, diameter)| row as usize >= metamers || !is_width(diameter)) {
+        return broken("a width constraint is on nothing");
+    }
+    let mut edited = 0;
+    for (step, end) in parts.ends.iter().enumerate() {
+        let before = step.checked_sub(1).map_or([0; 4], |step| parts.ends[step]);
+        for edit in &parts.edits[edited..end[2] as usize] {
+            check_edit(edit, before, *end, |id| parts.parent[id.index()], |axis| parts.bearer[axis.index()])?;
+        }
+        edited = end[2] as usize;
     }
     // Every metamer grows from the bud of its axis: a seed founds it, others follow its last metamer or bearer.
     let mut last = vec![u32::MAX; axes];
@@ -168,4 +200,39 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
         *tip = row as u32;
     }
     Ok(())
+}
+
+/// Checks that an edit of a step concerns what is there by then; `parent` and `bearer` give raw rows.
+pub(crate) fn check_edit(
+    edit: &Edit,
+    before: [u32; 4],
+    end: [u32; 4],
+    parent: impl Fn(MetamerId) -> u32,
+    bearer: impl Fn(AxisId) -> u32,
+) -> Result<(), BrokenPlant> {
+    let is_wood = |id: MetamerId| id.raw() < before[0];
+    let holds = match edit {
+        Edit::Shed(axis) => axis.raw() < before[1],
+        Edit::Pruned(cut) => is_wood(*cut) && parent(*cut) != u32::MAX,
+        Edit::Grafted(axis) => {
+            let is_new = (before[1]..end[1]).contains(&axis.raw());
+            is_new && bearer(*axis) != u32::MAX
+        }
+        Edit::Carried(carried) => {
+            let places = carried.ends.iter().chain(&carried.normals).chain(&carried.directions);
+            let counts = [carried.ends.len(), carried.normals.len()];
+            counts == [carried.metamers.len(); 2]
+                && carried.directions.len() == carried.axes.len()
+                && carried.metamers.iter().all(|&id| is_wood(id))
+                && carried.axes.iter().all(|axis| axis.raw() < before[1])
+                && places.into_iter().all(|place| place.is_finite())
+        }
+        // A graft brings its constraints along.
+        Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_width),
+    };
+    if holds { Ok(()) } else { Err(BrokenPlant("an edit concerns what is not there".to_owned())) }
+}
+
+fn is_width(diameter: f32) -> bool {
+    diameter.is_finite() && diameter > 0.0
 }

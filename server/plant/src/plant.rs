@@ -1,9 +1,12 @@
 //! The arena: plants growing, losing branches, and travelling in time.
 
+use std::collections::BTreeMap;
+
 use glam::Vec3;
 
 use crate::{
     axes::Axes,
+    edits::Edit,
     hash::StableHash,
     id::{AxisId, MetamerId},
     metamers::{ALIVE, Appearance, Metamers, Row},
@@ -18,6 +21,10 @@ pub struct Plant {
     pub(crate) metamers: Metamers,
     pub(crate) axes: Axes,
     pub(crate) timeline: Timeline,
+    /// Axes grafted onto nodes, beside those the nodes have borne themselves.
+    pub(crate) grafts: BTreeMap<MetamerId, Vec<AxisId>>,
+    /// Width constraints of the present, those on dead metamers included: diameters in internodes.
+    pub(crate) widths: BTreeMap<MetamerId, f32>,
     /// Wraps while parts from outside are tried out; the checks compare it with a count.
     pub(crate) living: u32,
 }
@@ -43,6 +50,8 @@ impl Plant {
             metamers: Metamers::default(),
             axes: Axes::default(),
             timeline: Timeline { recording: true, ..Timeline::default() },
+            grafts: BTreeMap::new(),
+            widths: BTreeMap::new(),
             living: 0,
         };
         plant.sow(position);
@@ -79,10 +88,23 @@ impl Plant {
         self.living
     }
 
-    /// Living axes with wood; buds are not counted.
+    /// Axes with living wood; buds are not counted.
     pub fn living_axes_count(&self) -> u32 {
-        let grown = |axis: &AxisId| self.is_axis_alive(*axis) && self.has_grown(*axis);
-        (0..self.axis_count()).map(AxisId::new).filter(grown).count() as u32
+        (0..self.axis_count()).map(AxisId::new).filter(|&axis| self.has_living_wood(axis)).count() as u32
+    }
+
+    /// Whether an axis has living wood, with or without a bud at its end (a seed is none).
+    pub fn has_living_wood(&self, axis: AxisId) -> bool {
+        let Some(first) = self.axes.first(axis).filter(|&first| self.is_alive(first)) else { return false };
+        if !self.is_seed(first) {
+            return true;
+        }
+        // A trunk that was cut may be cut down to its seed.
+        let is_wood = |id: MetamerId| self.metamers.axis(id) == axis && self.is_alive(id) && id != first;
+        match self.is_axis_alive(axis) {
+            true => self.has_grown(axis),
+            false => (first.index()..self.metamer_count()).map(MetamerId::new).any(is_wood),
+        }
     }
 
     /// The present step.
@@ -110,7 +132,12 @@ impl Plant {
         self.metamers.death[id.index()] > self.timeline.now
     }
 
-    /// Whether an axis of the present is alive.
+    /// Steps of growth that a metamer of the present has lived through; edits take no time.
+    pub fn age(&self, id: MetamerId) -> u32 {
+        self.timeline.growths_at(self.timeline.now) - self.timeline.growths_at(self.birth(id))
+    }
+
+    /// Whether the bud of an axis of the present is alive. Of an axis that was cut, wood without a bud remains.
     pub fn is_axis_alive(&self, id: AxisId) -> bool {
         self.axes.death[id.index()] > self.timeline.now
     }
@@ -134,12 +161,33 @@ impl Plant {
         if last == MetamerId::NONE { self.axes.bearer[id.index()] } else { last }
     }
 
-    /// The lateral axes that a metamer's node has borne, the dead included.
-    pub fn laterals(&self, id: MetamerId) -> impl Iterator<Item = AxisId> + use<> {
+    /// The lateral axes that a metamer's node bears: those it has laid down, the dead included, and its grafts.
+    pub fn laterals(&self, id: MetamerId) -> impl Iterator<Item = AxisId> + use<'_> {
+        let grafts = if self.grafts.is_empty() { None } else { self.grafts.get(&id) };
+        self.whorl(id).chain(grafts.into_iter().flatten().copied())
+    }
+
+    /// The lateral axes that a metamer's node has laid down, the dead included.
+    pub(crate) fn whorl(&self, id: MetamerId) -> impl Iterator<Item = AxisId> + use<> {
         let first = self.metamers.lateral[id.index()];
-        let from = if first == AxisId::NONE { self.axes.bearer.len() } else { first.index() };
-        let borne = self.axes.bearer[from..].iter().take_while(|&&bearer| bearer == id).count();
+        let end = self.axis_count();
+        let from = if first == AxisId::NONE { end } else { first.index() };
+        let mut borne = self.axes.bearer[from..end].iter().take_while(|&&bearer| bearer == id).count();
+        // A graft that was made right after it follows the whorl without being of it.
+        if !self.grafts.is_empty() {
+            borne = (from..from + borne).take_while(|&axis| !self.is_graft(AxisId::new(axis))).count();
+        }
         (from..from + borne).map(AxisId::new)
+    }
+
+    /// Whether an axis was grafted onto the node that bears it.
+    pub(crate) fn is_graft(&self, id: AxisId) -> bool {
+        self.grafts.get(&self.axes.bearer[id.index()]).is_some_and(|grafts| grafts.contains(&id))
+    }
+
+    /// Whether an axis has a living bud, or living wood whose bud was cut off.
+    pub fn is_standing(&self, id: AxisId) -> bool {
+        self.is_axis_alive(id) || self.axes.first(id).is_some_and(|first| self.is_alive(first))
     }
 
     /// Where the bud of an axis is.
@@ -160,43 +208,53 @@ impl Plant {
         self.axes.last(id).is_some_and(|last| !self.is_seed(last))
     }
 
-    /// Starts a new step; whatever future there was is forgotten.
+    /// Starts a new step of growth; whatever future there was is forgotten, unless it was
+    /// [stashed](Plant::stash_future).
     ///
     /// # Panics
     /// If a step is being recorded already.
     pub fn begin_step(&mut self) {
+        self.begin(true);
+    }
+
+    /// Starts a step in which nothing grows older: an edit.
+    ///
+    /// # Panics
+    /// If a step is being recorded already.
+    pub fn begin_edit(&mut self) {
+        self.begin(false);
+    }
+
+    fn begin(&mut self, grows: bool) {
         assert!(!self.timeline.recording, "steps do not nest");
-        let present = self.timeline.present();
-        self.metamers.truncate(present.metamers as usize);
-        self.axes.truncate(present.axes as usize);
-        if self.timeline.losses.len() > present.losses as usize {
-            // Rows of the present that would have died in the forgotten future live on.
-            forget_deaths(&mut self.metamers.death, self.timeline.now);
-            forget_deaths(&mut self.axes.death, self.timeline.now);
+        if self.timeline.now < self.last_step() {
+            self.stash_future();
         }
-        self.timeline.losses.truncate(present.losses as usize);
-        self.timeline.ends.truncate(self.timeline.now as usize + 1);
         self.timeline.now += 1;
         self.timeline.recording = true;
+        self.timeline.grows = grows;
     }
 
     /// Ends the step: girth follows from what has grown. A step in which nothing happened is not recorded, so
     /// that going back one step always shows; returns whether it was.
     pub fn end_step(&mut self) -> bool {
         debug_assert!(self.timeline.recording, "end_step follows begin_step");
+        let before = self.timeline.before(self.timeline.now);
         let end = StepEnd {
             metamers: self.metamers.parent.len() as u32,
             axes: self.axes.bearer.len() as u32,
-            losses: self.timeline.losses.len() as u32,
+            edits: self.timeline.edits.len() as u32,
+            growths: before.growths,
         };
         self.timeline.recording = false;
-        if self.timeline.now > 0 && end == self.timeline.before(self.timeline.now) {
+        if self.timeline.now > 0 && end == before {
+            self.timeline.grows = false;
             self.timeline.now -= 1;
             return false;
         }
-        let born = self.timeline.before(self.timeline.now).metamers as usize;
-        self.carry_from(born, self.metamers.parent.len());
-        self.timeline.ends.push(end);
+        self.thicken_from(before.metamers as usize, self.metamers.parent.len());
+        let growths = before.growths + u32::from(std::mem::take(&mut self.timeline.grows));
+        self.timeline.ends.push(StepEnd { growths, ..end });
         true
     }
 
@@ -242,7 +300,7 @@ impl Plant {
         debug_assert!(self.timeline.recording, "changes belong to a step");
         let now = self.timeline.now;
         let (metamers, axes) = self.branch(axis);
-        self.timeline.losses.push(axis);
+        self.timeline.edits.push(Edit::Shed(axis));
         for id in axes {
             self.axes.death[id.index()] = now;
         }
@@ -253,31 +311,12 @@ impl Plant {
         metamers
     }
 
-    /// Everything alive that a branch consists of: its metamers and its axes, buds included, in birth order.
+    /// Everything alive that a branch consists of: its metamers and the axes with living buds, in birth order.
     pub fn branch(&self, root: AxisId) -> (Vec<MetamerId>, Vec<AxisId>) {
-        let mut axes = vec![root];
-        let mut metamers = Vec::new();
-        let Some(first) = self.axes.first(root) else { return (metamers, axes) };
-        let mut inside = vec![false; self.metamer_count() - first.index()];
-        for index in first.index()..self.metamer_count() {
-            let id = MetamerId::new(index);
-            let parent = self.metamers.parent[index];
-            let within = id == first
-                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
-            if within && self.is_alive(id) {
-                inside[index - first.index()] = true;
-                metamers.push(id);
-            }
-        }
-        for index in root.index() + 1..self.axis_count() {
-            let bearer = self.axes.bearer[index];
-            if bearer != MetamerId::NONE
-                && bearer >= first
-                && inside[bearer.index() - first.index()]
-                && self.is_axis_alive(AxisId::new(index))
-            {
-                axes.push(AxisId::new(index));
-            }
+        let metamers = self.axes.first(root).map(|first| self.above(first)).unwrap_or_default();
+        let mut axes = self.buds_of(&metamers);
+        if metamers.is_empty() && self.is_axis_alive(root) {
+            axes.push(root);
         }
         (metamers, axes)
     }
@@ -293,11 +332,11 @@ impl Plant {
     }
 
     /// Enters the metamers of a range of rows, the last of the present, which have no tips yet, into the girth of those below them.
-    pub(crate) fn carry_from(&mut self, born: usize, count: usize) {
+    pub(crate) fn thicken_from(&mut self, born: usize, count: usize) {
         // Each new axis is a path down to the roots; where there are many, one pass over all wood is shorter.
         if (count - born) * TYPICAL_DEPTH < count {
             for index in born..count {
-                self.carry(MetamerId::new(index));
+                self.thicken(MetamerId::new(index));
             }
             return;
         }
@@ -320,7 +359,7 @@ impl Plant {
     }
 
     /// Enters a metamer into the girth of those below it.
-    fn carry(&mut self, id: MetamerId) {
+    fn thicken(&mut self, id: MetamerId) {
         if self.is_seed(id) {
             return;
         }
@@ -347,12 +386,12 @@ impl Plant {
     }
 
     /// Whether a metamer is the first wood of its axis, so that a new tip came with it.
-    fn begins_wood(&self, id: MetamerId) -> bool {
+    pub(crate) fn begins_wood(&self, id: MetamerId) -> bool {
         let parent = self.metamers.parent[id.index()];
         self.metamers.axis[parent.index()] != self.metamers.axis[id.index()] || self.is_seed(parent)
     }
 
-    fn add_tips(&mut self, from: MetamerId, change: i32) {
+    pub(crate) fn add_tips(&mut self, from: MetamerId, change: i32) {
         let mut id = from;
         while id != MetamerId::NONE {
             let tips = &mut self.metamers.tips[id.index()];
@@ -386,12 +425,9 @@ impl Plant {
             hash.vector(a.direction[index]);
             hash.word(u64::from(self.is_axis_alive(AxisId::new(index))));
         }
+        for (id, diameter) in self.widths() {
+            hash.word(u64::from(id.raw()) | u64::from(diameter.to_bits()) << 32);
+        }
         hash.finish()
-    }
-}
-
-fn forget_deaths(deaths: &mut [u32], now: u32) {
-    for death in deaths.iter_mut().filter(|death| **death > now) {
-        *death = ALIVE;
     }
 }

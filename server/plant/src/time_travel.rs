@@ -1,20 +1,38 @@
 //! Going back and forth in time: the cursor moves, the rows stay where they are.
 
+use glam::Vec3;
+
 use crate::{
+    edits::Edit,
     id::{AxisId, MetamerId},
     plant::Plant,
     timeline::StepEnd,
 };
 
-/// What a move in time did, for whoever keeps structures derived from the plant.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// What a move in time did on the whole, for whoever keeps structures derived from the plant.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TimeShift {
     /// Metamers that are alive now and were not before, seeds included.
     pub metamers_in: Vec<MetamerId>,
-    /// Metamers that were alive before and are not now, seeds included.
-    pub metamers_out: Vec<MetamerId>,
+    /// Metamers that were alive before and are not now, seeds included, and where they were.
+    pub metamers_out: Vec<(MetamerId, Vec3)>,
+    /// Metamers that were alive before and are now, but elsewhere, and where they were.
+    pub moved: Vec<(MetamerId, Vec3)>,
     /// Axes whose bud moved, appeared or vanished; some more than once, some beyond the present.
     pub axes: Vec<AxisId>,
+    /// Whether anything but births lies between: wood shed, cut, carried or grafted.
+    pub is_edited: bool,
+}
+
+/// A move in time as it happens.
+#[derive(Default)]
+struct Journey {
+    came: Vec<MetamerId>,
+    went: Vec<MetamerId>,
+    /// What moved and where it was, the first move first.
+    moved: Vec<(MetamerId, Vec3)>,
+    axes: Vec<AxisId>,
+    is_edited: bool,
 }
 
 impl Plant {
@@ -25,97 +43,206 @@ impl Plant {
     pub fn go_to(&mut self, step: u32) -> TimeShift {
         assert!(step <= self.last_step(), "step {step} lies beyond the last recorded one");
         assert!(!self.timeline.recording, "time stands still within a step");
-        let mut shift = TimeShift::default();
+        let mut journey = Journey::default();
         while self.timeline.now > step {
-            self.step_back(&mut shift);
+            self.step_back(&mut journey);
         }
         while self.timeline.now < step {
-            self.step_forth(&mut shift);
+            self.step_forth(&mut journey);
         }
-        shift
+        self.sum_up(journey)
     }
 
     /// Lives through the recorded steps from a plant whose rows are filled but not linked yet.
     pub(crate) fn replay(&mut self, now: u32) {
+        let mut edits = std::mem::take(&mut self.timeline.edits);
+        let done = self.timeline.ends[now as usize].edits as usize;
+        // The rows stand as they do in the present, and begin where they did in the past.
+        for edit in edits[..done].iter_mut().rev() {
+            match edit {
+                Edit::Carried(carried) => self.swap(carried),
+                Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
+                Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) => {}
+            }
+        }
+        self.timeline.edits = edits;
         for index in 0..self.timeline.present().metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
             self.living += u32::from(!self.is_seed(id));
         }
-        self.carry_from(0, self.metamer_count());
+        self.thicken_from(0, self.metamer_count());
         self.go_to(now);
     }
 
-    fn step_back(&mut self, shift: &mut TimeShift) {
+    fn step_back(&mut self, journey: &mut Journey) {
         let now = self.timeline.now;
         let (before, end) = (self.timeline.before(now), self.timeline.present());
         for index in (before.metamers..end.metamers).rev() {
             let id = MetamerId::new(index as usize);
-            shift.metamers_out.push(id);
+            journey.went.push(id);
             if !self.is_seed(id) {
                 self.living = self.living.wrapping_sub(1);
             }
             self.unlink(id);
-            shift.axes.push(self.metamers.axis(id));
+            journey.axes.push(self.metamers.axis(id));
         }
-        self.shift_axes(before, end, now, shift);
+        self.note_axes(before, end, now, journey);
         self.timeline.now = now - 1;
-        for index in (before.losses..end.losses).rev() {
-            for id in self.lost_with(self.timeline.losses[index as usize], now) {
-                shift.metamers_in.push(id);
-                self.living = self.living.wrapping_add(1);
+        let range = before.edits as usize..end.edits as usize;
+        let mut edits = std::mem::take(&mut self.timeline.edits);
+        for edit in edits[range].iter_mut().rev() {
+            journey.is_edited |= !matches!(edit, Edit::Width(..));
+            match edit {
+                Edit::Shed(axis) => {
+                    if let Some(first) = self.axes.first(*axis) {
+                        self.revive(first, now, journey);
+                    }
+                }
+                Edit::Pruned(cut) => {
+                    self.revive(*cut, now, journey);
+                    let tips = self.tips_lost_with(*cut);
+                    self.add_tips(self.metamers.parent[cut.index()], tips);
+                }
+                Edit::Grafted(axis) => self.ungraft(*axis),
+                Edit::Carried(_) | Edit::Width(..) => self.exchange(edit, journey),
             }
         }
+        self.timeline.edits = edits;
     }
 
-    fn step_forth(&mut self, shift: &mut TimeShift) {
+    fn step_forth(&mut self, journey: &mut Journey) {
         let before = self.timeline.present();
         self.timeline.now += 1;
+        let now = self.timeline.now;
         let end = self.timeline.present();
-        self.shift_axes(before, end, self.timeline.now, shift);
-        for index in before.losses..end.losses {
-            for id in self.lost_with(self.timeline.losses[index as usize], self.timeline.now) {
-                shift.metamers_out.push(id);
-                self.living = self.living.wrapping_sub(1);
+        self.note_axes(before, end, now, journey);
+        let range = before.edits as usize..end.edits as usize;
+        let mut edits = std::mem::take(&mut self.timeline.edits);
+        for edit in &mut edits[range] {
+            journey.is_edited |= !matches!(edit, Edit::Width(..));
+            match edit {
+                Edit::Shed(axis) => {
+                    if let Some(first) = self.axes.first(*axis) {
+                        self.bury(first, now, journey);
+                    }
+                }
+                Edit::Pruned(cut) => {
+                    self.bury(*cut, now, journey);
+                    let tips = self.tips_lost_with(*cut);
+                    self.add_tips(self.metamers.parent[cut.index()], tips.wrapping_neg());
+                }
+                Edit::Grafted(axis) => {
+                    self.grafts.entry(self.axes.bearer[axis.index()]).or_default().push(*axis);
+                }
+                Edit::Carried(_) | Edit::Width(..) => self.exchange(edit, journey),
             }
         }
+        self.timeline.edits = edits;
         for index in before.metamers..end.metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
-            shift.axes.push(self.metamers.axis(id));
-            shift.metamers_in.push(id);
+            journey.axes.push(self.metamers.axis(id));
+            journey.came.push(id);
             if !self.is_seed(id) {
                 self.living = self.living.wrapping_add(1);
             }
         }
-        self.carry_from(before.metamers as usize, end.metamers as usize);
+        self.thicken_from(before.metamers as usize, end.metamers as usize);
+    }
+
+    /// Changes what an edit keeps for what is in force.
+    fn exchange(&mut self, edit: &mut Edit, journey: &mut Journey) {
+        match edit {
+            Edit::Carried(carried) => {
+                self.swap(carried);
+                journey.moved.extend(carried.metamers.iter().copied().zip(carried.ends.iter().copied()));
+                journey.axes.extend(&carried.axes);
+                journey.axes.extend(carried.metamers.iter().map(|&id| self.metamers.axis(id)));
+            }
+            Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
+            Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) => {}
+        }
+    }
+
+    fn ungraft(&mut self, axis: AxisId) {
+        let bearer = self.axes.bearer[axis.index()];
+        if let Some(grafts) = self.grafts.get_mut(&bearer) {
+            grafts.retain(|&graft| graft != axis);
+            if grafts.is_empty() {
+                self.grafts.remove(&bearer);
+            }
+        }
     }
 
     /// Notes the axes that were born or died in a step.
-    fn shift_axes(&self, before: StepEnd, end: StepEnd, step: u32, shift: &mut TimeShift) {
-        shift.axes.extend((before.axes..end.axes).map(|index| AxisId::new(index as usize)));
-        if end.losses > before.losses {
+    fn note_axes(&self, before: StepEnd, end: StepEnd, step: u32, journey: &mut Journey) {
+        journey.axes.extend((before.axes..end.axes).map(|index| AxisId::new(index as usize)));
+        if end.edits > before.edits {
             let died = (0..before.axes as usize).filter(|&index| self.axes.death[index] == step);
-            shift.axes.extend(died.map(AxisId::new));
+            journey.axes.extend(died.map(AxisId::new));
         }
     }
 
+    fn revive(&mut self, first: MetamerId, step: u32, journey: &mut Journey) {
+        let lost = self.lost_with(first, step);
+        self.living = self.living.wrapping_add(lost.len() as u32);
+        journey.came.extend(lost);
+    }
+
+    fn bury(&mut self, first: MetamerId, step: u32, journey: &mut Journey) {
+        let lost = self.lost_with(first, step);
+        self.living = self.living.wrapping_sub(lost.len() as u32);
+        journey.went.extend(lost);
+    }
+
     /// The metamers that died with a branch in a step.
-    fn lost_with(&self, root: AxisId, step: u32) -> Vec<MetamerId> {
+    fn lost_with(&self, first: MetamerId, step: u32) -> Vec<MetamerId> {
         // A dead axis keeps its links, so its rows can be found again from its first metamer on.
-        let Some(first) = self.axes.first(root) else { return Vec::new() };
         let end = self.timeline.before(step).metamers as usize;
-        let mut inside = vec![false; end.saturating_sub(first.index())];
-        let mut lost = Vec::new();
-        for index in first.index()..end {
-            let parent = self.metamers.parent[index];
-            let within = index == first.index()
-                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
-            if within && self.metamers.death[index] == step {
-                inside[index - first.index()] = true;
-                lost.push(MetamerId::new(index));
-            }
+        self.connected(first, end, |id| self.metamers.death[id.index()] == step)
+    }
+
+    /// What a journey comes to: who came and went again need not be told.
+    fn sum_up(&self, journey: Journey) -> TimeShift {
+        let Journey { mut came, mut went, mut moved, axes, is_edited } = journey;
+        if !came.is_empty() && !went.is_empty() {
+            (came, went) = differences(came, went);
         }
-        lost
+        // Of several moves the first tells where something was.
+        moved.sort_by_key(|&(id, _)| id);
+        moved.dedup_by_key(|&mut (id, _)| id);
+        let former = |id: MetamerId| match moved.binary_search_by_key(&id, |&(id, _)| id) {
+            Ok(at) => moved[at].1,
+            Err(_) => self.metamers.end(id),
+        };
+        let metamers_out = went.into_iter().map(|id| (id, former(id))).collect();
+        let mut arrived = came.clone();
+        arrived.sort_unstable();
+        let stayed = |id: MetamerId| {
+            id.index() < self.metamer_count() && self.is_alive(id) && arrived.binary_search(&id).is_err()
+        };
+        moved.retain(|&(id, _)| stayed(id));
+        TimeShift { metamers_in: came, metamers_out, moved, axes, is_edited }
+    }
+}
+
+/// Those who came more often than they went, and those who went more often than they came.
+fn differences(mut came: Vec<MetamerId>, mut went: Vec<MetamerId>) -> (Vec<MetamerId>, Vec<MetamerId>) {
+    came.sort_unstable();
+    went.sort_unstable();
+    let (mut only_came, mut only_went) = (Vec::new(), Vec::new());
+    let (mut came, mut went) = (came.into_iter().peekable(), went.into_iter().peekable());
+    loop {
+        match (came.peek(), went.peek()) {
+            (Some(a), Some(b)) if a == b => {
+                came.next();
+                went.next();
+            }
+            (Some(a), Some(b)) if a < b => only_came.extend(came.next()),
+            (_, Some(_)) => only_went.extend(went.next()),
+            (Some(_), None) => only_came.extend(came.next()),
+            (None, None) => return (only_came, only_went),
+        }
     }
 }

@@ -1,13 +1,15 @@
 //! The steps of a plant's life, and the cursor among them.
 
-use crate::id::AxisId;
+use crate::edits::Edit;
 
 /// Lengths of the plant's columns at the end of one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct StepEnd {
     pub metamers: u32,
     pub axes: u32,
-    pub losses: u32,
+    pub edits: u32,
+    /// Steps of growth among those up to here.
+    pub growths: u32,
 }
 
 /// Every step recorded, and how many of them are in the present.
@@ -15,12 +17,14 @@ pub(crate) struct StepEnd {
 pub(crate) struct Timeline {
     /// Ends of steps 0, 1, 2 …
     pub ends: Vec<StepEnd>,
-    /// Roots of branches lost, in the order of their loss.
-    pub losses: Vec<AxisId>,
+    /// What was done to wood. Within a step edits come before births.
+    pub edits: Vec<Edit>,
     /// The step being recorded now, or the last one recorded.
     pub now: u32,
     /// Whether a step is being recorded.
     pub recording: bool,
+    /// Whether the step being recorded is one of growth.
+    pub grows: bool,
 }
 
 impl Timeline {
@@ -34,6 +38,13 @@ impl Timeline {
     pub fn step_of(&self, column: impl Fn(&StepEnd) -> u32, row: u32) -> u32 {
         let ended = &self.ends[..self.ends.len().min(self.now as usize + 1)];
         ended.partition_point(|end| column(end) <= row) as u32
+    }
+
+    /// Steps of growth up to a step of the present, that being recorded included.
+    pub fn growths_at(&self, step: u32) -> u32 {
+        let is_recorded = self.recording && step == self.now;
+        let of = |step| self.ends.get(step as usize).map_or(0, |end: &StepEnd| end.growths);
+        if is_recorded { self.before(step).growths + u32::from(self.grows) } else { of(step) }
     }
 
     /// The lengths one step earlier.

@@ -1,7 +1,7 @@
 //! Plants under random lives: every invariant holds after each event, and time travel is exact.
 
-use espalier_plant::{AxisId, Internode, Plant, PlantParts, checks};
-use glam::Vec3;
+use espalier_plant::{AxisId, Edit, Future, Internode, MetamerId, Motion, Plant, PlantParts, checks};
+use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
@@ -10,6 +10,12 @@ enum Event {
     Grow(Vec<u16>),
     Shed(u16),
     Sow(i8, i8),
+    Prune(u16),
+    /// Turns a branch, and stretches the path up to some wood in it.
+    Carry(u16, u16, i8),
+    /// Copies a branch onto another node, and cuts the original off if the last is set.
+    Graft(u16, u16, bool),
+    Width(u16, Option<u8>),
     GoTo(u16),
 }
 
@@ -18,6 +24,10 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         6 => prop::collection::vec(any::<u16>(), 1..12).prop_map(Event::Grow),
         1 => any::<u16>().prop_map(Event::Shed),
         1 => (any::<i8>(), any::<i8>()).prop_map(|(x, z)| Event::Sow(x, z)),
+        1 => any::<u16>().prop_map(Event::Prune),
+        2 => (any::<u16>(), any::<u16>(), any::<i8>()).prop_map(|(base, end, turn)| Event::Carry(base, end, turn)),
+        1 => (any::<u16>(), any::<u16>(), any::<bool>()).prop_map(|(row, onto, cut)| Event::Graft(row, onto, cut)),
+        1 => (any::<u16>(), any::<Option<u8>>()).prop_map(|(row, width)| Event::Width(row, width)),
         2 => any::<u16>().prop_map(Event::GoTo),
     ];
     prop::collection::vec(event, 1..40)
@@ -31,10 +41,26 @@ fn grow(plant: &mut Plant, axis: AxisId) {
     plant.extend(axis, &Internode { end, normal, laterals: &laterals });
 }
 
-fn living_axis(plant: &Plant, pick: u16) -> AxisId {
+/// A living bud, if there is any: a plant may have been cut down to a stump.
+fn living_axis(plant: &Plant, pick: u16) -> Option<AxisId> {
     let living: Vec<AxisId> =
         (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis)).collect();
-    living[usize::from(pick) % living.len()]
+    living.get(usize::from(pick) % living.len().max(1)).copied()
+}
+
+/// A living metamer that is no seed.
+fn wood(plant: &Plant, pick: u16) -> Option<MetamerId> {
+    let rows = (0..plant.metamer_count()).map(MetamerId::new);
+    let living: Vec<MetamerId> = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).collect();
+    living.get(usize::from(pick) % living.len().max(1)).copied()
+}
+
+/// The metamers from one up to another above it.
+fn path(plant: &Plant, base: MetamerId, end: MetamerId) -> Vec<MetamerId> {
+    let down = std::iter::successors(Some(end), |&id| plant.metamers().parent(id).filter(|&id| id >= base));
+    let mut path: Vec<MetamerId> = down.collect();
+    path.reverse();
+    path
 }
 
 fn happen(plant: &mut Plant, event: &Event) {
@@ -42,27 +68,88 @@ fn happen(plant: &mut Plant, event: &Event) {
         Event::Grow(picks) => {
             plant.begin_step();
             for &pick in picks {
-                grow(plant, living_axis(plant, pick));
+                if let Some(axis) = living_axis(plant, pick) {
+                    grow(plant, axis);
+                }
             }
             plant.end_step();
         }
         Event::Shed(pick) => {
-            let axis = living_axis(plant, *pick);
-            if plant.axes().order(axis) > 0 {
+            let axis = living_axis(plant, *pick).filter(|&axis| plant.axes().order(axis) > 0);
+            if let Some(axis) = axis {
                 plant.begin_step();
                 plant.shed(axis);
                 plant.end_step();
             }
         }
         Event::Sow(x, z) => {
-            plant.begin_step();
+            plant.begin_edit();
             plant.sow(Vec3::new(f32::from(*x), 0.0, f32::from(*z)));
             plant.end_step();
+        }
+        Event::Prune(pick) => {
+            if let Some(cut) = wood(plant, *pick) {
+                plant.begin_edit();
+                plant.prune(cut);
+                plant.end_step();
+            }
+        }
+        Event::Carry(base, end, turn) => {
+            let Some(base) = wood(plant, *base) else { return };
+            let above = plant.above(base);
+            let path = path(plant, base, above[usize::from(*end) % above.len()]);
+            let rotation =
+                Quat::from_xyzw(0.0, 0.6, 0.0, 0.8).slerp(Quat::IDENTITY, f32::from(*turn) / 200.0);
+            let foot = plant.metamers().parent(base).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+            let stretched = |(i, &id): (usize, &MetamerId)| {
+                let from = plant.metamers().end(id);
+                Motion { rotation, from, to: foot + rotation * (from - foot) + Vec3::Y * 0.25 * i as f32 }
+            };
+            let motions: Vec<Motion> = path.iter().enumerate().map(stretched).collect();
+            plant.begin_edit();
+            plant.carry(&path, &motions);
+            plant.end_step();
+        }
+        Event::Graft(row, onto, cut) => {
+            let (Some(row), Some(onto)) = (wood(plant, *row), wood(plant, *onto)) else { return };
+            if plant.above(row).contains(&onto) || plant.metamer_count() > 300 {
+                return;
+            }
+            let foot = plant.metamers().parent(row).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+            let rotation = Quat::from_xyzw(0.6, 0.0, 0.0, 0.8);
+            plant.begin_edit();
+            let motion = Motion { rotation, from: foot, to: plant.metamers().end(onto) };
+            plant.graft(row, onto, &motion);
+            if *cut {
+                plant.prune(row);
+            }
+            plant.end_step();
+        }
+        Event::Width(row, width) => {
+            if let Some(id) = wood(plant, *row) {
+                plant.begin_edit();
+                plant.set_width(id, width.map(|width| 0.1 + f32::from(width) / 50.0));
+                plant.end_step();
+            }
         }
         Event::GoTo(step) => {
             plant.go_to(u32::from(*step) % (plant.last_step() + 1));
         }
     }
+}
+
+fn edit((kind, row): (u8, usize)) -> Edit {
+    match kind {
+        0 => Edit::Shed(AxisId::new(row)),
+        1 => Edit::Pruned(MetamerId::new(row)),
+        2 => Edit::Grafted(AxisId::new(row)),
+        _ => Edit::Width(MetamerId::new(row), Some(0.5)),
+    }
+}
+
+fn living(plant: &Plant) -> std::collections::BTreeMap<MetamerId, [f32; 3]> {
+    let rows = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    rows.map(|id| (id, plant.metamers().end(id).to_array())).collect()
 }
 
 proptest! {
@@ -72,6 +159,10 @@ proptest! {
         for event in &events {
             happen(&mut plant, event);
             prop_assert_eq!(checks::all(&plant), Ok(()));
+            let rows = (0..plant.metamer_count()).map(MetamerId::new);
+            let living = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
+            let axes: std::collections::BTreeSet<AxisId> = living.map(|id| plant.metamers().axis(id)).collect();
+            prop_assert_eq!(plant.living_axes_count() as usize, axes.len());
         }
     }
 
@@ -92,6 +183,60 @@ proptest! {
     }
 
     #[test]
+    fn a_shift_tells_what_came_went_and_moved(events in events(), steps in prop::collection::vec(any::<u16>(), 1..6)) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        for event in &events {
+            happen(&mut plant, event);
+        }
+        for step in steps {
+            let before = living(&plant);
+            let shift = plant.go_to(u32::from(step) % (plant.last_step() + 1));
+            let after = living(&plant);
+            let mut told = before;
+            for (id, was) in &shift.metamers_out {
+                prop_assert_eq!(told.remove(id), Some(was.to_array()));
+            }
+            for (id, was) in &shift.moved {
+                prop_assert_eq!(told.insert(*id, plant.metamers().end(*id).to_array()), Some(was.to_array()));
+            }
+            for &id in &shift.metamers_in {
+                prop_assert_eq!(told.insert(id, plant.metamers().end(id).to_array()), None);
+            }
+            prop_assert_eq!(told, after);
+        }
+    }
+
+    #[test]
+    fn a_stashed_future_is_taken_up_exactly(events in events(), others in events(), step: u16) {
+        let mut plant = Plant::new(Vec3::ZERO);
+        for event in &events {
+            happen(&mut plant, event);
+        }
+        plant.go_to(u32::from(step) % (plant.last_step() + 1));
+        let fork = plant.step();
+        let first = plant.clone();
+        let future = plant.stash_future();
+        let parts = Future::from_parts(future.to_parts()).expect("a future fits together");
+        prop_assert_eq!(parts.to_parts(), future.to_parts());
+        for event in &others {
+            happen(&mut plant, event);
+        }
+        if plant.last_step() < fork || plant.step() < fork {
+            // The other life went back beyond the fork and began anew there.
+            return Ok(());
+        }
+        plant.go_to(fork);
+        let forked = plant.hash() == first.hash();
+        plant.stash_future();
+        if forked {
+            plant.take_future(parts).expect("it is taken where it began");
+            prop_assert_eq!(plant.to_parts(), first.to_parts());
+            plant.go_to(plant.last_step());
+            prop_assert_eq!(checks::all(&plant), Ok(()));
+        }
+    }
+
+    #[test]
     fn a_new_future_equals_a_life_without_the_old(events in events(), pick: u16) {
         let mut plant = Plant::new(Vec3::ZERO);
         for event in &events {
@@ -100,8 +245,9 @@ proptest! {
         let mut direct = Plant::from_parts(plant.to_parts()).expect("a plant fits together");
         prop_assert_eq!(&direct, &plant);
         let grown = |plant: &mut Plant| happen(plant, &Event::Grow(vec![pick]));
+        let before = plant.step();
         grown(&mut plant);
-        let (before, after) = (plant.step() - 1, plant.hash());
+        let after = plant.hash();
         plant.go_to(before);
         grown(&mut plant);
         prop_assert_eq!(plant.hash(), after);
@@ -112,8 +258,8 @@ proptest! {
     #[test]
     fn random_parts_are_refused_without_panic(
         now in 0u32..4,
-        ends in prop::collection::vec(prop::array::uniform3(0u32..6), 0..4),
-        losses in prop::collection::vec(0u32..6, 0..3),
+        ends in prop::collection::vec(prop::array::uniform4(0u32..6), 0..4),
+        edits in prop::collection::vec((0u8..4, 0usize..6), 0..3),
         rows in prop::collection::vec((0u32..7, 0u32..4, 0u32..5), 0..6),
         axes in prop::collection::vec((0u32..7, 0u32..5), 0..5),
     ) {
@@ -121,7 +267,8 @@ proptest! {
         let parts = PlantParts {
             now,
             ends,
-            losses,
+            edits: edits.into_iter().map(edit).collect(),
+            widths: Vec::new(),
             parent: rows.iter().map(|r| none(r.0)).collect(),
             axis: rows.iter().map(|r| r.1).collect(),
             death: rows.iter().map(|r| if r.2 == 4 { u32::MAX } else { r.2 }).collect(),

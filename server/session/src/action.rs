@@ -1,14 +1,16 @@
 //! What can be done to a document: commands whose form has been checked.
 
 mod outline;
+mod shaping;
 
 use espalier_proto::{
     Command, ParametersPatch, Problem, ProblemCode, StrokeSample,
     version::{MAX_STEPS_PER_COMMAND, MAX_STROKE_SAMPLES},
 };
-use glam::Vec3;
+use glam::{Quat, Vec3};
 
 pub use self::outline::Lasso;
+pub(crate) use self::shaping::{Prediction, parse_rotation};
 use crate::{
     malformed,
     obstacle::{Obstacle, Pose},
@@ -103,6 +105,85 @@ pub enum Action {
         /// Which.
         id: u32,
     },
+    /// A bend begins.
+    BendBegin {
+        /// The author's number for it.
+        bend: u32,
+        /// The row that stays.
+        base: u32,
+        /// 1 to 8 different rows.
+        touches: Vec<u32>,
+        /// 0 to 1.
+        stretch: f32,
+    },
+    /// The touches of a bend move.
+    BendMove {
+        /// The author's number for it.
+        bend: u32,
+        /// Where each is wanted, 1 to 8 places.
+        targets: Vec<Vec3>,
+    },
+    /// A bend ends.
+    BendEnd {
+        /// The author's number for it.
+        bend: u32,
+    },
+    /// A bend is given up.
+    BendCancel {
+        /// The author's number for it.
+        bend: u32,
+    },
+    /// A width constraint set, or removed.
+    SetWidth {
+        /// Where.
+        row: u32,
+        /// The diameter in internodes; none without a constraint.
+        diameter: Option<f32>,
+        /// Changes of one row with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// Branches cut.
+    Prune {
+        /// 1 to 1024 rows.
+        rows: Vec<u32>,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// Branches in the dark cut.
+    PruneDim {
+        /// The most light, 0 to 1.
+        exposure: f32,
+    },
+    /// A branch turned.
+    TurnBranch {
+        /// Its first row.
+        row: u32,
+        /// Of unit length.
+        rotation: Quat,
+        /// Turns of one branch with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// A branch copied or moved.
+    Graft {
+        /// Its first row.
+        row: u32,
+        /// The row that bears it from now on.
+        onto: u32,
+        /// Of unit length.
+        rotation: Quat,
+        /// Whether it stays where it was as well.
+        keep: bool,
+    },
+    /// Along the present line of time.
+    GoTo {
+        /// Where to.
+        step: u32,
+    },
+    /// To another line of time.
+    TakeFuture {
+        /// Which.
+        future: u32,
+    },
 }
 
 impl Action {
@@ -136,6 +217,25 @@ impl Action {
                 Self::MoveObstacle { id: *id, pose }
             }
             &Command::RemoveObstacle { id } => Self::RemoveObstacle { id },
+            Command::BendBegin { bend, base, touches, stretch } => {
+                shaping::bend_begin(*bend, *base, touches, *stretch)?
+            }
+            Command::BendMove { bend, targets } => shaping::bend_move(*bend, targets)?,
+            &Command::BendEnd { bend } => Self::BendEnd { bend },
+            &Command::BendCancel { bend } => Self::BendCancel { bend },
+            &Command::SetWidth { row, diameter, gesture } => shaping::set_width(row, diameter, gesture)?,
+            Command::Prune { rows, gesture } => {
+                Self::Prune { rows: shaping::pruned_rows(rows, 1)?, gesture: *gesture }
+            }
+            &Command::PruneDim { exposure } => shaping::prune_dim(exposure)?,
+            Command::TurnBranch { row, rotation, gesture } => {
+                Self::TurnBranch { row: *row, rotation: parse_rotation(rotation)?, gesture: *gesture }
+            }
+            Command::Graft { row, onto, rotation, keep } => {
+                Self::Graft { row: *row, onto: *onto, rotation: parse_rotation(rotation)?, keep: *keep }
+            }
+            &Command::GoTo { step } => Self::GoTo { step },
+            &Command::TakeFuture { future } => Self::TakeFuture { future },
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use crate::{io::ClientId, to_proto::Held, window::Window};
+use crate::{action::Prediction, foresight::Cancelled, io::ClientId, to_proto::Held, window::Window};
 
 /// One connection.
 #[derive(Debug, Default)]
@@ -19,6 +19,34 @@ pub(crate) struct Guest {
     pub(crate) key: Arc<str>,
     pub(crate) window: Window,
     pub(crate) view: View,
+    pub(crate) watch: Watch,
+    pub(crate) vision: Vision,
+}
+
+/// The poses a client has seen (`BE5`).
+#[derive(Debug, Default)]
+pub(crate) struct Watch {
+    /// The newest pose sent of each bend that it does not know to be over.
+    pub(crate) shown: BTreeMap<u32, u32>,
+    /// A pose that it has not answered.
+    pub(crate) in_flight: Option<u32>,
+}
+
+/// The predictions of a client (`PD`).
+#[derive(Debug, Default)]
+pub(crate) struct Vision {
+    /// Predictions asked for and ghosts ended: the newest of them.
+    pub(crate) number: u32,
+    /// What is asked for and not begun.
+    pub(crate) wanted: Option<Prediction>,
+    /// The prediction that is being made.
+    pub(crate) running: Option<Cancelled>,
+    /// A ghost that waits for the last one to be answered.
+    pub(crate) ready: Option<Arc<[u8]>>,
+    /// A ghost that is not answered.
+    pub(crate) in_flight: Option<u32>,
+    /// Whether it shows a ghost.
+    pub(crate) is_shown: bool,
 }
 
 /// What a client has of the table of rings.

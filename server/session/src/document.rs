@@ -1,29 +1,40 @@
 //! One shared document: the plants, their simulation, and the timeline of what was done to them.
 
+mod bending;
+mod branches;
 mod bytes;
+mod futures;
 mod growing;
 mod history;
 mod obstacles;
 mod parameters;
+mod pruning;
 mod strokes;
+mod telling;
 #[cfg(test)]
 mod tests;
+mod travelling;
+mod widths;
 
 use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Parameters, Simulation};
-use espalier_plant::{Plant, hash::StableHash};
+use espalier_plant::{MetamerId, Plant, hash::StableHash};
 use espalier_proto::{ParametersPatch, Problem, ProblemCode};
 use glam::Vec3;
 
 pub use self::bytes::DocumentError;
 use self::{
+    bending::OpenBends,
+    futures::Futures,
     growing::Pending,
     history::{History, Kind, Setting},
     obstacles::Obstacles,
     strokes::OpenStrokes,
 };
-pub(crate) use self::{obstacles::ObstaclesMark, parameters::to_proto as wire_parameters};
+pub(crate) use self::{
+    obstacles::ObstaclesMark, parameters::to_proto as wire_parameters, pruning::prune as prune_simulation,
+};
 use crate::action::Action;
 
 /// Plants, the simulation that grows them, and every operation done so far.
@@ -33,7 +44,9 @@ use crate::action::Action;
 pub struct Document {
     simulation: Simulation,
     history: History,
+    futures: Futures,
     strokes: OpenStrokes,
+    bends: OpenBends,
     obstacles: Obstacles,
     pending: VecDeque<Pending>,
     steps_begun: u32,
@@ -76,11 +89,16 @@ impl Document {
     }
 
     fn of(seed: u32, parameters: Parameters) -> Self {
+        let obstacles = Obstacles::default();
+        let initial =
+            Setting { parameters: Arc::new(parameters.clone()), obstacles: Arc::clone(&obstacles.standing) };
         Self {
             simulation: Simulation::new(seed, parameters),
-            history: History::default(),
+            history: History::new(initial),
+            futures: Futures::default(),
             strokes: OpenStrokes::default(),
-            obstacles: Obstacles::default(),
+            bends: OpenBends::default(),
+            obstacles,
             pending: VecDeque::new(),
             steps_begun: 0,
             stop_at: None,
@@ -90,6 +108,12 @@ impl Document {
     /// Takes an action on; the steps it needs become pending. Nothing changes if it is refused.
     pub fn begin(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
         while self.advance() {}
+        self.take_on(author, action)?;
+        self.forget_futures();
+        Ok(())
+    }
+
+    fn take_on(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
         match action {
             Action::StrokeBegin { stroke, bud } => self.begin_stroke(author, *stroke, *bud),
             Action::StrokeMove { stroke, samples } => {
@@ -116,6 +140,21 @@ impl Document {
             Action::PlaceObstacle(obstacle) => self.place_obstacle(author, obstacle),
             Action::MoveObstacle { id, pose } => self.move_obstacle(author, *id, *pose),
             Action::RemoveObstacle { id } => self.remove_obstacle(author, *id),
+            Action::BendBegin { bend, base, touches, stretch } => {
+                self.begin_bend(author, *bend, *base, touches, *stretch)
+            }
+            Action::BendMove { bend, targets } => self.move_bend(author, *bend, targets),
+            Action::BendEnd { bend } => self.end_bend(author, *bend),
+            Action::BendCancel { bend } => self.bends.close(author, *bend).map(|_| ()),
+            Action::SetWidth { row, diameter, gesture } => self.set_width(author, *row, *diameter, *gesture),
+            Action::Prune { rows, gesture } => self.prune(author, rows, *gesture),
+            Action::PruneDim { exposure } => self.prune_dim(author, *exposure),
+            Action::TurnBranch { row, rotation, gesture } => {
+                self.turn_branch(author, *row, *rotation, *gesture)
+            }
+            Action::Graft { row, onto, rotation, keep } => self.graft(author, *row, *onto, *rotation, *keep),
+            Action::GoTo { step } => self.go_to(*step),
+            Action::TakeFuture { future } => self.take_future(*future),
         }
     }
 
@@ -140,7 +179,7 @@ impl Document {
             axes: plant.living_axes_count(),
             metamer_budget: self.simulation.metamer_budget(),
             budget_reached: self.require_room().is_err(),
-            can_undo: self.history.can_undo(),
+            can_undo: self.history.done > 0 || self.strays(),
             can_redo: self.history.can_redo(plant.step()),
             pending_steps: self.pending_steps(),
             steps_begun: self.steps_begun,
@@ -160,6 +199,11 @@ impl Document {
     /// The plants.
     pub fn plant(&self) -> &Plant {
         self.simulation.plant()
+    }
+
+    /// The simulation, to be copied.
+    pub(crate) fn simulation(&self) -> &Simulation {
+        &self.simulation
     }
 
     /// The plant with the looks of the present, for whoever draws it.
@@ -186,37 +230,12 @@ impl Document {
             hash.word(value);
         }
         self.history.hash(&mut hash);
+        self.futures.hash(&mut hash);
         self.strokes.hash(&mut hash);
+        self.bends.hash(&mut hash);
         self.obstacles.hash(&mut hash);
         hash.word(u64::from(self.steps_begun));
         hash.finish()
-    }
-
-    fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
-        let now = self.plant().step();
-        if now == 0 {
-            return Err(refused("the plant is a seed; there is nothing to ungrow"));
-        }
-        self.go_to(now.saturating_sub(steps));
-        self.history.go_back_to(self.plant().step());
-        Ok(())
-    }
-
-    fn undo(&mut self) -> Result<(), Problem> {
-        let operation = self.history.undo().ok_or_else(|| refused("there is nothing to undo"))?;
-        let (step, setting) = (operation.first, operation.before.clone());
-        self.go_to(step);
-        self.set(&setting);
-        Ok(())
-    }
-
-    fn redo(&mut self) -> Result<(), Problem> {
-        let now = self.plant().step();
-        let operation = self.history.redo(now).ok_or_else(|| refused("there is nothing to redo"))?;
-        let (step, setting) = (operation.last, operation.after.clone());
-        self.go_to(step);
-        self.set(&setting);
-        Ok(())
     }
 
     fn set_parameters(&mut self, author: &str, patch: &ParametersPatch) -> Result<(), Problem> {
@@ -247,23 +266,28 @@ impl Document {
         Ok(())
     }
 
-    /// Ends all strokes where they are: whoever drew them is not there any more.
-    pub fn lift_brushes(&mut self) {
+    /// Ends all strokes where they are and gives bends up: whoever made them is not there any more.
+    pub fn lift_hands(&mut self) {
         self.strokes.close_all();
+        self.bends.close_all();
         self.simulation.drop_guidance();
     }
 
-    /// Starts an operation at the present; what was undone before it cannot be redone any more.
-    fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) {
-        let setting = self.setting();
-        self.history.record(kind, author, gesture, self.simulation.plant().step(), setting);
+    /// The living metamer with a row; seeds are no wood.
+    fn wood(&self, field: &str, row: u32) -> Result<MetamerId, Problem> {
+        wood_of(self.plant(), field, row)
     }
+}
 
-    /// Travels in time; strokes in progress end where they are.
-    fn go_to(&mut self, step: u32) {
-        self.strokes.close_all();
-        self.simulation.go_to(step);
-    }
+fn wood_of(plant: &Plant, field: &str, row: u32) -> Result<MetamerId, Problem> {
+    let is_known = (row as usize) < plant.metamer_count();
+    let metamer = is_known.then(|| MetamerId::new(row as usize));
+    metamer.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).ok_or_else(|| Problem {
+        code: ProblemCode::NotFound,
+        field: Some(field.to_owned()),
+        allowed: Some("the row of a living metamer".into()),
+        message: format!("there is no living metamer with row {row}"),
+    })
 }
 
 fn refused(message: impl Into<String>) -> Problem {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 
-use crate::work::Work;
+use crate::{foresight::Foresight, work::Work};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,6 +40,8 @@ pub enum Input {
     JournalFailed(String),
     /// A piece of work came back from the simulation pool.
     Worked(Box<Work>),
+    /// A prediction is done.
+    Foreseen(Box<Foresight>),
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
     /// Someone outside, who is no client, wants something done (an uploaded mesh placed).
@@ -61,6 +63,9 @@ pub enum Output {
     Journal(Vec<JournalEntry>),
     /// Run `work.run()` away from the network, then answer with `Worked`.
     Work(Box<Work>),
+    /// Call `foresight.run()` away from the network, beside any `Work`, until it says it is done; then answer with
+    /// `Foreseen`.
+    Foresee(Box<Foresight>),
     /// Keep this snapshot; entries up to `through` need no replay any more.
     Snapshot {
         /// The last journal entry it contains.

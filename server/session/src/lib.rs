@@ -8,6 +8,7 @@ mod action;
 mod author;
 mod clients;
 mod document;
+mod foresight;
 mod io;
 mod journal;
 mod malformed;
@@ -22,6 +23,7 @@ mod work;
 
 pub use action::{Action, Lasso, Sample};
 pub use document::{Document, DocumentError, Figures};
+pub use foresight::Foresight;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadId};
 pub use nursery::{script, wire_species};
 pub use obstacle::{Mesh, Obstacle, Pose};

@@ -2,7 +2,7 @@
 
 use espalier_proto::{
     DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape, StrokeSample,
-    version::MAX_STEPS_PER_COMMAND,
+    version::{MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PRUNED_ROWS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER},
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -63,7 +63,15 @@ fn locate(command: &Value) -> Option<Problem> {
     }
     for (name, value) in fields {
         let found = match name.as_str() {
-            "stroke" | "steps" | "id" => wrong::<u32>(name, value),
+            "stroke" | "steps" | "id" | "bend" | "base" | "row" | "onto" | "step" | "future" => {
+                wrong::<u32>(name, value)
+            }
+            "touches" | "rows" => locate_in_list::<u32>(name, value),
+            "targets" => locate_in_list::<[f32; 3]>(name, value),
+            "diameter" => wrong::<Option<f32>>(name, value),
+            "stretch" | "exposure" => wrong::<f32>(name, value),
+            "rotation" => wrong::<[f32; 4]>(name, value),
+            "keep" => wrong::<bool>(name, value),
             "gesture" | "bud" => wrong::<Option<u32>>(name, value),
             "position" => wrong::<[f32; 3]>(name, value),
             "samples" => wrong::<Vec<Value>>(name, value).or_else(|| {
@@ -71,10 +79,7 @@ fn locate(command: &Value) -> Option<Problem> {
                 samples.into_iter().find_map(|(index, sample)| locate_in_sample(index, sample))
             }),
             "parameters" => locate_in_parameters(value),
-            "outline" => wrong::<Vec<Value>>(name, value).or_else(|| {
-                let mut points = value.as_array()?.iter().enumerate();
-                points.find_map(|(index, point)| wrong::<[f32; 2]>(&format!("outline[{index}]"), point))
-            }),
+            "outline" => locate_in_list::<[f32; 2]>(name, value),
             "plane" => locate_in_plane(value),
             "depth" => wrong::<f32>(name, value),
             "obstacle" => locate_in_obstacle(value),
@@ -86,6 +91,13 @@ fn locate(command: &Value) -> Option<Problem> {
         }
     }
     None
+}
+
+fn locate_in_list<T: DeserializeOwned>(name: &str, list: &Value) -> Option<Problem> {
+    wrong::<Vec<Value>>(name, list).or_else(|| {
+        let mut items = list.as_array()?.iter().enumerate();
+        items.find_map(|(index, item)| wrong::<T>(&format!("{name}[{index}]"), item))
+    })
 }
 
 fn locate_in_sample(index: usize, sample: &Value) -> Option<Problem> {
@@ -154,7 +166,8 @@ fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
 
 /// Every kind of command.
 const KINDS: &str = "stroke_begin, stroke_move, stroke_end, grow, lasso, stop, ungrow, undo, redo, \
-     set_parameters, plant_seed, place_obstacle, move_obstacle, remove_obstacle";
+     set_parameters, plant_seed, place_obstacle, move_obstacle, remove_obstacle, bend_begin, bend_move, \
+     bend_end, bend_cancel, set_width, prune, prune_dim, turn_branch, graft, go_to, take_future";
 
 fn wrong_kind(kind: &Value) -> Option<Problem> {
     let known = kind.as_str().is_some_and(|kind| KINDS.split(", ").any(|known| known == kind));
@@ -177,12 +190,23 @@ fn allowed(field: &str) -> Option<String> {
         return range.map(|(_, low, high)| format!("{low} to {high}"));
     }
     Some(match name {
-        "stroke" | "gesture" | "bud" | "id" => format!("a whole number from 0 to {}", u32::MAX),
+        "stroke" | "gesture" | "bud" | "id" | "bend" | "base" | "row" | "onto" | "step" | "future" => {
+            format!("a whole number from 0 to {}", u32::MAX)
+        }
         "steps" => format!("1 to {MAX_STEPS_PER_COMMAND}"),
         "depth" => "0.1 to 1".into(),
         "right" | "up" => "three numbers of length 1".into(),
         "rotation" => "four numbers that make a quaternion of length 1".into(),
         name if name.starts_with("outline[") => "two numbers, -1000 to 1000".into(),
+        name if name.starts_with("touches[") || name.starts_with("rows[") => {
+            format!("a whole number from 0 to {}", u32::MAX)
+        }
+        "touches" => format!("1 to {MAX_BEND_TOUCHES} rows"),
+        "rows" => format!("1 to {MAX_PRUNED_ROWS} rows"),
+        "diameter" => format!("{MIN_DIAMETER} to {MAX_DIAMETER}, or null"),
+        "stretch" | "exposure" => "0 to 1".into(),
+        "keep" => "true, false".into(),
+        name if name.starts_with("targets[") => "three numbers, x and z -1000 to 1000, y -10 to 1000".into(),
         "position" | "origin" => "three numbers, x and z -1000 to 1000, y -10 to 1000".into(),
         "radius" => "0 to 40".into(),
         _ => return None,

@@ -10,10 +10,8 @@ use espalier_proto::{
 };
 use glam::{Quat, Vec3};
 
-use crate::action::parse_position;
+use crate::action::{parse_position, parse_rotation};
 
-/// How far a quaternion's length may be from 1.
-const UNIT_TOLERANCE: f32 = 0.01;
 /// The farthest a vertex may lie from its mesh's origin on any axis, scaled, in internodes (`LM6`).
 const FARTHEST_VERTEX: f32 = 10_000.0;
 
@@ -115,14 +113,7 @@ impl Standing {
 impl Pose {
     pub(crate) fn parse(wire: &WirePose) -> Result<Self, Problem> {
         let position = parse_position(&wire.position)?;
-        let rotation = Quat::from_array(wire.rotation);
-        let length = rotation.length();
-        if !((1.0 - UNIT_TOLERANCE)..=(1.0 + UNIT_TOLERANCE)).contains(&length) {
-            let allowed = "four finite numbers that make a quaternion of length 1";
-            let value = format!("of length {length}");
-            return Err(Problem::out_of_range("rotation", value, allowed));
-        }
-        Ok(Self { position, rotation: rotation.normalize() })
+        Ok(Self { position, rotation: parse_rotation(&wire.rotation)? })
     }
 }
 

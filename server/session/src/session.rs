@@ -4,6 +4,8 @@ mod acts;
 mod commands;
 mod delivery;
 mod greeting;
+mod posing;
+mod predicting;
 mod upkeep;
 
 use std::{
@@ -12,7 +14,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage,
+    ClientMessage, FrameKind, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline,
+    WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 
@@ -28,7 +31,7 @@ use crate::{
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
     window::MAX_UNREAD,
-    work::Work,
+    work::{Posed, Work},
 };
 
 use self::{acts::Act, commands::Queue, upkeep::Upkeep};
@@ -54,6 +57,12 @@ pub struct Session {
     leaves: u32,
     parameters: Parameters,
     scenery: Scenery,
+    timeline: Timeline,
+    widths: Vec<WidthConstraint>,
+    /// Bends as clients are told them, by their numbers.
+    poses: BTreeMap<u32, Posed>,
+    /// Predictions that are being made.
+    foreseeing: usize,
     upkeep: Upkeep,
     failed: bool,
     outputs: VecDeque<Output>,
@@ -126,8 +135,8 @@ impl Session {
     pub fn first_snapshot(document: &[u8], metamer_budget: u32) -> Result<Vec<u8>, RestoreError> {
         let mut document = Document::from_bytes(document)?;
         document.set_metamer_budget(metamer_budget);
-        // Whoever was drawing when the tree was saved draws elsewhere.
-        document.lift_brushes();
+        // Whoever was drawing or bending when the tree was saved does so elsewhere.
+        document.lift_hands();
         Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document.to_bytes()))
     }
 
@@ -143,7 +152,8 @@ impl Session {
         if last > 0 {
             authors = Authors::restored(&last_commands);
         }
-        let work = Box::new(Work::new(document, epoch, last, last_commands));
+        let mut work = Box::new(Work::new(document, epoch, last, last_commands));
+        let poses = work.take_report().poses;
         Self {
             name,
             epoch,
@@ -159,6 +169,10 @@ impl Session {
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
             scenery: Scenery::of(&work.document),
+            timeline: work.document.timeline(),
+            widths: work.document.widths(),
+            poses: poses.into_iter().map(|pose| (pose.bend, pose)).collect(),
+            foreseeing: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
             failed: false,
@@ -189,6 +203,7 @@ impl Session {
             Input::Journaled(through) => self.journaled(through),
             Input::JournalFailed(reason) => self.fail(&reason),
             Input::Worked(work) => self.worked(work),
+            Input::Foreseen(foresight) => self.foreseen(*foresight),
             Input::Read(read) => self.reads.push(read),
             Input::Act(act, command) => self.act(act, *command),
             Input::Woken => self.upkeep.woken(),
@@ -215,7 +230,7 @@ impl Session {
     pub fn is_idle(&self) -> bool {
         let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
         let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
-        let answered = self.reads.is_empty() && self.acts.is_empty();
+        let answered = self.reads.is_empty() && self.acts.is_empty() && self.foreseeing == 0;
         self.clients.is_empty() && self.outputs.is_empty() && answered && settled && kept
     }
 
@@ -248,8 +263,20 @@ impl Session {
         let Some(guest) = guest else { return self.greet(client, text, message) };
         let key = Arc::clone(&guest.key);
         match message {
-            Ok(ClientMessage::Command { id, command }) => self.take(client, &key, id, Ok(command)),
-            Ok(ClientMessage::Received { sequence }) => self.received(client, sequence),
+            Ok(ClientMessage::Command { id, command }) => {
+                self.end_prediction(client);
+                self.take(client, &key, id, Ok(command));
+            }
+            Ok(ClientMessage::Received { sequence, kind }) => match FrameKind::from_code(kind) {
+                Some(FrameKind::MeshDelta) => self.received(client, sequence),
+                Some(FrameKind::Pose) => self.received_pose(client, sequence),
+                Some(FrameKind::Ghost) => self.received_ghost(client, sequence),
+                None => {
+                    let problem = Problem::out_of_range("kind", kind, "1 to 3");
+                    self.send(client, &ServerMessage::Problem { problem });
+                }
+            },
+            Ok(ClientMessage::Predict { rows, steps }) => self.predict(client, &rows, steps),
             Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
             Ok(ClientMessage::Hello { .. }) => {
                 let problem = Problem::new(ProblemCode::Malformed, "hello is only the first message");
@@ -287,10 +314,13 @@ impl Session {
     }
 
     fn broadcast(&mut self, message: &ServerMessage) {
-        let text = text_of(message);
+        self.broadcast_text(&text_of(message));
+    }
+
+    fn broadcast_text(&mut self, text: &Arc<str>) {
         let guests = self.clients.iter().filter(|(_, client)| client.guest.is_some());
         for client in guests.map(|(&id, _)| id).collect::<Vec<_>>() {
-            self.send_text(client, &text);
+            self.send_text(client, text);
         }
     }
 

@@ -6,12 +6,13 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{PlacedObstacle, Problem};
+use espalier_proto::{PlacedObstacle, PoseFrame, Problem, RowMotion};
 
 use crate::{
     action::Action,
     author::{LastCommand, note_last},
     document::Document,
+    foresight::{Foresight, Question},
     io::{ActId, ClientId, ReadId},
     snapshot,
     stops::Stops,
@@ -57,6 +58,15 @@ pub(crate) struct Refusal {
     pub(crate) problem: Problem,
 }
 
+/// A bend as clients are told it.
+#[derive(Clone, Debug)]
+pub(crate) struct Posed {
+    pub(crate) bend: u32,
+    pub(crate) sequence: u32,
+    pub(crate) is_over: bool,
+    pub(crate) frame: Arc<[u8]>,
+}
+
 /// What a slice brought about.
 #[derive(Debug, Default)]
 pub(crate) struct Report {
@@ -64,6 +74,10 @@ pub(crate) struct Report {
     pub(crate) delta: Option<Arc<[u8]>>,
     pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
     pub(crate) refused: Vec<Refusal>,
+    /// New poses of open bends with their sequences, by bend; without a frame's motions a bend is over.
+    pub(crate) poses: Vec<Posed>,
+    /// Predictions to be made.
+    pub(crate) foresights: Vec<Foresight>,
     /// What became of commands from outside: the obstacle they placed.
     pub(crate) acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     /// The document as bytes with its living metamers, for each read.
@@ -90,6 +104,7 @@ pub struct Work {
     pub(crate) stops: Stops,
     pub(crate) catch_ups: Vec<CatchUp>,
     pub(crate) reads: Vec<ReadId>,
+    pub(crate) questions: Vec<Question>,
     pub(crate) snapshot_wanted: bool,
     /// Whether anybody is in step and needs the delta.
     pub(crate) delta_wanted: bool,
@@ -97,6 +112,10 @@ pub struct Work {
     pub(crate) busy: bool,
     /// The frame with all rows, kept while it is current: people often come in groups.
     complete: Option<(u32, Arc<[u8]>)>,
+    /// The poses that were reported last.
+    poses: BTreeMap<u32, Vec<RowMotion>>,
+    /// The newest pose.
+    pose_sequence: u32,
     report: Report,
 }
 
@@ -122,13 +141,17 @@ impl Work {
             stops: Stops::default(),
             catch_ups: Vec::new(),
             reads: Vec::new(),
+            questions: Vec::new(),
             snapshot_wanted: false,
             delta_wanted: false,
             busy,
             complete: None,
+            poses: BTreeMap::new(),
+            pose_sequence: 0,
             report: Report::default(),
         };
         work.sync();
+        work.report_poses();
         work
     }
 
@@ -136,6 +159,7 @@ impl Work {
     pub fn run(&mut self) {
         self.simulate();
         self.sync();
+        self.report_poses();
         for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
             let frame = self.catch_up(&held);
             self.report.catch_ups.push((client, frame));
@@ -154,6 +178,7 @@ impl Work {
             || !self.orders.is_empty()
             || !self.catch_ups.is_empty()
             || !self.reads.is_empty()
+            || !self.questions.is_empty()
     }
 
     fn simulate(&mut self) {
@@ -202,19 +227,38 @@ impl Work {
 
     /// Between two commands the document is whole: now it can be read.
     fn hand_out(&mut self) {
-        if self.reads.is_empty() && !self.snapshot_wanted {
-            return;
+        for question in self.questions.drain(..) {
+            let simulation = self.document.simulation().clone();
+            self.report.foresights.push(Foresight::new(question, simulation, self.style.clone(), self.epoch));
         }
-        let bytes = self.document.to_bytes();
-        let metamers = self.document.metamers();
         if self.snapshot_wanted {
             self.snapshot_wanted = false;
+            let bytes = self.document.to_bytes();
             let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &bytes);
             self.report.snapshot = Some((self.applied, snapshot));
         }
-        for read in self.reads.drain(..) {
-            self.report.documents.push((read, bytes.clone(), metamers));
+        if !self.reads.is_empty() {
+            let (bytes, metamers) = (self.document.to_saved_bytes(), self.document.metamers());
+            for read in self.reads.drain(..) {
+                self.report.documents.push((read, bytes.clone(), metamers));
+            }
         }
+    }
+
+    /// Tells the poses that changed; what the table shows of bends is behind what the report holds already.
+    fn report_poses(&mut self) {
+        let poses = self.document.poses();
+        let over = self.poses.keys().filter(|bend| !poses.contains_key(bend));
+        let mut changed: Vec<_> = over.map(|&bend| (bend, Vec::new())).collect();
+        let is_new = |(bend, pose): &(&u32, &Vec<RowMotion>)| self.poses.get(bend) != Some(pose);
+        changed.extend(poses.iter().filter(is_new).map(|(&bend, pose)| (bend, pose.clone())));
+        for (bend, motions) in changed {
+            self.pose_sequence += 1;
+            let (sequence, is_over) = (self.pose_sequence, motions.is_empty());
+            let frame = PoseFrame { epoch: self.epoch, sequence, bend, motions }.encode().into();
+            self.report.poses.push(Posed { bend, sequence, is_over, frame });
+        }
+        self.poses = poses;
     }
 
     fn sync(&mut self) {

@@ -8,7 +8,9 @@ use std::{
 };
 
 use espalier_proto::{Command, Parameters, PlacedObstacle, Problem, version::CloseCode};
-use espalier_session::{ActId, ClientId, Input, JournalEntry, Mesh, Output, ReadId, Session, Work};
+use espalier_session::{
+    ActId, ClientId, Foresight, Input, JournalEntry, Mesh, Output, ReadId, Session, Work,
+};
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -57,6 +59,7 @@ enum Errand {
     Journaled(u64),
     JournalFailed(String),
     Worked(Box<Work>),
+    Foreseen(Box<Foresight>),
     WorkFailed,
     SnapshotKept,
 }
@@ -294,13 +297,14 @@ impl Actor {
 
     fn returned(&mut self, errand: Errand) -> Result<Option<Input>, Failed> {
         self.under_way -= 1;
-        if !matches!(errand, Errand::Worked(_) | Errand::WorkFailed) {
+        if !matches!(errand, Errand::Worked(_) | Errand::Foreseen(_) | Errand::WorkFailed) {
             self.writes -= 1;
         }
         match errand {
             Errand::Journaled(through) => Ok(Some(Input::Journaled(through))),
             Errand::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
             Errand::Worked(work) => Ok(Some(Input::Worked(work))),
+            Errand::Foreseen(foresight) => Ok(Some(Input::Foreseen(foresight))),
             Errand::WorkFailed => Err(Failed),
             Errand::SnapshotKept => Ok(None),
         }
@@ -341,6 +345,7 @@ impl Actor {
             }
             Output::Journal(entries) => self.journal(entries),
             Output::Work(work) => self.work(work),
+            Output::Foresee(foresight) => self.foresee(foresight),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
             Output::Document { read, bytes, metamers } => {
                 if let Some(answer) = self.reads.remove(&read.0) {
@@ -382,6 +387,25 @@ impl Actor {
                 work
             });
             let _ = errand.send(done.await.map_or(Errand::WorkFailed, Errand::Worked));
+        });
+    }
+
+    /// Makes a prediction slice by slice, so that the trees people work on have their turns between.
+    fn foresee(&mut self, mut foresight: Box<Foresight>) {
+        let (pool, errand) = (self.around.pool.clone(), self.errand.clone());
+        self.under_way += 1;
+        tokio::spawn(async move {
+            loop {
+                let slice = pool.run(move || {
+                    let is_done = foresight.run();
+                    (foresight, is_done)
+                });
+                match slice.await {
+                    Ok((done, true)) => break errand.send(Errand::Foreseen(done)),
+                    Ok((rest, false)) => foresight = rest,
+                    Err(_) => break errand.send(Errand::WorkFailed),
+                }
+            }
         });
     }
 

@@ -1,61 +1,19 @@
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
-import { launchBrowser } from "./browser";
-import { type Box, becameTree, changed, colours, Darkroom } from "./picture";
-import { Server } from "./server";
-import { LANDSCAPE, type Screen, Tablet, way } from "./tablet";
+import { expect, test } from "vitest";
+import { type Box, becameTree, changed, colours } from "./picture";
+import { LANDSCAPE, way } from "./tablet";
+import { SEED as base, Workshop } from "./workshop";
 
-/** Where the first seed stands in a fresh view, and a stroke up from there. */
-const base = { x: 597, y: 750 };
+/** Where a stroke up from the seed goes. */
 const top = { x: 597, y: 330 };
 /** What that stroke sweeps, and a patch of sky that it does not touch. */
 const swept: Box = { x: 540, y: 350, width: 114, height: 380 };
 const away: Box = { x: 930, y: 100, width: 200, height: 200 };
 
-const server = new Server();
-let browser: Browser;
-let darkroom: Darkroom;
-const tablets: Tablet[] = [];
-
-beforeAll(async () => {
-  await server.start();
-  browser = await launchBrowser();
-  darkroom = await Darkroom.open(browser);
-});
-
-afterEach(async () => {
-  const errors = tablets.flatMap((tablet) => tablet.errors);
-  for (const tablet of tablets.splice(0)) await tablet.close();
-  expect(errors).toEqual([]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server.stop();
-});
-
-async function open(address: string, screen?: Screen): Promise<Tablet> {
-  const tablet = await Tablet.open(browser, darkroom, address, screen);
-  tablets.push(tablet);
-  return tablet;
-}
-
-async function fresh(screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
-  const address = await server.newSession(5);
-  return { tablet: await open(address, screen), address };
-}
-
-/** A tablet on which a tree was drawn. */
-async function drawn(): Promise<{ tablet: Tablet; address: string; metamers: number }> {
-  const { tablet, address } = await fresh();
-  await tablet.swipe([way(base, top)]);
-  const { metamers } = await tablet.untilQuiet();
-  expect(metamers).toBeGreaterThan(20);
-  return { tablet, address, metamers };
-}
+const workshop = Workshop.forThisFile();
+const { server } = workshop;
 
 test("a finger draws a tree that grows during the stroke", async () => {
-  const { tablet } = await fresh(LANDSCAPE);
+  const { tablet } = await workshop.fresh(LANDSCAPE);
   const before = await tablet.photograph("1-seedling");
   expect(colours(before), "ground and sky are there").toBeGreaterThan(8);
 
@@ -77,7 +35,7 @@ test("a finger draws a tree that grows during the stroke", async () => {
 });
 
 test("two fingers pan and pinch, three rotate, and nothing grows", async () => {
-  const { tablet, metamers } = await drawn();
+  const { tablet, metamers } = await workshop.drawn();
   const { sent } = await tablet.facts();
   let last = await tablet.photograph("3-before-gestures");
   const gestures = {
@@ -100,8 +58,8 @@ test("two fingers pan and pinch, three rotate, and nothing grows", async () => {
 });
 
 test("the tree is there after loading the page again", async () => {
-  const { tablet, metamers } = await drawn();
-  const empty = await (await fresh()).tablet.photograph("7-empty");
+  const { tablet, metamers } = await workshop.drawn();
+  const empty = await (await workshop.fresh()).tablet.photograph("7-empty");
   await tablet.page.reload();
   await tablet.until("the tree is back", (facts) => facts.metamers === metamers && facts.rows >= metamers);
   const tree = await tablet.photograph("8-reloaded");
@@ -109,7 +67,7 @@ test("the tree is there after loading the page again", async () => {
 });
 
 test("killing the server in the middle of a stroke loses nothing", async () => {
-  const { tablet } = await fresh();
+  const { tablet } = await workshop.fresh();
   const path = way(base, top, 40);
   await tablet.touch("touchStart", [path[0]!]);
   for (const [i, point] of path.entries()) {
@@ -132,8 +90,8 @@ test("killing the server in the middle of a stroke loses nothing", async () => {
 });
 
 test("a second tablet sees the same growth and may draw", async () => {
-  const { tablet: first, address, metamers } = await drawn();
-  const second = await open(address);
+  const { tablet: first, address, metamers } = await workshop.drawn();
+  const second = await workshop.open(address);
   await second.until("it sees the tree", (facts) => facts.metamers === metamers && facts.rows > 0);
   await second.swipe([way({ x: 597, y: 550 }, { x: 780, y: 400 })]);
   await second.untilQuiet();
@@ -144,7 +102,7 @@ test("a second tablet sees the same growth and may draw", async () => {
 });
 
 test("undo takes the stroke back and redo gives it again", async () => {
-  const { tablet, metamers } = await drawn();
+  const { tablet, metamers } = await workshop.drawn();
   await tablet.tap("Undo");
   await tablet.until("the tree is gone", (facts) => facts.metamers === 0);
   await tablet.tap("Redo");
@@ -152,7 +110,7 @@ test("undo takes the stroke back and redo gives it again", async () => {
 });
 
 test("the grow control grows and ungrows", async () => {
-  const { tablet, metamers } = await drawn();
+  const { tablet, metamers } = await workshop.drawn();
   const box = (await tablet.page.getByLabel("Grow", { exact: true }).boundingBox())!;
   const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   const hold = async (y: number, what: string, done: (metamers: number) => boolean) => {
@@ -169,7 +127,7 @@ test("the grow control grows and ungrows", async () => {
 });
 
 test("the brush radius changes in the middle of a stroke", async () => {
-  const { tablet } = await fresh();
+  const { tablet } = await workshop.fresh();
   const slider = tablet.page.getByLabel("Brush radius", { exact: true });
   const box = (await slider.boundingBox())!;
   const before = Number(await slider.getAttribute("aria-valuenow"));
@@ -190,7 +148,7 @@ test("the brush radius changes in the middle of a stroke", async () => {
 });
 
 test("a tree is saved, found in the library and opened again", async () => {
-  const { tablet, metamers } = await drawn();
+  const { tablet, metamers } = await workshop.drawn();
   const { page } = tablet;
   await tablet.tap("Save");
   await page.getByLabel("Name").fill("My pear");
@@ -215,7 +173,7 @@ test("a tree is saved, found in the library and opened again", async () => {
 
 test("the page fits an upright tablet", async () => {
   const address = await server.newSession(5);
-  const tablet = await open(address, { width: 834, height: 1194, detail: 1 });
+  const tablet = await workshop.open(address, { width: 834, height: 1194, detail: 1 });
   const before = await tablet.photograph("12-upright-seedling");
   await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 500 })]);
   await tablet.untilQuiet();

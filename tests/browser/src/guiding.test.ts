@@ -1,58 +1,13 @@
-import type { Browser } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
-import { launchBrowser } from "./browser";
-import { type Box, becameTree, changed, Darkroom } from "./picture";
-import { Server } from "./server";
-import { LANDSCAPE, loop, type Point, type Screen, Tablet, way } from "./tablet";
+import { expect, test } from "vitest";
+import { type Box, becameTree, changed } from "./picture";
+import { LANDSCAPE, loop, type Point, type Tablet, way } from "./tablet";
+import { SEED as base, Workshop } from "./workshop";
 
-/** Where the first seed stands in a fresh view. */
-const base = { x: 597, y: 750 };
 /** Longer than a branch has to be held. */
 const LONG = 700;
 
-const server = new Server();
-let browser: Browser;
-let darkroom: Darkroom;
-const tablets: Tablet[] = [];
-
-beforeAll(async () => {
-  await server.start();
-  browser = await launchBrowser();
-  darkroom = await Darkroom.open(browser);
-});
-
-afterEach(async () => {
-  const errors = tablets.flatMap((tablet) => tablet.errors);
-  for (const tablet of tablets.splice(0)) await tablet.close();
-  expect(errors).toEqual([]);
-});
-
-afterAll(async () => {
-  await browser?.close();
-  await server.stop();
-});
-
-async function open(address: string, screen?: Screen): Promise<Tablet> {
-  const tablet = await Tablet.open(browser, darkroom, address, screen);
-  tablets.push(tablet);
-  return tablet;
-}
-
-async function fresh(screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
-  const address = await server.newSession(5);
-  return { tablet: await open(address, screen), address };
-}
-
-/** A tablet on which a slender stem was sketched, as a place on it can be found again. */
-async function stem(screen?: Screen): Promise<{ tablet: Tablet; address: string; metamers: number }> {
-  const { tablet, address } = await fresh(screen);
-  await tablet.page.getByLabel("Brush radius", { exact: true }).focus();
-  await tablet.page.keyboard.press("Home");
-  await tablet.swipe([way(base, { x: base.x, y: 400 })]);
-  const { metamers } = await tablet.untilQuiet();
-  expect(metamers).toBeGreaterThan(5);
-  return { tablet, address, metamers };
-}
+const workshop = Workshop.forThisFile();
+const { server } = workshop;
 
 async function widen(tablet: Tablet): Promise<void> {
   const slider = tablet.page.getByLabel("Brush radius", { exact: true });
@@ -61,7 +16,7 @@ async function widen(tablet: Tablet): Promise<void> {
 }
 
 test("a lasso grows a crown that fills its outline", async () => {
-  const { tablet, metamers } = await stem(LANDSCAPE);
+  const { tablet, metamers } = await workshop.stem(LANDSCAPE);
   const before = await tablet.photograph("20-stem");
   await tablet.tap("Lasso");
   expect((await tablet.facts()).tool).toBe("lasso");
@@ -87,7 +42,7 @@ test("a lasso grows a crown that fills its outline", async () => {
 });
 
 test("an outline is cancelled with Escape, and a small one is a slip", async () => {
-  const { tablet } = await stem();
+  const { tablet } = await workshop.stem();
   await tablet.tap("Lasso");
   const { sent } = await tablet.facts();
   const outline = loop({ x: 597, y: 330 }, { x: 210, y: 170 });
@@ -102,7 +57,7 @@ test("an outline is cancelled with Escape, and a small one is a slip", async () 
 });
 
 test("a long growth can be stopped, and what has grown stays", async () => {
-  const { tablet, metamers } = await stem();
+  const { tablet, metamers } = await workshop.stem();
   // From so far away an outline as large as the glass takes long to fill.
   for (let pinch = 0; pinch < 3; pinch++) {
     await tablet.swipe([way({ x: 350, y: 420 }, { x: 510, y: 420 }), way({ x: 850, y: 420 }, { x: 690, y: 420 })]);
@@ -126,7 +81,7 @@ test("a long growth can be stopped, and what has grown stays", async () => {
 });
 
 test("SG1: a branch pressed and held grows alone until it is let go", async () => {
-  const { tablet, metamers } = await stem(LANDSCAPE);
+  const { tablet, metamers } = await workshop.stem(LANDSCAPE);
   const at = (y: number): Point => ({ x: base.x, y });
   // A limb to the right, to be held; the stem's tip is far from it.
   await tablet.swipe([way(at(600), { x: 800, y: 520 })]);
@@ -162,7 +117,7 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
 });
 
 test("a chosen branch is let go by holding elsewhere, by Escape, and when it is gone", async () => {
-  const { tablet } = await stem();
+  const { tablet } = await workshop.stem();
   const onStem = { x: base.x, y: 560 };
   const choose = async () => {
     await tablet.hold(onStem, LONG);
@@ -183,7 +138,7 @@ test("a chosen branch is let go by holding elsewhere, by Escape, and when it is 
 });
 
 test("a seed is planted where the ground is tapped, and grows", async () => {
-  const { tablet } = await fresh(LANDSCAPE);
+  const { tablet } = await workshop.fresh(LANDSCAPE);
   const before = await tablet.facts();
   await tablet.tap("Plant a seed");
   await tablet.hold({ x: 860, y: 790 }, 30);
@@ -197,8 +152,8 @@ test("a seed is planted where the ground is tapped, and grows", async () => {
 });
 
 test("what is placed in the scene is seen by all, and moves with the finger", async () => {
-  const { tablet, address } = await fresh(LANDSCAPE);
-  const second = await open(address);
+  const { tablet, address } = await workshop.fresh(LANDSCAPE);
+  const second = await workshop.open(address);
   const before = await tablet.photograph("26-bare");
   await tablet.tap("Scene");
   await tablet.page.getByRole("button", { name: "Box", exact: true }).tap();
@@ -225,8 +180,8 @@ test("what is placed in the scene is seen by all, and moves with the finger", as
 });
 
 test("parameters are set in the growth panel, for everyone", async () => {
-  const { tablet, address } = await fresh();
-  const second = await open(address);
+  const { tablet, address } = await workshop.fresh();
+  const second = await workshop.open(address);
   const chosen = async (on: Tablet) => {
     const parameters = on.page.getByRole("tab", { name: "Parameters" });
     await on.tap("Growth");

@@ -24,6 +24,17 @@ export interface Facts {
   /** The row of the branch that alone grows; empty if all do. */
   readonly bud: string;
   readonly obstacles: number;
+  /** The present step of the line of time, and its last. */
+  readonly present: number;
+  readonly lastStep: number;
+  /** What was done on it, in order, and how much of it is in force. */
+  readonly operations: string;
+  readonly done: number;
+  readonly futures: number;
+  /** The row that the branch begins with that is held; empty if none is. */
+  readonly branch: string;
+  /** How many steps the prediction beside the tree has grown; empty if there is none. */
+  readonly ghost: string;
 }
 
 export interface Screen {
@@ -85,6 +96,13 @@ export class Tablet {
         tool: facts.tool ?? "",
         bud: facts.bud ?? "",
         obstacles: number("obstacles"),
+        present: number("present"),
+        lastStep: number("lastStep"),
+        operations: facts.operations ?? "",
+        done: number("done"),
+        futures: number("futures"),
+        branch: facts.branch ?? "",
+        ghost: facts.ghost ?? "",
       };
     });
   }

@@ -8,6 +8,7 @@ mod guiding;
 mod handshake;
 mod library;
 mod obstacles;
+mod shaping;
 mod shared_tree;
 mod slow_clients;
 mod species;

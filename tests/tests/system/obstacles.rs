@@ -12,10 +12,12 @@ fn at(x: f32, y: f32, z: f32) -> Pose {
     Pose { position: [x, y, z], rotation: [0.0, 0.0, 0.0, 1.0] }
 }
 
-/// A glTF binary with one triangle of 1 m, high enough not to lie in the seed's way.
-fn triangle() -> Vec<u8> {
-    let blob: Vec<u8> =
-        [0f32, 3.0, 0.0, 1.0, 3.0, 0.0, 0.0, 4.0, 0.0].into_iter().flat_map(f32::to_le_bytes).collect();
+/// One triangle of 1 m, high enough not to lie in the seed's way.
+const TRIANGLE: [[f32; 3]; 3] = [[0.0, 3.0, 0.0], [1.0, 3.0, 0.0], [0.0, 4.0, 0.0]];
+
+/// A glTF binary with one triangle; corners in metres.
+fn model(corners: [[f32; 3]; 3]) -> Vec<u8> {
+    let blob: Vec<u8> = corners.into_iter().flatten().flat_map(f32::to_le_bytes).collect();
     let json = json!({
         "asset": { "version": "2.0" },
         "scenes": [{ "nodes": [0] }],
@@ -75,7 +77,7 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
 async fn ob6_a_gltf_file_becomes_an_obstacle() {
     let (mut client, server, _scratch) = Client::alone(&[]).await;
     let session = client.session.clone();
-    let answer = upload(&server, &session, &triangle());
+    let answer = upload(&server, &session, &model(TRIANGLE));
     assert_eq!(answer.status, 201, "{}", answer.text());
     assert_eq!(answer.json()["id"], 1);
     client.until("it is told", |client| client.obstacles.len() == 1).await;
@@ -99,10 +101,23 @@ async fn ob6_a_gltf_file_becomes_an_obstacle() {
 }
 
 #[tokio::test]
+async fn ob1_a_tree_grows_around_an_uploaded_model() {
+    let (mut client, server, _scratch) = Client::alone(&[]).await;
+    // A screen 2 internodes to the right, far taller and wider than the tree will be.
+    let screen = model([[0.2, -5.0, -30.0], [0.2, -5.0, 30.0], [0.2, 40.0, 0.0]]);
+    assert_eq!(upload(&server, &client.session.clone(), &screen).status, 201);
+    client.send(Command::Grow { steps: 14, gesture: None, bud: None }).await;
+    client.until_settled().await;
+    let xs = || client.table.rows.iter().map(|row| row.position[0] as f32 / 256.0);
+    assert!(xs().all(|x| x < 2.0), "something grew through the screen");
+    assert!(xs().any(|x| x > 1.0) && xs().any(|x| x < -6.0), "it fills the room up to the screen and beyond");
+}
+
+#[tokio::test]
 async fn ob6_what_is_no_mesh_is_refused_in_words() {
     let (mut client, server, _scratch) = Client::alone(&[]).await;
     let session = client.session.clone();
-    let mut cut = triangle();
+    let mut cut = model(TRIANGLE);
     cut.truncate(cut.len() - 4);
     for (file, words) in [(b"solid cube".as_slice(), "glTF"), (&cut, "cut short"), (&[0; 64], "glTF")] {
         let answer = upload(&server, &session, file);
@@ -111,7 +126,7 @@ async fn ob6_what_is_no_mesh_is_refused_in_words() {
         assert!(message.contains(words), "{message}");
     }
     assert_eq!(upload(&server, &session, &vec![0; MAX_GLB_BYTES + 1]).status, 413);
-    assert_eq!(upload(&server, "nowhere", &triangle()).status, 404);
+    assert_eq!(upload(&server, "nowhere", &model(TRIANGLE)).status, 404);
     let path = format!("/api/sessions/{session}/obstacles/one");
     assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 400);
     client.until_settled().await;

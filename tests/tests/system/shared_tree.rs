@@ -124,7 +124,7 @@ async fn fl1_frames_stop_until_the_client_answers() {
     let frames = silent.frames;
     silent.receipts = Receipts::Sent;
     let sequence = silent.table.sequence.expect("it has seen a frame");
-    silent.send_message(&ClientMessage::Received { sequence }).await;
+    silent.send_message(&ClientMessage::Received { sequence, kind: 1 }).await;
     client::until_equal(&mut silent, &mut drawing).await;
     assert!(silent.frames - frames <= 3, "FL2: one catch-up frame, not {}", silent.frames - frames);
 }

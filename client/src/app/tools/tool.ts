@@ -1,16 +1,39 @@
-import type { StrokePoint } from "../gestures";
+import type { Grip, StrokePoint } from "../gestures";
 
-/** What takes the strokes of a finger, a pen or the left mouse button. */
+/** What works on the tree with fingers, a pen or the left mouse button. */
 export interface Tool {
-  begin(point: StrokePoint): void;
-  move(points: readonly StrokePoint[]): void;
+  /** What is under way ends where it is. */
   end(): void;
-  /** Forgets the stroke: nothing more of it is sent. */
+  /** Forgets what is under way: nothing more of it is sent. */
   abandon(): void;
-  /** Called again and again while the stroke lasts. */
+  /** Called again and again while something is under way. */
   tick?(): void;
   /** A mouse or pen is over the canvas and not down. */
   hover?(x: number, y: number): void;
+  /** It is there no longer. */
+  leave?(): void;
+  /** Rows have changed, or commands were answered. */
+  told?(): void;
+  /** Escape, when nothing is under way: whether there was anything to let go of. */
+  release?(): boolean;
+}
+
+/** One that draws strokes. */
+export interface StrokeTool extends Tool {
+  begin(point: StrokePoint): void;
+  move(points: readonly StrokePoint[]): void;
+}
+
+/** One that takes hold of places with several fingers at once, or with one pointer. */
+export interface GripTool extends Tool {
+  /** What it does with one more finger here. */
+  takes(x: number, y: number): Grip;
+  /** `slop` is how far the finger may wander and still be a tap, in pixels. */
+  gripBegin(id: number, x: number, y: number, slop: number): void;
+  gripMove(id: number, x: number, y: number): void;
+  gripEnd(id: number): void;
+  /** The fingers move the view after all. */
+  gripDrop(): void;
 }
 
 /** How near to a branch a stroke must begin to begin on it, in pixels. */

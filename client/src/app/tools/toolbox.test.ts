@@ -7,6 +7,7 @@ import { ObstacleList } from "../obstacle-list";
 import type { Point } from "../ports";
 import { loadSettings } from "../settings";
 import { Toasts } from "../toasts";
+import type { BranchHand } from "./branch-hand";
 import { Toolbox } from "./toolbox";
 
 afterEach(() => vi.useRealTimers());
@@ -22,6 +23,12 @@ function setUp() {
     pointOnLevel: (x: number, y: number) => (y > 500 ? [x / 10, 0, y / 10] : null),
     drawingPlane: (through: Point) => ({ origin: [...through], right: [1, 0, 0], up: [0, 1, 0] }),
     pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
+    placeOf: (row: number) => [50, row, 0],
+    projector: () => (point: Point) => [10 * point[0], 1000 - 10 * point[1]],
+    wear: () => {},
+    doff: () => {},
+    wears: () => false,
+    guiseChanged: () => {},
     pickObstacle: (x: number) => (Math.abs(x - 800) < 24 ? { id: 1, point: [80, 0, 0] } : null),
     depthBelow: () => null,
     looksDown: () => false,
@@ -44,6 +51,10 @@ function setUp() {
     submit,
     next: () => sent.length + 1,
     unsettledMoves: () => 0,
+    unsettled: () => 0,
+    girth: () => ({ exponent: 2.5, twigDiameter: 0.07 }),
+    branch: { release: () => {} } as unknown as BranchHand,
+    predict: () => {},
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),

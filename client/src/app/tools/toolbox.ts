@@ -1,23 +1,31 @@
 import { signal } from "@preact/signals";
+import { Bend } from "../../scene/bend/bend";
+import type { Girth } from "../../scene/swollen";
 import type { TreeTable } from "../../scene/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command } from "../../wire/generated";
+import { BendPoses } from "../bend-poses";
 import type { ChosenBud } from "../chosen-bud";
-import type { Gesture, StrokePoint } from "../gestures";
+import type { Gesture, Grip, StrokePoint } from "../gestures";
 import type { ObstacleList } from "../obstacle-list";
 import { OutlineTrace } from "../outline-trace";
 import { pace } from "../pacing";
 import type { Point } from "../ports";
-import { nearestBase } from "../scene-link";
+import { nearestBase, scaleAt } from "../scene-link";
 import type { Settings } from "../settings";
 import type { Toasts } from "../toasts";
+import { BendTool } from "./bend-tool";
+import type { BranchHand } from "./branch-hand";
+import { BranchTool } from "./branch-tool";
 import { BrushTool, SEND_EVERY } from "./brush-tool";
 import { LassoTool } from "./lasso-tool";
 import { ObstacleTool } from "./obstacle-tool";
+import { PruneTool } from "./prune-tool";
 import { SeedTool } from "./seed-tool";
-import { PICK_TOLERANCE, type Tool } from "./tool";
+import { type GripTool, PICK_TOLERANCE, type StrokeTool } from "./tool";
+import { WidthTool } from "./width-tool";
 
-export type ToolName = "brush" | "lasso" | "seed";
+export type ToolName = "brush" | "lasso" | "seed" | "branch" | "bend" | "width" | "prune";
 
 /** What the tools work with. */
 export interface Workshop {
@@ -26,11 +34,18 @@ export interface Workshop {
   readonly toasts: Toasts;
   readonly bud: ChosenBud;
   readonly obstacles: ObstacleList;
+  readonly branch: BranchHand;
   readonly submit: (command: Command) => void;
   /** The number the next command gets. */
   readonly next: () => number;
   /** How many `stroke_move` the server has still to answer or to grow. */
   readonly unsettledMoves: () => number;
+  /** How many commands of a kind the server has still to answer. */
+  readonly unsettled: (kind: Command["kind"]) => number;
+  /** What the wood's width follows from. */
+  readonly girth: () => Girth;
+  /** Shows what would become of the tree without the branches at these rows. */
+  readonly predict: (rows: readonly number[]) => void;
   /** Whether a stroke would come to anything. */
   readonly ready: () => boolean;
   /** Whether a finger on an obstacle moves it. */
@@ -39,11 +54,22 @@ export interface Workshop {
   readonly choose: (x: number, y: number) => void;
 }
 
+/** The tools that draw growth: there holding chooses a branch, and a double tap cuts one. */
+const DRAWING: ReadonlySet<ToolName> = new Set(["brush", "lasso"]);
+
 /** A place that is being held still, until it is chosen. */
 export interface Hold {
   readonly x: number;
   readonly y: number;
   readonly milliseconds: number;
+}
+
+/** The tools that shape what has grown, and the bends of other people. */
+export interface Shaping {
+  readonly bend: BendTool;
+  readonly width: WidthTool;
+  readonly prune: PruneTool;
+  readonly poses: BendPoses;
 }
 
 /** The tools, and which of them has the finger. */
@@ -54,13 +80,17 @@ export class Toolbox {
   readonly outline = new OutlineTrace();
   /** Where a seed would lie. */
   readonly seed = signal<Point | null>(null);
+  /** Those with something to show beside the picture; null without a view. */
+  readonly shaping = signal<Shaping | null>(null);
 
   #workshop: Workshop;
   #view: Viewport | null = null;
-  #tools: Record<ToolName, Tool> | null = null;
+  #tools: Record<ToolName, StrokeTool | GripTool> | null = null;
   #mover: ObstacleTool | null = null;
   /** The tool that has the stroke under way. */
-  #active: Tool | null = null;
+  #active: StrokeTool | GripTool | null = null;
+  /** Fingers that the tool under way has taken. */
+  #grips = new Set<number>();
   #stopPacing = () => {};
   #hoverFrame = 0;
 
@@ -70,11 +100,16 @@ export class Toolbox {
 
   /** Takes a view into use. */
   attach(view: Viewport): void {
-    const { table, settings, toasts, bud, obstacles, submit, next, unsettledMoves } = this.#workshop;
+    const { table, settings, toasts, bud, obstacles, branch, submit, next, unsettledMoves } = this.#workshop;
     const base = (x: number, y: number) => nearestBase(table, view, x, y);
     const row = () => bud.row.peek();
     this.#view = view;
+    const shaping = this.#shaping(view);
+    this.shaping.value = shaping;
     this.#tools = {
+      bend: shaping.bend,
+      width: shaping.width,
+      prune: shaping.prune,
       brush: new BrushTool({
         view,
         submit,
@@ -106,6 +141,11 @@ export class Toolbox {
         planted: () => this.choose("brush"),
         missed: () => toasts.show("Tap the ground, not too far away."),
       }),
+      branch: new BranchTool({
+        view,
+        hand: branch,
+        say: (sentence) => toasts.show(sentence),
+      }),
     };
     this.#mover = new ObstacleTool({
       view,
@@ -120,6 +160,7 @@ export class Toolbox {
 
   detach(): void {
     this.end();
+    this.shaping.value = null;
     this.#view = null;
     this.#tools = null;
     this.#mover = null;
@@ -129,6 +170,9 @@ export class Toolbox {
     this.end();
     this.seed.value = null;
     this.#view?.hideBrush();
+    const before = this.#tools?.[this.chosen.peek()];
+    before?.leave?.();
+    before?.release?.();
     this.chosen.value = tool;
   }
 
@@ -139,7 +183,9 @@ export class Toolbox {
         this.#begin(gesture.point);
         break;
       case "stroke-move":
-        this.#active?.move(gesture.points);
+        if (this.#active && "move" in this.#active) {
+          this.#active.move(gesture.points);
+        }
         break;
       case "stroke-end":
         this.end();
@@ -153,6 +199,23 @@ export class Toolbox {
       case "choose":
         this.#workshop.choose(gesture.x, gesture.y);
         break;
+      case "double-tap":
+        this.shaping.peek()?.prune.cutAt(gesture.x, gesture.y);
+        break;
+      case "grip-begin":
+        this.#gripBegin(gesture);
+        break;
+      case "grip-move":
+        if (this.#active && "gripMove" in this.#active) {
+          this.#active.gripMove(gesture.id, gesture.x, gesture.y);
+        }
+        break;
+      case "grip-end":
+        this.#gripEnd(gesture.id);
+        break;
+      case "grip-drop":
+        this.#gripDrop();
+        break;
       case "pan":
         view?.pan(gesture.dx, gesture.dy);
         break;
@@ -160,6 +223,11 @@ export class Toolbox {
         view?.orbit(gesture.dx, gesture.dy);
         break;
       case "zoom":
+        if (this.#active instanceof BranchTool) {
+          // The wheel turns about itself what the hand holds.
+          this.#active.twist(2 * Math.log(gesture.factor));
+          break;
+        }
         view?.zoom(gesture.factor, gesture.x, gesture.y);
         break;
     }
@@ -178,15 +246,54 @@ export class Toolbox {
         tool?.hover?.(place.x, place.y);
       } else if (!place) {
         this.seed.value = null;
+        tool?.leave?.();
         this.#view?.hideBrush();
       }
     });
   }
 
+  /** What the tool at hand does with one more finger at a place; null if it draws strokes. */
+  grip(x: number, y: number): Grip | null {
+    const tool = this.#tools?.[this.chosen.peek()];
+    if (!tool || !("takes" in tool) || !this.#workshop.ready() || this.#moves({ x, y, pressure: null })) {
+      return null;
+    }
+    return tool.takes(x, y);
+  }
+
+  /** Whether two taps mean something to the tool at hand. */
+  doubles(): boolean {
+    return DRAWING.has(this.chosen.peek());
+  }
+
+  /** Rows have changed, or commands were answered. */
+  told(): void {
+    for (const tool of Object.values(this.#tools ?? {})) {
+      tool.told?.();
+    }
+  }
+
+  /** The server would not do something: what was shown of it is as it was. */
+  refused(command?: Command): void {
+    const shaping = this.shaping.peek();
+    if (command?.kind === "prune" || command?.kind === "prune_dim") {
+      shaping?.prune.refused();
+    } else if (command?.kind === "set_width") {
+      shaping?.width.refused();
+    } else if (command && "bend" in command) {
+      shaping?.bend.refused(command.bend);
+    }
+  }
+
+  /** Lets go of what the tool at hand has marked; false if there is nothing. */
+  release(): boolean {
+    return this.#tools?.[this.chosen.peek()].release?.() === true;
+  }
+
   /** Whether holding still at a place chooses something there, or lets go of what is chosen. */
   holdable(x: number, y: number): boolean {
     const { bud, ready } = this.#workshop;
-    if (this.chosen.peek() === "seed" || !ready() || this.#moves({ x, y, pressure: null })) {
+    if (!DRAWING.has(this.chosen.peek()) || !ready() || this.#moves({ x, y, pressure: null })) {
       return false;
     }
     return bud.row.peek() !== null || this.#view?.pick(x, y, PICK_TOLERANCE) != null;
@@ -199,9 +306,7 @@ export class Toolbox {
     if (!tool) {
       return;
     }
-    this.#active = null;
-    this.#view?.hold(false);
-    this.drawing.value = false;
+    this.#rest();
     if (tool instanceof BrushTool) {
       this.#workshop.settings.hasDrawn.value = true;
     }
@@ -212,6 +317,9 @@ export class Toolbox {
   cancel(): void {
     if (this.#active instanceof BrushTool) {
       this.end();
+    } else if (this.#active instanceof BendTool) {
+      this.#active.cancel();
+      this.#rest();
     } else {
       this.abandon();
     }
@@ -221,26 +329,100 @@ export class Toolbox {
   abandon(): void {
     this.#stopPacing();
     this.hold.value = null;
-    if (!this.#active) {
-      return;
-    }
-    this.#view?.hold(false);
-    this.#active.abandon();
-    this.#active = null;
-    this.drawing.value = false;
+    const tool = this.#active;
+    this.#rest();
+    tool?.abandon();
   }
 
-  #begin(point: StrokePoint): void {
-    const tool: Tool | null | undefined = this.#moves(point) ? this.#mover : this.#tools?.[this.chosen.peek()];
-    if (!tool || !this.#workshop.ready()) {
+  #gripBegin(gesture: Extract<Gesture, { kind: "grip-begin" }>): void {
+    const tool = this.#tools?.[this.chosen.peek()];
+    if (!tool || !("takes" in tool) || !this.#workshop.ready()) {
       return;
     }
-    this.end();
+    if (this.#active !== tool) {
+      this.end();
+      this.#work(tool);
+    }
+    this.#grips.add(gesture.id);
+    tool.gripBegin(gesture.id, gesture.x, gesture.y, gesture.slop);
+  }
+
+  #gripEnd(id: number): void {
+    const tool = this.#active;
+    if (!this.#grips.delete(id) || !tool || !("gripEnd" in tool)) {
+      return;
+    }
+    if (this.#grips.size === 0) {
+      this.#rest();
+    }
+    tool.gripEnd(id);
+  }
+
+  #gripDrop(): void {
+    const tool = this.#active;
+    this.#rest();
+    if (tool && "gripDrop" in tool) {
+      tool.gripDrop();
+    }
+  }
+
+  #work(tool: StrokeTool | GripTool): void {
     this.#active = tool;
     this.drawing.value = true;
     this.#view?.hold(true);
-    tool.begin(point);
     this.#stopPacing = pace(SEND_EVERY, () => tool.tick?.());
+  }
+
+  /** Nothing is under way any more. */
+  #rest(): void {
+    this.#stopPacing();
+    this.#grips.clear();
+    if (this.#active) {
+      this.#active = null;
+      this.#view?.hold(false);
+      this.drawing.value = false;
+    }
+  }
+
+  #begin(point: StrokePoint): void {
+    const tool = this.#moves(point) ? this.#mover : this.#tools?.[this.chosen.peek()];
+    if (!tool || !("begin" in tool) || !this.#workshop.ready()) {
+      return;
+    }
+    this.end();
+    this.#work(tool);
+    tool.begin(point);
+  }
+
+  #shaping(view: Viewport): Shaping {
+    const { table, settings, toasts, submit, next, unsettled, girth, predict } = this.#workshop;
+    const say = (sentence: string) => toasts.show(sentence);
+    const bend = new BendTool({
+      table,
+      view,
+      submit,
+      newBend: next,
+      unsettledMoves: () => unsettled("bend_move"),
+      stretch: () => settings.stretch.peek(),
+      solver: (nodes, radii, stretch) => new Bend(nodes, radii, stretch),
+      say,
+      bent: () => {
+        settings.hasBent.value = true;
+      },
+    });
+    const width = new WidthTool({
+      table,
+      view,
+      submit,
+      newGesture: next,
+      unsettled: () => unsettled("set_width"),
+      girth,
+      scaleAt: (row) => scaleAt(view, view.placeOf(row)),
+      placeOnGlass: (row) => view.projector()(view.placeOf(row)),
+    });
+    const limits = () => width.limits.peek();
+    const prune = new PruneTool({ table, view, submit, unsettled, limits, say, predict });
+    return { bend, width, prune, poses: new BendPoses(table, view, bend) };
   }
 
   #moves(point: StrokePoint): boolean {

@@ -7,11 +7,27 @@ const WORTH_A_WORD = 200;
 /** So many steps are, whatever the hand is doing. */
 const LONG_GROWTH = 20;
 
-/** What is under way and can be ended: growth, and the choice of one branch. */
+/** What is under way and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
 export function Chips({ studio }: { studio: Studio }) {
+  const placing = studio.branches.hand.placing.value;
   return (
     <div class="chips" role="status">
       <GrowthChip studio={studio} />
+      {placing !== null && (
+        <p class="chip">
+          {placing === "copy"
+            ? "Tap the limb for the copy, drag to aim it"
+            : "Tap the limb to move it to, drag to aim it"}
+          <button
+            type="button"
+            aria-label="Leave the branch where it is"
+            title="Leave the branch where it is (Esc)"
+            onClick={() => studio.branches.hand.cancelPlacing()}
+          >
+            <CloseIcon />
+          </button>
+        </p>
+      )}
       {studio.bud.row.value !== null && (
         <p class="chip">
           <i class="bud-sign" aria-hidden="true" />

@@ -14,6 +14,22 @@ const DRAWING: readonly Line[] = [
   ["Scene", "Walls and models to grow around; drag them"],
 ];
 
+const SHAPING: readonly Line[] = [
+  ["Bend", "One finger holds the base, another drags the end, more between"],
+  ["Bend with a mouse or pen", "Drag a branch; click first where it shall bend from"],
+  ["Width", "Pinch around a limb, or tap it and pull the ring"],
+  ["Prune", "Tap a branch, or draw a line through many"],
+  ["Branch", "Drag turns it about its base, a second finger twists; then move or copy it"],
+  ["What if?", "A ghost shows how the tree grows on without a branch"],
+  ["Double tap a branch", "Cut it off, without leaving the brush"],
+];
+
+const TRAVELLING: readonly Line[] = [
+  ["Drag along the strip at the bottom", "Travel through growth and edits, back and forth"],
+  ["Tap a sign on it", "Go to where that was done"],
+  ["A fork above it", "Other futures: what was ahead when someone went back"],
+];
+
 const LOOKING: readonly Line[] = [
   ["Two fingers, middle button", "Move and zoom"],
   ["Three fingers, right button", "Turn around the tree"],
@@ -23,8 +39,11 @@ const LOOKING: readonly Line[] = [
 const KEYS: readonly Line[] = [
   ["[  ]", "Narrower, wider"],
   ["B  L  P", "Brush, lasso, plant a seed"],
-  ["Esc", "Cancel a drawing, let every branch grow"],
+  ["N  W  X", "Bend, width, prune"],
+  ["Esc", "Cancel, let go"],
   ["G  U", "Grow, ungrow while held"],
+  [",  .", "A step back, forth; with Shift an operation"],
+  ["T  ← ↑ → ↓", "Hold a branch, turn it; with Shift about itself"],
   ["F", "Show the whole tree"],
   ["Ctrl Z", "Undo, with Shift redo"],
   ["Space", "Held: drag to move"],
@@ -37,9 +56,13 @@ export function HelpSheet({ studio }: { studio: Studio }) {
   return (
     <Sheet studio={studio} title="How to draw a tree" wide>
       <div class="help">
-        <Gestures lines={DRAWING} />
+        <div>
+          <Gestures lines={DRAWING} />
+          <Gestures lines={SHAPING} />
+        </div>
         <div>
           <Gestures lines={LOOKING} />
+          <Gestures lines={TRAVELLING} />
           <dl class="keys">
             {KEYS.map(([keys, effect]) => (
               <div key={keys}>

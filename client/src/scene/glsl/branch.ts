@@ -1,7 +1,8 @@
 import { HEAD, LIGHT, NODES, NOISE } from "./common";
+import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 
 /** Sweeps a ring along one metamer, from its parent's frame to its own. */
-export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}
+export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${GHOST_PLACE}
 in vec3 ring; // cosine, place along the metamer 0 to 1, sine
 in uvec4 metamer; // row, parent's row, row where the axis begins, flags
 const uint BEGINS_AXIS = 1u;
@@ -11,10 +12,14 @@ out vec3 vWorld;
 out vec3 vNormal;
 out vec3 vTangent;
 out vec4 vBark; // around (cosine, sine), along, radius
-out float vLight;
+out float vLight; // below 0 for what is marked
 
 void main() {
   Node end = nodeAt(int(metamer.x));
+  if (end.look == HIDDEN) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
   Node start = nodeAt(int(metamer.y));
   bool begins = (metamer.w & BEGINS_AXIS) != 0u;
   float grown = eased(uTime - end.birth, end.growing);
@@ -71,13 +76,18 @@ void main() {
   vNormal = normalize(outward - tangent * slope);
   vTangent = tangent;
   vBark = vec4(ring.x, ring.z, along, max(radius, 0.02));
-  vLight = mix(start.light, end.light, u);
+  vLight = end.look == MARKED ? -1.0 : mix(start.light, end.light, u);
+#ifdef GHOST
+  vWorld = world = ghostPlace(world);
+  vNormal = turned(uGhostTurn, vNormal);
+  vTangent = turned(uGhostTurn, vTangent);
+#endif
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
 }
 `;
 
 /** Bark: furrowed plates on thick limbs, smooth and greenish on twigs. */
-export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
+export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${GHOST_COLOUR}
 in vec3 vWorld;
 in vec3 vNormal;
 in vec3 vTangent;
@@ -127,7 +137,8 @@ void main() {
   albedo = mix(albedo, vec3(0.150, 0.170, 0.105), lichen * 0.5);
   cavity = mix(1.0, mix(0.5, 1.0, height), depth);
 #endif
-  float exposure = mix(0.6, 1.3, vLight);
+  if (vLight < 0.0) albedo = condemned(albedo);
+  float exposure = mix(0.6, 1.3, abs(vLight));
   float facing = dot(normal, uSun);
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
   // Soil and moss climb the foot of the trunk, and the ground keeps the sky from it.
@@ -138,6 +149,9 @@ void main() {
   vec3 sight = eye / max(away, 1e-4);
   lit += SKY_COLOUR * 0.05 * pow(1.0 - max(dot(sight, normal), 0.0), 4.0) * exposure * cavity;
   colour = vec4(finished(hazed(lit, away)), 1.0);
+#ifdef GHOST
+  colour = ghostly(colour);
+#endif
 }
 `;
 

@@ -13,9 +13,10 @@ uniform vec3 cameraPosition;
 uniform float uTime;
 `;
 
-/** Reads the node table; see \`node-texture.ts\` for what stands where. */
+/** Reads the node table and what its rows wear; see \`node-texture.ts\` and \`guises.ts\` for what stands where. */
 export const NODES = /* glsl */ `
 uniform sampler2D uNodes;
+uniform sampler2D uGuises;
 const float TIP_SECONDS = 0.3;
 struct Node {
   vec3 position;
@@ -26,16 +27,37 @@ struct Node {
   float growing;
   float extended;
   float arc;
+  float look;
 };
+const float MARKED = 1.0;
+const float HIDDEN = 2.0;
+vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+vec4 product(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz)); }
+vec4 whole(vec3 q) { return vec4(q, sqrt(max(0.0, 1.0 - dot(q, q)))); }
+/** Draws a node as its slot says. */
+void wear(inout Node node, int slot, bool own) {
+  ivec2 at = ivec2((slot & 15) * 4, slot >> 4);
+  vec4 rotation = texelFetch(uGuises, at, 0);
+  vec4 offset = texelFetch(uGuises, at + ivec2(1, 0), 0);
+  vec4 mine = texelFetch(uGuises, at + ivec2(2, 0), 0);
+  vec4 swelling = texelFetch(uGuises, at + ivec2(3, 0), 0);
+  node.position = turned(rotation, node.position) + offset.xyz;
+  node.look = offset.w;
+  node.turn = own ? whole(mine.xyz) : product(rotation, node.turn);
+  if (swelling.x != 1.0) node.radius = swelling.y * pow(max(node.radius, 1e-4), swelling.x);
+  if (own && mine.w > 0.0) node.radius = mine.w;
+}
 Node nodeAt(int row) {
   ivec2 at = ivec2((row & 255) * 3, row >> 8);
   vec4 a = texelFetch(uNodes, at, 0);
   vec4 b = texelFetch(uNodes, at + ivec2(1, 0), 0);
   vec4 c = texelFetch(uNodes, at + ivec2(2, 0), 0);
-  vec4 turn = vec4(b.xyz, sqrt(max(0.0, 1.0 - dot(b.xyz, b.xyz))));
-  return Node(a.xyz, a.w, turn, b.w, c.x, c.y, c.z, c.w);
+  float slot = floor(abs(b.w));
+  float light = (abs(b.w) - slot) * (256.0 / 255.0);
+  Node node = Node(a.xyz, a.w, whole(b.xyz), light, c.x, c.y, c.z, c.w, 0.0);
+  if (slot > 0.0) wear(node, int(slot), b.w < 0.0);
+  return node;
 }
-vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 float eased(float since, float seconds) {
   float t = clamp(since / max(seconds, 1e-4), 0.0, 1.0);
   return t * (2.0 - t);
@@ -91,6 +113,10 @@ float sunlit(vec3 world, vec3 normal, float softness) {
 }
 vec3 ambient(vec3 normal) {
   return mix(BOUNCE_COLOUR * 0.55, SKY_COLOUR, normal.y * 0.5 + 0.5) * 0.8;
+}
+/** What is about to be cut glows red, as far as it is lit. */
+vec3 condemned(vec3 albedo) {
+  return mix(vec3(0.62, 0.05, 0.03), albedo, 0.15);
 }
 /** Air between the eye and what it sees: what is far behind the trees fades into the horizon. */
 vec3 hazed(vec3 colour, float distance) {

@@ -5,7 +5,7 @@ mod saplings;
 
 use espalier_export::{ExportError, glb, skeleton_json};
 use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh};
-use espalier_plant::Plant;
+use espalier_plant::{MetamerId, Plant, Widths};
 use glam::Vec3;
 use proptest::prelude::*;
 use serde_json::Value;
@@ -41,13 +41,14 @@ proptest! {
         let (plant, style) = (saplings::grown(&growth), style());
         let file: Value = serde_json::from_slice(&skeleton_json(&plant, &style)).expect("it is JSON");
         let metamers = file["metamers"].as_array().expect("metamers are a list");
-        let living = saplings::living(&plant);
+        let (living, widths) = (saplings::living(&plant), Widths::of(&plant, style.girth()));
         prop_assert_eq!(metamers.len(), living.len());
         for (place, (read, &id)) in metamers.iter().zip(&living).enumerate() {
             let parent = read["parent"].as_u64().map(|parent| parent as usize);
             prop_assert!(parent.is_none_or(|parent| parent < place));
             prop_assert_eq!(parent.map(|parent| living[parent]), plant.metamers().parent(id));
-            prop_assert_eq!(read["radius"].as_f64() == Some(0.0), parent.is_none());
+            let radius = if parent.is_none() { 0.0 } else { widths.radius(id) };
+            prop_assert_eq!(read["radius"].as_f64().map(|radius| radius as f32), Some(radius));
             let position: Vec<f32> =
                 read["position"].as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number") as f32).collect();
             prop_assert_eq!(Vec3::from_slice(&position), plant.metamers().end(id));
@@ -82,6 +83,26 @@ fn internode_is_as_long_as_told() {
     let top = meshes[0].positions.iter().map(|position| position.y).fold(0.0, f32::max);
     // Two internodes and the cone at the tip: 0.45 of a twig's radius of 0.05.
     assert!((top - 0.25 * (2.0 + 0.45 * 0.05)).abs() < 1e-6, "{top}");
+}
+
+#[test]
+fn a_stub_is_as_wide_as_its_constraint() {
+    let mut plant = saplings::fork();
+    plant.begin_edit();
+    plant.set_width(MetamerId::new(1), Some(0.5));
+    plant.prune(MetamerId::new(2));
+    plant.prune(MetamerId::new(4));
+    plant.end_step();
+    let text = String::from_utf8(skeleton_json(&plant, &style())).expect("JSON is UTF-8");
+    assert!(
+        text.ends_with(r#"{"parent":0,"position":[0.0,1.0,0.0],"radius":0.25,"order":0,"birth":1}]}"#),
+        "{text}"
+    );
+    let meshes = reader::read(&glb(&plant, &style(), METRES).expect("it exports"));
+    let top = meshes[0].positions.iter().filter(|position| (position.y - METRES).abs() < 1e-6);
+    let widest = top.map(|position| position.with_y(0.0).length()).fold(0.0, f32::max);
+    // The flare of the roots is gone but for two hundredths.
+    assert!((widest - 0.25 * METRES).abs() < 0.02 * METRES, "{widest}");
 }
 
 #[test]

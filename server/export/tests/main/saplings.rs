@@ -4,31 +4,66 @@ use espalier_plant::{AxisId, Internode, MetamerId, Plant};
 use glam::Vec3;
 use proptest::prelude::*;
 
-/// Steps of buds (by a number that is folded into range) that grow, with the bud of a branch to shed after it.
-pub type Growth = Vec<(Vec<(u16, i8, i8)>, Option<u16>)>;
+/// What is done to a plant after a step of growth; wood is picked by a number that is folded into range.
+#[derive(Clone, Copy, Debug)]
+pub enum Edit {
+    Shed(u16),
+    Prune(u16),
+    /// Eighths of an internode across.
+    Widen(u16, u8),
+}
+
+/// Steps of buds (by a number that is folded into range) that grow, with what is done after it.
+pub type Growth = Vec<(Vec<(u16, i8, i8)>, Option<Edit>)>;
 
 pub fn growth() -> impl Strategy<Value = Growth> {
     let buds = prop::collection::vec(any::<(u16, i8, i8)>(), 1..12);
-    prop::collection::vec((buds, prop::option::weighted(0.2, any::<u16>())), 0..20)
+    let edit = prop_oneof![
+        any::<u16>().prop_map(Edit::Shed),
+        any::<u16>().prop_map(Edit::Prune),
+        (any::<u16>(), 1u8..).prop_map(|(pick, eighths)| Edit::Widen(pick, eighths)),
+    ];
+    prop::collection::vec((buds, prop::option::weighted(0.4, edit)), 0..20)
 }
 
 pub fn grown(growth: &Growth) -> Plant {
     let mut plant = Plant::new(Vec3::ZERO);
-    for (buds, shed) in growth {
+    for (buds, edit) in growth {
         plant.begin_step();
         for &(pick, x, z) in buds {
-            let axis = living_axis(&plant, pick);
+            let Some(axis) = living_axis(&plant, pick) else { continue };
             let bend = Vec3::new(f32::from(x), 0.0, f32::from(z)) / 200.0;
             let heading = (plant.bud_direction(axis) + bend).normalize_or(Vec3::Y);
             extend(&mut plant, axis, heading, 1.0);
         }
-        let branch = shed.map(|pick| living_axis(&plant, pick)).filter(|&axis| plant.axes().order(axis) > 0);
-        if let Some(axis) = branch {
-            plant.shed(axis);
-        }
         plant.end_step();
+        if let Some(edit) = edit {
+            plant.begin_edit();
+            happen(&mut plant, *edit);
+            plant.end_step();
+        }
     }
     plant
+}
+
+fn happen(plant: &mut Plant, edit: Edit) {
+    match edit {
+        Edit::Shed(pick) => {
+            if let Some(axis) = living_axis(plant, pick).filter(|&axis| plant.axes().order(axis) > 0) {
+                plant.shed(axis);
+            }
+        }
+        Edit::Prune(pick) => {
+            if let Some(cut) = wood(plant, pick) {
+                plant.prune(cut);
+            }
+        }
+        Edit::Widen(pick, eighths) => {
+            if let Some(id) = wood(plant, pick) {
+                plant.set_width(id, Some(f32::from(eighths) / 8.0));
+            }
+        }
+    }
 }
 
 /// A trunk of so many internodes.
@@ -70,8 +105,16 @@ fn extend(plant: &mut Plant, axis: AxisId, heading: Vec3, length: f32) {
     plant.extend(axis, &Internode { end, normal, laterals: &laterals });
 }
 
-fn living_axis(plant: &Plant, pick: u16) -> AxisId {
+/// A living bud, if there is any: a plant may have been cut down to a stump.
+fn living_axis(plant: &Plant, pick: u16) -> Option<AxisId> {
     let living: Vec<AxisId> =
         (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis)).collect();
-    living[usize::from(pick) % living.len()]
+    living.get(usize::from(pick) % living.len().max(1)).copied()
+}
+
+/// A living metamer that is no seed.
+fn wood(plant: &Plant, pick: u16) -> Option<MetamerId> {
+    let mut living = living(plant);
+    living.retain(|&id| !plant.is_seed(id));
+    living.get(usize::from(pick) % living.len().max(1)).copied()
 }

@@ -88,7 +88,7 @@ impl Canopy {
         claimants: &mut Vec<Claimant>,
     ) {
         let id = self.nodes[slot].id;
-        for axis in plant.laterals(id).filter(|&axis| plant.is_axis_alive(axis)) {
+        for axis in plant.laterals(id).filter(|&axis| plant.is_standing(axis)) {
             let (light, buds) = match plant.axes().first(axis) {
                 Some(first) => {
                     let first = self.slots[first.index()] as usize;
@@ -96,7 +96,10 @@ impl Canopy {
                 }
                 None => (self.lateral_input(plant, axis, id, parameters), 1),
             };
-            claimants.push(Claimant { axis, node: slot, light, buds, is_first: false });
+            // A stump without buds has no rank.
+            if buds > 0 {
+                claimants.push(Claimant { axis, node: slot, light, buds, is_first: false });
+            }
         }
         if self.nodes[slot].is_tip() {
             let (axis, light) = (plant.metamers().axis(id), self.flows[slot].main);

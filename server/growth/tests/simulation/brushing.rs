@@ -165,3 +165,25 @@ fn old_brush_markers_do_not_linger() {
     }
     assert!(simulation.markers().is_empty());
 }
+
+/// Mean x of the directions in which wood grew while a wide brush swept from left to right over a young crown.
+fn lean_under_a_sweep(seed: u32, tropism_from_stroke: bool) -> f32 {
+    let values = ParameterValues { tropism_from_stroke, ..ParameterValues::default() };
+    let mut simulation = Simulation::new(seed, Parameters::new(values).expect("in range"));
+    grow(&mut simulation, 8);
+    let before = simulation.plant().metamer_count();
+    brush(&mut simulation, 1, &[(Vec3::new(-8.0, 14.0, 0.0), 7.0), (Vec3::new(8.0, 14.0, 0.0), 7.0)]);
+    let plant = simulation.plant();
+    let new: Vec<f32> =
+        (before..plant.metamer_count()).map(|id| plant.heading(MetamerId::new(id)).x).collect();
+    assert!(new.len() > 100, "{} metamers", new.len());
+    new.iter().sum::<f32>() / new.len() as f32
+}
+
+#[test]
+fn tropism_from_the_stroke_turns_shoots_its_way() {
+    for seed in 1..=5 {
+        let (along, upright) = (lean_under_a_sweep(seed, true), lean_under_a_sweep(seed, false));
+        assert!(along > upright + 0.1, "seed {seed}: {along} along the stroke, {upright} without");
+    }
+}

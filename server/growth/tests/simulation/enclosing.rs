@@ -62,6 +62,23 @@ fn a_crown_fills_its_lasso() {
     assert!(nodes.len() > 300 && outside * 5 < nodes.len(), "{outside} of {} are outside", nodes.len());
 }
 
+#[test]
+fn a_lasso_extends_a_crown_that_is_there() {
+    let mut simulation = simulation(4);
+    grow(&mut simulation, 12);
+    let before = nodes(&simulation);
+    let wing = envelope(&ellipse(Vec2::new(16.0, 16.0), Vec2::new(14.0, 5.0)), &simulation);
+    let inside = |nodes: &[Vec3]| nodes.iter().filter(|node| wing.contains(**node)).count();
+    simulation.enclose(&wing);
+    settle(&mut simulation);
+    let after = nodes(&simulation);
+    assert_eq!(after[..before.len()], before, "what stood stays");
+    let (grown, in_wing) = (after.len() - before.len(), inside(&after) - inside(&before));
+    assert!(in_wing > 60 && in_wing * 10 > grown * 7, "{in_wing} of {grown} grew into the wing");
+    let reach = |nodes: &[Vec3]| nodes.iter().fold(0.0, |reach: f32, node| reach.max(node.x));
+    assert!(reach(&before) < 20.0 && reach(&after) > 26.0, "{} to {}", reach(&before), reach(&after));
+}
+
 /// Share of a front view's points that lie in both of outline and tree, among those in either.
 fn overlap(outline: &[Vec2], nodes: &[Vec3]) -> f32 {
     let is_drawn = |p: Vec2| {

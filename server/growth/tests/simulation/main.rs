@@ -8,7 +8,9 @@ mod invariants;
 mod obstructing;
 mod selecting;
 
-use espalier_growth::{BrushPiece, BrushSample, NoObserver, Parameters, Simulation, StepInput, StrokeId};
+use espalier_growth::{
+    BrushPiece, BrushSample, NoObserver, ParameterValues, Parameters, Simulation, StepInput, StrokeId,
+};
 use espalier_plant::MetamerId;
 use glam::Vec3;
 

@@ -1,6 +1,6 @@
 //! Every metamer of the present has its row, and the row says what the metamer is, as exactly as it can.
 
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant, Widths};
 use glam::Vec3;
 
 use super::{Failure, require};
@@ -20,10 +20,11 @@ pub(super) fn check(table: &RingTable, plant: &Plant, style: &Style) -> Result<(
     require(CHECK, table.generations().len() == rows.div_ceil(CHUNK_ROWS), || {
         format!("{} chunks for {rows} rows", table.generations().len())
     })?;
+    let widths = Widths::of(plant, style.girth());
     let mut leaves = 0;
     for index in 0..rows {
         let id = MetamerId::new(index);
-        check_row(table, plant, style, id)?;
+        check_row(table, &widths, plant, style, id)?;
         leaves += u32::from(foliage::leaves(plant, id, style));
     }
     require(CHECK, leaves == table.leaves(), || {
@@ -31,7 +32,13 @@ pub(super) fn check(table: &RingTable, plant: &Plant, style: &Style) -> Result<(
     })
 }
 
-fn check_row(table: &RingTable, plant: &Plant, style: &Style, id: MetamerId) -> Result<(), Failure> {
+fn check_row(
+    table: &RingTable,
+    widths: &Widths<'_>,
+    plant: &Plant,
+    style: &Style,
+    id: MetamerId,
+) -> Result<(), Failure> {
     let (row, metamers) = (id.raw(), plant.metamers());
     let parent = metamers.parent(id);
     require(CHECK, table.parent(row) == parent.map(MetamerId::raw), || {
@@ -47,7 +54,7 @@ fn check_row(table: &RingTable, plant: &Plant, style: &Style, id: MetamerId) -> 
 
     let drawn = plant.is_alive(id) && !plant.is_seed(id);
     let radius = radius_code::decode(table.radius(row));
-    let wanted = if drawn { style.girth().radius(metamers.tips(id)) } else { 0.0 };
+    let wanted = if drawn { widths.radius(id) } else { 0.0 };
     let fits = (radius - wanted).abs() <= 0.0051 * wanted.max(radius_code::MIN_RADIUS);
     require(CHECK, fits && (radius > 0.0) == drawn, || {
         format!("row {row} has radius {radius}, not {wanted}")

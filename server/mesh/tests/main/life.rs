@@ -1,7 +1,7 @@
 //! Random events in the life of a plant.
 
-use espalier_plant::{Appearance, AxisId, Internode, MetamerId, Plant};
-use glam::Vec3;
+use espalier_plant::{Appearance, AxisId, Internode, MetamerId, Motion, Plant};
+use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
 #[derive(Clone, Debug)]
@@ -13,6 +13,14 @@ pub enum Event {
     Stack(Vec<(u16, u8)>),
     Shed(u16),
     Sow(i8, i8),
+    /// Living wood, where it is cut.
+    Prune(u16),
+    /// Living wood, and by how much the branch that begins with it turns.
+    Turn(u16, i8),
+    /// A branch, and the wood onto whose node a copy of it is grafted.
+    Graft(u16, u16),
+    /// Wood, and how much wider than a hundredth of an internode it shall be, in logarithms; or as it likes.
+    Widen(u16, Option<u8>),
     GoTo(u16),
     Look(u16, u8, u8),
 }
@@ -23,6 +31,10 @@ pub fn events() -> impl Strategy<Value = Vec<Event>> {
         4 => prop::collection::vec((any::<u16>(), 0u8..3), 1..12).prop_map(Event::Stack),
         1 => any::<u16>().prop_map(Event::Shed),
         1 => any::<(i8, i8)>().prop_map(|(x, z)| Event::Sow(x, z)),
+        1 => any::<u16>().prop_map(Event::Prune),
+        1 => any::<(u16, i8)>().prop_map(|(pick, turn)| Event::Turn(pick, turn)),
+        1 => any::<(u16, u16)>().prop_map(|(source, onto)| Event::Graft(source, onto)),
+        3 => any::<(u16, Option<u8>)>().prop_map(|(pick, width)| Event::Widen(pick, width)),
         2 => any::<u16>().prop_map(Event::GoTo),
         2 => any::<(u16, u8, u8)>().prop_map(|(pick, light, vigor)| Event::Look(pick, light, vigor)),
     ];
@@ -34,20 +46,23 @@ pub fn happen(plant: &mut Plant, event: &Event) {
         Event::Grow(picks) => {
             plant.begin_step();
             for &(pick, x, z) in picks {
-                grow(plant, living_axis(plant, pick), x, z);
+                if let Some(axis) = living_axis(plant, pick) {
+                    grow(plant, axis, x, z);
+                }
             }
             plant.end_step();
         }
         Event::Stack(picks) => {
             plant.begin_step();
             for &(pick, laterals) in picks {
-                stack(plant, living_axis(plant, pick), laterals);
+                if let Some(axis) = living_axis(plant, pick) {
+                    stack(plant, axis, laterals);
+                }
             }
             plant.end_step();
         }
         Event::Shed(pick) => {
-            let axis = living_axis(plant, *pick);
-            if plant.axes().order(axis) > 0 {
+            if let Some(axis) = living_axis(plant, *pick).filter(|&axis| plant.axes().order(axis) > 0) {
                 plant.begin_step();
                 plant.shed(axis);
                 plant.end_step();
@@ -57,6 +72,42 @@ pub fn happen(plant: &mut Plant, event: &Event) {
             plant.begin_step();
             plant.sow(Vec3::new(f32::from(*x), 0.0, f32::from(*z)));
             plant.end_step();
+        }
+        Event::Prune(pick) => {
+            if let Some(cut) = wood(plant, *pick) {
+                plant.begin_edit();
+                plant.prune(cut);
+                plant.end_step();
+            }
+        }
+        Event::Turn(pick, turn) => {
+            if let Some(id) = wood(plant, *pick) {
+                let foot = plant.metamers().parent(id).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+                let rotation =
+                    Quat::IDENTITY.slerp(Quat::from_xyzw(0.6, 0.0, 0.8, 0.0), f32::from(*turn) / 200.0);
+                plant.begin_edit();
+                plant.carry(&[id], &[Motion { rotation, from: foot, to: foot }]);
+                plant.end_step();
+            }
+        }
+        Event::Graft(source, onto) => {
+            let (Some(source), Some(onto)) = (wood(plant, *source), wood(plant, *onto)) else { return };
+            if plant.above(source).contains(&onto) || plant.metamer_count() > 600 {
+                return;
+            }
+            let foot = plant.metamers().parent(source).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+            let rotation = Quat::from_xyzw(0.0, 0.6, 0.0, 0.8);
+            plant.begin_edit();
+            let motion = Motion { rotation, from: foot, to: plant.metamers().end(onto) };
+            plant.graft(source, onto, &motion);
+            plant.end_step();
+        }
+        Event::Widen(pick, width) => {
+            if let Some(id) = wood(plant, *pick) {
+                plant.begin_edit();
+                plant.set_width(id, width.map(|width| 0.01 * libm::expf(f32::from(width) / 32.0)));
+                plant.end_step();
+            }
         }
         Event::GoTo(step) => {
             plant.go_to(u32::from(*step) % (plant.last_step() + 1));
@@ -97,8 +148,16 @@ pub fn stack(plant: &mut Plant, axis: AxisId, laterals: u8) {
     plant.extend(axis, &Internode { end, normal: Vec3::X, laterals: &laterals });
 }
 
-fn living_axis(plant: &Plant, pick: u16) -> AxisId {
+/// A living bud, if there is any: a plant may have been cut down to a stump.
+fn living_axis(plant: &Plant, pick: u16) -> Option<AxisId> {
     let living: Vec<AxisId> =
         (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis)).collect();
-    living[usize::from(pick) % living.len()]
+    living.get(usize::from(pick) % living.len().max(1)).copied()
+}
+
+/// A living metamer that is no seed.
+fn wood(plant: &Plant, pick: u16) -> Option<MetamerId> {
+    let rows = (0..plant.metamer_count()).map(MetamerId::new);
+    let living: Vec<MetamerId> = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).collect();
+    living.get(usize::from(pick) % living.len().max(1)).copied()
 }

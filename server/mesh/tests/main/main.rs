@@ -7,7 +7,7 @@ mod plain;
 use espalier_mesh::{
     RingTable, Style, StyleOptions, bark_mesh, checks, leaf_mesh, leaves, ring_table::CHUNK_ROWS,
 };
-use espalier_plant::{AxisId, Plant};
+use espalier_plant::{AxisId, MetamerId, Plant};
 use glam::Vec3;
 use life::{events, happen};
 use mirror::{ByChanges, ByGenerations};
@@ -155,4 +155,52 @@ fn ungrown_rows_are_truncated_and_the_chunk_marked() {
     let changes = table.sync(&plant, &style, 2);
     assert_eq!((changes.truncated, changes.appended), (Some(1), 1..1));
     assert_eq!((table.rows(), table.generations(), table.leaves()), (1, &[2][..], 0));
+}
+
+fn widen(plant: &mut Plant, row: usize, diameter: Option<f32>) {
+    plant.begin_edit();
+    plant.set_width(MetamerId::new(row), diameter);
+    plant.end_step();
+}
+
+#[test]
+fn widths_change_radii_and_go_without_a_trace() {
+    let (mut plant, mut table, style) = (life::sapling(), RingTable::new(), Style::default());
+    table.sync(&plant, &style, 1);
+    let radii = |table: &RingTable| [1, 2, 3].map(|row| table.radius(row));
+    let unconstrained = radii(&table);
+    widen(&mut plant, 2, Some(0.4));
+    let changes = table.sync(&plant, &style, 2);
+    // The tip is a twig still.
+    assert_eq!((&changes.radius[..], changes.foliage.len(), changes.position.len()), (&[1, 2][..], 0, 0));
+    let code = espalier_mesh::radius_code::encode(0.2);
+    assert_eq!(radii(&table), [code, code, unconstrained[2]]);
+    widen(&mut plant, 2, None);
+    assert_eq!(table.sync(&plant, &style, 3).radius, [1, 2]);
+    assert_eq!(radii(&table), unconstrained);
+    assert!(table.sync(&plant, &style, 4).is_empty());
+}
+
+#[test]
+fn chunks_beyond_a_constraint_stay_as_they_are() {
+    let mut plant = Plant::new(Vec3::ZERO);
+    plant.begin_step();
+    let second = plant.sow(Vec3::X);
+    for axis in [AxisId::new(0), second] {
+        for _ in 0..CHUNK_ROWS {
+            life::stack(&mut plant, axis, 0);
+        }
+    }
+    plant.end_step();
+    let (mut table, style) = (RingTable::new(), Style::default());
+    table.sync(&plant, &style, 1);
+    assert_eq!(table.generations(), [1, 1, 1]);
+    // The second trunk begins in the second chunk; its constraint is in the last.
+    widen(&mut plant, 2 * CHUNK_ROWS, Some(0.5));
+    table.sync(&plant, &style, 2);
+    assert_eq!(table.generations(), [1, 2, 2]);
+    assert!(table.sync(&plant, &style, 3).is_empty());
+    widen(&mut plant, 2 * CHUNK_ROWS + 1, Some(0.4));
+    assert_eq!(table.sync(&plant, &style, 4).radius, [2 * CHUNK_ROWS as u32 + 1]);
+    assert_eq!(table.generations(), [1, 2, 4]);
 }

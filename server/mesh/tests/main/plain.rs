@@ -1,7 +1,11 @@
 //! The table as it is defined: every row is made afresh and compared with the one that was told.
 
-use espalier_mesh::{Changes, RingTable, Style, foliage, radius_code::NOT_DRAWN, ring_table::CHUNK_ROWS};
-use espalier_plant::{MetamerId, Plant};
+use espalier_mesh::{
+    Changes, RingTable, Style, foliage,
+    radius_code::{NOT_DRAWN, encode_log},
+    ring_table::CHUNK_ROWS,
+};
+use espalier_plant::{MetamerId, Plant, Widths};
 
 use crate::mirror::{Row, all_rows};
 
@@ -14,11 +18,13 @@ pub struct PlainTable {
 impl PlainTable {
     pub fn sync(&mut self, plant: &Plant, style: &Style, generation: u32) -> Changes {
         let count = plant.metamer_count();
+        let widths = Widths::of(plant, style.girth());
+        let make = |id, held| row(plant, id, style, &widths, held);
         let mut changes = Changes::default();
         let mut told = std::mem::take(&mut self.rows);
         for index in 0..count {
             let held = told.get(index).copied();
-            let row = row(plant, MetamerId::new(index), style, held);
+            let row = make(MetamerId::new(index), held);
             let same = held.filter(|held| (held.parent, held.starts_axis) == (row.parent, row.starts_axis));
             if let Some(held) = same {
                 let columns = [
@@ -37,7 +43,7 @@ impl PlainTable {
             self.drop_from(index, &mut told, generation, &mut changes);
             self.generations.truncate(index / CHUNK_ROWS);
             self.generations.push(generation);
-            self.rows.push(self::row(plant, MetamerId::new(index), style, None));
+            self.rows.push(make(MetamerId::new(index), None));
         }
         self.drop_from(count, &mut told, generation, &mut changes);
         changes.appended = changes.appended.start.max(told.len() as u32)..count as u32;
@@ -63,7 +69,7 @@ impl PlainTable {
     }
 }
 
-fn row(plant: &Plant, id: MetamerId, style: &Style, held: Option<Row>) -> Row {
+fn row(plant: &Plant, id: MetamerId, style: &Style, widths: &Widths<'_>, held: Option<Row>) -> Row {
     let metamers = plant.metamers();
     let parent = metamers.parent(id);
     let is_drawn = parent.is_some() && plant.is_alive(id);
@@ -82,7 +88,11 @@ fn row(plant: &Plant, id: MetamerId, style: &Style, held: Option<Row>) -> Row {
         starts_axis: parent
             .is_some_and(|below| plant.is_seed(below) || metamers.axis(below) != metamers.axis(id)),
         position: metamers.end(id).to_array().map(|length| (length * 256.0).round() as i32),
-        radius: if is_drawn { style.radius_code(metamers.tips(id)) } else { NOT_DRAWN },
+        radius: match widths.log_radius(id) {
+            _ if !is_drawn => NOT_DRAWN,
+            Some(log) => encode_log(log),
+            None => style.radius_code(metamers.tips(id)),
+        },
         foliage: vigor << 4 | foliage::leaves(plant, id, style),
         light,
     }

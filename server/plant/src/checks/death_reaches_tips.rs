@@ -16,15 +16,14 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
         living += u32::from(!plant.is_seed(id));
         let rooted = plant.metamers().parent(id).is_none_or(|parent| plant.is_alive(parent));
         require("death_reaches_tips", rooted, || format!("metamer {index} lives on a dead one"))?;
-        let on_axis = plant.is_axis_alive(plant.metamers().axis(id));
-        require("death_reaches_tips", on_axis, || format!("metamer {index} lives on a dead axis"))?;
     }
     for index in 0..plant.axis_count() {
         let id = AxisId::new(index);
-        let borne = plant.axes().bearer(id).is_none_or(|bearer| plant.is_alive(bearer));
-        require("death_reaches_tips", borne || !plant.is_axis_alive(id), || {
-            format!("axis {index} outlives its bearer")
-        })?;
+        require(
+            "death_reaches_tips",
+            !plant.is_axis_alive(id) || plant.is_alive(plant.bud_node(id)),
+            || format!("the bud of axis {index} outlives its node"),
+        )?;
     }
     require("death_reaches_tips", living == plant.living_count(), || {
         format!("{living} metamers live but {} are counted", plant.living_count())

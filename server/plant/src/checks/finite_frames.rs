@@ -1,4 +1,4 @@
-//! Positions are finite; headings and normals are unit vectors across each other.
+//! Positions are finite; headings and normals of what lives are unit vectors across each other.
 
 use glam::Vec3;
 
@@ -18,7 +18,8 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
         require("finite_frames", end.is_finite() && is_unit(normal), || {
             format!("metamer {index} has no frame")
         })?;
-        if plant.is_seed(id) {
+        // What is dead stays where it died, whatever moves below it.
+        if plant.is_seed(id) || !plant.is_alive(id) {
             continue;
         }
         let heading = plant.heading(id);

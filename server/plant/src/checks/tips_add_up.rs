@@ -1,10 +1,13 @@
-//! Each metamer carries as many tips as axes with wood begin on it or above, the shed ones included.
+//! Each metamer carries as many tips as axes with wood begin on it or above, the shed ones included and those
+//! pruned left out.
 
 use super::{Failure, require};
 use crate::{id::MetamerId, plant::Plant};
 
 pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
     let mut carried = vec![0u32; plant.metamer_count()];
+    let mut is_cut = vec![false; plant.metamer_count()];
+    plant.cuts().for_each(|cut| is_cut[cut.index()] = true);
     for index in (0..plant.metamer_count()).rev() {
         let id = MetamerId::new(index);
         let m = plant.metamers();
@@ -12,7 +15,9 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
             carried[index] += 1;
         }
         if let Some(parent) = m.parent(id) {
-            carried[parent.index()] += carried[index];
+            // Where an axis was cut its end is a tip again.
+            let kept = if is_cut[index] { u32::from(m.axis(parent) == m.axis(id)) } else { carried[index] };
+            carried[parent.index()] += if is_cut[index] && plant.is_seed(parent) { 0 } else { kept };
         }
         require("tips_add_up", carried[index] == m.tips(id), || {
             format!("metamer {index} carries {} tips, not {}", carried[index], m.tips(id))

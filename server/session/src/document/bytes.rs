@@ -4,7 +4,10 @@
 //! plant's columns, the simulation's state and the history, all little-endian; parameters as JSON, so that
 //! a document written before a parameter existed gets its default.
 
+mod hands;
 mod settings;
+mod times;
+mod wood;
 
 use std::{
     collections::BTreeMap,
@@ -12,25 +15,22 @@ use std::{
 };
 
 use espalier_growth::{
-    BrushSample, Guide, Marker, MarkerSource, Parameters, SIMULATION_VERSION, Simulation, SimulationState,
-    StrokeId, Waypoint,
+    Guide, Marker, MarkerSource, Parameters, SIMULATION_VERSION, Simulation, SimulationState, StrokeId,
+    Waypoint,
 };
-use espalier_plant::{AxisId, MetamerId, Plant, PlantParts, hash::StableHash};
+use espalier_plant::{AxisId, MetamerId, Plant, hash::StableHash};
 use espalier_proto::ParametersPatch;
 use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use glam::Vec3;
 
-use super::{
-    Document,
-    history::{History, Kind, Operation},
-    obstacles::Obstacles,
-    parameters,
-    strokes::{OpenStroke, OpenStrokes},
+use self::{
+    settings::Shelf,
+    wood::{read_plant, write_plant},
 };
-use settings::Shelf;
+use super::{Document, futures::Futures, obstacles::Obstacles, parameters};
 
 const MAGIC: &[u8; 8] = b"ESPALIER";
-const FORMAT: u32 = 2;
+const FORMAT: u32 = 3;
 const HEADER: usize = 24;
 /// No document is larger than this: the budget's metamers with all their columns fit many times over.
 const MAX_BODY: u64 = 4 << 30;
@@ -42,7 +42,7 @@ pub enum DocumentError {
     #[error("this is not an Espalier document")]
     NotADocument,
     /// Written by a later program.
-    #[error("the document has format {0}; this program reads format 1")]
+    #[error("the document has format {0}; this program reads format 3")]
     Format(u32),
     /// Cut short or changed since it was written.
     #[error("the document is damaged: {0}")]
@@ -50,18 +50,29 @@ pub enum DocumentError {
 }
 
 impl Document {
-    /// The whole document, its history included. Steps still pending are run first by the caller.
+    /// The whole document, its history and futures included. Steps still pending are run first by the caller.
     pub fn to_bytes(&self) -> Vec<u8> {
+        self.write(&self.futures)
+    }
+
+    /// The document with its present line of time alone, for keeping as a tree (`TT3`).
+    pub fn to_saved_bytes(&self) -> Vec<u8> {
+        self.write(&Futures::default())
+    }
+
+    fn write(&self, futures: &Futures) -> Vec<u8> {
         debug_assert!(self.pending.is_empty(), "a document is written between two actions");
         let mut body = Writer::default();
         write_plant(&mut body, &self.simulation.plant().to_parts());
         write_state(&mut body, &self.simulation.state());
-        let shelf = Shelf::of(&self.history, &self.obstacles.standing);
+        let shelf = Shelf::of(&self.history, futures, &self.obstacles.standing);
         shelf.write(&mut body);
         body.u32(shelf.set_number(&self.obstacles.standing));
         body.u32(self.obstacles.placed);
-        write_history(&mut body, &self.history, &shelf);
-        write_strokes(&mut body, &self.strokes);
+        times::write_history(&mut body, &self.history, &shelf);
+        times::write_futures(&mut body, futures, &shelf);
+        hands::write_strokes(&mut body, &self.strokes);
+        hands::write_bends(&mut body, &self.bends);
         body.u32(self.steps_begun);
         sealed(&body.0)
     }
@@ -97,8 +108,10 @@ impl Document {
             return Err(damaged("an obstacle was never placed"));
         }
         state.obstacles = Obstacles::solids(&obstacles.standing);
-        let history = read_history(&mut reader, &plant, &shelf)?;
-        let strokes = read_strokes(&mut reader, &plant)?;
+        let history = times::read_history(&mut reader, &plant, &shelf)?;
+        let futures = times::read_futures(&mut reader, &history, &shelf)?;
+        let strokes = hands::read_strokes(&mut reader, &plant)?;
+        let bends = hands::read_bends(&mut reader, &plant)?;
         let steps_begun = reader.u32()?;
         if !reader.0.is_empty() {
             return Err(damaged("something follows its end"));
@@ -106,7 +119,9 @@ impl Document {
         Ok(Self {
             simulation: Simulation::from_state(plant, state),
             history,
+            futures,
             strokes,
+            bends,
             obstacles,
             pending: Default::default(),
             steps_begun,
@@ -139,37 +154,6 @@ fn checksum(body: &[u8]) -> u64 {
         hash.word(chunk.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte)));
     }
     hash.finish()
-}
-
-fn write_plant(out: &mut Writer, parts: &PlantParts) {
-    out.u32(parts.now);
-    out.list(&parts.ends, |out, end| end.iter().for_each(|&n| out.u32(n)));
-    out.list(&parts.losses, |out, &axis| out.u32(axis));
-    for column in [&parts.parent, &parts.axis, &parts.death] {
-        out.list(column, |out, &value| out.u32(value));
-    }
-    for column in [&parts.end, &parts.normal] {
-        out.list(column, |out, &v| out.vector(v));
-    }
-    out.list(&parts.bearer, |out, &value| out.u32(value));
-    out.list(&parts.direction, |out, &v| out.vector(v));
-    out.list(&parts.axis_death, |out, &value| out.u32(value));
-}
-
-fn read_plant(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
-    Ok(PlantParts {
-        now: reader.u32()?,
-        ends: reader.list(|r| Ok([r.u32()?, r.u32()?, r.u32()?]))?,
-        losses: reader.list(Reader::u32)?,
-        parent: reader.list(Reader::u32)?,
-        axis: reader.list(Reader::u32)?,
-        death: reader.list(Reader::u32)?,
-        end: reader.list(Reader::vector)?,
-        normal: reader.list(Reader::vector)?,
-        bearer: reader.list(Reader::u32)?,
-        direction: reader.list(Reader::vector)?,
-        axis_death: reader.list(Reader::u32)?,
-    })
 }
 
 fn write_state(out: &mut Writer, state: &SimulationState) {
@@ -227,70 +211,6 @@ fn read_state(reader: &mut Reader<'_>, plant: &Plant) -> Result<SimulationState,
     })
 }
 
-fn write_history(out: &mut Writer, history: &History, shelf: &Shelf) {
-    out.u32(history.done as u32);
-    out.list(&history.operations, |out, operation| {
-        out.0.push(operation.kind as u8);
-        out.text(&operation.author);
-        out.option(operation.gesture);
-        out.u32(operation.first);
-        out.u32(operation.last);
-        shelf.write_setting(out, &operation.before);
-        shelf.write_setting(out, &operation.after);
-    });
-}
-
-fn read_history(reader: &mut Reader<'_>, plant: &Plant, shelf: &Shelf) -> Result<History, DocumentError> {
-    let done = reader.u32()? as usize;
-    let operations = reader.list(|r| {
-        let kind = match r.u8()? {
-            0 => Kind::Stroke,
-            1 => Kind::Growth,
-            2 => Kind::Parameters,
-            3 => Kind::Seed,
-            4 => Kind::Lasso,
-            5 => Kind::Obstacle,
-            _ => return Err(damaged("an operation of unknown kind")),
-        };
-        let (author, gesture) = (r.text()?, r.option()?);
-        let (first, last) = (r.u32()?, r.u32()?);
-        if first > last || last > plant.last_step() {
-            return Err(damaged("an operation spans steps that are not there"));
-        }
-        let (before, after) = (shelf.read_setting(r)?, shelf.read_setting(r)?);
-        Ok(Operation { kind, author, gesture, first, last, before, after })
-    })?;
-    if done > operations.len() {
-        return Err(damaged("more operations are in force than there are"));
-    }
-    Ok(History { operations, done })
-}
-
-fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
-    out.u32(strokes.begun);
-    out.list(&strokes.open, |out, stroke| {
-        out.text(&stroke.author);
-        out.u32(stroke.number);
-        out.u32(stroke.id.0);
-        out.option(stroke.chosen.map(MetamerId::raw));
-        out.list(stroke.last.as_slice(), |out, last| {
-            out.vector(last.position);
-            out.f32(last.radius);
-        });
-    });
-}
-
-fn read_strokes(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenStrokes, DocumentError> {
-    let begun = reader.u32()?;
-    let open = reader.list(|r| {
-        let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
-        let chosen = r.metamer(plant)?;
-        let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
-        Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
-    })?;
-    Ok(OpenStrokes { open, begun })
-}
-
 #[derive(Default)]
 struct Writer(Vec<u8>);
 
@@ -303,6 +223,10 @@ impl Writer {
         self.u32(value.to_bits());
     }
 
+    fn f64(&mut self, value: f64) {
+        self.0.extend_from_slice(&value.to_bits().to_le_bytes());
+    }
+
     fn vector(&mut self, v: Vec3) {
         v.to_array().into_iter().for_each(|c| self.f32(c));
     }
@@ -310,6 +234,19 @@ impl Writer {
     fn option(&mut self, value: Option<u32>) {
         self.0.push(u8::from(value.is_some()));
         self.u32(value.unwrap_or(0));
+    }
+
+    fn tagged(&mut self, tag: u8, row: u32) {
+        self.0.push(tag);
+        self.u32(row);
+    }
+
+    fn numbers(&mut self, column: &[u32]) {
+        self.list(column, |out, &value| out.u32(value));
+    }
+
+    fn vectors(&mut self, column: &[Vec3]) {
+        self.list(column, |out, &v| out.vector(v));
     }
 
     fn text(&mut self, text: &str) {
@@ -355,6 +292,11 @@ impl Reader<'_> {
         if value.is_finite() { Ok(value) } else { Err(damaged("a number is not finite")) }
     }
 
+    fn f64(&mut self) -> Result<f64, DocumentError> {
+        let value = f64::from_bits(self.u64()?);
+        if value.is_finite() { Ok(value) } else { Err(damaged("a number is not finite")) }
+    }
+
     fn vector(&mut self) -> Result<Vec3, DocumentError> {
         Ok(Vec3::new(self.f32()?, self.f32()?, self.f32()?))
     }
@@ -362,6 +304,11 @@ impl Reader<'_> {
     fn option(&mut self) -> Result<Option<u32>, DocumentError> {
         let (is_some, value) = (self.u8()?, self.u32()?);
         Ok((is_some != 0).then_some(value))
+    }
+
+    /// A row, which is never the greatest number.
+    fn row(&mut self) -> Result<u32, DocumentError> {
+        Some(self.u32()?).filter(|&row| row != u32::MAX).ok_or_else(|| damaged("a row is none"))
     }
 
     /// An axis of the plant, or none.

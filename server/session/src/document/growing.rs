@@ -75,6 +75,7 @@ impl Document {
             }
         }
         self.history.reach(self.simulation.plant().step());
+        self.release_lost_bends();
         if self.pending.is_empty() && self.strokes.is_empty() {
             self.history.forget_idle();
         }
@@ -127,7 +128,8 @@ impl Document {
     ) -> Result<(), Problem> {
         self.require_room()?;
         let chosen = self.chosen(bud)?;
-        let continues = self.history.continues(author, gesture, self.plant().step());
+        let now = self.plant().step();
+        let continues = self.history.continues(&[Kind::Growth, Kind::Prune], author, gesture, now);
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, author, gesture);
         }

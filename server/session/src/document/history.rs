@@ -1,9 +1,10 @@
-//! Operations: what undo takes back as a whole, each a span of simulation steps.
+//! Operations: what undo takes back as a whole, each a span of simulation steps on the present line of time.
 
 use std::sync::Arc;
 
 use espalier_growth::Parameters;
 use espalier_plant::hash::StableHash;
+use glam::Quat;
 
 use super::obstacles::Standings;
 
@@ -23,6 +24,36 @@ pub(super) enum Kind {
     Lasso = 4,
     /// An obstacle placed, moved or removed.
     Obstacle = 5,
+    /// A branch bent.
+    Bend = 6,
+    /// A width constraint set or removed.
+    Width = 7,
+    /// Branches cut.
+    Prune = 8,
+    /// A branch turned.
+    Turn = 9,
+    /// A branch copied or moved.
+    Graft = 10,
+}
+
+impl Kind {
+    const ALL: [Self; 11] = [
+        Self::Stroke,
+        Self::Growth,
+        Self::Parameters,
+        Self::Seed,
+        Self::Lasso,
+        Self::Obstacle,
+        Self::Bend,
+        Self::Width,
+        Self::Prune,
+        Self::Turn,
+        Self::Graft,
+    ];
+
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code)).copied()
+    }
 }
 
 /// What growth works with and an operation may change.
@@ -40,43 +71,66 @@ pub(super) struct Operation {
     pub gesture: Option<u32>,
     /// The step it started from.
     pub first: u32,
-    /// The step it led to; the same for operations that do not grow anything.
+    /// The step it led to; the same for operations that do not take any.
     pub last: u32,
-    pub before: Setting,
+    /// The setting from its beginning on.
     pub after: Setting,
+    /// Places of wood that it keeps because it moved them (`LM11`).
+    pub places: u32,
 }
 
-/// All operations, those undone behind those in force.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// The edit made last, which another one of the same gesture may take the place of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Latest {
+    /// The step it led to.
+    pub step: u32,
+    /// The metamer it concerned.
+    pub row: u32,
+    /// By how much it was turned; nothing for widths.
+    pub rotation: Option<Quat>,
+}
+
+/// All operations of the present line, those undone behind those in force.
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct History {
     pub operations: Vec<Operation>,
     /// How many are in force, the last of them perhaps in part.
     pub done: usize,
+    /// The setting before the first of them.
+    pub initial: Setting,
+    pub latest: Option<Latest>,
 }
 
 impl History {
-    pub fn can_undo(&self) -> bool {
-        self.done > 0
-    }
-
-    pub fn can_redo(&self, now: u32) -> bool {
-        self.done < self.operations.len() || self.current().is_some_and(|operation| now < operation.last)
+    pub fn new(initial: Setting) -> Self {
+        Self { operations: Vec::new(), done: 0, initial, latest: None }
     }
 
     /// The last operation in force.
-    fn current(&self) -> Option<&Operation> {
+    pub fn current(&self) -> Option<&Operation> {
         self.done.checked_sub(1).map(|last| &self.operations[last])
     }
 
-    /// Starts an operation at step `now`.
-    pub fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>, now: u32, mut setting: Setting) {
-        self.operations.truncate(self.done);
-        if let Some(last) = self.operations.last_mut() {
-            last.last = last.last.min(now);
-            // Most operations change no parameters: they share one set.
-            if last.after.parameters == setting.parameters {
-                setting.parameters = Arc::clone(&last.after.parameters);
-            }
+    /// Whether the last operation in force reaches beyond a step.
+    pub fn is_in_part(&self, now: u32) -> bool {
+        self.current().is_some_and(|operation| now < operation.last)
+    }
+
+    pub fn can_redo(&self, now: u32) -> bool {
+        self.done < self.operations.len() || self.is_in_part(now)
+    }
+
+    /// The setting that belongs to what is in force.
+    pub fn setting(&self) -> &Setting {
+        self.current().map_or(&self.initial, |operation| &operation.after)
+    }
+
+    /// Adds an operation at step `now`, where nothing lies ahead.
+    pub fn push(&mut self, kind: Kind, author: &str, gesture: Option<u32>, now: u32, mut after: Setting) {
+        debug_assert_eq!(self.done, self.operations.len(), "what lay ahead is a future by now");
+        // Most operations change no parameters: they share one set.
+        if self.setting().parameters == after.parameters {
+            after.parameters = Arc::clone(&self.setting().parameters);
         }
         self.operations.push(Operation {
             kind,
@@ -84,15 +138,16 @@ impl History {
             gesture,
             first: now,
             last: now,
-            before: setting.clone(),
-            after: setting,
+            after,
+            places: 0,
         });
         self.done += 1;
+        self.latest = None;
     }
 
     /// The operation in progress has reached a step.
     pub fn reach(&mut self, now: u32) {
-        self.operations.truncate(self.done);
+        debug_assert_eq!(self.done, self.operations.len(), "growth always belongs to the last operation");
         if let Some(last) = self.operations.last_mut() {
             last.last = now;
         }
@@ -101,7 +156,7 @@ impl History {
     /// Forgets the last operation if it neither grew nor changed anything: undoing it would show nothing.
     pub fn forget_idle(&mut self) {
         let idle = |last: &Operation| {
-            last.first == last.last && matches!(last.kind, Kind::Stroke | Kind::Growth | Kind::Lasso)
+            last.first == last.last && !matches!(last.kind, Kind::Parameters | Kind::Obstacle)
         };
         if self.done == self.operations.len() && self.current().is_some_and(idle) {
             self.operations.pop();
@@ -116,48 +171,62 @@ impl History {
         }
     }
 
-    /// Whether growth at step `now` belongs to the last operation: same author, same gesture, nothing between.
-    pub fn continues(&self, author: &str, gesture: Option<u32>, now: u32) -> bool {
+    /// The operation in progress keeps so many places of wood more.
+    pub fn keep_places(&mut self, places: usize) {
+        if let Some(last) = self.operations.last_mut() {
+            last.places = last.places.saturating_add(places as u32);
+        }
+    }
+
+    /// Whether what is done at step `now` belongs to the last operation if that is one of these kinds: same
+    /// author, same gesture, nothing between.
+    pub fn continues(&self, kinds: &[Kind], author: &str, gesture: Option<u32>, now: u32) -> bool {
         gesture.is_some()
             && self.done == self.operations.len()
             && self.current().is_some_and(|last| {
-                last.kind == Kind::Growth
+                kinds.contains(&last.kind)
                     && last.author == author
                     && last.gesture == gesture
                     && last.last == now
             })
     }
 
-    /// Time has gone back to a step: operations that lie beyond it are not in force any more.
-    pub fn go_back_to(&mut self, now: u32) {
-        while self.current().is_some_and(|last| last.last > now && last.first >= now || last.first > now) {
-            self.done -= 1;
-        }
+    /// How many operations are in force at a step; changes made at that very step are.
+    pub fn done_at(&self, step: u32) -> usize {
+        let is_in_force = |op: &Operation| op.first < step || op.first == step && op.last == step;
+        self.operations.iter().take_while(|operation| is_in_force(operation)).count()
     }
 
-    /// Takes the last operation out of force and returns it.
-    pub fn undo(&mut self) -> Option<&Operation> {
+    /// The step to go to for taking back the last operation in force, which is in force no more.
+    pub fn undo(&mut self) -> Option<u32> {
         self.done = self.done.checked_sub(1)?;
-        Some(&self.operations[self.done])
+        Some(self.operations[self.done].first)
     }
 
-    /// Brings the operation that was left in part, or the next one, into force and returns it.
-    pub fn redo(&mut self, now: u32) -> Option<&Operation> {
-        let in_part = self.current().is_some_and(|operation| now < operation.last);
-        if !in_part {
+    /// The step to go to for the operation that was left in part, or else the next one, which is in force now.
+    pub fn redo(&mut self, now: u32) -> Option<u32> {
+        if !self.is_in_part(now) {
             if self.done == self.operations.len() {
                 return None;
             }
             self.done += 1;
         }
-        self.current()
+        self.current().map(|operation| operation.last)
     }
 
     pub fn hash(&self, hash: &mut StableHash) {
         hash.word(self.done as u64);
-        for operation in &self.operations {
-            hash.word(operation.kind as u64);
-            hash.word(u64::from(operation.first) | u64::from(operation.last) << 32);
+        hash_operations(&self.operations, hash);
+        if let Some(latest) = self.latest {
+            hash.word(u64::from(latest.step) | u64::from(latest.row) << 32);
         }
+    }
+}
+
+pub(super) fn hash_operations(operations: &[Operation], hash: &mut StableHash) {
+    for operation in operations {
+        hash.word(operation.kind as u64);
+        hash.word(u64::from(operation.first) | u64::from(operation.last) << 32);
+        hash.word(u64::from(operation.places));
     }
 }

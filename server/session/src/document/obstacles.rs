@@ -145,8 +145,10 @@ impl Document {
     }
 
     fn held_triangles(&self) -> usize {
-        let history = self.history.operations[..self.history.done].iter().map(|op| &op.after.obstacles);
-        let sets = history.chain([&self.obstacles.standing]);
+        let futures = self.futures.all.iter().flat_map(|future| &future.operations);
+        let operations = self.history.operations.iter().chain(futures);
+        let history = operations.map(|operation| &operation.after.obstacles);
+        let sets = history.chain([&self.history.initial.obstacles, &self.obstacles.standing]);
         let meshes: BTreeMap<u32, usize> = sets
             .flat_map(|set| set.iter())
             .filter_map(|standing| Some((standing.id, standing.obstacle.mesh()?.triangles.len())))

@@ -1,9 +1,10 @@
 //! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
 
-use espalier_plant::checks;
+mod histories;
+mod shaping;
+
 use espalier_proto::Shape;
 use glam::{Quat, Vec2};
-use proptest::prelude::*;
 
 use super::*;
 use crate::{
@@ -144,7 +145,7 @@ fn lifted_brushes_leave_operations_apart() {
     document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
     let samples = vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)];
     document.apply("ann", &Action::StrokeMove { stroke: 1, samples }).expect("open");
-    document.lift_brushes();
+    document.lift_hands();
     let step = document.plant().step();
     grow(&mut document, 2, None);
     document.apply("bob", &Action::Undo).expect("growth is an operation of its own");
@@ -281,126 +282,4 @@ fn slab() -> Shape {
     let mesh =
         Mesh { vertices: corners.map(Vec3::from_array).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
     Shape::Mesh { mesh: mesh.to_base64(), scale: 1.5 }
-}
-
-#[derive(Clone, Debug)]
-enum Event {
-    Stroke,
-    Grow(u32),
-    Ungrow(u32),
-    Undo,
-    Redo,
-    Apical(f32),
-    Seed(f32),
-    Begin(u32),
-    Move(u32, f32, f32, f32),
-    End(u32),
-    Lasso(f32, f32),
-    Choose(u32),
-    Ball(f32, f32),
-    Mesh(f32),
-    Push(u32, f32),
-    Clear(u32),
-}
-
-fn events() -> impl Strategy<Value = Vec<Event>> {
-    let event = prop_oneof![
-        1 => Just(Event::Stroke),
-        2 => (1u32..5).prop_map(Event::Grow),
-        2 => (1u32..9).prop_map(Event::Ungrow),
-        2 => Just(Event::Undo),
-        2 => Just(Event::Redo),
-        1 => (0.3f32..0.8).prop_map(Event::Apical),
-        1 => (-20f32..20.0).prop_map(Event::Seed),
-        1 => (90u32..92).prop_map(Event::Begin),
-        2 => (90u32..92, -6f32..6.0, 0f32..14.0, 0f32..4.0).prop_map(|(n, x, y, r)| Event::Move(n, x, y, r)),
-        1 => (90u32..92).prop_map(Event::End),
-        1 => (0.5f32..6.0, 1f32..14.0).prop_map(|(w, h)| Event::Lasso(w, h)),
-        1 => (0u32..200).prop_map(Event::Choose),
-        1 => (-9f32..9.0, 1f32..5.0).prop_map(|(x, r)| Event::Ball(x, r)),
-        1 => (-9f32..9.0).prop_map(Event::Mesh),
-        1 => (1u32..4, -9f32..9.0).prop_map(|(id, x)| Event::Push(id, x)),
-        1 => (1u32..4).prop_map(Event::Clear),
-    ];
-    prop::collection::vec(event, 1..14)
-}
-
-fn happen(document: &mut Document, number: usize, event: &Event) {
-    let action = match event {
-        Event::Stroke => return stroke(document, 1000 + number as u32),
-        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None, bud: None },
-        Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
-        Event::Undo => Action::Undo,
-        Event::Redo => Action::Redo,
-        Event::Apical(value) => patch(*value),
-        Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
-        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
-        Event::Move(stroke, x, y, r) => {
-            Action::StrokeMove { stroke: *stroke, samples: vec![sample(*x, *y, *r)] }
-        }
-        Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
-        Event::Lasso(w, h) => lasso(*w, *h),
-        Event::Choose(row) => Action::Grow { steps: 2, gesture: None, bud: Some(*row) },
-        Event::Ball(x, radius) => place(&Shape::Sphere { radius: *radius }, *x),
-        Event::Mesh(x) => place(&slab(), *x),
-        Event::Push(id, x) => Action::MoveObstacle { id: *id, pose: pose(*x) },
-        Event::Clear(id) => Action::RemoveObstacle { id: *id },
-    };
-    let before = document.hash();
-    if document.apply("ann", &action).is_err() {
-        assert_eq!(document.hash(), before, "a refused {event:?} changed something");
-    }
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
-
-    #[test]
-    fn histories_undo_redo_and_read_back_exactly(seed: u32, events in events()) {
-        let mut document = Document::new(seed);
-        document.set_metamer_budget(4000);
-        for (number, event) in events.iter().enumerate() {
-            happen(&mut document, number, event);
-            prop_assert_eq!(checks::all(document.plant()), Ok(()));
-        }
-        // Written down and read again it is the same, and goes on the same.
-        let mut copy = Document::from_bytes(&document.to_bytes()).expect("our own bytes");
-        prop_assert_eq!(copy.hash(), document.hash());
-        for event in [Event::Move(90, 3.0, 9.0, 0.0), Event::Grow(2), Event::Undo, Event::Redo] {
-            happen(&mut document, 500, &event);
-            happen(&mut copy, 500, &event);
-            prop_assert_eq!(copy.hash(), document.hash());
-        }
-        // All the way back is the seedling; all the way forth is the end again.
-        while document.apply("ann", &Action::Redo).is_ok() {}
-        let end = (document.plant().hash(), document.parameters(), document.obstacles());
-        while document.apply("ann", &Action::Undo).is_ok() {}
-        prop_assert_eq!(document.plant().hash(), Document::new(seed).plant().hash());
-        // Ungrowing keeps the parameters, to grow again with others; undoing alone brings the first ones back.
-        if !events.iter().any(|event| matches!(event, Event::Ungrow(_))) {
-            prop_assert_eq!(document.parameters(), Document::new(seed).parameters());
-            prop_assert_eq!(document.obstacles(), []);
-        }
-        while document.apply("ann", &Action::Redo).is_ok() {}
-        prop_assert_eq!((document.plant().hash(), document.parameters(), document.obstacles()), end);
-    }
-
-    #[test]
-    fn damaged_bytes_never_panic(cut in 0usize..4000, at in 0usize..4000, with: u8) {
-        let mut document = Document::new(9);
-        stroke(&mut document, 1);
-        let mut bytes = document.to_bytes();
-        let at = at % bytes.len();
-        bytes[at] ^= with;
-        bytes.truncate(bytes.len().saturating_sub(cut % 50));
-        // Only untouched bytes, or a touched field that nothing is checked against, may pass.
-        if let Ok(read) = Document::from_bytes(&bytes) {
-            prop_assert_eq!(read.hash(), document.hash());
-        }
-    }
-
-    #[test]
-    fn arbitrary_bodies_never_panic(body in prop::collection::vec(any::<u8>(), 0..400)) {
-        prop_assert!(Document::from_bytes(&bytes::sealed(&body)).is_err());
-    }
 }

@@ -25,12 +25,15 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, acts, documents, snapshot } = work.take_report();
+        let Report { delta, catch_ups, refused, poses, foresights, acts, documents, snapshot } =
+            work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }
+        self.take_poses(poses);
+        self.outputs.extend(foresights.into_iter().map(|foresight| Output::Foresee(Box::new(foresight))));
         for refusal in refused {
             // The session's own commands have number 0, and nobody waits for their answer.
             let client = self.authors.get(&refusal.author).and_then(|author| author.client);
@@ -65,6 +68,10 @@ impl Session {
             self.scenery = Scenery::of(&work.document);
             self.broadcast(&self.obstacles_message());
         }
+        let (timeline, widths) = (work.document.timeline(), work.document.widths());
+        self.upkeep.timeline_changed |= timeline != self.timeline;
+        self.upkeep.widths_changed |= widths != self.widths;
+        (self.timeline, self.widths) = (timeline, widths);
     }
 
     /// Sends the delta to all in step; a client whose window is closed falls out of step instead (`FL2`).
@@ -99,6 +106,7 @@ impl Session {
         self.queue.orders.iter().for_each(|order| work.stops.note(order.number, &order.action));
         self.queue.send_along(&mut work.orders);
         work.reads.append(&mut self.reads);
+        self.ask_questions(&mut work);
         work.snapshot_wanted |= self.snapshot_due(work.applied);
         work.delta_wanted = false;
         for (&client, state) in &mut self.clients {
@@ -130,7 +138,7 @@ impl Session {
         to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people())
     }
 
-    fn guest_mut(&mut self, client: ClientId) -> Option<&mut Guest> {
+    pub(super) fn guest_mut(&mut self, client: ClientId) -> Option<&mut Guest> {
         self.clients.get_mut(&client)?.guest.as_mut()
     }
 }

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::Session;
 use crate::{
-    clients::{Client, Guest, View},
+    clients::{Client, Guest, View, Vision, Watch},
     io::ClientId,
     to_proto::Held,
     window::Window,
@@ -61,7 +61,13 @@ impl Session {
         let resumed = resume.is_some();
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
         if let Some(client) = self.clients.get_mut(&client) {
-            client.guest = Some(Guest { key, window: Window::default(), view });
+            client.guest = Some(Guest {
+                key,
+                window: Window::default(),
+                view,
+                watch: Watch::default(),
+                vision: Vision::default(),
+            });
         }
         let welcome = ServerMessage::Welcome {
             protocol: PROTOCOL_VERSION,
@@ -76,11 +82,16 @@ impl Session {
         if !self.scenery.obstacles.is_empty() {
             self.send(client, &self.obstacles_message());
         }
+        if !self.widths.is_empty() {
+            self.send(client, &ServerMessage::Widths { widths: self.widths.clone() });
+        }
+        self.send(client, &ServerMessage::Timeline(Box::new(self.timeline.clone())));
         self.upkeep.state_changed = true;
     }
 
     pub(super) fn forget(&mut self, id: ClientId) {
         let Some(Client { guest: Some(guest), .. }) = self.clients.remove(&id) else { return };
+        guest.vision.cancel();
         self.author_left(&guest.key, id);
         self.upkeep.state_changed = true;
     }

@@ -1,4 +1,4 @@
-//! What happens by the clock: late hellos, strokes left open, snapshots, figures for everybody.
+//! What happens by the clock: late hellos, strokes and bends left open, snapshots, news for everybody.
 
 use std::{
     collections::{BTreeSet, VecDeque},
@@ -7,7 +7,7 @@ use std::{
 
 use espalier_proto::{Command, DocumentState, ServerMessage, version::CloseCode};
 
-use super::Session;
+use super::{Session, text_of};
 use crate::{
     action::Action,
     io::{ClientId, Output},
@@ -17,6 +17,8 @@ use crate::{
 const ABSENCE_MS: u64 = 30_000;
 /// Figures go out no more often than this, in milliseconds.
 const STATE_MS: u64 = 50;
+/// Lines of time go out no faster than this, and no more often than figures.
+const TIMELINE_BYTES_PER_MS: u64 = 256;
 /// After so many commands a snapshot is made.
 const SNAPSHOT_COMMANDS: u64 = 512;
 /// A snapshot costs in proportion to the plants; with so many metamers more, wait for one command more.
@@ -39,6 +41,12 @@ pub(super) struct Upkeep {
     /// What clients were told last.
     pub(super) told: DocumentState,
     state_due: u64,
+    /// Whether lines of time differ from what clients were told.
+    pub(super) timeline_changed: bool,
+    timeline_due: u64,
+    /// Whether width constraints do.
+    pub(super) widths_changed: bool,
+    widths_due: u64,
     pub(super) last_command_at: u64,
     /// The last entry in a snapshot that was handed out.
     snapshotted: u64,
@@ -58,6 +66,10 @@ impl Upkeep {
             state_changed: false,
             told: DocumentState::default(),
             state_due: 0,
+            timeline_changed: false,
+            timeline_due: 0,
+            widths_changed: false,
+            widths_due: 0,
             last_command_at: 0,
             snapshotted,
             snapshot_asked: false,
@@ -94,7 +106,7 @@ impl Session {
         let until = self.now + ABSENCE_MS;
         let Some(work) = &self.home else { return };
         for (key, author) in self.authors.iter_mut() {
-            if !work.document.open_strokes(key).is_empty() {
+            if !work.document.open_strokes(key).is_empty() || !work.document.open_bends(key).is_empty() {
                 author.strokes_end_at = Some(until);
                 self.upkeep.absences.push_back((until, Arc::clone(key)));
             }
@@ -127,7 +139,7 @@ impl Session {
                 self.upkeep.overdue.insert(key);
             }
         }
-        self.end_overdue_strokes();
+        self.let_go_of_overdue();
         self.hand_out_snapshot();
         if self.upkeep.state_changed && self.now >= self.upkeep.state_due {
             self.upkeep.state_changed = false;
@@ -135,10 +147,21 @@ impl Session {
             self.upkeep.told = self.state();
             self.broadcast(&ServerMessage::State { state: self.upkeep.told.clone() });
         }
+        if self.upkeep.widths_changed && self.now >= self.upkeep.widths_due {
+            self.upkeep.widths_changed = false;
+            self.upkeep.widths_due = self.now + STATE_MS;
+            self.broadcast(&ServerMessage::Widths { widths: self.widths.clone() });
+        }
+        if self.upkeep.timeline_changed && self.now >= self.upkeep.timeline_due {
+            self.upkeep.timeline_changed = false;
+            let text = text_of(&ServerMessage::Timeline(Box::new(self.timeline.clone())));
+            self.upkeep.timeline_due = self.now + STATE_MS.max(text.len() as u64 / TIMELINE_BYTES_PER_MS);
+            self.broadcast_text(&text);
+        }
     }
 
-    /// Ends the strokes of those who stayed away, once it is known which are open.
-    fn end_overdue_strokes(&mut self) {
+    /// Ends the strokes and bends of those who stayed away, once it is known which are open.
+    fn let_go_of_overdue(&mut self) {
         let Some(work) = &self.home else { return };
         let orders = || work.orders.iter().chain(&self.queue.orders);
         let mut ends = Vec::new();
@@ -146,12 +169,16 @@ impl Session {
             if orders().any(|order| order.author == *key) {
                 return true;
             }
-            ends.extend(work.document.open_strokes(key).into_iter().map(|stroke| (Arc::clone(key), stroke)));
+            let strokes = work.document.open_strokes(key).into_iter();
+            let strokes = strokes.map(|stroke| (Command::StrokeEnd { stroke }, Action::StrokeEnd { stroke }));
+            let bends = work.document.open_bends(key).into_iter();
+            let bends = bends.map(|bend| (Command::BendEnd { bend }, Action::BendEnd { bend }));
+            ends.extend(strokes.chain(bends).map(|(command, action)| (Arc::clone(key), command, action)));
             false
         });
-        for (key, stroke) in ends {
-            let Ok(text) = serde_json::to_string(&Command::StrokeEnd { stroke }) else { continue };
-            self.accept(&key, 0, Action::StrokeEnd { stroke }, text, None);
+        for (key, command, action) in ends {
+            let Ok(text) = serde_json::to_string(&command) else { continue };
+            self.accept(&key, 0, action, text, None);
         }
     }
 
@@ -179,12 +206,14 @@ impl Session {
     pub(super) fn ask_to_be_woken(&mut self) {
         let upkeep = &self.upkeep;
         let state = upkeep.state_changed.then_some(upkeep.state_due);
+        let timeline = upkeep.timeline_changed.then_some(upkeep.timeline_due);
+        let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
         let unkept =
             self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked && upkeep.snapshot.is_none();
         let pause = (unkept && self.home.is_some()).then_some(upkeep.last_command_at + SNAPSHOT_PAUSE_MS);
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
-        let earliest = [state, pause, hello, absence].into_iter().flatten().min();
+        let earliest = [state, timeline, widths, pause, hello, absence].into_iter().flatten().min();
         if earliest != upkeep.wake_at {
             self.upkeep.wake_at = earliest;
             self.outputs.extend(earliest.map(Output::WakeAt));

@@ -108,7 +108,7 @@ fn cm3_a_refused_number_is_refused_again() {
 fn cm3_unreadable_commands_take_their_number() {
     let mut world = World::new();
     let client = world.join("birch-01");
-    world.text(client, r#"{"type":"command","id":1,"command":{"kind":"graft"}}"#);
+    world.text(client, r#"{"type":"command","id":1,"command":{"kind":"grill"}}"#);
     world.text(client, r#"{"type":"command","id":2,"command":{"kind":"grow","steps":"many"}}"#);
     world.text(client, r#"{"type":"command","id":3}"#);
     world.command(client, 4, grow(1));

@@ -102,7 +102,7 @@ fn fl1_received_ahead_of_time_is_a_problem() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.settle();
-    world.send(client, &ClientMessage::Received { sequence: 9_999 });
+    world.send(client, &ClientMessage::Received { sequence: 9_999, kind: 1 });
     let problems = world.peer(client).problems();
     assert_eq!(problems.len(), 1);
     assert_eq!(problems[0].code, ProblemCode::OutOfRange);

@@ -21,6 +21,7 @@ enum Deed {
     /// Answers frames from now on, or does not.
     Slow(usize, bool),
     Garbage(usize, String),
+    Predict(usize, Vec<u32>, u32),
     Binary(usize),
     Read,
     Pass(u64),
@@ -56,6 +57,34 @@ fn command() -> impl Strategy<Value = Command> {
         }),
         1 => (0u32..4, -6.0f32..6.0).prop_map(|(id, x)| Command::MoveObstacle { id, pose: pose(x, 1.0) }),
         1 => (0u32..4).prop_map(|id| Command::RemoveObstacle { id }),
+        10 => shaping(),
+    ]
+}
+
+fn shaping() -> impl Strategy<Value = Command> {
+    let row = || 1u32..60;
+    let gesture = || prop::option::of(0u32..2);
+    let rotation = (-1.0f32..1.0).prop_map(|x| [x, 0.0, 0.0, (1.0 - x * x).sqrt()]).boxed();
+    let again = rotation.clone();
+    let place = || prop::array::uniform3(-3.0f32..9.0);
+    prop_oneof![
+        4 => (0u32..2, row(), prop::collection::vec(row(), 1..3), 0.0f32..1.0)
+            .prop_map(|(bend, base, touches, stretch)| Command::BendBegin { bend, base, touches, stretch }),
+        4 => (0u32..2, prop::collection::vec(place(), 1..3))
+            .prop_map(|(bend, targets)| Command::BendMove { bend, targets }),
+        2 => (0u32..2).prop_map(|bend| Command::BendEnd { bend }),
+        1 => (0u32..2).prop_map(|bend| Command::BendCancel { bend }),
+        2 => (row(), prop::option::of(0.05f32..2.0), gesture())
+            .prop_map(|(row, diameter, gesture)| Command::SetWidth { row, diameter, gesture }),
+        2 => (prop::collection::vec(row(), 1..3), gesture())
+            .prop_map(|(rows, gesture)| Command::Prune { rows, gesture }),
+        1 => (0.0f32..1.0).prop_map(|exposure| Command::PruneDim { exposure }),
+        2 => (row(), rotation, gesture())
+            .prop_map(|(row, rotation, gesture)| Command::TurnBranch { row, rotation, gesture }),
+        2 => (row(), row(), again, any::<bool>())
+            .prop_map(|(row, onto, rotation, keep)| Command::Graft { row, onto, rotation, keep }),
+        3 => (0u32..30).prop_map(|step| Command::GoTo { step }),
+        3 => (0u32..6).prop_map(|future| Command::TakeFuture { future }),
     ]
 }
 
@@ -73,6 +102,8 @@ fn deed() -> impl Strategy<Value = Deed> {
         2 => (who(), any::<bool>()).prop_map(|(who, slow)| Deed::Slow(who, slow)),
         1 => (who(), ".{0,40}").prop_map(|(who, text)| Deed::Garbage(who, text)),
         1 => who().prop_map(Deed::Binary),
+        2 => (who(), prop::collection::vec(1u32..60, 0..3), 0u32..8)
+            .prop_map(|(who, rows, steps)| Deed::Predict(who, rows, steps)),
         1 => Just(Deed::Read),
         6 => (0u64..40).prop_map(Deed::Pass),
         1 => (0u64..40_000).prop_map(Deed::Pass),
@@ -148,6 +179,10 @@ impl Crowd {
             Deed::Garbage(who, text) => {
                 let client = self.arrive(who);
                 self.world.text(client, &text);
+            }
+            Deed::Predict(who, rows, steps) => {
+                let client = self.arrive(who);
+                self.world.send(client, &ClientMessage::Predict { rows, steps });
             }
             Deed::Binary(who) => {
                 let client = self.arrive(who);
@@ -257,8 +292,12 @@ proptest! {
             "lasso",
             "place_obstacle",
             "move_obstacle",
+            "bend_begin",
+            "set_width",
+            "graft",
+            "take_future",
         ] {
-            for field in [field.as_str(), "steps", "samples", "position", "parameters", "outline", "plane", "obstacle", "pose"] {
+            for field in [field.as_str(), "steps", "touches", "row", "diameter", "rotation", "future", "samples", "position", "parameters", "outline", "plane", "obstacle", "pose"] {
                 let command = serde_json::json!({ "kind": kind, field: number });
                 world.text(client, &serde_json::json!({"type": "command", "id": id, "command": command}).to_string());
                 world.text(client, &serde_json::json!({"type": kind, field: number, "id": id}).to_string());

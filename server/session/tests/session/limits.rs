@@ -76,7 +76,7 @@ fn unreadable_fields_are_named() {
     check(not_a_number, Err((BAD, Some("parameters.leaf_size"))));
     let infinite = r#"{"kind":"set_parameters","parameters":{"leaf_size":1e39}}"#;
     check(infinite, Err((OUT, Some("parameters.leaf_size"))));
-    check(r#"{"kind":"graft"}"#, Err((BAD, Some("kind"))));
+    check(r#"{"kind":"grill"}"#, Err((BAD, Some("kind"))));
     check("grow", Err((BAD, None)));
 }
 

@@ -11,5 +11,6 @@ mod handshake;
 mod limits;
 mod mirror;
 mod obstacles;
+mod shaping;
 mod stopping;
 mod world;

@@ -3,10 +3,13 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, PlacedObstacle, Problem, Resume, ServerMessage,
+    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
+    Resume, ServerMessage,
     version::{CloseCode, PROTOCOL_VERSION},
 };
-use espalier_session::{ActId, ClientId, Document, Input, JournalEntry, Output, ReadId, Session, Work};
+use espalier_session::{
+    ActId, ClientId, Document, Foresight, Input, JournalEntry, Output, ReadId, Session, Work,
+};
 
 use crate::mirror::{Mirror, rows_of};
 
@@ -17,10 +20,14 @@ pub const SEED: u32 = 7;
 pub struct Peer {
     pub texts: Vec<ServerMessage>,
     pub frames: Vec<Frame>,
+    pub poses: Vec<PoseFrame>,
+    pub ghosts: Vec<GhostFrame>,
     pub mirror: Mirror,
     pub closed: Option<CloseCode>,
     /// Frames not yet answered with `received`: sequence and bytes.
     pub in_flight: Vec<(u32, usize)>,
+    /// Kinds and sequences of other frames not yet answered.
+    pub unanswered: Vec<(u8, u32)>,
     pub most_in_flight: usize,
     /// Does not answer frames.
     pub slow: bool,
@@ -43,6 +50,7 @@ pub struct World {
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
     pub working: Option<(u64, Box<Work>)>,
+    foreseeing: Vec<Foresight>,
     wake_at: Option<u64>,
     /// How long the disk and a slice of work take.
     pub write_ms: u64,
@@ -75,6 +83,7 @@ impl World {
             acts: Vec::new(),
             writing: None,
             working: None,
+            foreseeing: Vec::new(),
             wake_at: None,
             write_ms: 5,
             work_ms: 3,
@@ -92,6 +101,7 @@ impl World {
         self.next_epoch += 1;
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);
+        self.foreseeing.clear();
     }
 
     pub fn handle(&mut self, input: Input) {
@@ -112,6 +122,19 @@ impl World {
             Output::Frame(ClientId(id), bytes) => {
                 let peer = self.peers.get_mut(&id).expect("a frame goes to a connection that was made");
                 assert!(peer.closed.is_none(), "nothing follows a close");
+                match FrameKind::of(&bytes) {
+                    Some(FrameKind::Pose) => {
+                        let pose = PoseFrame::decode(&bytes).expect("every pose is valid");
+                        peer.unanswered.push((2, pose.sequence));
+                        return peer.poses.push(pose);
+                    }
+                    Some(FrameKind::Ghost) => {
+                        let ghost = GhostFrame::decode(&bytes).expect("every ghost is valid");
+                        peer.unanswered.push((3, ghost.sequence));
+                        return peer.ghosts.push(ghost);
+                    }
+                    _ => {}
+                }
                 let frame = Frame::decode(&bytes).expect("every frame is valid");
                 peer.in_flight.push((frame.sequence, bytes.len()));
                 let bytes: usize = peer.in_flight.iter().map(|(_, bytes)| bytes).sum();
@@ -132,6 +155,7 @@ impl World {
                 assert!(self.working.is_none(), "there is one document");
                 self.working = Some((self.now + self.work_ms, work));
             }
+            Output::Foresee(foresight) => self.foreseeing.push(*foresight),
             Output::Snapshot { through, bytes } => {
                 let durable = self.disk.last().map_or(0, |entry| entry.number);
                 assert!(through <= durable, "a snapshot is never ahead of the journal");
@@ -151,6 +175,13 @@ impl World {
             self.let_peers_read();
             let write = self.writing.as_ref().map(|(due, _)| *due);
             let work = self.working.as_ref().map(|(due, _)| *due);
+            if let Some(mut foresight) = self.foreseeing.pop() {
+                match foresight.run() {
+                    true => self.handle(Input::Foreseen(Box::new(foresight))),
+                    false => self.foreseeing.push(foresight),
+                }
+                continue;
+            }
             let next = [write, work, self.wake_at].into_iter().flatten().filter(|due| *due <= end).min();
             let Some(due) = next else { break };
             self.now = self.now.max(due);
@@ -182,7 +213,9 @@ impl World {
             if !peer.deaf && peer.unread > 0 {
                 self.read_texts(id);
             }
-            if !self.peers[&id].slow && !self.peers[&id].in_flight.is_empty() {
+            let peer = &self.peers[&id];
+            let is_answered = peer.in_flight.is_empty() && peer.unanswered.is_empty();
+            if !peer.slow && !is_answered {
                 self.answer_frames(id);
             }
         }
@@ -197,7 +230,10 @@ impl World {
     pub fn answer_frames(&mut self, id: u64) {
         let frames = std::mem::take(&mut self.peers.get_mut(&id).unwrap().in_flight);
         if let Some(&(sequence, _)) = frames.last() {
-            self.send(id, &ClientMessage::Received { sequence });
+            self.send(id, &ClientMessage::Received { sequence, kind: 1 });
+        }
+        for (kind, sequence) in std::mem::take(&mut self.peers.get_mut(&id).unwrap().unanswered) {
+            self.send(id, &ClientMessage::Received { sequence, kind });
         }
     }
 

@@ -8,6 +8,7 @@ use glam::Quat;
 use super::{DocumentError, Reader, Writer, damaged};
 use crate::{
     document::{
+        futures::Futures,
         history::{History, Setting},
         obstacles::Standings,
     },
@@ -24,13 +25,13 @@ pub(super) struct Shelf {
 
 impl Shelf {
     /// Everything the history and the present hold.
-    pub(super) fn of(history: &History, present: &Standings) -> Self {
+    pub(super) fn of(history: &History, futures: &Futures, present: &Standings) -> Self {
         let mut shelf = Self::default();
-        for operation in &history.operations {
-            for setting in [&operation.before, &operation.after] {
-                shelve(&mut shelf.parameters, &setting.parameters);
-                shelf.shelve_set(&setting.obstacles);
-            }
+        let ahead = futures.all.iter().flat_map(|future| &future.operations);
+        let settings = history.operations.iter().chain(ahead).map(|operation| &operation.after);
+        for setting in std::iter::once(&history.initial).chain(settings) {
+            shelve(&mut shelf.parameters, &setting.parameters);
+            shelf.shelve_set(&setting.obstacles);
         }
         shelf.shelve_set(present);
         shelf

@@ -1,0 +1,417 @@
+import { signal } from "@preact/signals";
+import type { Bend } from "../../scene/bend/bend";
+import { Bent } from "../../scene/bent";
+import type { Guise } from "../../scene/guises";
+import type { TreeTable } from "../../scene/tree-table";
+import { radiusOf } from "../../scene/tree-table";
+import { type Command, MAX_BEND_TOUCHES } from "../../wire/generated";
+import type { Grip } from "../gestures";
+import type { Point } from "../ports";
+import { type Hold, holdAt, naturalBase, related } from "./bend-hold";
+import { type GripTool, PICK_TOLERANCE, withinReach } from "./tool";
+
+/** Rounds that are played again for a finger that rests, so that the branch comes up to it. */
+const ROUNDS_AT_REST = 8;
+/** Moves that may be under way; beyond it the newest waits for its turn. */
+const MAX_UNSETTLED = 6;
+
+/** What shaping a branch by hand needs of the view. */
+export interface ShapingView {
+  pointOnPlane(x: number, y: number, through: Point): Point | null;
+  pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Point } | null;
+  /** Where a row is drawn. */
+  placeOf(row: number): Point;
+  wear(guise: Guise): void;
+  doff(guise: Guise): void;
+  wears(guise: Guise): boolean;
+  guiseChanged(): void;
+}
+
+/** Bends a path as the server will, before it answers. */
+export type BendSolver = Pick<Bend, "drag" | "relax" | "motions">;
+
+export interface BendOptions {
+  readonly table: TreeTable;
+  readonly view: ShapingView;
+  readonly submit: (command: Command) => void;
+  /** A number no other bend of this client has. */
+  readonly newBend: () => number;
+  /** How many `bend_move` the server has not yet answered. */
+  readonly unsettledMoves: () => number;
+  /** 0, stiff in length, to 1, stretchy. */
+  readonly stretch: () => number;
+  /** `nodes` are where the base begins and the end of each internode of the path. */
+  readonly solver: (nodes: Point[], radii: number[], stretch: number) => BendSolver;
+  readonly say: (sentence: string) => void;
+  /** A branch was bent. */
+  readonly bent?: () => void;
+}
+
+interface Finger {
+  readonly row: number | null;
+  /** Where it took hold, in the world. */
+  readonly point: Point;
+  readonly from: { readonly x: number; readonly y: number };
+  readonly slop: number;
+  x: number;
+  y: number;
+  moved: boolean;
+}
+
+interface Touch {
+  readonly row: number;
+  /** Where the metamer's end was when it was taken. */
+  readonly rest: Point;
+  /** The finger that drags it; a handle that was set stays put. */
+  readonly finger: number | null;
+  target: Point;
+}
+
+interface Bending {
+  readonly number: number;
+  readonly hold: Hold;
+  readonly touches: readonly Touch[];
+  readonly guise: Bent;
+  readonly solver: BendSolver;
+  /** Fingers that have lifted: what they held stays where they left it. */
+  readonly lifted: Set<number>;
+  unsent: boolean;
+  rounds: number;
+}
+
+/**
+ * Bends branches: the first finger holds the base, the second the end, further ones places between. With one pointer
+ * the base is marked by a tap and the branch dragged by any place above it; further taps set places that stay put.
+ */
+export class BendTool implements GripTool {
+  /** The marked base. */
+  readonly base = signal<number | null>(null);
+  /** Places that stay put. */
+  readonly handles = signal<readonly number[]>([]);
+  /** Rows that fingers hold now, the base first. */
+  readonly held = signal<readonly number[]>([]);
+
+  #options: BendOptions;
+  #fingers = new Map<number, Finger>();
+  #bending: Bending | null = null;
+  /** Bends that were let go and are not yet in the table. */
+  #settling = new Map<Bent, number>();
+  /** The most fingers since the last was lifted: only a lone one taps. */
+  #most = 0;
+
+  constructor(options: BendOptions) {
+    this.#options = options;
+  }
+
+  takes(x: number, y: number): Grip {
+    if (this.#fingers.size === 0) {
+      return "take";
+    }
+    const row = this.#pick(x, y)?.row ?? null;
+    if (this.#bending) {
+      return "ignore";
+    }
+    const others = [...this.#fingers.values()].map((finger) => finger.row);
+    const joins = row !== null && others.every((other) => other !== null && related(this.#options.table, other, row));
+    return joins && others.length <= MAX_BEND_TOUCHES ? "take" : "leave";
+  }
+
+  gripBegin(id: number, x: number, y: number, slop: number): void {
+    const picked = this.#pick(x, y);
+    const point = picked?.point ?? [0, 0, 0];
+    this.#fingers.set(id, { row: picked?.row ?? null, point, from: { x, y }, slop, x, y, moved: false });
+    this.#most = Math.max(this.#most, this.#fingers.size);
+    this.#show();
+  }
+
+  gripMove(id: number, x: number, y: number): void {
+    const finger = this.#fingers.get(id);
+    if (!finger) {
+      return;
+    }
+    finger.x = x;
+    finger.y = y;
+    finger.moved ||= Math.hypot(x - finger.from.x, y - finger.from.y) > finger.slop;
+    if (!this.#bending && finger.moved) {
+      this.#begin();
+    }
+    this.#follow();
+  }
+
+  gripEnd(id: number): void {
+    const finger = this.#fingers.get(id);
+    this.#fingers.delete(id);
+    const bending = this.#bending;
+    if (bending) {
+      bending.lifted.add(id);
+      if (bending.touches.every((touch) => touch.finger === null || bending.lifted.has(touch.finger))) {
+        this.#finish();
+      }
+    } else if (finger && !finger.moved && this.#most === 1) {
+      this.#tap(finger.row);
+    }
+    if (this.#fingers.size === 0) {
+      this.#most = 0;
+    }
+    this.#show();
+  }
+
+  gripDrop(): void {
+    this.#fingers.clear();
+    this.#most = 0;
+    this.#show();
+  }
+
+  /** Sends where the fingers are; while they rest the branch still comes up to them. */
+  tick(): void {
+    const bending = this.#bending;
+    if (!bending || this.#options.unsettledMoves() >= MAX_UNSETTLED) {
+      return;
+    }
+    if (bending.unsent) {
+      this.#send(bending);
+    } else if (bending.rounds < ROUNDS_AT_REST) {
+      bending.rounds += 1;
+      this.#drag(bending);
+      this.#send(bending);
+    }
+  }
+
+  end(): void {
+    if (this.#bending) {
+      this.#finish();
+    }
+    this.gripDrop();
+  }
+
+  /** The branch goes back to where it was. */
+  cancel(): void {
+    const bending = this.#bending;
+    if (bending) {
+      this.#options.submit({ kind: "bend_cancel", bend: bending.number });
+    }
+    this.abandon();
+  }
+
+  abandon(): void {
+    const bending = this.#bending;
+    this.#bending = null;
+    if (bending) {
+      this.#options.view.doff(bending.guise);
+    }
+    this.gripDrop();
+  }
+
+  /** Lets go of the marked base and what stays put. */
+  release(): boolean {
+    const any = this.base.peek() !== null;
+    this.base.value = null;
+    this.handles.value = [];
+    return any;
+  }
+
+  /** The server would not have a bend. */
+  refused(number: number): void {
+    if (this.#bending?.number === number) {
+      this.abandon();
+    }
+    for (const [guise, bend] of this.#settling) {
+      if (bend === number) {
+        this.#options.view.doff(guise);
+        this.#settling.delete(guise);
+      }
+    }
+  }
+
+  /** Whether a bend along this path is this tool's own, and so shown already. */
+  owns(path: readonly number[]): boolean {
+    return this.#bending?.guise.follows(path) === true || [...this.#settling.keys()].some((own) => own.follows(path));
+  }
+
+  /** The server says that a bend is over: what has not come as a change of the table by now never will. */
+  over(path: readonly number[]): void {
+    for (const guise of this.#settling.keys()) {
+      if (guise.follows(path)) {
+        this.#options.view.doff(guise);
+        this.#settling.delete(guise);
+      }
+    }
+    if (this.#bending?.guise.follows(path)) {
+      this.abandon();
+    }
+  }
+
+  told(): void {
+    const { table, view } = this.#options;
+    for (const guise of [...this.#settling.keys()]) {
+      if (!view.wears(guise) || guise.over(table)) {
+        this.#settling.delete(guise);
+      }
+    }
+    if (this.#bending?.guise.over(table)) {
+      this.#options.say("The branch you were bending has changed; your bend ended there.");
+      this.abandon();
+    }
+    const gone = (row: number) => row >= table.rows || table.radiusCode[row] === 0;
+    const base = this.base.peek();
+    if (base !== null && gone(base)) {
+      this.release();
+    } else if (this.handles.peek().some(gone)) {
+      this.handles.value = this.handles.peek().filter((row) => !gone(row));
+    }
+  }
+
+  /** One finger marks a base, then places above it that stay put; the same place again lets go of it. */
+  #tap(row: number | null): void {
+    const { table } = this.#options;
+    const base = this.base.peek();
+    if (row === null || (base !== null && near(table, base, row))) {
+      this.release();
+      return;
+    }
+    if (base === null || !holdAt(table, base, [row])) {
+      this.base.value = row;
+      this.handles.value = [];
+      return;
+    }
+    const handles = this.handles.peek();
+    const kept = handles.filter((other) => !near(table, other, row));
+    this.handles.value = kept.length < handles.length ? kept : [...handles, row].slice(1 - MAX_BEND_TOUCHES);
+  }
+
+  #begin(): void {
+    const { table, view, submit, newBend, stretch, solver, say, bent } = this.#options;
+    if ([...this.#settling.keys()].some((guise) => view.wears(guise) && !guise.over(table))) {
+      // The pose of the last bend is on its way; taking hold of the branch before it comes would make it jump.
+      return;
+    }
+    const grips = this.#grips();
+    if (!grips) {
+      return;
+    }
+    const handles = this.handles.peek();
+    const hold = holdAt(table, grips.base, [...grips.fingers.map(([, finger]) => finger.row), ...handles]);
+    const dragged = hold && grips.fingers.filter(([, finger]) => hold.touches.includes(finger.row));
+    if (!hold || !dragged || dragged.length === 0) {
+      say("Take the branch a little further up: its base stays where it is.");
+      this.gripDrop();
+      return;
+    }
+    const fingerOf = new Map(dragged.map(([id, { row }]) => [row, id]));
+    const touches = hold.touches.slice(0, MAX_BEND_TOUCHES).map((row): Touch => {
+      const rest = view.placeOf(row);
+      return { row, rest, finger: fingerOf.get(row) ?? null, target: rest };
+    });
+    const { path } = hold;
+    const guise = new Bent(table, path);
+    const nodes = [view.placeOf(table.parent[path[0] ?? 0] ?? 0), ...path.map((row) => view.placeOf(row))];
+    const radii = path.map((row) => radiusOf(table.radiusCode[row] ?? 0));
+    const number = newBend();
+    this.#bending = {
+      number,
+      hold,
+      touches,
+      guise,
+      solver: solver(nodes, radii, stretch()),
+      lifted: new Set(),
+      unsent: false,
+      rounds: ROUNDS_AT_REST,
+    };
+    this.base.value = grips.base;
+    view.wear(guise);
+    const rows = touches.map(({ row }) => row);
+    submit({ kind: "bend_begin", bend: number, base: grips.base, touches: rows, stretch: stretch() });
+    bent?.();
+    this.#show();
+  }
+
+  /** Which finger holds the base, and which drag: the lowest of several, unless all are above the marked one. */
+  #grips(): { base: number; fingers: [id: number, finger: { row: number }][] } | null {
+    const { table } = this.#options;
+    const on: [number, { row: number }][] = [];
+    for (const [id, { row }] of this.#fingers) {
+      if (row !== null) {
+        on.push([id, { row }]);
+      }
+    }
+    const lowest = Math.min(...on.map(([, { row }]) => row));
+    if (on.length === 0) {
+      return null;
+    }
+    const marked = this.base.peek();
+    if (marked !== null && holdAt(table, marked, [lowest])) {
+      return { base: marked, fingers: on };
+    }
+    if (on.length > 1) {
+      return { base: lowest, fingers: on.filter(([, { row }]) => row !== lowest) };
+    }
+    return { base: naturalBase(table, lowest), fingers: on };
+  }
+
+  /** Brings the targets to where the fingers are. */
+  #follow(): void {
+    const bending = this.#bending;
+    if (!bending) {
+      return;
+    }
+    for (const touch of bending.touches) {
+      const finger = touch.finger === null ? undefined : this.#fingers.get(touch.finger);
+      const place = finger && this.#options.view.pointOnPlane(finger.x, finger.y, finger.point);
+      if (finger && place) {
+        const way = (axis: 0 | 1 | 2) => touch.rest[axis] + place[axis] - finger.point[axis];
+        touch.target = withinReach([way(0), way(1), way(2)]);
+      }
+    }
+    bending.rounds = 0;
+    bending.unsent = true;
+    this.#drag(bending);
+  }
+
+  #drag({ solver, hold, touches, guise }: Bending): void {
+    solver.drag(touches.map(({ row, target }) => [hold.path.indexOf(row), target] as const));
+    this.#pose(guise, solver);
+  }
+
+  #pose(guise: Bent, solver: BendSolver): void {
+    const motions = solver.motions();
+    guise.move(guise.path.flatMap((row, i) => (motions[i] ? [{ row, ...motions[i] }] : [])));
+    this.#options.view.guiseChanged();
+  }
+
+  #send(bending: Bending): void {
+    bending.unsent = false;
+    const targets = bending.touches.map(({ target: [x, y, z] }): [number, number, number] => [x, y, z]);
+    this.#options.submit({ kind: "bend_move", bend: bending.number, targets });
+  }
+
+  #finish(): void {
+    const bending = this.#bending;
+    if (!bending) {
+      return;
+    }
+    if (bending.unsent) {
+      this.#send(bending);
+    }
+    this.#bending = null;
+    this.#options.submit({ kind: "bend_end", bend: bending.number });
+    bending.solver.relax();
+    this.#pose(bending.guise, bending.solver);
+    this.#settling.set(bending.guise, bending.number);
+  }
+
+  #pick(x: number, y: number) {
+    return this.#options.view.pick(x, y, PICK_TOLERANCE);
+  }
+
+  #show(): void {
+    const rows = this.#bending
+      ? [...this.#bending.hold.path.slice(0, 1), ...this.#bending.touches.map(({ row }) => row)]
+      : [...this.#fingers.values()].flatMap(({ row }) => (row === null ? [] : [row]));
+    this.held.value = rows;
+  }
+}
+
+/** Whether two rows are the same place to a finger. */
+function near(table: TreeTable, a: number, b: number): boolean {
+  return a === b || table.parent[a] === b || table.parent[b] === a;
+}

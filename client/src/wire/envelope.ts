@@ -1,0 +1,54 @@
+import { FrameError } from "./frame-error";
+import { HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
+import { inflateRaw } from "./inflate";
+
+/** What a frame is about; each kind counts its sequences by itself. */
+export const FrameKind = { MeshDelta: 1, Pose: 2, Ghost: 3 } as const;
+export type FrameKind = (typeof FrameKind)[keyof typeof FrameKind];
+
+/** What all frames have in common; mirrors `proto/src/envelope.rs`. */
+export interface OpenedFrame {
+  readonly epoch: number;
+  readonly sequence: number;
+  readonly flags: number;
+  readonly body: Uint8Array;
+}
+
+const VERSION = 1;
+/** The only flag, and only mesh deltas have it. */
+const CATCH_UP = 1;
+
+/** The kind a frame's header states, if there is such a kind; whether the rest is valid is not looked at. */
+export function kindOf(bytes: ArrayBuffer): FrameKind | undefined {
+  const code = bytes.byteLength < 2 ? 0 : new DataView(bytes).getUint8(1);
+  return Object.values(FrameKind).find((kind) => kind === code);
+}
+
+/** The header and the unpacked body of a frame of one kind (FR1, FR2). */
+export async function openFrame(bytes: ArrayBuffer, wanted: FrameKind): Promise<OpenedFrame> {
+  if (bytes.byteLength < HEADER_BYTES) throw new FrameError("The frame is cut short.");
+  const header = new DataView(bytes, 0, HEADER_BYTES);
+  const [version, kind, codec, flags] = [0, 1, 2, 3].map((at) => header.getUint8(at)) as [
+    number,
+    number,
+    number,
+    number,
+  ];
+  if (version !== VERSION) throw new FrameError(`Frame version ${version} is not 1.`);
+  if (kind !== wanted) throw new FrameError(`Frame kind ${kind} is not ${wanted}.`);
+  const known = wanted === FrameKind.MeshDelta ? CATCH_UP : 0;
+  if ((flags & ~known) !== 0) throw new FrameError(`Reserved flags 0x${flags.toString(16)} are set.`);
+  const length = header.getUint32(12, true);
+  if (length > MAX_BODY_BYTES) throw new FrameError("The body is larger than 64 MiB.");
+  const body = await unpack(codec, new Uint8Array(bytes, HEADER_BYTES), length);
+  return { epoch: header.getUint32(4, true), sequence: header.getUint32(8, true), flags, body };
+}
+
+async function unpack(codec: number, payload: Uint8Array<ArrayBuffer>, length: number): Promise<Uint8Array> {
+  if (codec === 0) {
+    if (payload.length !== length) throw new FrameError("The body's length differs from the header's.");
+    return payload;
+  }
+  if (codec === 1) return inflateRaw(payload, length);
+  throw new FrameError(`Codec ${codec} is neither 0, raw, nor 1, deflate.`);
+}

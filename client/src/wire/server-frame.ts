@@ -1,0 +1,18 @@
+import { FrameKind, kindOf } from "./envelope";
+import { decodeFrame, type Frame } from "./frame";
+import { decodeGhost, type GhostFrame } from "./ghost";
+import { decodePose, type PoseFrame } from "./pose";
+
+/** Any binary message. `received` answers each with its sequence and, unless it is 1, its kind (FL1). */
+export type ServerFrame =
+  | { readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame }
+  | { readonly kind: typeof FrameKind.Pose; readonly frame: PoseFrame }
+  | { readonly kind: typeof FrameKind.Ghost; readonly frame: GhostFrame };
+
+/** Reads whatever kind of frame this is; any bytes at all give one or a `FrameError`. */
+export async function decodeServerFrame(bytes: ArrayBuffer): Promise<ServerFrame> {
+  const kind = kindOf(bytes);
+  if (kind === FrameKind.Pose) return { kind, frame: await decodePose(bytes) };
+  if (kind === FrameKind.Ghost) return { kind, frame: await decodeGhost(bytes) };
+  return { kind: FrameKind.MeshDelta, frame: await decodeFrame(bytes) };
+}

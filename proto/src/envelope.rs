@@ -1,0 +1,150 @@
+//! What all binary frames have in common: a header of 16 bytes and a body that may be deflated (`FR`).
+
+use std::{
+    borrow::Cow,
+    io::{Read, Write},
+};
+
+use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
+
+/// Bytes before the body.
+pub const HEADER_BYTES: usize = 16;
+/// The most bytes a body may unpack to (`FR2`).
+pub const MAX_BODY_BYTES: usize = 64 * 1024 * 1024;
+
+const VERSION: u8 = 1;
+const CODEC_RAW: u8 = 0;
+const CODEC_DEFLATE: u8 = 1;
+/// The flag of a frame made for one client from the current state.
+pub(crate) const FLAG_CATCH_UP: u8 = 1;
+/// Bodies shorter than this travel raw: the compressor's overhead would eat the gain.
+const MIN_COMPRESSED_BYTES: usize = 64;
+
+/// What a frame is about; each kind counts its sequences by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub enum FrameKind {
+    /// A change to the table of rows, [`crate::frame::Frame`].
+    MeshDelta = 1,
+    /// A branch that is being bent, [`crate::pose::PoseFrame`].
+    Pose = 2,
+    /// A prediction, [`crate::ghost::GhostFrame`].
+    Ghost = 3,
+}
+
+impl FrameKind {
+    /// Its number in the header.
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+
+    /// The kind with this number.
+    pub fn from_code(code: u8) -> Option<Self> {
+        [Self::MeshDelta, Self::Pose, Self::Ghost].into_iter().find(|kind| kind.code() == code)
+    }
+
+    /// The kind that a frame's header states, whether or not the rest is valid.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        bytes.get(1).and_then(|&code| Self::from_code(code))
+    }
+
+    /// Flags that have a meaning.
+    fn flags(self) -> u8 {
+        if self == Self::MeshDelta { FLAG_CATCH_UP } else { 0 }
+    }
+}
+
+/// Why bytes are not a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FrameError {
+    /// Fewer bytes than the header, or than a value needs.
+    #[error("the frame is cut short")]
+    Truncated,
+    /// Another version of the format.
+    #[error("frame version {0} is not 1")]
+    Version(u8),
+    /// Another kind of frame than was asked for.
+    #[error("frame kind {0} is not the one expected")]
+    Kind(u8),
+    /// A codec other than raw or deflate.
+    #[error("codec {0} is neither 0, raw, nor 1, deflate")]
+    Codec(u8),
+    /// A flag that has no meaning yet.
+    #[error("reserved flags {0:#04x} are set")]
+    Flags(u8),
+    /// The body does not unpack to the length the header states.
+    #[error("the body's length differs from the header's, or exceeds 64 MiB")]
+    Length,
+    /// An unknown change or column, a count out of range, or a number that is not finite.
+    #[error("the body is malformed")]
+    Body,
+}
+
+/// A header, read.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Header {
+    pub flags: u8,
+    pub epoch: u32,
+    pub sequence: u32,
+}
+
+/// A frame as bytes; the body is deflated where that makes it shorter.
+pub(crate) fn seal(kind: FrameKind, header: Header, body: &[u8]) -> Vec<u8> {
+    let packed = if body.len() >= MIN_COMPRESSED_BYTES { deflate(body) } else { None };
+    let (codec, payload) = match &packed {
+        Some(packed) if packed.len() < body.len() => (CODEC_DEFLATE, packed.as_slice()),
+        _ => (CODEC_RAW, body),
+    };
+    let mut out = Vec::with_capacity(HEADER_BYTES + payload.len());
+    out.extend_from_slice(&[VERSION, kind.code(), codec, header.flags]);
+    out.extend_from_slice(&header.epoch.to_le_bytes());
+    out.extend_from_slice(&header.sequence.to_le_bytes());
+    out.extend_from_slice(&(body.len() as u32).to_le_bytes());
+    out.extend_from_slice(payload);
+    out
+}
+
+/// The header and the unpacked body of a frame of this kind.
+pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [u8]>), FrameError> {
+    let (header, payload) = bytes.split_at_checked(HEADER_BYTES).ok_or(FrameError::Truncated)?;
+    let &[version, kind, codec, flags, ..] = header else { return Err(FrameError::Truncated) };
+    if version != VERSION {
+        return Err(FrameError::Version(version));
+    }
+    if kind != wanted.code() {
+        return Err(FrameError::Kind(kind));
+    }
+    if flags & !wanted.flags() != 0 {
+        return Err(FrameError::Flags(flags));
+    }
+    let word = |at: usize| u32::from_le_bytes([header[at], header[at + 1], header[at + 2], header[at + 3]]);
+    let length = word(12) as usize;
+    if length > MAX_BODY_BYTES {
+        return Err(FrameError::Length);
+    }
+    let body = match codec {
+        CODEC_RAW => Cow::Borrowed(payload),
+        CODEC_DEFLATE => Cow::Owned(inflate(payload, length)?),
+        other => return Err(FrameError::Codec(other)),
+    };
+    if body.len() != length {
+        return Err(FrameError::Length);
+    }
+    Ok((Header { flags, epoch: word(4), sequence: word(8) }, body))
+}
+
+fn deflate(body: &[u8]) -> Option<Vec<u8>> {
+    let mut encoder = DeflateEncoder::new(Vec::with_capacity(body.len() / 2), Compression::new(4));
+    encoder.write_all(body).ok()?;
+    encoder.finish().ok()
+}
+
+fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
+    // One byte more than promised is enough to see that the promise was false.
+    let mut out = Vec::new();
+    DeflateDecoder::new(payload)
+        .take(length as u64 + 1)
+        .read_to_end(&mut out)
+        .map_err(|_| FrameError::Length)?;
+    Ok(out)
+}

@@ -1,0 +1,31 @@
+//! A prediction: the plants as they would be, as a table of its own (`PD2`).
+
+use crate::{
+    envelope::{self, FrameError, FrameKind, Header},
+    frame::{ChunkChange, read_changes, write_changes},
+};
+
+/// What one client asked for with `predict`; without changes there is no ghost any more.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GhostFrame {
+    /// As in mesh deltas.
+    pub epoch: u32,
+    /// Rises from ghost to ghost.
+    pub sequence: u32,
+    /// All chunks of the ghost's table, in order.
+    pub changes: Vec<ChunkChange>,
+}
+
+impl GhostFrame {
+    /// The frame as bytes.
+    pub fn encode(&self) -> Vec<u8> {
+        let header = Header { flags: 0, epoch: self.epoch, sequence: self.sequence };
+        envelope::seal(FrameKind::Ghost, header, &write_changes(&self.changes))
+    }
+
+    /// Reads a frame; any bytes at all give a frame or an error.
+    pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
+        let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Ghost)?;
+        Ok(Self { epoch, sequence, changes: read_changes(&body)? })
+    }
+}

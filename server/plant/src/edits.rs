@@ -1,0 +1,320 @@
+//! What is done to wood that has grown: shed, pruned, carried elsewhere, grafted, widened.
+//!
+//! Each edit belongs to a step and can be taken back exactly: what dies keeps its rows, and what moves is
+//! swapped with where it was. TreeSketch §3.3 keeps both on a stack as well.
+
+use std::mem;
+
+use glam::Vec3;
+
+use crate::{
+    id::{AxisId, MetamerId},
+    metamers::Row,
+    motion::Motion,
+    plant::Plant,
+};
+
+/// A shorter internode has no direction.
+const SHORTEST: f32 = 0.01;
+
+/// One edit, as the timeline keeps it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Edit {
+    /// The branch that begins with an axis was shed; the wood below keeps its girth.
+    Shed(AxisId),
+    /// A metamer was cut off with everything above it, as if they had never been.
+    Pruned(MetamerId),
+    /// An axis was grafted onto the node that bears it.
+    Grafted(AxisId),
+    /// Wood stands elsewhere.
+    Carried(Box<Carried>),
+    /// A width constraint came, went, or changed. The diameter is that on the other side of this step.
+    Width(MetamerId, Option<f32>),
+}
+
+/// Where wood stands on the other side of a step: before it for those who look back, after it for the past.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Carried {
+    /// What moved, in birth order.
+    pub metamers: Vec<MetamerId>,
+    /// Their nodes.
+    pub ends: Vec<Vec3>,
+    /// Their normals.
+    pub normals: Vec<Vec3>,
+    /// The axes that they bear, in birth order.
+    pub axes: Vec<AxisId>,
+    /// The directions of those axes' buds when they were laid down.
+    pub directions: Vec<Vec3>,
+}
+
+/// No motion bears a row.
+const UNMOVED: u32 = u32::MAX;
+
+impl Plant {
+    /// Cuts off a metamer and everything above it, within a step: girth becomes what it were without them.
+    /// What remains of its axis has no bud any more. Returns what was cut off, in birth order.
+    ///
+    /// # Panics
+    /// If the metamer is a seed, or dead.
+    pub fn prune(&mut self, cut: MetamerId) -> Vec<MetamerId> {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        assert!(!self.is_seed(cut) && self.is_alive(cut), "only living wood can be cut");
+        let now = self.timeline.now;
+        let metamers = self.above(cut);
+        for axis in self.buds_of(&metamers) {
+            self.axes.death[axis.index()] = now;
+        }
+        for &id in &metamers {
+            self.metamers.death[id.index()] = now;
+        }
+        self.living = self.living.wrapping_sub(metamers.len() as u32);
+        self.take_off_tips(cut);
+        self.timeline.edits.push(Edit::Pruned(cut));
+        metamers
+    }
+
+    /// Moves the wood on a path and what it bears, within a step. A row of the path goes with its own motion,
+    /// every other one with that of the row which bears it. Returns what moved and where it was.
+    ///
+    /// # Panics
+    /// If the path is empty, does not go from parents to children, or has another number of motions.
+    pub fn carry(&mut self, path: &[MetamerId], motions: &[Motion]) -> Vec<(MetamerId, Vec3)> {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        assert_eq!(path.len(), motions.len(), "each row of the path has its motion");
+        let on_path = |pair: &[MetamerId]| self.metamers.parent(pair[1]) == Some(pair[0]);
+        assert!(path.windows(2).all(on_path), "a path goes from parents to children");
+        let mut motions = motions.to_vec();
+        let first = path[0].index();
+        let mut bearers = vec![UNMOVED; self.metamer_count() - first];
+        let mut carried = Carried::default();
+        let mut next = 0;
+        for index in first..self.metamer_count() {
+            let id = MetamerId::new(index);
+            let parent = self.metamers.parent[index];
+            let is_on_path = path.get(next) == Some(&id);
+            if is_on_path {
+                bearers[index - first] = next as u32;
+            } else if self.is_alive(id) && parent != MetamerId::NONE && parent.index() >= first {
+                bearers[index - first] = bearers[parent.index() - first];
+            }
+            let Some(motion) = motions.get_mut(bearers[index - first] as usize) else { continue };
+            if is_on_path {
+                next += 1;
+                let heading = self.heading(id);
+                // Its parent's node is where it shall be by now, for parents come first.
+                let placed = |parent: MetamerId| match carried.metamers.binary_search(&parent) {
+                    Ok(at) => carried.ends[at],
+                    Err(_) => self.metamers.end(parent),
+                };
+                let below = self.metamers.parent(id).map(placed);
+                let end = motion.apply(self.metamers.end(id));
+                let end = match below {
+                    Some(below) if end.distance(below) < SHORTEST => below + SHORTEST * motion.turn(heading),
+                    _ => end,
+                };
+                *motion = Motion { from: self.metamers.end(id), to: end, ..*motion };
+                if motion.is_rest() {
+                    continue;
+                }
+                let heading = below.map_or(heading, |below| (end - below).normalize());
+                let normal = motion.turn(self.metamers.normal(id)).reject_from_normalized(heading);
+                carried.metamers.push(id);
+                carried.ends.push(end);
+                carried
+                    .normals
+                    .push(normal.try_normalize().unwrap_or_else(|| heading.any_orthonormal_vector()));
+            } else if !motion.is_rest() {
+                carried.metamers.push(id);
+                carried.ends.push(motion.apply(self.metamers.end(id)));
+                carried.normals.push(motion.turn(self.metamers.normal(id)));
+            }
+        }
+        for axis in self.axes_from(path).filter(|&axis| self.is_standing(axis)) {
+            let Some(bearer) = self.axes.bearer(axis).filter(|bearer| bearer.index() >= first) else {
+                continue;
+            };
+            let Some(motion) = motions.get(bearers[bearer.index() - first] as usize) else { continue };
+            if self.is_alive(bearer) && !motion.is_rest() {
+                carried.axes.push(axis);
+                carried.directions.push(motion.turn(self.axes.direction(axis)));
+            }
+        }
+        self.swap(&mut carried);
+        let moved = carried.metamers.iter().copied().zip(carried.ends.iter().copied()).collect();
+        if !carried.metamers.is_empty() {
+            self.timeline.edits.push(Edit::Carried(Box::new(carried)));
+        }
+        moved
+    }
+
+    /// Grows a copy of the branch that begins with `source` from the node of `onto`, within a step; the copy
+    /// stands where the motion takes what is copied, with its width constraints. Returns its axis.
+    ///
+    /// # Panics
+    /// If `source` is a seed, or one of them is dead.
+    pub fn graft(&mut self, source: MetamerId, onto: MetamerId, motion: &Motion) -> AxisId {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        assert!(
+            !self.is_seed(source) && self.is_alive(source) && self.is_alive(onto),
+            "grafts are living wood"
+        );
+        let rows = self.above(source);
+        let axes = self.borne_by(&rows);
+        let root = self.axes.push(
+            onto,
+            motion.turn(self.heading(source)),
+            self.axes.order(self.metamers.axis(onto)) + 1,
+        );
+        self.timeline.edits.push(Edit::Grafted(root));
+        self.grafts.entry(onto).or_default().push(root);
+        let first_row = self.metamers.parent.len();
+        let copy_of = |id: MetamerId| rows.binary_search(&id).ok().map(|at| MetamerId::new(first_row + at));
+        let copy_of_axis =
+            |id: AxisId| axes.binary_search(&id).map_or(root, |at| AxisId::new(root.index() + 1 + at));
+        for &row in &rows {
+            let parent = self.metamers.parent(row).and_then(copy_of).unwrap_or(onto);
+            let lateral = self.metamers.lateral[row.index()];
+            let first_alive = self.whorl(row).find(|axis| axes.binary_search(axis).is_ok());
+            let lateral = first_alive.filter(|_| lateral != AxisId::NONE).map_or(AxisId::NONE, copy_of_axis);
+            let id = self.metamers.push(&Row {
+                parent,
+                axis: copy_of_axis(self.metamers.axis(row)),
+                end: motion.apply(self.metamers.end(row)),
+                normal: motion.turn(self.metamers.normal(row)),
+                lateral,
+            });
+            self.living = self.living.wrapping_add(1);
+            if let Some(&diameter) = self.widths.get(&row) {
+                self.set_width(id, Some(diameter));
+            }
+        }
+        for &axis in &axes {
+            let bearer = self.axes.bearer(axis).and_then(copy_of).unwrap_or(onto);
+            let order = self.axes.order(self.metamers.axis(bearer)) + 1;
+            let copy = self.axes.push(bearer, motion.turn(self.axes.direction(axis)), order);
+            if !self.is_axis_alive(axis) {
+                self.axes.death[copy.index()] = self.timeline.now;
+            }
+            if self.is_graft(axis) {
+                self.timeline.edits.push(Edit::Grafted(copy));
+                self.grafts.entry(bearer).or_default().push(copy);
+            }
+        }
+        if !self.is_axis_alive(self.metamers.axis(source)) {
+            self.axes.death[root.index()] = self.timeline.now;
+        }
+        for index in first_row..self.metamers.parent.len() {
+            self.link(MetamerId::new(index));
+        }
+        root
+    }
+
+    /// Sets, changes or removes a width constraint within a step: the diameter of a metamer in internodes.
+    pub fn set_width(&mut self, id: MetamerId, diameter: Option<f32>) {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        let former = self.replace_width(id, diameter);
+        if former != diameter {
+            self.timeline.edits.push(Edit::Width(id, former));
+        }
+    }
+
+    /// Width constraints on living metamers, in birth order: their diameters in internodes.
+    pub fn widths(&self) -> impl Iterator<Item = (MetamerId, f32)> + '_ {
+        self.widths.iter().map(|(&id, &diameter)| (id, diameter)).filter(|&(id, _)| self.is_alive(id))
+    }
+
+    /// Where wood was cut off, up to the present.
+    pub(crate) fn cuts(&self) -> impl Iterator<Item = MetamerId> + '_ {
+        let past = &self.timeline.edits[..self.timeline.present().edits as usize];
+        past.iter().filter_map(|edit| if let Edit::Pruned(cut) = edit { Some(*cut) } else { None })
+    }
+
+    /// The living metamers of the branch that begins with a living one, in birth order.
+    pub fn above(&self, first: MetamerId) -> Vec<MetamerId> {
+        self.connected(first, self.metamer_count(), |id| self.is_alive(id))
+    }
+
+    /// Rows up to `end` that hang together with `first` through rows that belong, in birth order.
+    pub(crate) fn connected(
+        &self,
+        first: MetamerId,
+        end: usize,
+        belongs: impl Fn(MetamerId) -> bool,
+    ) -> Vec<MetamerId> {
+        let mut inside = vec![false; end.saturating_sub(first.index())];
+        let mut found = Vec::new();
+        for index in first.index()..end {
+            let id = MetamerId::new(index);
+            let parent = self.metamers.parent[index];
+            let hangs = id == first
+                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
+            if hangs && belongs(id) {
+                inside[index - first.index()] = true;
+                found.push(id);
+            }
+        }
+        found
+    }
+
+    /// The axes whose living bud sits at one of some metamers, which are in birth order.
+    pub(crate) fn buds_of(&self, metamers: &[MetamerId]) -> Vec<AxisId> {
+        let buds = self.axes_from(metamers).filter(|&axis| self.is_axis_alive(axis));
+        let is_there = membership(metamers);
+        buds.filter(|&axis| is_there(self.bud_node(axis))).collect()
+    }
+
+    /// The axes that some metamers bear, which are in birth order: living buds and standing wood.
+    fn borne_by(&self, metamers: &[MetamerId]) -> Vec<AxisId> {
+        let is_there = membership(metamers);
+        let standing = self.axes_from(metamers).filter(|&axis| self.is_standing(axis));
+        standing.filter(|&axis| self.axes.bearer(axis).is_some_and(&is_there)).collect()
+    }
+
+    /// The axes among which those of a branch are: none is older than that of its first metamer.
+    fn axes_from(&self, metamers: &[MetamerId]) -> impl Iterator<Item = AxisId> + use<> {
+        let first = metamers.first().map_or(self.axis_count(), |&first| self.metamers.axis(first).index());
+        (first..self.axis_count()).map(AxisId::new)
+    }
+
+    /// Takes the tips of a branch off the wood below, as if it had never grown.
+    fn take_off_tips(&mut self, cut: MetamerId) {
+        let lost = self.tips_lost_with(cut);
+        self.add_tips(self.metamers.parent[cut.index()], -lost);
+    }
+
+    /// Tips that the wood below a metamer loses when it is cut off: where its axis went on, the end is a tip again.
+    pub(crate) fn tips_lost_with(&self, cut: MetamerId) -> i32 {
+        let remains = u32::from(!self.begins_wood(cut));
+        self.metamers.tips(cut).wrapping_sub(remains) as i32
+    }
+
+    /// Swaps where wood stands with where it stood.
+    pub(crate) fn swap(&mut self, carried: &mut Carried) {
+        for ((&id, end), normal) in carried.metamers.iter().zip(&mut carried.ends).zip(&mut carried.normals) {
+            mem::swap(end, &mut self.metamers.end[id.index()]);
+            mem::swap(normal, &mut self.metamers.normal[id.index()]);
+        }
+        for (&axis, direction) in carried.axes.iter().zip(&mut carried.directions) {
+            mem::swap(direction, &mut self.axes.direction[axis.index()]);
+        }
+    }
+
+    /// Puts another width constraint in place of one; returns the one that was.
+    pub(crate) fn replace_width(&mut self, id: MetamerId, diameter: Option<f32>) -> Option<f32> {
+        match diameter {
+            Some(diameter) => self.widths.insert(id, diameter),
+            None => self.widths.remove(&id),
+        }
+    }
+}
+
+/// Tells which metamers are among some, which are in birth order.
+fn membership(metamers: &[MetamerId]) -> impl Fn(MetamerId) -> bool + use<> {
+    let first = metamers.first().map_or(0, |first| first.index());
+    let len = metamers.last().map_or(0, |last| last.index() + 1 - first);
+    let mut inside = vec![false; len];
+    for id in metamers {
+        inside[id.index() - first] = true;
+    }
+    move |id| id.index().checked_sub(first).and_then(|at| inside.get(at)).is_some_and(|&inside| inside)
+}

@@ -1,0 +1,7 @@
+//! Branches that are bent by touches.
+
+mod bad_input;
+mod golden;
+mod pose;
+mod reversal;
+mod shapes;

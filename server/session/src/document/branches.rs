@@ -1,0 +1,139 @@
+//! Whole branches turned about their base, copied and moved (`BR`).
+
+use espalier_growth::{EditError, Original};
+use espalier_plant::{MetamerId, Motion};
+use espalier_proto::{Problem, ProblemCode};
+use glam::{Quat, Vec3};
+
+use super::{
+    Document,
+    history::{Kind, Latest},
+    refused,
+};
+
+impl Document {
+    pub(super) fn turn_branch(
+        &mut self,
+        author: &str,
+        row: u32,
+        rotation: Quat,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
+        let branch = self.wood("row", row)?;
+        let base = self.base_of(branch, "turned")?;
+        self.require_no_bend_of(branch)?;
+        let places = self.plant().above(branch).len();
+        self.require_places(places)?;
+        let now = self.plant().step();
+        let continues = self.history.continues(&[Kind::Turn], author, gesture, now);
+        if continues && self.replaces(row) {
+            return self.turn_again(branch, base, rotation);
+        }
+        // Where the gesture's step cannot be taken back, what is new about its rotation comes on top.
+        let latest = self.history.latest.filter(|latest| continues && latest.row == row);
+        let so_far = latest.and_then(|latest| latest.rotation).unwrap_or(Quat::IDENTITY);
+        let before = (!continues).then(|| self.record(Kind::Turn, author, gesture));
+        let motion = self.turn_about(branch, base, rotation * so_far.inverse());
+        match self.simulation.carry(&[branch], &[motion]) {
+            Ok(()) if self.plant().step() > now => self.turned(row, rotation, places),
+            outcome => {
+                if let Some(before) = before {
+                    self.unrecord(before);
+                }
+                outcome.map_err(said)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Turns a branch from where it was before the gesture in progress.
+    fn turn_again(&mut self, branch: MetamerId, base: Vec3, rotation: Quat) -> Result<(), Problem> {
+        let now = self.plant().step();
+        self.simulation.go_to(now - 1);
+        let former = self.simulation.stash_future();
+        let motion = self.turn_about(branch, base, rotation);
+        if let Err(error) = self.simulation.carry(&[branch], &[motion]) {
+            // It was cut off right here.
+            let _fits = self.simulation.take_future(former);
+            self.simulation.go_to(now);
+            return Err(said(error));
+        }
+        if self.plant().step() == now {
+            self.history.latest = Some(Latest { step: now, row: branch.raw(), rotation: Some(rotation) });
+        } else {
+            self.history.latest = None;
+            self.history.reach(now - 1);
+            self.history.forget_idle();
+        }
+        Ok(())
+    }
+
+    fn turned(&mut self, row: u32, rotation: Quat, places: usize) {
+        let step = self.plant().step();
+        self.history.reach(step);
+        self.history.keep_places(places);
+        self.history.latest = Some(Latest { step, row, rotation: Some(rotation) });
+    }
+
+    pub(super) fn graft(
+        &mut self,
+        author: &str,
+        row: u32,
+        onto: u32,
+        rotation: Quat,
+        keep: bool,
+    ) -> Result<(), Problem> {
+        let branch = self.wood("row", row)?;
+        let bearer = self.wood("onto", onto)?;
+        let is_on_branch = self.plant().above(branch).binary_search(&bearer).is_ok();
+        if is_on_branch {
+            return Err(Problem {
+                code: ProblemCode::Refused,
+                field: Some("onto".into()),
+                allowed: Some("wood of another branch".into()),
+                message: format!("row {onto} belongs to the very branch that begins with row {row}"),
+            });
+        }
+        let base = if keep {
+            self.plant()
+                .metamers()
+                .parent(branch)
+                .map_or(Vec3::ZERO, |base| self.plant().metamers().end(base))
+        } else {
+            self.require_no_bend_of(branch)?;
+            self.base_of(branch, "moved")?
+        };
+        let motion = Motion { rotation, from: base, to: self.plant().metamers().end(bearer) };
+        let original = if keep { Original::Stays } else { Original::Goes };
+        let before = self.record(Kind::Graft, author, None);
+        if let Err(error) = self.simulation.graft(branch, bearer, &motion, original) {
+            self.unrecord(before);
+            return Err(said(error));
+        }
+        self.history.reach(self.plant().step());
+        self.release_lost_bends();
+        Ok(())
+    }
+
+    fn turn_about(&self, branch: MetamerId, base: Vec3, rotation: Quat) -> Motion {
+        let end = self.plant().metamers().end(branch);
+        Motion { rotation, from: end, to: base + rotation * (end - base) }
+    }
+
+    /// Where a branch is borne; a trunk is borne by nothing.
+    fn base_of(&self, branch: MetamerId, done: &str) -> Result<Vec3, Problem> {
+        let plant = self.plant();
+        let base = plant.metamers().parent(branch).filter(|&base| !plant.is_seed(base));
+        base.map(|base| plant.metamers().end(base)).ok_or_else(|| Problem {
+            code: ProblemCode::Refused,
+            field: Some("row".into()),
+            allowed: Some("a row whose parent is no seed".into()),
+            message: format!("row {} is the foot of a trunk, which cannot be {done}", branch.raw()),
+        })
+    }
+}
+
+/// An edit's error in words for people.
+pub(super) fn said(error: EditError) -> Problem {
+    refused(error.to_string())
+}

@@ -1,0 +1,91 @@
+//! Strokes and bends in progress.
+
+use espalier_growth::{BrushSample, StrokeId};
+use espalier_plant::{Bend, BendState, MetamerId, Plant};
+
+use super::{DocumentError, Reader, Writer, damaged};
+use crate::document::{
+    bending::{OpenBend, OpenBends},
+    strokes::{OpenStroke, OpenStrokes},
+};
+
+pub(super) fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
+    out.u32(strokes.begun);
+    out.list(&strokes.open, |out, stroke| {
+        out.text(&stroke.author);
+        out.u32(stroke.number);
+        out.u32(stroke.id.0);
+        out.option(stroke.chosen.map(MetamerId::raw));
+        out.list(stroke.last.as_slice(), |out, last| {
+            out.vector(last.position);
+            out.f32(last.radius);
+        });
+    });
+}
+
+pub(super) fn read_strokes(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenStrokes, DocumentError> {
+    let begun = reader.u32()?;
+    let open = reader.list(|r| {
+        let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
+        let chosen = r.metamer(plant)?;
+        let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
+        Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
+    })?;
+    Ok(OpenStrokes { open, begun })
+}
+
+pub(super) fn write_bends(out: &mut Writer, bends: &OpenBends) {
+    out.u32(bends.begun);
+    out.list(&bends.open, |out, bend| {
+        out.text(&bend.author);
+        out.u32(bend.number);
+        out.u32(bend.id);
+        out.list(&bend.path, |out, row| out.u32(row.raw()));
+        out.list(&bend.touches, |out, &touch| out.u32(touch as u32));
+        out.0.push(u8::from(bend.is_moved));
+        let state = bend.solver.state();
+        out.vectors(&state.nodes);
+        out.list(&state.radii, |out, &radius| out.f32(radius));
+        out.f32(state.stretch);
+        out.list(&state.poses, |out, pose| pose.iter().for_each(|&c| out.f64(c)));
+        out.list(&state.targets, |out, (at, place)| {
+            out.u32(*at);
+            place.iter().for_each(|&c| out.f64(c));
+        });
+    });
+}
+
+pub(super) fn read_bends(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenBends, DocumentError> {
+    let begun = reader.u32()?;
+    let open = reader.list(|r| {
+        let (author, number, id) = (r.text()?, r.u32()?, r.u32()?);
+        let path = r.list(|r| r.row().map(|row| MetamerId::new(row as usize)))?;
+        let touches = r.list(|r| r.u32().map(|touch| touch as usize))?;
+        let is_moved = r.u8()? != 0;
+        let state = BendState {
+            nodes: r.list(Reader::vector)?,
+            radii: r.list(Reader::f32)?,
+            stretch: r.f32()?,
+            poses: r.list(read_all)?,
+            targets: r.list(|r| Ok((r.u32()?, read_all(r)?)))?,
+        };
+        let is_wood = |id: MetamerId| id.index() < plant.metamer_count() && plant.is_alive(id);
+        let is_path = path.len() > 1
+            && path.iter().all(|&id| is_wood(id) && !plant.is_seed(id))
+            && path.windows(2).all(|pair| plant.metamers().parent(pair[1]) == Some(pair[0]));
+        if !is_path || state.radii.len() != path.len() || touches.iter().any(|&touch| touch >= path.len()) {
+            return Err(damaged("a bend follows no branch"));
+        }
+        let solver = Bend::from_state(&state).ok_or_else(|| damaged("a bend cannot go on"))?;
+        Ok(OpenBend { author, number, id, path, touches, solver, is_moved })
+    })?;
+    Ok(OpenBends { open, begun })
+}
+
+fn read_all<const N: usize>(reader: &mut Reader<'_>) -> Result<[f64; N], DocumentError> {
+    let mut values = [0.0; N];
+    for value in &mut values {
+        *value = reader.f64()?;
+    }
+    Ok(values)
+}

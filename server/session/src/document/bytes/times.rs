@@ -1,0 +1,139 @@
+//! The present line of time and all others.
+
+use espalier_plant::Plant;
+use glam::Quat;
+
+use super::{
+    DocumentError, Reader, Shelf, Writer, damaged,
+    wood::{read_future, write_future},
+};
+use crate::document::{
+    futures::{Fork, Future, Futures},
+    history::{History, Kind, Latest, Operation},
+};
+
+pub(super) fn write_history(out: &mut Writer, history: &History, shelf: &Shelf) {
+    shelf.write_setting(out, &history.initial);
+    out.u32(history.done as u32);
+    write_operations(out, &history.operations, shelf);
+    out.list(history.latest.as_slice(), |out, latest| {
+        out.u32(latest.step);
+        out.u32(latest.row);
+        out.list(latest.rotation.as_slice(), |out, rotation| {
+            rotation.to_array().into_iter().for_each(|c| out.f32(c));
+        });
+    });
+}
+
+pub(super) fn read_history(
+    reader: &mut Reader<'_>,
+    plant: &Plant,
+    shelf: &Shelf,
+) -> Result<History, DocumentError> {
+    let initial = shelf.read_setting(reader)?;
+    let done = reader.u32()? as usize;
+    let operations = read_operations(reader, shelf)?;
+    if operations.iter().any(|operation| operation.last > plant.last_step()) {
+        return Err(damaged("an operation spans steps that are not there"));
+    }
+    if done > operations.len() {
+        return Err(damaged("more operations are in force than there are"));
+    }
+    let latest = reader.list(|r| {
+        let (step, row) = (r.u32()?, r.u32()?);
+        let rotation = r.list(|r| Ok(Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?])))?;
+        Ok(Latest { step, row, rotation: rotation.first().copied() })
+    })?;
+    Ok(History { operations, done, initial, latest: latest.first().copied() })
+}
+
+pub(super) fn write_futures(out: &mut Writer, futures: &Futures, shelf: &Shelf) {
+    out.u32(futures.present);
+    out.u32(futures.newest);
+    out.list(&futures.all, |out, future| {
+        out.u32(future.line);
+        out.option(future.on);
+        out.u32(future.fork.shared as u32);
+        out.u32(future.fork.step);
+        write_operations(out, &future.operations, shelf);
+        write_future(out, &future.rows);
+    });
+}
+
+pub(super) fn read_futures(
+    reader: &mut Reader<'_>,
+    history: &History,
+    shelf: &Shelf,
+) -> Result<Futures, DocumentError> {
+    let (present, newest) = (reader.u32()?, reader.u32()?);
+    let all = reader.list(|r| {
+        let (line, on) = (r.u32()?, r.option()?);
+        let fork = Fork { shared: r.u32()? as usize, step: r.u32()? };
+        let operations = read_operations(r, shelf)?;
+        let rows = read_future(r)?;
+        if rows.step() != fork.step {
+            return Err(damaged("a future begins elsewhere than its rows"));
+        }
+        Ok(Future { line, on, fork, operations, rows })
+    })?;
+    check(&all, present, newest, history)?;
+    Ok(Futures { all, present, newest })
+}
+
+/// Checks that the lines are a tree, and that each leaves the other where that has steps and operations.
+fn check(all: &[Future], present: u32, newest: u32, history: &History) -> Result<(), DocumentError> {
+    let find = |line: u32| all.iter().find(|future| future.line == line);
+    if present > newest {
+        return Err(damaged("the present line has no number"));
+    }
+    for (index, future) in all.iter().enumerate() {
+        let is_taken = future.line == present || all[..index].iter().any(|other| other.line == future.line);
+        if is_taken || future.line > newest {
+            return Err(damaged("two lines of time have one number"));
+        }
+        let mut below = future.on;
+        for _ in all {
+            let Some(line) = below else { break };
+            below = find(line).ok_or_else(|| damaged("a future hangs on nothing"))?.on;
+        }
+        if below.is_some() {
+            return Err(damaged("futures hang on one another in a ring"));
+        }
+        let (operations, end) = match future.on.and_then(find) {
+            Some(on) if on.fork > future.fork => {
+                return Err(damaged("a future leaves a line before it begins"));
+            }
+            Some(on) => (on.fork.shared + on.operations.len(), on.fork.step + on.rows.steps()),
+            None => (history.operations.len(), u32::MAX),
+        };
+        if future.fork.shared > operations || future.fork.step > end {
+            return Err(damaged("a future leaves a line beyond its end"));
+        }
+    }
+    Ok(())
+}
+
+fn write_operations(out: &mut Writer, operations: &[Operation], shelf: &Shelf) {
+    out.list(operations, |out, operation| {
+        out.0.push(operation.kind as u8);
+        out.text(&operation.author);
+        out.option(operation.gesture);
+        out.u32(operation.first);
+        out.u32(operation.last);
+        out.u32(operation.places);
+        shelf.write_setting(out, &operation.after);
+    });
+}
+
+fn read_operations(reader: &mut Reader<'_>, shelf: &Shelf) -> Result<Vec<Operation>, DocumentError> {
+    reader.list(|r| {
+        let kind = Kind::from_code(r.u8()?).ok_or_else(|| damaged("an operation of unknown kind"))?;
+        let (author, gesture) = (r.text()?, r.option()?);
+        let (first, last) = (r.u32()?, r.u32()?);
+        if first > last {
+            return Err(damaged("an operation ends before it begins"));
+        }
+        let places = r.u32()?;
+        Ok(Operation { kind, author, gesture, first, last, places, after: shelf.read_setting(r)? })
+    })
+}

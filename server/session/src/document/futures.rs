@@ -1,0 +1,261 @@
+//! Lines of time beside the present one: what lay ahead when something else was done (`TT3`).
+//!
+//! Lines are a tree. Each future leaves the line it hangs on at a place, and lists what is done on it from the
+//! first operation that it does not share. A line keeps its number when another one is taken.
+
+use std::sync::Arc;
+
+use espalier_plant::{Future as Rows, hash::StableHash};
+use espalier_proto::{Problem, ProblemCode, version::MAX_FUTURES};
+
+use super::{
+    Document,
+    history::{Kind, Latest, Operation, Setting, hash_operations},
+    refused,
+};
+
+/// Metamers that all futures may hold (`LM11`).
+const MAX_METAMERS: usize = 4_000_000;
+/// Places of wood that was moved, in the present line and all futures (`LM11`).
+const MAX_PLACES: u64 = 32_000_000;
+
+/// A line of time from where it leaves another one.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Future {
+    /// The line's number.
+    pub line: u32,
+    /// The future it hangs on; the present line without one.
+    pub on: Option<u32>,
+    /// Where it leaves that line.
+    pub fork: Fork,
+    /// What is done on it, the operation that it cuts in two first.
+    pub operations: Vec<Operation>,
+    pub rows: Rows,
+}
+
+/// A place on a line of time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Fork {
+    /// Operations of the line that lie before it as a whole.
+    pub shared: usize,
+    /// The step.
+    pub step: u32,
+}
+
+/// All lines but the present one, in the order in which they were left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Futures {
+    pub all: Vec<Future>,
+    /// The number of the present line.
+    pub present: u32,
+    /// The highest number of any line so far.
+    pub newest: u32,
+}
+
+/// What there was before an operation was recorded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before {
+    operations: usize,
+    done: usize,
+    latest: Option<Latest>,
+    left_a_future: bool,
+}
+
+impl Futures {
+    fn position(&self, line: u32) -> Option<usize> {
+        self.all.iter().position(|future| future.line == line)
+    }
+
+    /// The futures to be taken one after the other to come to a line, that itself last.
+    fn way_to(&self, line: u32) -> Option<Vec<u32>> {
+        let mut way = vec![line];
+        let mut future = &self.all[self.position(line)?];
+        while let Some(on) = future.on {
+            way.push(on);
+            future = &self.all[self.position(on)?];
+        }
+        way.reverse();
+        Some(way)
+    }
+
+    /// What hangs on the present line beyond a place hangs on this line from now on.
+    fn hand_over(&mut self, beyond: Fork, line: u32) {
+        for future in &mut self.all {
+            if future.on.is_none() && future.fork > beyond {
+                future.on = Some(line);
+            }
+        }
+    }
+
+    /// What hung on a line hangs on the present one from now on.
+    fn take_over(&mut self, line: u32) {
+        for future in &mut self.all {
+            if future.on == Some(line) {
+                future.on = None;
+            }
+        }
+    }
+
+    /// Forgets the oldest future on which no other hangs.
+    fn forget_one(&mut self) {
+        let is_leaf = |future: &Future| self.all.iter().all(|other| other.on != Some(future.line));
+        if let Some(oldest) = self.all.iter().position(is_leaf) {
+            self.all.remove(oldest);
+        }
+    }
+
+    fn metamers(&self) -> usize {
+        self.all.iter().map(|future| future.rows.metamers()).sum()
+    }
+
+    pub fn hash(&self, hash: &mut StableHash) {
+        hash.word(u64::from(self.present) | u64::from(self.newest) << 32);
+        for future in &self.all {
+            hash.word(u64::from(future.line) | u64::from(future.on.map_or(u32::MAX, |on| on)) << 32);
+            hash.word(future.fork.shared as u64 | u64::from(future.fork.step) << 32);
+            hash.word(future.rows.metamers() as u64 | u64::from(future.rows.steps()) << 32);
+            hash_operations(&future.operations, hash);
+        }
+    }
+}
+
+impl Document {
+    /// Starts an operation at the present; what lies ahead becomes a future. Where the setting is not that of the
+    /// line, which ungrowing can bring about, an operation that makes it so comes before.
+    pub(super) fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) -> Before {
+        let (operations, done) = (self.history.operations.len(), self.history.done);
+        let latest = self.history.latest;
+        let left_a_future = self.leave_future();
+        let now = self.plant().step();
+        let present = self.setting();
+        let line = self.history.setting().clone();
+        if present.parameters != line.parameters {
+            let after = Setting { obstacles: line.obstacles.clone(), ..present.clone() };
+            self.history.push(Kind::Parameters, author, None, now, after);
+        }
+        if !Arc::ptr_eq(&present.obstacles, &line.obstacles) {
+            self.history.push(Kind::Obstacle, author, None, now, present.clone());
+        }
+        self.history.push(kind, author, gesture, now, present);
+        Before { operations, done, latest, left_a_future }
+    }
+
+    /// Takes back that an operation was recorded: it came to nothing.
+    pub(super) fn unrecord(&mut self, before: Before) {
+        if before.left_a_future {
+            self.return_to_future();
+        }
+        self.history.operations.truncate(before.operations);
+        self.history.done = before.done;
+        self.history.latest = before.latest;
+    }
+
+    /// Puts what lies ahead aside, and what was left of the present operation with it; false if nothing does.
+    fn leave_future(&mut self) -> bool {
+        let now = self.plant().step();
+        let history = &mut self.history;
+        let in_part = history.is_in_part(now);
+        if !in_part && history.done == history.operations.len() && now == self.simulation.plant().last_step()
+        {
+            return false;
+        }
+        let shared = history.done - usize::from(in_part);
+        let operations = history.operations[shared..].to_vec();
+        history.operations.truncate(history.done);
+        if let Some(last) = history.operations.last_mut() {
+            last.last = last.last.min(now);
+        }
+        history.latest = None;
+        let fork = Fork { shared, step: now };
+        let line = self.futures.present;
+        self.futures.hand_over(fork, line);
+        let rows = self.simulation.stash_future();
+        self.futures.all.push(Future { line, on: None, fork, operations, rows });
+        self.futures.newest += 1;
+        self.futures.present = self.futures.newest;
+        true
+    }
+
+    /// Undoes [`Document::leave_future`].
+    fn return_to_future(&mut self) {
+        let Some(Future { line, fork, operations, rows, .. }) = self.futures.all.pop() else { return };
+        self.history.operations.truncate(fork.shared);
+        self.history.operations.extend(operations);
+        self.futures.take_over(line);
+        self.futures.newest -= 1;
+        self.futures.present = line;
+        // It was cut off right here.
+        let _fits = self.simulation.take_future(rows);
+    }
+
+    /// Goes over to another line, at its end (`TT4`).
+    pub(super) fn take_future(&mut self, line: u32) -> Result<(), Problem> {
+        let way = self.futures.way_to(line).ok_or_else(|| Problem {
+            code: ProblemCode::NotFound,
+            field: Some("future".into()),
+            allowed: Some("the number of a future in timeline".into()),
+            message: format!("there is no future {line}"),
+        })?;
+        for line in way {
+            self.cross_over(line)?;
+        }
+        let end = self.plant().last_step();
+        self.travel(end);
+        self.history.done = self.history.operations.len();
+        self.keep_to_line();
+        Ok(())
+    }
+
+    /// Makes a line that hangs on the present one the present one, where it leaves it.
+    fn cross_over(&mut self, line: u32) -> Result<(), Problem> {
+        let Some(at) = self.futures.position(line) else { return Ok(()) };
+        let fork = self.futures.all[at].fork;
+        self.travel(fork.step);
+        let Future { operations, rows, .. } = self.futures.all.remove(at);
+        let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
+        let left_rows = self.simulation.stash_future();
+        if !left.is_empty() || left_rows.steps() > 0 {
+            let present = self.futures.present;
+            self.futures.hand_over(fork, present);
+            self.futures.all.push(Future {
+                line: present,
+                on: None,
+                fork,
+                operations: left,
+                rows: left_rows,
+            });
+        }
+        self.futures.take_over(line);
+        self.futures.present = line;
+        self.history.operations.extend(operations);
+        self.history.done = self.history.done_at(fork.step);
+        self.simulation.take_future(rows).map_err(|error| refused(format!("this future is damaged: {error}")))
+    }
+
+    /// Whether so many places of wood more can be kept, if need be in place of futures.
+    pub(super) fn require_places(&self, places: usize) -> Result<(), Problem> {
+        let held: u64 = self.history.operations.iter().map(|op| u64::from(op.places)).sum();
+        if held + places as u64 <= MAX_PLACES {
+            return Ok(());
+        }
+        Err(refused(format!(
+            "the history keeps {held} places of wood that was moved, and may keep {MAX_PLACES}; undo something"
+        )))
+    }
+
+    /// Forgets futures until all of them fit (`LM11`).
+    pub(super) fn forget_futures(&mut self) {
+        let places = |operations: &[Operation]| operations.iter().map(|op| u64::from(op.places)).sum::<u64>();
+        loop {
+            let futures = &self.futures.all;
+            let held: u64 = futures.iter().map(|future| places(&future.operations)).sum();
+            let fits = futures.len() <= MAX_FUTURES
+                && self.futures.metamers() <= MAX_METAMERS
+                && held + places(&self.history.operations) <= MAX_PLACES;
+            if fits || futures.is_empty() {
+                return;
+            }
+            self.futures.forget_one();
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Cutting branches off (`PR`).
+
+use std::collections::BTreeSet;
+
+use espalier_growth::Simulation;
+use espalier_plant::{MetamerId, Plant};
+use espalier_proto::{Problem, ProblemCode};
+
+use super::{Document, history::Kind, refused, wood_of};
+
+impl Document {
+    pub(super) fn prune(&mut self, author: &str, rows: &[u32], gesture: Option<u32>) -> Result<(), Problem> {
+        let cuts = cuts(self.plant(), rows)?;
+        self.cut(author, &cuts, gesture);
+        Ok(())
+    }
+
+    pub(super) fn prune_dim(&mut self, author: &str, exposure: f32) -> Result<(), Problem> {
+        self.simulation.show();
+        let cuts = dim_branches(self.plant(), exposure);
+        if cuts.is_empty() {
+            return Err(refused(format!("no lateral branch stands in so little light as {exposure}")));
+        }
+        self.cut(author, &cuts, None);
+        Ok(())
+    }
+
+    fn cut(&mut self, author: &str, cuts: &[MetamerId], gesture: Option<u32>) {
+        let now = self.plant().step();
+        if !self.history.continues(&[Kind::Growth, Kind::Prune], author, gesture, now) {
+            self.record(Kind::Prune, author, gesture);
+        }
+        self.simulation.prune(cuts);
+        self.history.reach(self.plant().step());
+        self.release_lost_bends();
+    }
+}
+
+/// Cuts branches off a simulation that is nobody's document.
+pub(crate) fn prune(simulation: &mut Simulation, rows: &[u32]) -> Result<(), Problem> {
+    let cuts = cuts(simulation.plant(), rows)?;
+    if !cuts.is_empty() {
+        simulation.prune(&cuts);
+    }
+    Ok(())
+}
+
+/// The lowest metamers of what is cut for some rows, in birth order.
+fn cuts(plant: &Plant, rows: &[u32]) -> Result<Vec<MetamerId>, Problem> {
+    let limbs = Limbs::of(plant);
+    let mut cuts = BTreeSet::new();
+    for (index, &row) in rows.iter().enumerate() {
+        let field = format!("rows[{index}]");
+        let metamer = wood_of(plant, &field, row)?;
+        let found = limbs.cuts(metamer).map_err(|sentence| Problem {
+            code: ProblemCode::Refused,
+            message: format!("row {row} cannot be cut: {sentence}"),
+            field: Some(field),
+            allowed: Some("rows of branches, or of wood above a width constraint".into()),
+        })?;
+        cuts.extend(found);
+    }
+    Ok(cuts.into_iter().collect())
+}
+
+/// Where a plant branches and is held in width.
+struct Limbs<'a> {
+    plant: &'a Plant,
+    /// How many living metamers grow from each node.
+    bears: Vec<u32>,
+    constrained: BTreeSet<MetamerId>,
+}
+
+impl<'a> Limbs<'a> {
+    fn of(plant: &'a Plant) -> Self {
+        let mut bears = vec![0; plant.metamer_count()];
+        for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
+            if let Some(parent) = plant.metamers().parent(id) {
+                bears[parent.index()] += 1;
+            }
+        }
+        Self { plant, bears, constrained: plant.widths().map(|(id, _)| id).collect() }
+    }
+
+    /// What is cut for one row (`PR1`), or a sentence that says why nothing can be.
+    fn cuts(&self, row: MetamerId) -> Result<Vec<MetamerId>, &'static str> {
+        if self.constrained.contains(&row) {
+            let above = self.children(row);
+            let nothing = "nothing stands above its width constraint";
+            return if above.is_empty() { Err(nothing) } else { Ok(above) };
+        }
+        let mut cut = row;
+        loop {
+            let parent = self.plant.metamers().parent(cut).filter(|&parent| !self.plant.is_seed(parent));
+            let parent = parent.ok_or("it belongs to a trunk, and nothing branches off below it")?;
+            let axes = self.plant.metamers();
+            let begins_axis = axes.axis(parent) != axes.axis(cut);
+            if begins_axis || self.bears[parent.index()] > 1 || self.constrained.contains(&parent) {
+                return Ok(vec![cut]);
+            }
+            cut = parent;
+        }
+    }
+
+    fn children(&self, node: MetamerId) -> Vec<MetamerId> {
+        let later = (node.index() + 1..self.plant.metamer_count()).map(MetamerId::new);
+        later
+            .filter(|&id| self.plant.is_alive(id) && self.plant.metamers().parent(id) == Some(node))
+            .collect()
+    }
+}
+
+/// The first metamers of lateral branches that stand in no more light than this as a whole, and do not stand on
+/// one of the same sort.
+fn dim_branches(plant: &Plant, exposure: f32) -> Vec<MetamerId> {
+    let count = plant.metamer_count();
+    let mut lightest = vec![0u8; count];
+    for index in (0..count).rev() {
+        let id = MetamerId::new(index);
+        if plant.is_alive(id) && !plant.is_seed(id) {
+            lightest[index] = lightest[index].max(plant.metamers().appearance(id).light);
+            if let Some(parent) = plant.metamers().parent(id) {
+                lightest[parent.index()] = lightest[parent.index()].max(lightest[index]);
+            }
+        }
+    }
+    let mut is_cut = vec![false; count];
+    let mut cuts = Vec::new();
+    for index in 0..count {
+        let id = MetamerId::new(index);
+        let Some(parent) = plant.metamers().parent(id).filter(|_| plant.is_alive(id)) else { continue };
+        if is_cut[parent.index()] {
+            is_cut[index] = true;
+            continue;
+        }
+        let is_lateral = !plant.is_seed(parent) && plant.metamers().axis(parent) != plant.metamers().axis(id);
+        if is_lateral && f32::from(lightest[index]) <= exposure * 255.0 {
+            is_cut[index] = true;
+            cuts.push(id);
+        }
+    }
+    cuts
+}

@@ -1,0 +1,98 @@
+//! What clients are told of a document beside its rows and figures: lines of time, width constraints, poses.
+
+use std::collections::BTreeMap;
+
+use espalier_plant::{Girth, widths};
+use espalier_proto::{
+    OperationKind, RowMotion, Timeline, TimelineFuture, TimelineOperation, WidthConstraint,
+};
+
+use super::{
+    Document,
+    history::{Kind, Operation},
+};
+
+impl Document {
+    /// The present line of time and all others (`TT1`).
+    pub fn timeline(&self) -> Timeline {
+        let mut people = People::default();
+        let operations = people.tell(&self.history.operations);
+        let mut futures: Vec<TimelineFuture> = (self.futures.all.iter())
+            .map(|future| TimelineFuture {
+                future: future.line,
+                from: future.fork.step,
+                on: future.on,
+                steps: future.rows.steps(),
+                operations: people.tell(&future.operations),
+            })
+            .collect();
+        futures.sort_by_key(|future| future.future);
+        Timeline {
+            line: self.futures.present,
+            step: self.plant().step(),
+            last_step: self.plant().last_step(),
+            done: self.history.done as u32,
+            operations,
+            futures,
+        }
+    }
+
+    /// The width constraints in force, in order of their rows (`WI2`).
+    pub fn widths(&self) -> Vec<WidthConstraint> {
+        let girth = self.girth();
+        let told = |width: &widths::Width| WidthConstraint {
+            row: width.metamer.raw(),
+            diameter: width.wanted,
+            effective: width.effective,
+        };
+        widths::in_force(self.plant(), &girth).iter().map(told).collect()
+    }
+
+    /// Where each open bend that was moved stands, by its number (`BE5`).
+    pub(crate) fn poses(&self) -> BTreeMap<u32, Vec<RowMotion>> {
+        let pose = |bend: &super::bending::OpenBend| {
+            let rows = bend.path.iter().zip(bend.solver.motions());
+            let told = rows.map(|(row, motion)| RowMotion {
+                row: row.raw(),
+                rotation: motion.rotation.to_array(),
+                to: motion.to.to_array(),
+            });
+            (bend.id, told.collect())
+        };
+        self.bends.open.iter().filter(|bend| bend.is_moved).map(pose).collect()
+    }
+
+    pub(super) fn girth(&self) -> Girth {
+        let parameters = self.simulation.parameters();
+        Girth::new(parameters.girth_exponent, parameters.twig_diameter)
+    }
+}
+
+/// Keys are secrets of those who hold them, so people are numbered.
+#[derive(Default)]
+struct People<'a>(BTreeMap<&'a str, u32>);
+
+impl<'a> People<'a> {
+    fn tell(&mut self, operations: &'a [Operation]) -> Vec<TimelineOperation> {
+        operations.iter().map(|operation| self.tell_one(operation)).collect()
+    }
+
+    fn tell_one(&mut self, operation: &'a Operation) -> TimelineOperation {
+        let next = self.0.len() as u32;
+        let author = *self.0.entry(operation.author.as_str()).or_insert(next);
+        let kind = match operation.kind {
+            Kind::Stroke => OperationKind::Stroke,
+            Kind::Growth => OperationKind::Growth,
+            Kind::Parameters => OperationKind::Parameters,
+            Kind::Seed => OperationKind::Seed,
+            Kind::Lasso => OperationKind::Lasso,
+            Kind::Obstacle => OperationKind::Obstacle,
+            Kind::Bend => OperationKind::Bend,
+            Kind::Width => OperationKind::Width,
+            Kind::Prune => OperationKind::Prune,
+            Kind::Turn => OperationKind::Turn,
+            Kind::Graft => OperationKind::Graft,
+        };
+        TimelineOperation { kind, author, first: operation.first, last: operation.last }
+    }
+}

@@ -1,0 +1,268 @@
+//! Random histories: back to the seedling, forth to the tree, written down and read again, bit for bit.
+
+use espalier_plant::checks;
+use proptest::prelude::*;
+
+use super::*;
+
+/// Something that happens. Rows are any numbers, from which a living metamer is found.
+#[derive(Clone, Debug)]
+enum Event {
+    Stroke,
+    Grow(u32),
+    Ungrow(u32),
+    Undo,
+    Redo,
+    Apical(f32),
+    Seed(f32),
+    Begin(u32),
+    Move(u32, f32, f32, f32),
+    End(u32),
+    Lasso(f32, f32),
+    Choose(u32),
+    Ball(f32, f32),
+    Mesh(f32),
+    Push(u32, f32),
+    Clear(u32),
+    Hold { bend: u32, end: u32, length: u32, touches: u32, stretch: f32 },
+    Drag { bend: u32, shift: [f32; 3] },
+    LetGo(u32),
+    GiveUp(u32),
+    Width(u32, Option<f32>, Option<u32>),
+    Prune(Vec<u32>, Option<u32>),
+    PruneDim(f32),
+    Turn(u32, f32, Option<u32>),
+    Graft(u32, u32, f32, bool),
+    GoTo(u32),
+    Take(u32),
+    GrowOn(u32, u32),
+}
+
+fn events() -> impl Strategy<Value = Vec<Event>> {
+    let gesture = || prop::option::of(0u32..2);
+    let event = prop_oneof![
+        2 => Just(Event::Stroke),
+        6 => (1u32..5).prop_map(Event::Grow),
+        2 => (1u32..9).prop_map(Event::Ungrow),
+        3 => Just(Event::Undo),
+        2 => Just(Event::Redo),
+        1 => (0.4f32..0.7).prop_map(Event::Apical),
+        1 => (-20f32..20.0).prop_map(Event::Seed),
+        1 => (90u32..92).prop_map(Event::Begin),
+        2 => (90u32..92, -6f32..6.0, 0f32..14.0, 0f32..4.0).prop_map(|(n, x, y, r)| Event::Move(n, x, y, r)),
+        1 => (90u32..92).prop_map(Event::End),
+        1 => (0.5f32..6.0, 1f32..14.0).prop_map(|(w, h)| Event::Lasso(w, h)),
+        1 => (0u32..200).prop_map(Event::Choose),
+        1 => (-9f32..9.0, 1f32..5.0).prop_map(|(x, r)| Event::Ball(x, r)),
+        1 => (-9f32..9.0).prop_map(Event::Mesh),
+        1 => (1u32..4, -9f32..9.0).prop_map(|(id, x)| Event::Push(id, x)),
+        1 => (1u32..4).prop_map(Event::Clear),
+        4 => (0u32..2, any::<u32>(), 1u32..9, 1u32..4, 0f32..1.0)
+            .prop_map(|(bend, end, length, touches, stretch)| Event::Hold { bend, end, length, touches, stretch }),
+        5 => (0u32..2, prop::array::uniform3(-3f32..3.0)).prop_map(|(bend, shift)| Event::Drag { bend, shift }),
+        4 => (0u32..2).prop_map(Event::LetGo),
+        1 => (0u32..2).prop_map(Event::GiveUp),
+        4 => (any::<u32>(), prop::option::weighted(0.8, 0.05f32..2.0), gesture())
+            .prop_map(|(row, diameter, gesture)| Event::Width(row % 5, diameter, gesture)),
+        3 => (prop::collection::vec(any::<u32>(), 1..4), gesture()).prop_map(|(rows, g)| Event::Prune(rows, g)),
+        1 => (0f32..1.0).prop_map(Event::PruneDim),
+        4 => (any::<u32>(), -3f32..3.0, gesture()).prop_map(|(row, angle, g)| Event::Turn(row, angle, g)),
+        3 => (any::<u32>(), any::<u32>(), -3f32..3.0, any::<bool>())
+            .prop_map(|(row, onto, angle, keep)| Event::Graft(row, onto, angle, keep)),
+        4 => any::<u32>().prop_map(Event::GoTo),
+        4 => any::<u32>().prop_map(Event::Take),
+        2 => (1u32..4, 0u32..2).prop_map(|(steps, gesture)| Event::GrowOn(steps, gesture)),
+    ];
+    prop::collection::vec(event, 1..40)
+}
+
+/// A living metamer found from any number; its row, or one that is not there if nothing lives.
+fn row(document: &Document, any: u32) -> u32 {
+    let plant = document.plant();
+    let count = plant.metamer_count();
+    let rows = (0..count).map(|index| (index + any as usize) % count).map(MetamerId::new);
+    let mut living = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
+    living.next().map_or(u32::MAX, MetamerId::raw)
+}
+
+fn hold(document: &Document, bend: u32, end: u32, length: u32, touches: u32, stretch: f32) -> Action {
+    let plant = document.plant();
+    let end = row(document, end);
+    let mut path = vec![end];
+    while path.len() <= length as usize {
+        let below = path.last().filter(|&&id| id < u32::MAX).map(|&id| MetamerId::new(id as usize));
+        let Some(parent) = below.and_then(|id| plant.metamers().parent(id)) else { break };
+        path.push(parent.raw());
+    }
+    let base = path[path.len() - 1];
+    let touches = path.iter().step_by(2).take(touches as usize).copied().collect();
+    Action::BendBegin { bend, base, touches, stretch }
+}
+
+fn drag(document: &Document, bend: u32, shift: [f32; 3]) -> Action {
+    let open = document.bends.open.iter().find(|open| open.number == bend);
+    let wanted = |open: &bending::OpenBend| {
+        let ends = open.touches.iter().map(|&touch| document.plant().metamers().end(open.path[touch]));
+        ends.map(|end| end + Vec3::from_array(shift)).collect()
+    };
+    Action::BendMove { bend, targets: open.map_or_else(|| vec![Vec3::ONE], wanted) }
+}
+
+fn happen(document: &mut Document, number: usize, event: &Event) {
+    let turned = |angle: f32| Quat::from_xyzw(0.0, libm::sinf(angle), 0.0, libm::cosf(angle)).normalize();
+    let found = |any: &u32| row(document, *any);
+    let action = match event {
+        Event::Stroke => return stroke(document, 1000 + number as u32),
+        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None, bud: None },
+        Event::GrowOn(steps, gesture) => Action::Grow { steps: *steps, gesture: Some(*gesture), bud: None },
+        Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
+        Event::Undo => Action::Undo,
+        Event::Redo => Action::Redo,
+        Event::Apical(value) => patch(*value),
+        Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
+        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
+        Event::Move(stroke, x, y, r) => {
+            Action::StrokeMove { stroke: *stroke, samples: vec![sample(*x, *y, *r)] }
+        }
+        Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
+        Event::Lasso(w, h) => lasso(*w, *h),
+        Event::Choose(row) => Action::Grow { steps: 2, gesture: None, bud: Some(*row) },
+        Event::Ball(x, radius) => place(&Shape::Sphere { radius: *radius }, *x),
+        Event::Mesh(x) => place(&slab(), *x),
+        Event::Push(id, x) => Action::MoveObstacle { id: *id, pose: pose(*x) },
+        Event::Clear(id) => Action::RemoveObstacle { id: *id },
+        Event::Hold { bend, end, length, touches, stretch } => {
+            hold(document, *bend, *end, *length, *touches, *stretch)
+        }
+        Event::Drag { bend, shift } => drag(document, *bend, *shift),
+        Event::LetGo(bend) => Action::BendEnd { bend: *bend },
+        Event::GiveUp(bend) => Action::BendCancel { bend: *bend },
+        Event::Width(row, diameter, gesture) => {
+            Action::SetWidth { row: found(row), diameter: *diameter, gesture: *gesture }
+        }
+        Event::Prune(rows, gesture) => {
+            Action::Prune { rows: rows.iter().map(found).collect(), gesture: *gesture }
+        }
+        Event::PruneDim(exposure) => Action::PruneDim { exposure: *exposure },
+        Event::Turn(row, angle, gesture) => {
+            Action::TurnBranch { row: found(row), rotation: turned(*angle), gesture: *gesture }
+        }
+        Event::Graft(row, onto, angle, keep) => {
+            Action::Graft { row: found(row), onto: found(onto), rotation: turned(*angle), keep: *keep }
+        }
+        Event::GoTo(step) => Action::GoTo { step: step % (document.plant().last_step() + 2) },
+        Event::Take(any) => {
+            let futures = document.timeline().futures;
+            let future = futures.get(*any as usize % futures.len().max(1)).map_or(*any, |it| it.future);
+            Action::TakeFuture { future }
+        }
+    };
+    let before = document.hash();
+    let refused = document.apply("ann", &action).is_err();
+    // A bend that cannot be kept ends nevertheless.
+    if refused && !matches!(action, Action::BendEnd { .. }) {
+        assert_eq!(document.hash(), before, "a refused {event:?} changed something");
+    }
+}
+
+/// What undoing and redoing leads to.
+fn form(document: &Document) -> (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>) {
+    (document.plant().hash(), document.parameters(), document.obstacles())
+}
+
+fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
+    let mut document = Document::new(seed);
+    document.set_metamer_budget(4000);
+    for (number, event) in events.iter().enumerate() {
+        happen(&mut document, number, event);
+        prop_assert_eq!(checks::all(document.plant()), Ok(()), "{:?}", event);
+        let state = document.simulation.state();
+        let afresh = Simulation::from_state(
+            Plant::from_parts(document.plant().to_parts()).expect("its own parts"),
+            state,
+        );
+        prop_assert_eq!(afresh.plant().hash(), document.plant().hash());
+    }
+    // Written down and read again it is the same, and goes on the same.
+    let mut copy = Document::from_bytes(&document.to_bytes()).expect("our own bytes");
+    prop_assert_eq!(copy.hash(), document.hash());
+    prop_assert_eq!(copy.timeline(), document.timeline());
+    let first = document.timeline().futures.first().map_or(0, |future| future.future);
+    for event in [
+        Event::Move(90, 3.0, 9.0, 0.0),
+        Event::Drag { bend: 0, shift: [0.5, -1.0, 0.25] },
+        Event::LetGo(0),
+        Event::Grow(2),
+        Event::Undo,
+        Event::Redo,
+        Event::Turn(7, 0.5, Some(0)),
+        Event::Take(first),
+        Event::Grow(1),
+    ] {
+        happen(&mut document, 500, &event);
+        happen(&mut copy, 500, &event);
+        prop_assert_eq!(copy.hash(), document.hash(), "after {:?}", event);
+    }
+    // All the way back is the seedling; all the way forth is the end again. So it is on every line of time.
+    let lines: Vec<u32> = document.timeline().futures.iter().map(|future| future.future).collect();
+    let seedling = form(&Document::new(seed));
+    let mut forms = Vec::new();
+    for line in std::iter::once(None).chain(lines.into_iter().map(Some)) {
+        if let Some(future) = line {
+            // TT4: what has nothing of its own any more lies on another line.
+            if !document.timeline().futures.iter().any(|listed| listed.future == future) {
+                continue;
+            }
+            document.apply("ann", &Action::TakeFuture { future }).expect("it is listed");
+            prop_assert_eq!(document.timeline().line, future);
+        }
+        while document.apply("ann", &Action::Redo).is_ok() {}
+        // Ungrowing may have left a setting that is not the line's.
+        let step = document.plant().step();
+        document.apply("ann", &Action::GoTo { step }).expect("it is here");
+        let end = form(&document);
+        while document.apply("ann", &Action::Undo).is_ok() {}
+        prop_assert_eq!(&form(&document), &seedling);
+        while document.apply("ann", &Action::Redo).is_ok() {}
+        prop_assert_eq!(&form(&document), &end);
+        prop_assert_eq!(checks::all(document.plant()), Ok(()));
+        forms.push((document.timeline().line, end));
+    }
+    // Each line is still there under its number.
+    for (line, end) in forms {
+        let timeline = document.timeline();
+        if timeline.futures.iter().any(|listed| listed.future == line) {
+            document.apply("ann", &Action::TakeFuture { future: line }).expect("it is listed");
+            prop_assert_eq!(form(&document), end);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn histories_undo_redo_and_read_back_exactly(seed: u32, events in events()) {
+        check_all(seed, &events)?;
+    }
+
+    #[test]
+    fn damaged_bytes_never_panic(cut in 0usize..4000, at in 0usize..4000, with: u8) {
+        let mut document = Document::new(9);
+        stroke(&mut document, 1);
+        let mut bytes = document.to_bytes();
+        let at = at % bytes.len();
+        bytes[at] ^= with;
+        bytes.truncate(bytes.len().saturating_sub(cut % 50));
+        // Only untouched bytes, or a touched field that nothing is checked against, may pass.
+        if let Ok(read) = Document::from_bytes(&bytes) {
+            prop_assert_eq!(read.hash(), document.hash());
+        }
+    }
+
+    #[test]
+    fn arbitrary_bodies_never_panic(body in prop::collection::vec(any::<u8>(), 0..400)) {
+        prop_assert!(Document::from_bytes(&bytes::sealed(&body)).is_err());
+    }
+}

@@ -1,0 +1,401 @@
+//! Bends, widths, cuts, grafts and lines of time, and what of them is refused.
+
+use super::*;
+
+const NO_TURN: Quat = Quat::IDENTITY;
+
+/// A tree with a few branches.
+fn tree() -> Document {
+    let mut document = Document::new(5);
+    document.apply("ann", &Action::Grow { steps: 9, gesture: None, bud: None }).expect("there is room");
+    document
+}
+
+fn apply(document: &mut Document, action: &Action) {
+    document.apply("ann", action).unwrap_or_else(|problem| panic!("{action:?}: {problem}"));
+}
+
+/// The problem an action is refused with; nothing changes.
+fn problem(document: &mut Document, action: &Action) -> Problem {
+    let before = document.hash();
+    let problem = document.apply("ann", action).expect_err("it is refused");
+    assert_eq!(document.hash(), before, "{action:?} is refused and changes something");
+    problem
+}
+
+fn refusal(document: &mut Document, action: &Action) -> (ProblemCode, String) {
+    let problem = problem(document, action);
+    assert!(!problem.message.is_empty());
+    (problem.code, problem.field.unwrap_or_default())
+}
+
+/// The way down from the youngest living metamer that stands this far from its trunk's foot, or farther.
+fn long_path(document: &Document, length: usize) -> Vec<MetamerId> {
+    let plant = document.plant();
+    let down = |id: MetamerId| {
+        let below = std::iter::successors(Some(id), |&id| plant.metamers().parent(id));
+        below.take_while(|&id| !plant.is_seed(id)).collect::<Vec<_>>()
+    };
+    let rows = (0..plant.metamer_count()).rev().map(MetamerId::new);
+    let living = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
+    living.map(down).find(|path| path.len() >= length).expect("the tree is tall enough")
+}
+
+/// The first metamers of lateral branches.
+fn laterals(document: &Document) -> Vec<MetamerId> {
+    let plant = document.plant();
+    let metamers = plant.metamers();
+    let rows = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    rows.filter(|&id| {
+        let parent = metamers.parent(id).filter(|&parent| !plant.is_seed(parent));
+        parent.is_some_and(|parent| metamers.axis(parent) != metamers.axis(id))
+    })
+    .collect()
+}
+
+fn begin(bend: u32, base: MetamerId, touches: &[MetamerId]) -> Action {
+    let touches = touches.iter().map(|id| id.raw()).collect();
+    Action::BendBegin { bend, base: base.raw(), touches, stretch: 0.2 }
+}
+
+fn end(document: &Document, id: MetamerId) -> Vec3 {
+    document.plant().metamers().end(id)
+}
+
+fn kinds(document: &Document) -> Vec<espalier_proto::OperationKind> {
+    document.timeline().operations.iter().map(|operation| operation.kind).collect()
+}
+
+#[test]
+fn be1_a_bend_is_one_operation_for_undo() {
+    let mut document = tree();
+    let path = long_path(&document, 8);
+    let (top, base) = (path[0], path[7]);
+    let (before, place, foot) = (document.plant().hash(), end(&document, top), end(&document, base));
+    apply(&mut document, &begin(1, base, &[top]));
+    for part in 1..=4 {
+        let targets = vec![place + Vec3::X * 0.5 * part as f32];
+        apply(&mut document, &Action::BendMove { bend: 1, targets });
+        assert_eq!(document.plant().hash(), before, "BE5: the wood stays until it is let go");
+        assert_eq!(document.poses().len(), 1);
+    }
+    apply(&mut document, &Action::BendEnd { bend: 1 });
+    assert!(end(&document, top).x > place.x + 0.5, "it followed the finger");
+    assert_eq!(end(&document, base), foot, "the base never moves");
+    assert_eq!(document.timeline().operations.len(), 2);
+    let after = document.plant().hash();
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.plant().hash(), before);
+    apply(&mut document, &Action::Redo);
+    assert_eq!(document.plant().hash(), after);
+}
+
+#[test]
+fn be4_a_bend_given_up_is_no_operation() {
+    let mut document = tree();
+    let path = long_path(&document, 6);
+    let timeline = document.timeline();
+    apply(&mut document, &begin(1, path[5], &[path[0]]));
+    apply(&mut document, &Action::BendMove { bend: 1, targets: vec![Vec3::new(3.0, 4.0, 0.0)] });
+    apply(&mut document, &Action::BendCancel { bend: 1 });
+    apply(&mut document, &begin(2, path[5], &[path[0]]));
+    apply(&mut document, &Action::BendEnd { bend: 2 });
+    assert_eq!(document.timeline(), timeline, "one was given up, the other moved nothing");
+    for travel in [Action::Undo, Action::Ungrow { steps: 1 }, Action::GoTo { step: 7 }] {
+        apply(&mut document, &begin(3, path[5], &[path[0]]));
+        apply(&mut document, &travel);
+        assert_eq!(document.open_bends("ann"), [] as [u32; 0], "{travel:?} gives it up");
+        apply(&mut document, &Action::GoTo { step: 9 });
+    }
+}
+
+#[test]
+fn be1_impossible_bends_name_what_is_wrong() {
+    use ProblemCode::{NotFound, OutOfRange, Refused};
+    let mut document = tree();
+    let path = long_path(&document, 6);
+    let (top, base) = (path[0], path[5]);
+    let elsewhere = *laterals(&document).iter().find(|id| !path.contains(id)).expect("there are many");
+    let far = MetamerId::new(1_000_000);
+    for (action, code, field) in [
+        (begin(1, far, &[top]), NotFound, "base"),
+        (begin(1, MetamerId::new(0), &[top]), NotFound, "base"),
+        (begin(1, base, &[top, far]), NotFound, "touches[1]"),
+        (begin(1, top, &[base]), OutOfRange, "touches[0]"),
+        (begin(1, base, &[base]), OutOfRange, "touches[0]"),
+        (begin(1, base, &[top, base]), OutOfRange, "touches[1]"),
+        (Action::BendMove { bend: 1, targets: vec![Vec3::ONE] }, NotFound, "bend"),
+        (Action::BendEnd { bend: 1 }, NotFound, "bend"),
+        (Action::BendCancel { bend: 1 }, NotFound, "bend"),
+    ] {
+        assert_eq!(refusal(&mut document, &action), (code, field.to_owned()), "{action:?}");
+    }
+    let (code, field) = refusal(&mut document, &begin(1, path[2], &[top, elsewhere]));
+    assert!(
+        code == OutOfRange && field.starts_with("touches"),
+        "base and end on different branches: {field}"
+    );
+    apply(&mut document, &begin(1, base, &[top, path[2]]));
+    assert_eq!(refusal(&mut document, &begin(1, base, &[top])), (Refused, String::new()), "begun already");
+    let one = Action::BendMove { bend: 1, targets: vec![Vec3::ONE] };
+    assert_eq!(refusal(&mut document, &one), (OutOfRange, "targets".into()));
+    // BE2: wood that moves is in one pair of hands.
+    for (base, top) in [(base, top), (path[3], path[1]), (path[5], path[3])] {
+        assert_eq!(refusal(&mut document, &begin(2, base, &[top])), (Refused, "base".into()));
+    }
+    let turn = Action::TurnBranch { row: path[4].raw(), rotation: NO_TURN, gesture: None };
+    assert_eq!(refusal(&mut document, &turn), (Refused, "row".into()));
+}
+
+#[test]
+fn be4_a_branch_that_is_cut_takes_its_bend_along() {
+    let mut document = tree();
+    let path = long_path(&document, 6);
+    apply(&mut document, &begin(1, path[5], &[path[0]]));
+    apply(&mut document, &Action::BendMove { bend: 1, targets: vec![Vec3::new(3.0, 4.0, 0.0)] });
+    document.apply("bob", &Action::Prune { rows: vec![path[0].raw()], gesture: None }).expect("a branch");
+    assert!(document.poses().is_empty());
+    let over = Action::BendMove { bend: 1, targets: vec![Vec3::ONE] };
+    assert_eq!(refusal(&mut document, &over), (ProblemCode::NotFound, "bend".into()));
+    assert_eq!(refusal(&mut document, &Action::BendEnd { bend: 1 }), (ProblemCode::NotFound, "bend".into()));
+    let begun = begin(1, path[5], &[path[0]]);
+    assert_eq!(refusal(&mut document, &begun), (ProblemCode::NotFound, "touches[0]".into()));
+    let width = Action::SetWidth { row: path[0].raw(), diameter: Some(1.0), gesture: None };
+    assert_eq!(refusal(&mut document, &width), (ProblemCode::NotFound, "row".into()));
+}
+
+#[test]
+fn wi1_widths_of_one_gesture_are_one_operation() {
+    let mut document = tree();
+    let row = long_path(&document, 4)[2].raw();
+    let set = |diameter, gesture| Action::SetWidth { row, diameter, gesture };
+    let before = document.plant().hash();
+    for diameter in [0.5, 0.6, 0.7] {
+        apply(&mut document, &set(Some(diameter), Some(1)));
+    }
+    assert_eq!(document.plant().step(), 10, "each takes the place of the one before");
+    assert_eq!(
+        document.widths().iter().map(|width| (width.row, width.diameter)).collect::<Vec<_>>(),
+        [(row, 0.7)]
+    );
+    apply(&mut document, &set(None, Some(2)));
+    assert_eq!((document.timeline().operations.len(), document.widths().len()), (3, 0));
+    apply(&mut document, &set(None, Some(2)));
+    assert_eq!(document.timeline().operations.len(), 3, "removing none does nothing");
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.widths().len(), 1);
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.plant().hash(), before);
+    // A gesture that ends where it began has done nothing.
+    apply(&mut document, &Action::Redo);
+    let timeline = document.timeline();
+    apply(&mut document, &Action::Redo);
+    apply(&mut document, &set(Some(0.9), Some(3)));
+    apply(&mut document, &set(None, Some(3)));
+    assert_eq!(document.timeline().operations.len(), timeline.operations.len());
+}
+
+#[test]
+fn pr1_a_branch_is_cut_at_its_branching_point() {
+    let mut document = tree();
+    let lateral = laterals(&document)[0];
+    let plant = document.plant();
+    let above = plant.above(lateral);
+    // The highest row before which nothing branches off.
+    let mut row = lateral;
+    while let Some(next) =
+        (plant.above(row).into_iter().skip(1)).find(|&id| plant.metamers().parent(id) == Some(row)).filter(
+            |_| plant.above(row).iter().filter(|&&id| plant.metamers().parent(id) == Some(row)).count() == 1,
+        )
+    {
+        row = next;
+    }
+    let (living, bearer) = (document.metamers(), plant.metamers().parent(lateral).expect("it is borne"));
+    let tips = plant.metamers().tips(bearer);
+    let prune = Action::Prune { rows: vec![row.raw()], gesture: None };
+    let mut stub = document.clone();
+    apply(&mut document, &prune);
+    assert_eq!(document.metamers() as usize, living as usize - above.len());
+    assert!(document.plant().is_alive(bearer) && !document.plant().is_alive(lateral));
+    assert!(document.plant().metamers().tips(bearer) < tips, "PR2: the wood below gets thinner");
+    // With a constraint on the way a stub stays.
+    apply(&mut stub, &Action::SetWidth { row: lateral.raw(), diameter: Some(0.4), gesture: None });
+    if row == lateral {
+        stub.apply("ann", &prune).expect_err("nothing stands above the constraint");
+    } else {
+        apply(&mut stub, &prune);
+    }
+    assert!(stub.plant().is_alive(lateral));
+}
+
+#[test]
+fn pr1_the_trunk_is_not_cut() {
+    let mut document = tree();
+    let path = long_path(&document, 4);
+    let foot = path[path.len() - 1].raw();
+    let lateral = laterals(&document)[0].raw();
+    let prune = |rows: &[u32]| Action::Prune { rows: rows.to_vec(), gesture: None };
+    assert_eq!(refusal(&mut document, &prune(&[foot])), (ProblemCode::Refused, "rows[0]".into()));
+    assert_eq!(refusal(&mut document, &prune(&[lateral, foot])), (ProblemCode::Refused, "rows[1]".into()));
+    assert_eq!(refusal(&mut document, &prune(&[lateral, 0])), (ProblemCode::NotFound, "rows[1]".into()));
+    assert_eq!(refusal(&mut document, &prune(&[u32::MAX])), (ProblemCode::NotFound, "rows[0]".into()));
+    // Above a constraint even the trunk can be cut, and its stub stays.
+    apply(&mut document, &Action::SetWidth { row: foot, diameter: Some(0.5), gesture: None });
+    apply(&mut document, &prune(&[foot]));
+    assert_eq!(document.metamers(), 1);
+    assert_eq!(refusal(&mut document, &prune(&[foot])), (ProblemCode::Refused, "rows[0]".into()));
+}
+
+#[test]
+fn pr3_branches_in_the_dark_are_cut() {
+    let mut document = tree();
+    let living = document.metamers();
+    let dim = |exposure| Action::PruneDim { exposure };
+    assert_eq!(refusal(&mut document, &dim(0.0)).0, ProblemCode::Refused);
+    let mut light = document.clone();
+    apply(&mut light, &dim(1.0));
+    assert!(laterals(&light).is_empty(), "none gets more than full light");
+    let darkest = laterals(&document);
+    assert!(!darkest.is_empty() && light.metamers() < living);
+    apply(&mut light, &Action::Undo);
+    assert_eq!(light.plant().hash(), document.plant().hash());
+}
+
+#[test]
+fn br1_turns_of_one_gesture_replace_each_other() {
+    let mut document = tree();
+    let branch =
+        *laterals(&document).iter().max_by_key(|&&id| document.plant().above(id).len()).expect("some");
+    let turn = |angle: f32, gesture| Action::TurnBranch {
+        row: branch.raw(),
+        rotation: Quat::from_xyzw(0.0, libm::sinf(angle), 0.0, libm::cosf(angle)),
+        gesture,
+    };
+    let mut once = document.clone();
+    apply(&mut once, &turn(0.6, None));
+    for angle in [0.1, 0.4, -1.0, 0.6] {
+        apply(&mut document, &turn(angle, Some(4)));
+    }
+    assert_eq!(document.plant().hash(), once.plant().hash());
+    assert_eq!(document.timeline().operations.len(), 2);
+    let foot = document.plant().metamers().parent(branch).expect("it is borne");
+    let trunk = long_path(&document, 3).pop().expect("a path");
+    let row = trunk.raw();
+    let felled = Action::TurnBranch { row, rotation: NO_TURN, gesture: None };
+    assert_eq!(refusal(&mut document, &felled), (ProblemCode::Refused, "row".into()));
+    assert_eq!(end(&document, foot), end(&once, foot));
+}
+
+#[test]
+fn br2_a_graft_is_a_copy_or_moves() {
+    let mut document = tree();
+    let branches = laterals(&document);
+    let plant = document.plant();
+    let (branch, size) =
+        branches.iter().map(|&id| (id, plant.above(id).len())).max_by_key(|&(_, size)| size).expect("some");
+    let inside = plant.above(branch)[size - 1];
+    let onto = long_path(&document, 3).pop().expect("a path");
+    let living = document.metamers() as usize;
+    let graft = |onto: MetamerId, keep| Action::Graft {
+        row: branch.raw(),
+        onto: onto.raw(),
+        rotation: NO_TURN,
+        keep,
+    };
+    for (onto, keep) in [(branch, true), (inside, false)] {
+        assert_eq!(refusal(&mut document, &graft(onto, keep)), (ProblemCode::Refused, "onto".into()));
+    }
+    let far = graft(MetamerId::new(999_999), true);
+    assert_eq!(refusal(&mut document, &far), (ProblemCode::NotFound, "onto".into()));
+    let trunk = Action::Graft { row: onto.raw(), onto: inside.raw(), rotation: NO_TURN, keep: false };
+    assert_eq!(refusal(&mut document, &trunk), (ProblemCode::Refused, "onto".into()));
+    let mut moved = document.clone();
+    apply(&mut moved, &graft(onto, false));
+    assert_eq!(moved.metamers() as usize, living);
+    assert!(!moved.plant().is_alive(branch));
+    apply(&mut document, &graft(onto, true));
+    assert_eq!(document.metamers() as usize, living + size);
+    document.set_metamer_budget(document.plant().metamer_count() as u32 + 1);
+    apply(&mut document, &Action::Undo);
+    apply(&mut document, &Action::Redo);
+    assert_eq!(refusal(&mut document, &graft(onto, true)).0, ProblemCode::Refused, "LM4: copies count");
+}
+
+#[test]
+fn tt3_what_lay_ahead_becomes_a_future() {
+    let mut document = tree();
+    let first = document.plant().hash();
+    apply(&mut document, &Action::Ungrow { steps: 4 });
+    apply(&mut document, &Action::PlantSeed { position: Vec3::X * 5.0 });
+    grow(&mut document, 2, None);
+    let timeline = document.timeline();
+    assert_eq!((timeline.line, timeline.step, timeline.last_step, timeline.done), (1, 8, 8, 3));
+    let [future] = timeline.futures.as_slice() else { panic!("one future, not {:?}", timeline.futures) };
+    assert_eq!((future.future, future.from, future.steps, future.on), (0, 5, 4, None));
+    assert_eq!(future.operations.len(), 1, "the growth that was cut in two");
+    let second = document.plant().hash();
+    // A future of what is now a future.
+    apply(&mut document, &Action::GoTo { step: 7 });
+    grow(&mut document, 1, None);
+    apply(&mut document, &Action::GoTo { step: 3 });
+    grow(&mut document, 1, None);
+    let futures = document.timeline().futures;
+    let hangs: Vec<_> = futures.iter().map(|future| (future.future, future.on, future.from)).collect();
+    assert_eq!(hangs, [(0, Some(2), 5), (1, Some(2), 7), (2, None, 3)]);
+    for (line, hash) in [(0, first), (1, second), (0, first)] {
+        apply(&mut document, &Action::TakeFuture { future: line });
+        assert_eq!((document.plant().hash(), document.timeline().line), (hash, line));
+    }
+    let unknown = Action::TakeFuture { future: 0 };
+    assert_eq!(refusal(&mut document, &unknown), (ProblemCode::NotFound, "future".into()));
+    assert_eq!(document.timeline().futures.len(), 3);
+}
+
+#[test]
+fn tt2_scrubbing_follows_the_settings_of_the_line() {
+    let mut document = tree();
+    let seedling = document.parameters();
+    apply(&mut document, &patch(0.6));
+    let changed = document.parameters();
+    grow(&mut document, 2, None);
+    apply(&mut document, &Action::GoTo { step: 4 });
+    assert_eq!(document.parameters(), seedling);
+    apply(&mut document, &Action::GoTo { step: 10 });
+    assert_eq!(document.parameters(), changed);
+    assert_eq!(refusal(&mut document, &Action::GoTo { step: 12 }), (ProblemCode::OutOfRange, "step".into()));
+    // CM7: ungrowing keeps them, and what is done then begins with that difference.
+    apply(&mut document, &Action::Ungrow { steps: 8 });
+    assert_eq!((document.parameters(), document.plant().step()), (changed.clone(), 2));
+    grow(&mut document, 1, None);
+    use espalier_proto::OperationKind::{Growth, Parameters};
+    assert_eq!(kinds(&document), [Growth, Parameters, Growth]);
+    while document.apply("ann", &Action::Undo).is_ok() {}
+    assert_eq!((document.parameters(), document.plant().step()), (seedling.clone(), 0));
+    let nothing = problem(&mut document, &Action::Undo);
+    assert_eq!((nothing.code, nothing.message.as_str()), (ProblemCode::Refused, "there is nothing to undo"));
+    while document.apply("ann", &Action::Redo).is_ok() {}
+    assert_eq!((document.parameters(), document.plant().step()), (changed.clone(), 3));
+    // Undoing takes a difference back that nothing was done with.
+    apply(&mut document, &Action::Ungrow { steps: 3 });
+    assert_eq!(document.parameters(), changed);
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.parameters(), seedling);
+}
+
+#[test]
+fn lm11_the_oldest_futures_are_forgotten() {
+    let mut document = tree();
+    for round in 0..70 {
+        apply(&mut document, &Action::GoTo { step: round % 3 });
+        grow(&mut document, 3, None);
+    }
+    let futures = document.timeline().futures;
+    assert_eq!(futures.len(), espalier_proto::version::MAX_FUTURES);
+    for future in &futures {
+        if let Some(on) = future.on {
+            assert!(futures.iter().any(|other| other.future == on), "what others hang on stays");
+        }
+    }
+    let saved = Document::from_bytes(&document.to_saved_bytes()).expect("our own bytes");
+    assert_eq!((saved.timeline().futures.len(), saved.plant().hash()), (0, document.plant().hash()));
+}

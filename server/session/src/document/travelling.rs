@@ -1,0 +1,75 @@
+//! Going back and forth on the present line of time.
+
+use std::sync::Arc;
+
+use espalier_proto::Problem;
+
+use super::{Document, refused};
+
+impl Document {
+    /// So many steps back, with parameters and obstacles as they are (`CM7`).
+    pub(super) fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
+        let now = self.plant().step();
+        if now == 0 {
+            return Err(refused("the plant is a seed; there is nothing to ungrow"));
+        }
+        let step = now.saturating_sub(steps);
+        self.history.done = self.history.done.min(self.history.done_at(step));
+        self.travel(step);
+        Ok(())
+    }
+
+    pub(super) fn undo(&mut self) -> Result<(), Problem> {
+        if self.strays() {
+            self.keep_to_line();
+            return Ok(());
+        }
+        let step = self.history.undo().ok_or_else(|| refused("there is nothing to undo"))?;
+        self.travel(step);
+        self.keep_to_line();
+        Ok(())
+    }
+
+    pub(super) fn redo(&mut self) -> Result<(), Problem> {
+        let now = self.plant().step();
+        let step = self.history.redo(now).ok_or_else(|| refused("there is nothing to redo"))?;
+        self.travel(step);
+        self.keep_to_line();
+        Ok(())
+    }
+
+    /// To a step of the line, with the parameters and obstacles it had there (`TT2`).
+    pub(super) fn go_to(&mut self, step: u32) -> Result<(), Problem> {
+        let last = self.plant().last_step();
+        if step > last {
+            return Err(Problem::out_of_range("step", step, format!("0 to {last}")));
+        }
+        if step != self.plant().step() {
+            self.history.done = self.history.done_at(step);
+            self.travel(step);
+        }
+        self.keep_to_line();
+        Ok(())
+    }
+
+    /// Whether parameters or obstacles are not those of the line: ungrowing leaves them as they are.
+    pub(super) fn strays(&self) -> bool {
+        let line = self.history.setting();
+        let is_placed = Arc::ptr_eq(&line.obstacles, &self.obstacles.standing);
+        !is_placed || *line.parameters != *self.simulation.parameters()
+    }
+
+    /// Puts the line's parameters and obstacles in force.
+    pub(super) fn keep_to_line(&mut self) {
+        let setting = self.history.setting().clone();
+        self.set(&setting);
+    }
+
+    /// Travels in time; strokes in progress end where they are, and bends are given up.
+    pub(super) fn travel(&mut self, step: u32) {
+        self.strokes.close_all();
+        self.bends.close_all();
+        self.history.latest = None;
+        self.simulation.go_to(step);
+    }
+}

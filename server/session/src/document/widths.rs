@@ -1,0 +1,60 @@
+//! Width constraints (`WI`).
+
+use espalier_plant::MetamerId;
+use espalier_proto::Problem;
+
+use super::{
+    Document,
+    history::{Kind, Latest},
+};
+
+impl Document {
+    pub(super) fn set_width(
+        &mut self,
+        author: &str,
+        row: u32,
+        diameter: Option<f32>,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
+        let metamer = self.wood("row", row)?;
+        if self.width(metamer) == diameter {
+            return Ok(());
+        }
+        let now = self.plant().step();
+        let continues = self.history.continues(&[Kind::Width], author, gesture, now);
+        if continues && self.replaces(row) {
+            self.take_back_latest();
+        } else if !continues {
+            self.record(Kind::Width, author, gesture);
+        }
+        self.simulation.set_width(metamer, diameter);
+        let step = self.plant().step();
+        self.history.reach(step);
+        // Back where the gesture began, there is nothing to undo.
+        self.history.forget_idle();
+        let is_kept = self.history.continues(&[Kind::Width], author, gesture, step);
+        self.history.latest = is_kept.then_some(Latest { step, row, rotation: None });
+        Ok(())
+    }
+
+    /// The constraint on a metamer.
+    fn width(&self, metamer: MetamerId) -> Option<f32> {
+        self.plant().widths().find(|&(id, _)| id == metamer).map(|(_, diameter)| diameter)
+    }
+
+    /// Whether an edit of this row, by the gesture in progress, takes the place of the edit made last. While
+    /// somebody draws, time is not turned back below the brush.
+    pub(super) fn replaces(&self, row: u32) -> bool {
+        let now = self.plant().step();
+        let is_latest = self.history.latest.is_some_and(|latest| latest.step == now && latest.row == row);
+        is_latest && self.strokes.is_empty()
+    }
+
+    /// Takes back the step made last; what it did is forgotten.
+    pub(super) fn take_back_latest(&mut self) {
+        let before = self.plant().step().saturating_sub(1);
+        self.simulation.go_to(before);
+        self.simulation.stash_future();
+        self.history.reach(before);
+    }
+}

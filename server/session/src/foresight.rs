@@ -1,0 +1,95 @@
+//! Predictions: how the plants would grow on without some branches (`PD`).
+//!
+//! A prediction works on a copy of the simulation, beside the document's own work, in slices as that does.
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+use espalier_growth::{NoObserver, Simulation, StepInput};
+use espalier_mesh::{RingTable, Style};
+use espalier_proto::{GhostFrame, Problem};
+
+use crate::{
+    action::Prediction,
+    document::prune_simulation,
+    io::ClientId,
+    to_proto::{self, Held},
+};
+
+/// Steps of one slice, so that other work has its turn.
+const SLICE_STEPS: u32 = 4;
+
+/// Tells a prediction that nobody waits for it any more.
+pub(crate) type Cancelled = Arc<AtomicBool>;
+
+/// What a client wants to know.
+#[derive(Debug)]
+pub(crate) struct Question {
+    pub(crate) client: ClientId,
+    /// The client's predictions are counted: also the sequence of the ghost.
+    pub(crate) number: u32,
+    pub(crate) prediction: Prediction,
+    pub(crate) cancelled: Cancelled,
+}
+
+/// A prediction in the making. Owns all it needs: call [`Foresight::run`] on any thread until it is done.
+#[derive(Debug)]
+pub struct Foresight {
+    pub(crate) question: Question,
+    epoch: u32,
+    /// The plants to come; `None` when nothing is left to do.
+    simulation: Option<Box<Simulation>>,
+    is_cut: bool,
+    left: u32,
+    style: Style,
+    /// The ghost, or why there is none; nothing while it is made, or when it was cancelled.
+    pub(crate) answer: Option<Result<Arc<[u8]>, Problem>>,
+}
+
+impl Foresight {
+    pub(crate) fn new(question: Question, simulation: Simulation, style: Style, epoch: u32) -> Self {
+        let left = question.prediction.steps;
+        Self {
+            question,
+            epoch,
+            simulation: Some(Box::new(simulation)),
+            is_cut: false,
+            left,
+            style,
+            answer: None,
+        }
+    }
+
+    /// Does one slice; true when the prediction is done and goes back as [`crate::Input::Foreseen`].
+    pub fn run(&mut self) -> bool {
+        let Some(mut simulation) = self.simulation.take() else { return true };
+        if !self.is_cut {
+            self.is_cut = true;
+            if let Err(problem) = prune_simulation(&mut simulation, &self.question.prediction.rows) {
+                self.answer = Some(Err(problem));
+                return true;
+            }
+        }
+        for _ in 0..SLICE_STEPS.min(self.left) {
+            if self.question.cancelled.load(Ordering::Relaxed) {
+                return true;
+            }
+            let input = StepInput { autonomous: true, ..StepInput::default() };
+            simulation.step(&input, &mut NoObserver);
+            self.left = if simulation.is_out_of_budget() { 0 } else { self.left - 1 };
+        }
+        if self.left > 0 {
+            self.simulation = Some(simulation);
+            return false;
+        }
+        simulation.show();
+        let mut table = RingTable::new();
+        table.sync(simulation.plant(), &self.style, 1);
+        let changes = to_proto::catch_up(&table, &Held::Nothing, self.epoch, 1).changes;
+        let ghost = GhostFrame { epoch: self.epoch, sequence: self.question.number, changes };
+        self.answer = Some(Ok(ghost.encode().into()));
+        true
+    }
+}

@@ -1,0 +1,117 @@
+//! Predictions and the ghosts that answer them (`PD`).
+
+use std::sync::{Arc, atomic::Ordering};
+
+use espalier_proto::{GhostFrame, ServerMessage};
+
+use super::Session;
+use crate::{
+    action::Prediction,
+    clients::Vision,
+    foresight::{Cancelled, Foresight, Question},
+    io::{ClientId, Output},
+    work::Work,
+};
+
+/// Predictions of one session that are made at a time: each has plants of its own.
+const MAX_FORESEEING: usize = 2;
+
+impl Vision {
+    /// Nobody wants the prediction any more that was asked for last.
+    pub(crate) fn cancel(&self) {
+        if let Some(running) = &self.running {
+            running.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Nothing is wanted, made or waits; a number for what comes next.
+    fn start_over(&mut self) -> u32 {
+        self.cancel();
+        self.wanted = None;
+        self.ready = None;
+        self.number = self.number.wrapping_add(1);
+        self.number
+    }
+}
+
+impl Session {
+    pub(super) fn predict(&mut self, client: ClientId, rows: &[u32], steps: u32) {
+        match Prediction::parse(rows, steps) {
+            Ok(None) => self.end_prediction(client),
+            Ok(Some(prediction)) => {
+                let Some(guest) = self.guest_mut(client) else { return };
+                guest.vision.start_over();
+                guest.vision.wanted = Some(prediction);
+            }
+            Err(problem) => self.send(client, &ServerMessage::Problem { problem }),
+        }
+    }
+
+    /// The client's ghost goes, and so does what would become one.
+    pub(super) fn end_prediction(&mut self, client: ClientId) {
+        let epoch = self.epoch;
+        let Some(guest) = self.guest_mut(client) else { return };
+        let sequence = guest.vision.start_over();
+        if guest.vision.is_shown {
+            guest.vision.is_shown = false;
+            let ended = GhostFrame { epoch, sequence, changes: Vec::new() };
+            self.outputs.push_back(Output::Frame(client, ended.encode().into()));
+        }
+    }
+
+    /// Gives questions to the document, which is about to go to the simulation pool.
+    pub(super) fn ask_questions(&mut self, work: &mut Work) {
+        for (&client, state) in &mut self.clients {
+            let Some(guest) = &mut state.guest else { continue };
+            let vision = &mut guest.vision;
+            if self.foreseeing >= MAX_FORESEEING || vision.running.is_some() {
+                continue;
+            }
+            let Some(prediction) = vision.wanted.take() else { continue };
+            let cancelled = Cancelled::default();
+            vision.running = Some(Arc::clone(&cancelled));
+            self.foreseeing += 1;
+            work.questions.push(Question { client, number: vision.number, prediction, cancelled });
+        }
+    }
+
+    /// A prediction is done, or was given up.
+    pub(super) fn foreseen(&mut self, foresight: Foresight) {
+        self.foreseeing = self.foreseeing.saturating_sub(1);
+        let Foresight { question, answer, .. } = foresight;
+        let Some(guest) = self.guest_mut(question.client) else { return };
+        guest.vision.running = None;
+        if question.number != guest.vision.number {
+            return;
+        }
+        match answer {
+            Some(Ok(ghost)) => {
+                guest.vision.ready = Some(ghost);
+                self.send_ghost(question.client);
+            }
+            Some(Err(problem)) => {
+                self.end_prediction(question.client);
+                self.send(question.client, &ServerMessage::Problem { problem });
+            }
+            None => {}
+        }
+    }
+
+    /// The client has drawn ghosts up to this one.
+    pub(super) fn received_ghost(&mut self, client: ClientId, sequence: u32) {
+        let Some(guest) = self.guest_mut(client) else { return };
+        guest.vision.in_flight = guest.vision.in_flight.filter(|&ghost| ghost > sequence);
+        self.send_ghost(client);
+    }
+
+    fn send_ghost(&mut self, client: ClientId) {
+        let Some(guest) = self.guest_mut(client) else { return };
+        if guest.vision.in_flight.is_some() {
+            return;
+        }
+        let Some(ghost) = guest.vision.ready.take() else { return };
+        guest.vision.in_flight = Some(guest.vision.number);
+        guest.vision.is_shown = true;
+        self.outputs.push_back(Output::Frame(client, ghost));
+    }
+}

@@ -1,0 +1,103 @@
+import { expect, test } from "vitest";
+import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
+import { leafAzimuth } from "../../../client/src/scene/leaves";
+import { launchBrowser } from "./browser";
+
+/** A leaf: its row, its number of so many, its metamer; then base, direction and normal as the rules have them. */
+const leaves = [
+  {
+    of: [7, 1, 3],
+    from: [0.5, 2.25, -1],
+    to: [1.25, 2.75, -0.5],
+    expected: [1.0, 2.583333, -0.666667, -0.102595, 0.060003, 0.992912, 0.006167, 0.998198, -0.059685],
+  },
+  // On a vertical metamer X is the reference.
+  {
+    of: [41, 0, 1],
+    from: [0, 1, 0],
+    to: [0, 2, 0],
+    expected: [0.0, 2.0, 0.0, 0.784699, 0.374711, 0.493801, -0.317142, 0.927142, -0.199573],
+  },
+  // The last of many leaves stands at the end.
+  {
+    of: [123456, 14, 15],
+    from: [-3, 10, 4],
+    to: [-3.5, 9.25, 4.25],
+    expected: [-3.5, 9.25, 4.25, -0.852279, -0.31646, -0.416502, -0.284325, 0.948606, -0.138947],
+  },
+] as const;
+
+const VERTEX = `#version 300 es
+precision highp float;
+${LEAF_PLACE}
+in vec3 from;
+in vec3 to;
+in vec2 turn;
+out vec3 base;
+out vec3 direction;
+out vec3 normal;
+void main() {
+  Leaf leaf = leafAt(from, to, turn.x, turn.y);
+  base = leaf.base;
+  direction = leaf.direction;
+  normal = leaf.normal;
+}`;
+
+/** Expected numbers come from a separate program that follows the rules in double precision. */
+test("LF1, LF2, LF4: the graphics card places leaves by the rules", async () => {
+  const browser = await launchBrowser();
+  try {
+    const page = await browser.newPage();
+    const inputs = leaves.map(({ of: [row, k, count], from, to }) => [
+      ...from,
+      ...to,
+      leafAzimuth(row, k, count),
+      (k + 1) / count,
+    ]);
+    const placed = await page.evaluate(place, { vertex: VERTEX, inputs });
+    for (const [i, { expected, of }] of leaves.entries()) {
+      for (const [j, value] of expected.entries()) {
+        expect(placed[9 * i + j], `number ${j} of row ${of[0]}`).toBeCloseTo(value, 3);
+      }
+    }
+  } finally {
+    await browser.close();
+  }
+});
+
+/** Runs the vertex shader over the inputs and gives what it hands on. */
+function place({ vertex, inputs }: { vertex: string; inputs: number[][] }): number[] {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) throw new Error("there is no WebGL 2");
+  const program = gl.createProgram();
+  const fragment = "#version 300 es\nvoid main() {}";
+  for (const [kind, source] of [[gl.VERTEX_SHADER, vertex] as const, [gl.FRAGMENT_SHADER, fragment] as const]) {
+    const shader = gl.createShader(kind);
+    if (!shader) throw new Error("there is no shader");
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.transformFeedbackVaryings(program, ["base", "direction", "normal"], gl.INTERLEAVED_ATTRIBS);
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program) ?? "no program");
+  gl.useProgram(program);
+  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ARRAY_BUFFER, new Float32Array(inputs.flat()), gl.STATIC_DRAW);
+  for (const [name, size, offset] of [["from", 3, 0] as const, ["to", 3, 12] as const, ["turn", 2, 24] as const]) {
+    const at = gl.getAttribLocation(program, name);
+    gl.enableVertexAttribArray(at);
+    gl.vertexAttribPointer(at, size, gl.FLOAT, false, 32, offset);
+  }
+  gl.bindBuffer(gl.ARRAY_BUFFER, null);
+  const out = gl.createBuffer();
+  gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, out);
+  gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, 36 * inputs.length, gl.STATIC_READ);
+  gl.enable(gl.RASTERIZER_DISCARD);
+  gl.beginTransformFeedback(gl.POINTS);
+  gl.drawArrays(gl.POINTS, 0, inputs.length);
+  gl.endTransformFeedback();
+  const placed = new Float32Array(9 * inputs.length);
+  gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, placed);
+  return [...placed];
+}

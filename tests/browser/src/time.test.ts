@@ -1,0 +1,233 @@
+import { expect, test } from "vitest";
+import { changed } from "./picture";
+import { LANDSCAPE, type Point, type Screen, type Tablet, way } from "./tablet";
+import { type Grown, SEED, Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+/** Where the limb leaves the stem, and where it ends. */
+const fork: Point = { x: SEED.x, y: 560 };
+const tip: Point = { x: 830, y: 480 };
+
+/** A stem with one limb to the right, each a stroke of its own. */
+async function limbed(screen?: Screen): Promise<Grown> {
+  const { tablet, address } = await workshop.stem(screen);
+  await tablet.swipe([way(fork, tip)]);
+  const { metamers } = await tablet.untilQuiet();
+  return { tablet, address, metamers };
+}
+
+/** Drags along the strip of time, from one share of its length to another. */
+async function scrub(tablet: Tablet, from: number, to: number, lift = true): Promise<void> {
+  const track = (await tablet.page.getByRole("slider", { name: "Time" }).boundingBox())!;
+  const at = (share: number) => ({ x: track.x + track.width * share, y: track.y + track.height / 2 });
+  const [first, ...rest] = way(at(from), at(to), 16);
+  await tablet.touch("touchStart", [first!]);
+  for (const point of rest) {
+    await tablet.touch("touchMove", [point]);
+    await tablet.page.waitForTimeout(16);
+  }
+  if (lift) await tablet.touch("touchEnd", []);
+}
+
+async function tapAt(tablet: Tablet, place: Point): Promise<void> {
+  await tablet.touch("touchStart", [place]);
+  await tablet.touch("touchEnd", []);
+}
+
+test("the strip scrubs back through growth and forth again", async () => {
+  const { tablet, metamers } = await limbed(LANDSCAPE);
+  const before = await tablet.facts();
+  expect([before.operations, before.done, before.present]).toEqual(["stroke stroke", 2, before.lastStep]);
+  const grown = await tablet.photograph("50-strip");
+
+  await scrub(tablet, 1, 0.3, false);
+  await tablet.until("the tree is as it was", (facts) => facts.present < before.present && facts.metamers < metamers);
+  const back = await tablet.photograph("51-scrubbing");
+  expect(changed(grown, back), "the limb is gone").toBeGreaterThan(0.005);
+  await tablet.touch("touchEnd", []);
+
+  await scrub(tablet, 0.3, 0);
+  await tablet.until("nothing has grown", (facts) => facts.present === 0 && facts.metamers === 0);
+  await scrub(tablet, 0, 1);
+  const after = await tablet.until("all has grown", (facts) => facts.present === before.lastStep);
+  expect([after.metamers, after.operations]).toEqual([metamers, before.operations]);
+});
+
+test("keys, taps and buttons travel through time", async () => {
+  const { tablet } = await limbed();
+  const { page } = tablet;
+  const { lastStep } = await tablet.facts();
+  await tablet.tap("One step back");
+  await tablet.until("a step back", (facts) => facts.present === lastStep - 1);
+  await page.keyboard.press(",");
+  await tablet.until("another", (facts) => facts.present === lastStep - 2);
+  await page.keyboard.press(".");
+  await page.keyboard.press(".");
+  await tablet.until("both again", (facts) => facts.present === lastStep);
+  const slider = page.getByRole("slider", { name: "Time" });
+  await slider.focus();
+  await page.keyboard.press("Home");
+  await tablet.until("the beginning", (facts) => facts.present === 0);
+  expect(await slider.getAttribute("aria-valuetext")).toBe(`Step 0 of ${lastStep}`);
+  await page.keyboard.press("PageUp");
+  const first = await tablet.until("the first stroke", (facts) => facts.present > 0 && facts.present < lastStep);
+  expect(await slider.getAttribute("aria-valuetext")).toBe(`Step ${first.present} of ${lastStep}, Stroke`);
+  const track = (await slider.boundingBox())!;
+  await tapAt(tablet, { x: track.x + track.width - 8, y: track.y + 16 });
+  await tablet.until("the end of what was tapped", (facts) => facts.present === lastStep);
+});
+
+test("another future stays reachable from where it branched off", async () => {
+  const { tablet, address, metamers } = await limbed();
+  const { page } = tablet;
+  const one = await tablet.facts();
+  await tablet.tap("Undo");
+  await tablet.until("the limb is gone", (facts) => facts.metamers < metamers);
+  await tablet.swipe([way(fork, { x: 360, y: 470 })]);
+  await tablet.untilQuiet();
+  const two = await tablet.until("a future is kept", (facts) => facts.futures === 1);
+
+  const other = await workshop.open(address);
+  await other.until("others know of it", (facts) => facts.futures === 1);
+
+  await page.getByRole("button", { name: "Another future" }).tap();
+  await page.getByText("1 operation,").waitFor();
+  await tablet.photograph("52-futures");
+  await page.getByText("1 operation,").tap();
+  const back = await tablet.until("the first future is back", (facts) => facts.metamers === metamers);
+  expect([back.lastStep, back.futures]).toEqual([one.lastStep, 1]);
+
+  await page.getByRole("button", { name: "Another future" }).tap();
+  await page.getByText("1 operation,").tap();
+  await tablet.until(
+    "and the second again",
+    (facts) => facts.lastStep === two.lastStep && facts.metamers === two.metamers,
+  );
+});
+
+test("the strip folds away and remembers it", async () => {
+  const { tablet } = await limbed();
+  const { page } = tablet;
+  await tablet.tap("Hide the timeline");
+  await page.getByLabel("Show the timeline").waitFor();
+  await page.reload();
+  await tablet.untilReady();
+  await page.getByLabel("Show the timeline").waitFor();
+  expect(await page.getByRole("slider", { name: "Time" }).count()).toBe(0);
+  await tablet.tap("Show the timeline");
+  await page.getByRole("slider", { name: "Time" }).waitFor();
+});
+
+test("the strip and its targets fit an upright tablet", async () => {
+  const tablet = await workshop.open(await workshop.server.newSession(5), { width: 834, height: 1194, detail: 1 });
+  await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 600 })]);
+  await tablet.untilQuiet();
+  await tablet.photograph("53-upright-strip");
+  for (const label of ["Hide the timeline", "One step back", "Time", "One step forth"]) {
+    const box = (await tablet.page.getByLabel(label, { exact: true }).boundingBox())!;
+    expect(box.x >= 0 && box.x + box.width <= 834 && box.y + box.height <= 1194, label).toBe(true);
+    expect(Math.min(box.width, box.height), label).toBeGreaterThanOrEqual(44);
+  }
+});
+
+test("one finger turns a branch about its base, and undo turns it back", async () => {
+  const { tablet, metamers } = await limbed(LANDSCAPE);
+  await tablet.tap("Branch");
+  await tapAt(tablet, tip);
+  const held = await tablet.until("the limb is held", (facts) => facts.branch !== "");
+  const before = await tablet.photograph("54-branch-held");
+  const up: Point = { x: 660, y: 330 };
+  const [first, ...rest] = way(tip, up);
+  await tablet.touch("touchStart", [first!]);
+  for (const point of rest) {
+    await tablet.touch("touchMove", [point]);
+    await tablet.page.waitForTimeout(16);
+  }
+  const during = await tablet.photograph("55-branch-turning");
+  expect(changed(before, during), "it turns before the server knows").toBeGreaterThan(0.002);
+  expect((await tablet.facts()).operations).toBe("stroke stroke");
+  await tablet.touch("touchEnd", []);
+  const turned = await tablet.untilQuiet();
+  expect([turned.operations, turned.branch, turned.metamers]).toEqual(["stroke stroke turn", held.branch, metamers]);
+  await tablet.tap("Undo");
+  await tablet.until("it is undone", (facts) => facts.done === 2);
+  const undone = await tablet.photograph("56-turned-back");
+  expect(changed(before, undone), "nothing is left of the turn").toBeLessThan(changed(before, during) / 4);
+});
+
+test("a second finger twists a branch about itself", async () => {
+  const { tablet } = await limbed();
+  await tablet.tap("Branch");
+  await tapAt(tablet, tip);
+  await tablet.until("the limb is held", (facts) => facts.branch !== "");
+  const round = way({ x: 0, y: 0 }, { x: Math.PI / 2, y: 0 }).map(({ x: angle }) => ({
+    x: tip.x + 120 * Math.cos(angle),
+    y: tip.y + 120 * Math.sin(angle),
+  }));
+  await tablet.touch("touchStart", [tip]);
+  await tablet.touch("touchStart", [tip, round[0]!]);
+  for (const point of round.slice(1)) await tablet.touch("touchMove", [tip, point]);
+  await tablet.touch("touchEnd", []);
+  await tablet.until("it is turned", (facts) => facts.operations === "stroke stroke turn");
+});
+
+test("a branch is copied to another limb, and moved there", async () => {
+  const { tablet, metamers } = await limbed(LANDSCAPE);
+  const { page } = tablet;
+  await tablet.tap("Branch");
+  await tapAt(tablet, tip);
+  await tablet.until("the limb is held", (facts) => facts.branch !== "");
+  await page.getByRole("button", { name: "Copy" }).tap();
+  const onto: Point = { x: SEED.x, y: 470 };
+  const [first, ...rest] = way(onto, { x: 420, y: 430 });
+  await tablet.touch("touchStart", [first!]);
+  for (const point of rest) await tablet.touch("touchMove", [point]);
+  await tablet.photograph("57-copy-on-its-way");
+  await tablet.touch("touchEnd", []);
+  const copied = await tablet.until("the copy is there", (facts) => facts.operations === "stroke stroke graft");
+  expect(copied.metamers).toBeGreaterThan(metamers);
+  const held = await tablet.untilQuiet();
+  await tablet.photograph("58-copied");
+
+  await page.getByRole("button", { name: "Move" }).tap();
+  await tapAt(tablet, { x: SEED.x, y: 640 });
+  const moved = await tablet.until("it is moved", (facts) => facts.operations === "stroke stroke graft graft");
+  expect((await tablet.untilQuiet()).metamers).toBe(held.metamers);
+  expect(moved.futures).toBe(0);
+});
+
+test("a prediction grows beside the tree and is kept as it was seen", async () => {
+  const { tablet, metamers } = await limbed(LANDSCAPE);
+  const { page } = tablet;
+  const before = await tablet.photograph("59-before-the-cut");
+  await tablet.tap("Prune");
+  await page.getByLabel("What if?").check();
+  await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.until("the ghost is there", (facts) => facts.ghost === "10");
+  const ghost = await tablet.photograph("60-prediction");
+  expect(changed(before, ghost), "a ghost is seen").toBeGreaterThan(0.01);
+  const { operations } = await tablet.facts();
+  expect([operations, (await tablet.facts()).metamers]).toEqual(["stroke stroke", metamers]);
+
+  await page.getByLabel("Steps to look ahead").focus();
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowLeft");
+  await tablet.until("it looks less far", (facts) => facts.ghost === "8");
+  await page.keyboard.press("Escape");
+  await tablet.until("it is discarded", (facts) => facts.ghost === "");
+  expect((await tablet.untilQuiet()).operations).toBe("stroke stroke");
+  // The camera goes back to where it was.
+  const after = await tablet.photograph("61-discarded");
+  expect(changed(before, after), "everything is as it was").toBeLessThan(0.01);
+
+  await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.until("it is there again", (facts) => facts.ghost === "8");
+  await page.getByRole("button", { name: "Keep this" }).tap();
+  await tablet.until("it is done", (facts) => facts.operations === "stroke stroke prune" && facts.ghost === "");
+  const kept = await tablet.untilQuiet();
+  await tablet.photograph("62-kept");
+  expect(kept.lastStep).toBeGreaterThan(2);
+  await tablet.tap("Undo");
+  await tablet.until("one operation is undone", (facts) => facts.metamers === metamers && facts.done === 2);
+});

@@ -1,0 +1,88 @@
+import type { Browser } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { launchBrowser } from "./browser";
+import { Darkroom } from "./picture";
+import { Server } from "./server";
+import { type Point, type Screen, Tablet, way } from "./tablet";
+
+/** Where the first seed stands in a fresh view on a tablet on its side. */
+export const SEED: Point = { x: 597, y: 750 };
+
+/** A tablet with a session of its own. */
+export interface Opened {
+  readonly tablet: Tablet;
+  readonly address: string;
+}
+
+/** One on which something has grown. */
+export interface Grown extends Opened {
+  readonly metamers: number;
+}
+
+/** A server, a browser and tablets for the tests of one file. */
+export class Workshop {
+  readonly server = new Server();
+  #browser: Browser | null = null;
+  #darkroom: Darkroom | null = null;
+  #tablets: Tablet[] = [];
+
+  /** Has everything started before the file's tests, and each test end with its tablets closed and without errors. */
+  static forThisFile(): Workshop {
+    const workshop = new Workshop();
+    beforeAll(() => workshop.#start());
+    afterEach(() => workshop.#clear());
+    afterAll(() => workshop.#stop());
+    return workshop;
+  }
+
+  /** Another tablet with the page at an address. */
+  async open(address: string, screen?: Screen): Promise<Tablet> {
+    if (!this.#browser || !this.#darkroom) throw new Error("the browser has not been started");
+    const tablet = await Tablet.open(this.#browser, this.#darkroom, address, screen);
+    this.#tablets.push(tablet);
+    return tablet;
+  }
+
+  /** A tablet with nothing but a seed. */
+  async fresh(screen?: Screen): Promise<Opened> {
+    const address = await this.server.newSession(5);
+    return { tablet: await this.open(address, screen), address };
+  }
+
+  /** One on which a tree was drawn with the brush as it is. */
+  async drawn(screen?: Screen): Promise<Grown> {
+    const { tablet, address } = await this.fresh(screen);
+    await tablet.swipe([way(SEED, { x: SEED.x, y: 330 })]);
+    const { metamers } = await tablet.untilQuiet();
+    expect(metamers).toBeGreaterThan(20);
+    return { tablet, address, metamers };
+  }
+
+  /** One on which a slender stem was sketched up to a height on the glass, so that places on it can be found again. */
+  async stem(screen?: Screen, top = 400): Promise<Grown> {
+    const { tablet, address } = await this.fresh(screen);
+    await tablet.page.getByLabel("Brush radius", { exact: true }).focus();
+    await tablet.page.keyboard.press("Home");
+    await tablet.swipe([way(SEED, { x: SEED.x, y: top })]);
+    const { metamers } = await tablet.untilQuiet();
+    expect(metamers).toBeGreaterThan(5);
+    return { tablet, address, metamers };
+  }
+
+  async #start(): Promise<void> {
+    await this.server.start();
+    this.#browser = await launchBrowser();
+    this.#darkroom = await Darkroom.open(this.#browser);
+  }
+
+  async #clear(): Promise<void> {
+    const errors = this.#tablets.flatMap((tablet) => tablet.errors);
+    for (const tablet of this.#tablets.splice(0)) await tablet.close();
+    expect(errors).toEqual([]);
+  }
+
+  async #stop(): Promise<void> {
+    await this.#browser?.close();
+    await this.server.stop();
+  }
+}

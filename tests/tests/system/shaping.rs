@@ -1,0 +1,154 @@
+//! Shaping by hand over a real socket: bends that survive a kill, scrubbing, predictions, and the same again by
+//! `espalier replay`.
+
+use std::{fs, time::Duration};
+
+use espalier_proto::{ClientMessage, Command, ProblemCode};
+use espalier_tests::{
+    client::{Client, until_equal},
+    program,
+    scratch::Scratch,
+    server::Server,
+};
+use serde_json::Value;
+
+fn grow(steps: u32) -> Command {
+    Command::Grow { steps, gesture: None, bud: None }
+}
+
+/// A row's parent.
+fn parent(client: &Client, row: u32) -> Option<u32> {
+    let code = client.table.rows[row as usize].parent;
+    (code > 0).then(|| row - code / 2)
+}
+
+/// The youngest living row that stands on so many others, and the row so many below it.
+fn limb(client: &Client, length: usize) -> (u32, u32) {
+    let down = |row: u32| std::iter::successors(Some(row), |&row| parent(client, row));
+    let rows = (0..client.table.rows.len() as u32).rev();
+    let mut tall =
+        rows.filter(|&row| client.table.rows[row as usize].radius > 0 && down(row).count() > length + 2);
+    let top = tall.next().expect("the tree is tall enough");
+    (top, down(top).nth(length).expect("it stands on more than that"))
+}
+
+/// Where a row ends, in internodes, moved.
+fn beside(client: &Client, row: u32, shift: [f32; 3]) -> [f32; 3] {
+    let place = client.table.rows[row as usize].position;
+    std::array::from_fn(|axis| place[axis] as f32 / 256.0 + shift[axis])
+}
+
+#[tokio::test]
+async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
+    let scratch = Scratch::new();
+    let mut server = Server::start(&scratch.path("trees.db"));
+    let session = server.new_session(7);
+    let mut ann = Client::connect(server.port(), &session, "browser-1").await;
+    let mut done = vec![grow(9)];
+    ann.send(grow(9)).await;
+    ann.until_settled().await;
+    let (top, base) = limb(&ann, 6);
+    let rest = ann.table.form();
+    let mut all = vec![Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2 }];
+    for part in 1..=12 {
+        let target = beside(&ann, top, [0.25 * part as f32, -0.1 * part as f32, 0.0]);
+        all.push(Command::BendMove { bend: 1, targets: vec![target] });
+    }
+    all.push(Command::BendEnd { bend: 1 });
+    all.push(Command::SetWidth { row: base, diameter: Some(0.6), gesture: None });
+    all.push(grow(2));
+    all.push(Command::Prune { rows: vec![top], gesture: Some(4) });
+    all.push(Command::Grow { steps: 2, gesture: Some(4), bud: None });
+    for (number, command) in all.into_iter().enumerate() {
+        ann.send(command.clone()).await;
+        done.push(command);
+        if number == 7 {
+            ann.listen(Duration::from_millis(40)).await;
+            assert!(!ann.poses.is_empty(), "BE5: poses travel");
+            assert_eq!(ann.table.form(), rest, "BE5: rows do not");
+            server = server.kill_and_restart();
+            ann.reconnect(server.port()).await;
+        }
+    }
+    ann.until_settled().await;
+    assert_eq!(ann.refused, []);
+    assert_ne!(ann.table.form()[..rest.len()], rest[..], "the branch was bent");
+    assert_eq!((ann.timeline.operations.len(), ann.timeline.done), (5, 5));
+    assert_eq!(ann.widths.iter().map(|width| width.row).collect::<Vec<_>>(), [base]);
+    assert!(ann.poses.last().is_some_and(|pose| pose.motions.is_empty()), "BE5: the bend is over");
+
+    // The same commands give the same tree without a server.
+    let lines: Vec<String> =
+        done.iter().map(|command| serde_json::to_string(command).expect("commands are JSON")).collect();
+    let path = scratch.path("shaped.jsonl");
+    fs::write(&path, lines.join("\n")).expect("the scratch folder can be written");
+    let path = path.to_str().expect("a plain name");
+    let replay = |threads| {
+        let finished =
+            program::run(&["replay", path, "--seed", "7", "--stats", "json", "--threads", threads]);
+        assert_eq!(finished.code, 0, "{}", finished.stderr);
+        serde_json::from_str::<Value>(&finished.stdout).expect("one JSON object")
+    };
+    let stats = replay("2");
+    let figures = ["metamers_alive", "axes", "leaves"].map(|key| stats[key].as_u64());
+    let told = [ann.state.metamers, ann.state.axes, ann.state.leaves].map(|figure| Some(u64::from(figure)));
+    assert_eq!(figures, told);
+    assert_eq!(stats["plant_hash"], replay("1")["plant_hash"]);
+}
+
+#[tokio::test]
+async fn tt2_two_people_scrub_through_growth_and_edits() {
+    let (mut ann, server, _scratch) = Client::alone(&[]).await;
+    let mut bob = Client::connect(server.port(), &ann.session, "browser-2").await;
+    ann.send(grow(8)).await;
+    ann.until_settled().await;
+    let (top, base) = limb(&ann, 4);
+    let rotation = [0.0, 0.0, 0.6, 0.8];
+    ann.send(Command::TurnBranch { row: base, rotation, gesture: None }).await;
+    ann.send(Command::Graft { row: top, onto: base, rotation, keep: true }).await;
+    ann.send(grow(3)).await;
+    ann.until_settled().await;
+    let end = ann.table.form();
+    let last = ann.timeline.last_step;
+    assert_eq!(last, 13);
+    for step in (0..last).rev().chain(1..=last) {
+        ann.send(Command::GoTo { step }).await;
+        bob.listen(Duration::from_millis(3)).await;
+    }
+    ann.until_settled().await;
+    assert_eq!(ann.table.form(), end);
+    until_equal(&mut ann, &mut bob).await;
+    // TT3, TT4: another future, and the first one again.
+    ann.send(Command::GoTo { step: 5 }).await;
+    bob.until("bob sees the past", |bob| bob.timeline.step == 5).await;
+    bob.send(Command::PlantSeed { position: [4.0, 0.0, 0.0] }).await;
+    bob.until("a future is left", |bob| bob.timeline.futures.len() == 1).await;
+    let future = bob.timeline.futures[0].future;
+    bob.send(Command::TakeFuture { future }).await;
+    bob.until_settled().await;
+    bob.until("the first one is back", |bob| bob.timeline.step == last).await;
+    bob.until_form(&end).await;
+    ann.send(Command::TakeFuture { future: 77 }).await;
+    ann.until("there is no such future", |ann| !ann.refused.is_empty()).await;
+    assert_eq!(ann.refused[0].1.code, ProblemCode::NotFound);
+}
+
+#[tokio::test]
+async fn pd2_a_ghost_comes_to_who_asked() {
+    let (mut ann, server, _scratch) = Client::alone(&[]).await;
+    let mut bob = Client::connect(server.port(), &ann.session, "browser-2").await;
+    ann.send(grow(9)).await;
+    ann.until_settled().await;
+    let (top, _) = limb(&ann, 4);
+    ann.send_message(&ClientMessage::Predict { rows: vec![top], steps: 4 }).await;
+    ann.until("the ghost comes", |ann| !ann.ghosts.is_empty()).await;
+    assert!(!ann.ghosts[0].changes.is_empty());
+    ann.send(Command::Undo {}).await;
+    ann.until("a command ends it", |ann| ann.ghosts.len() == 2).await;
+    assert!(ann.ghosts[1].changes.is_empty());
+    ann.send_message(&ClientMessage::Predict { rows: vec![999_999], steps: 4 }).await;
+    ann.until("it is answered", |ann| !ann.problems.is_empty()).await;
+    assert_eq!(ann.problems[0].code, ProblemCode::NotFound);
+    bob.listen(Duration::from_millis(100)).await;
+    assert!(bob.ghosts.is_empty());
+}
