@@ -29,6 +29,8 @@ const MIDDLE: i32 = 4;
 const PLANE: usize = (WIDTH * DEPTH) as usize + ROW;
 const VALUES: usize = PLANE * DEPTH as usize;
 type Chunk = [u32; VALUES];
+/// Stands for the place of a value that there is not.
+const NOWHERE: u32 = u32::MAX;
 
 /// Rows of this depth still fit, and pyramids of this depth meet no more than two chunks along y and three along z.
 const FITTING_DEPTH: i32 = 3;
@@ -37,6 +39,9 @@ const FITTING_DEPTH: i32 = 3;
 #[derive(Clone, Debug)]
 pub struct ShadowGrid {
     chunks: Directory<Chunk>,
+    /// Where each chunk's own values and those of its seven neighbours towards greater coordinates begin, x fastest,
+    /// then z, then y; [`NOWHERE`] for those that do not exist.
+    octants: Vec<[u32; 8]>,
     /// Shadow at each depth below a metamer.
     strength: Vec<u32>,
     /// The same of a metamer in its own voxel and in those of the layer below.
@@ -75,7 +80,7 @@ impl ShadowGrid {
             }
         }
         let (first, second) = (strength[0] as f32, strength.get(1).map_or(0.0, |&shadow| shadow as f32));
-        Self { chunks: Directory::new(), strength, first, second, rows }
+        Self { chunks: Directory::new(), octants: Vec::new(), strength, first, second, rows }
     }
 
     /// Adds the shadow of a metamer with its node at `position`.
@@ -147,8 +152,7 @@ impl ShadowGrid {
         for (at_y, layer) in (low_y..=high_y).zip(bases.as_chunks_mut::<4>().0) {
             for (at_z, base) in (low_z..=high_z).zip(layer) {
                 for (at_x, base) in (first..=last).zip(base) {
-                    let chunk = self.chunks.number_or_make([at_x, at_y, at_z], || [0; VALUES]);
-                    *base = chunk as usize * VALUES;
+                    *base = self.number_or_make([at_x, at_y, at_z]) * VALUES;
                 }
             }
         }
@@ -159,12 +163,40 @@ impl ShadowGrid {
     #[cold]
     fn spread_deep(&mut self, position: Vec3, change: impl Fn(u32, u32) -> u32) {
         let [x, y, z] = voxel_of(position);
-        for row in &self.rows {
-            let shadow = self.strength[row.depth as usize];
-            for at_x in x - row.half..=x + row.half {
-                let voxel = [at_x, y - row.depth, z + row.z];
-                let value = &mut self.chunks.get_or_make(chunk_of(voxel), || [0; VALUES])[offset(voxel)];
+        for row in 0..self.rows.len() {
+            let PyramidRow { depth, z: beside, half, .. } = self.rows[row];
+            let shadow = self.strength[depth as usize];
+            for at_x in x - half..=x + half {
+                let voxel = [at_x, y - depth, z + beside];
+                let chunk = self.number_or_make(chunk_of(voxel));
+                let value = &mut self.chunks.all_mut()[chunk][offset(voxel)];
                 *value = change(*value, shadow);
+            }
+        }
+    }
+
+    /// The number of the chunk at these coordinates, made if there was none.
+    #[inline(always)]
+    fn number_or_make(&mut self, at: [i32; 3]) -> usize {
+        let number = self.chunks.number_or_make(at, || [0; VALUES]) as usize;
+        if number == self.octants.len() {
+            self.introduce(number, at);
+        }
+        number
+    }
+
+    /// Makes a new chunk and its neighbours known to each other.
+    #[cold]
+    fn introduce(&mut self, number: usize, [x, y, z]: [i32; 3]) {
+        let place = |chunk: u32| chunk * VALUES as u32;
+        self.octants.push([NOWHERE; 8]);
+        for octant in 0..8 {
+            let (dx, dy, dz) = (octant & 1, octant >> 2, octant >> 1 & 1);
+            if let Some(chunk) = self.chunks.number([x + dx, y + dy, z + dz]) {
+                self.octants[number][octant as usize] = place(chunk);
+            }
+            if let Some(chunk) = self.chunks.number([x - dx, y - dy, z - dz]) {
+                self.octants[chunk as usize][octant as usize] = place(number as u32);
             }
         }
     }
@@ -178,30 +210,39 @@ impl ShadowGrid {
 
     /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
     pub fn exposure(&self, position: Vec3) -> f32 {
-        self.exposure_at(self.spot(position), || position)
+        let (low, fraction) = low_and_fraction(position);
+        self.exposure_in(self.octet_around(low), fraction)
     }
 
     /// How to read the light at a place again and again.
     pub(crate) fn spot(&self, position: Vec3) -> Spot {
-        let low = voxel_of(position - 0.5 * VOXEL);
-        let at = position * (1.0 / VOXEL) - 0.5;
-        let fraction = at - Vec3::from_array(directory::voxel_of(at).map(|i| i as f32));
-        let is_within = low[0] & (WIDTH - 1) != WIDTH - 1
-            && low[1] & (DEPTH - 1) != DEPTH - 1
-            && low[2] & (DEPTH - 1) != DEPTH - 1;
-        let chunk = self.chunks.number(chunk_of(low)).filter(|_| is_within);
-        Spot {
-            at: chunk.map_or(Spot::SCATTERED, |chunk| chunk * VALUES as u32 + offset(low) as u32),
-            fraction: fraction.to_array().map(|f| (f * Spot::STEPS) as i32 as u16),
-        }
+        let (low, fraction) = low_and_fraction(position);
+        let is_split = low[0] & (WIDTH - 1) == WIDTH - 1
+            || low[1] & (DEPTH - 1) == DEPTH - 1
+            || low[2] & (DEPTH - 1) == DEPTH - 1;
+        let at = self.chunks.number(chunk_of(low)).map_or(NOWHERE, |chunk| {
+            let at = chunk * VALUES as u32 + offset(low) as u32;
+            if is_split { at | Spot::SPLIT } else { at }
+        });
+        Spot { at, fraction }
     }
 
     /// Light at a place with this spot, 0 to 1, as if the metamer whose node is there cast no shadow.
-    ///
-    /// Shadows are interpolated between voxel centres; read at one voxel they would come in blocks.
     #[inline]
     pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
-        let (shadow, f) = self.interpolated(spot, place);
+        let octet = if spot.at & Spot::SPLIT == 0 {
+            self.octet(spot.at)
+        } else if spot.at != NOWHERE {
+            self.split_octet(spot.at & !Spot::SPLIT)
+        } else {
+            self.octet_around(low_and_fraction(place()).0)
+        };
+        self.exposure_in(octet, spot.fraction)
+    }
+
+    #[inline(always)]
+    fn exposure_in(&self, octet: [u32; 8], fraction: [u16; 3]) -> f32 {
+        let (shadow, f) = interpolated(octet, fraction);
         // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
         let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
         let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
@@ -209,27 +250,13 @@ impl ShadowGrid {
         (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
     }
 
-    /// The shadow at a spot, and where the spot lies between the centres of its voxels.
-    #[inline(always)]
-    fn interpolated(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> (f32, Vec3) {
-        let octet =
-            if spot.at == Spot::SCATTERED { self.scattered_octet(place()) } else { self.octet(spot.at) };
-        let f = Vec3::from_array(spot.fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
-        let mut s = [0.0; 8];
-        for (s, shadow) in s.iter_mut().zip(octet) {
-            // As a signed number it converts faster; none is so dark that it would matter.
-            *s = shadow as i32 as f32;
-        }
-        let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
-        let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
-        let shadow = along_z(0) * (1.0 - f.y) + along_z(4) * f.y;
-        (shadow, f)
-    }
-
     /// The direction towards more light at a place, −∇s by central differences (Pałubicki et al. 2009 §4.1) of the
     /// shadows an internode to each side; none where shadows are even.
     pub fn towards_light(&self, position: Vec3) -> Option<Vec3> {
-        let shadow = |place: Vec3| self.interpolated(self.spot(place), || place).0;
+        let shadow = |place: Vec3| {
+            let (low, fraction) = low_and_fraction(place);
+            interpolated(self.octet_around(low), fraction).0
+        };
         let difference = |axis: Vec3| shadow(position - axis) - shadow(position + axis);
         let gradient = Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z));
         (gradient * (1.0 / UNIT)).try_normalize()
@@ -251,40 +278,68 @@ impl ShadowGrid {
             .map(|step| values[step])
     }
 
-    /// The same around a place whose eight voxels lie in several chunks.
-    #[cold]
-    fn scattered_octet(&self, place: Vec3) -> [u32; 8] {
-        let [x, y, z] = voxel_of(place - 0.5 * VOXEL);
-        let is_split = x & (WIDTH - 1) == WIDTH - 1;
-        let mut octet = [0; 8];
-        for (i, pair) in octet.chunks_exact_mut(2).enumerate() {
-            let (y, z) = (y + (i as i32 >> 1), z + (i as i32 & 1));
-            if let Some(chunk) = self.chunks.get(chunk_of([x, y, z])) {
-                let at = offset([x, y, z]);
-                pair[0] = chunk[at];
-                pair[1] = if is_split { 0 } else { chunk[at + 1] };
-            }
-            if is_split {
-                pair[1] = self.shadow([x + 1, y, z]);
-            }
-        }
-        octet
+    /// The same where they lie in several chunks.
+    #[inline(never)]
+    fn split_octet(&self, at: u32) -> [u32; 8] {
+        let within = at as usize % VALUES;
+        let (y, in_plane) = (within / PLANE, within % PLANE);
+        let (z, x) = (in_plane >> WIDTH_BITS, in_plane & (WIDTH - 1) as usize);
+        let octants = &self.octants[at as usize / VALUES];
+        let values = self.chunks.all().as_flattened();
+        core::array::from_fn(|corner| {
+            let (x, y, z) = (x + (corner & 1), y + (corner >> 2), z + (corner >> 1 & 1));
+            let octant = x >> WIDTH_BITS | z >> DEPTH_BITS << 1 | y >> DEPTH_BITS << 2;
+            let at = octants[octant] as usize + offset([x as i32, y as i32, z as i32]);
+            values.get(at).copied().unwrap_or(0)
+        })
+    }
+
+    /// The same from this voxel on, wherever they are.
+    fn octet_around(&self, [x, y, z]: [i32; 3]) -> [u32; 8] {
+        core::array::from_fn(|corner| {
+            let corner = corner as i32;
+            self.shadow([x + (corner & 1), y + (corner >> 2), z + (corner >> 1 & 1)])
+        })
     }
 }
 
 /// A place whose light is read often: where its voxels are, and how it lies between them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
-    /// Where the least of its eight voxels stands among all chunks' values; or [`Spot::SCATTERED`].
+    /// Where the least of its eight voxels stands among all chunks' values, with [`Spot::SPLIT`] if they lie in
+    /// several; [`NOWHERE`] if the least had no chunk yet.
     at: u32,
     /// Where it lies between the centres of the eight, in steps of 1/[`Spot::STEPS`].
     fraction: [u16; 3],
 }
 
 impl Spot {
-    /// The eight voxels are not in one chunk.
-    const SCATTERED: u32 = u32::MAX;
+    const SPLIT: u32 = 1 << 31;
     const STEPS: f32 = 32768.0;
+}
+
+/// The least of the eight voxels around a place, and where the place lies between their centres.
+#[inline(always)]
+fn low_and_fraction(place: Vec3) -> ([i32; 3], [u16; 3]) {
+    let at = place * (1.0 / VOXEL) - 0.5;
+    let fraction = at - Vec3::from_array(directory::voxel_of(at).map(|i| i as f32));
+    (voxel_of(place - 0.5 * VOXEL), fraction.to_array().map(|f| (f * Spot::STEPS) as i32 as u16))
+}
+
+/// The shadow between the centres of eight voxels, and where that is.
+///
+/// Shadows are interpolated; read at one voxel they would come in blocks.
+#[inline(always)]
+fn interpolated(octet: [u32; 8], fraction: [u16; 3]) -> (f32, Vec3) {
+    let f = Vec3::from_array(fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
+    let mut s = [0.0; 8];
+    for (s, shadow) in s.iter_mut().zip(octet) {
+        // As a signed number it converts faster; none is so dark that it would matter.
+        *s = shadow as i32 as f32;
+    }
+    let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
+    let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
+    (along_z(0) * (1.0 - f.y) + along_z(4) * f.y, f)
 }
 
 /// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk.
@@ -415,8 +470,8 @@ mod tests {
                 let corner = Vec3::new((voxel[0] - WIDTH / 2) as f32, voxel[1] as f32, (voxel[2] - DEPTH / 2) as f32);
                 let place = (corner + 0.75) * VOXEL;
                 let spot = grid.spot(place);
-                let octet = grid.scattered_octet(place);
-                prop_assert!(spot.at == Spot::SCATTERED || grid.octet(spot.at) == octet);
+                let octet = grid.octet_around(low_and_fraction(place).0);
+                prop_assert_eq!(grid.exposure_at(spot, || place), grid.exposure(place));
                 for (i, shadow) in (0..).zip(octet) {
                     let corner = [voxel[0] + (i & 1), voxel[1] + (i >> 2), voxel[2] + (i >> 1 & 1)];
                     prop_assert_eq!(shadow, grid.shadow(corner));
