@@ -78,7 +78,7 @@ impl MarkerField {
                     // Who claims it is unknown: as if a bud at this very place had gone.
                     chunk.free |= 1 << cell;
                     chunk.claimed |= 1 << cell;
-                    chunk.nearest[cell] = -1.0;
+                    (chunk.nearest[cell], chunk.claimant[cell]) = (-1.0, nobody());
                 }
             }
         });
@@ -113,12 +113,16 @@ impl MarkerField {
         });
     }
 
-    /// Finds the claimants of all markers whose claimants have gone: moved on, or died.
+    /// Finds the claimants of all markers whose claimants have gone: moved on, or died. The buds that have not moved
+    /// are those of the time before.
     pub(crate) fn resolve(&mut self, space: &Space, parameters: &ParameterTable, obstacles: &Obstacles) {
         let resolve = |chunk: &mut Chunk| {
             for cell in bits(chunk.claimed) {
-                let marker = chunk.marker(cell);
                 let claimant = chunk.claimant[cell];
+                if !space.has_moved(claimant) {
+                    continue;
+                }
+                let marker = chunk.marker(cell);
                 let stays = space.bud(claimant).is_some_and(|bud| {
                     let distance_squared = (marker - bud.position).length_squared();
                     distance_squared == chunk.nearest[cell]
@@ -280,6 +284,11 @@ pub(crate) fn marker_in(seed: u32, spacing: f32, cell: [i32; 3]) -> Vec3 {
     let draw = Draw::new(seed, Purpose::Autonomous, (x as u32 & 0xffff) | (z as u32) << 16, y as u32);
     let offset = Vec3::new(draw.unit(0), draw.unit(1), draw.unit(2));
     (Vec3::new(x as f32, y as f32, z as f32) + offset) * spacing
+}
+
+/// Stands for an axis that there is not.
+fn nobody() -> AxisId {
+    AxisId::new(u32::MAX as usize - 1)
 }
 
 /// Edge of a cell: a perception volume then holds `markers_per_bud` markers on average.

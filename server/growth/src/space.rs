@@ -24,6 +24,8 @@ pub struct Space {
     buds: PlaceGrid<Vectors>,
     /// Where the bud of each axis stands among the buds.
     stands: Vec<Stand>,
+    /// Axes whose buds have come, moved or gone since someone last took note of it: one bit each.
+    moved: Vec<u64>,
 }
 
 /// A bud as space sees it.
@@ -38,7 +40,12 @@ pub struct Bud {
 impl Space {
     /// Empty space.
     pub fn new() -> Self {
-        Self { nodes: PlaceGrid::new(NODE_CELL), buds: PlaceGrid::new(BUD_CELL), stands: Vec::new() }
+        Self {
+            nodes: PlaceGrid::new(NODE_CELL),
+            buds: PlaceGrid::new(BUD_CELL),
+            stands: Vec::new(),
+            moved: Vec::new(),
+        }
     }
 
     /// Enters a node.
@@ -75,7 +82,9 @@ impl Space {
                 self.stands.reserve_exact(index + 1 - self.stands.len() + index / 16);
             }
             self.stands.resize(index + 1, Stand::NOWHERE);
+            self.moved.resize(index / 64 + 1, 0);
         }
+        self.moved[index / 64] |= 1 << (index % 64);
         self.stands[index] = self.buds.insert(axis.raw(), bud.position, bud.direction);
     }
 
@@ -85,9 +94,22 @@ impl Space {
             return;
         };
         let left = std::mem::replace(stand, Stand::NOWHERE);
+        self.moved[axis.index() / 64] |= 1 << (axis.index() % 64);
         if let Some(moved) = self.buds.remove(left) {
             self.stands[moved as usize] = left;
         }
+    }
+
+    /// Whether the bud of an axis has come, moved or gone since [`Space::forget_moves`]; so it has if there never
+    /// was one.
+    #[inline]
+    pub(crate) fn has_moved(&self, axis: AxisId) -> bool {
+        self.moved.get(axis.index() / 64).is_none_or(|axes| axes >> (axis.index() % 64) & 1 != 0)
+    }
+
+    /// Takes the buds as they are for those that have not moved.
+    pub(crate) fn forget_moves(&mut self) {
+        self.moved.fill(0);
     }
 
     /// The bud of an axis, if it lives.

@@ -123,7 +123,11 @@ impl Simulation {
             }
         }
         let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
-        let claim = |marker, axis| claims.add(axis, marker - plant.bud_position(axis));
+        let claim = |marker, axis| {
+            if let Some(bud) = space.bud(axis) {
+                claims.add(axis, marker - bud.position);
+            }
+        };
         if selection.is_everyone() {
             field.claims(claim);
         } else {
@@ -150,6 +154,7 @@ impl Simulation {
             field
         });
         field.resolve(space, parameters, obstacles);
+        space.forget_moves();
     }
 
     /// Sheds what does not pay; returns the nodes that went.
