@@ -3,7 +3,7 @@
 use espalier_plant::AxisId;
 use glam::Vec3;
 
-use crate::parameters::Parameters;
+use crate::{cells::bits, parameters::Parameters};
 
 /// Steps of a unit vector's coordinate: sums of whole numbers are the same in any order.
 const UNIT: f32 = 32_768.0;
@@ -20,14 +20,15 @@ impl Claimed {
 /// Sums of unit vectors, bud by bud.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Claims {
-    /// Where each axis' claim stands, if the claim there says so too.
+    /// Axes that have claimed: one bit each.
+    claimants: Vec<u64>,
+    /// Where the claim of each of them stands.
     slots: Vec<u32>,
     claims: Vec<Claim>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Claim {
-    axis: AxisId,
     sum: [i32; 3],
     /// How far the farthest marker is, if all belong to an envelope; else infinite.
     far: f32,
@@ -47,6 +48,8 @@ impl Claims {
     pub(crate) fn clear(&mut self, axes: usize) {
         self.claims.clear();
         self.slots.resize(axes, 0);
+        self.claimants.clear();
+        self.claimants.resize(axes.div_ceil(64), 0);
     }
 
     /// A bud claims a marker that lies there, seen from it.
@@ -61,10 +64,12 @@ impl Claims {
 
     fn add_as_far(&mut self, axis: AxisId, offset: Vec3, far: f32) {
         let Some(unit) = offset.try_normalize() else { return };
+        let (word, bit) = (&mut self.claimants[axis.index() / 64], 1 << (axis.index() % 64));
         let slot = &mut self.slots[axis.index()];
-        if self.claims.get(*slot as usize).is_none_or(|claim| claim.axis != axis) {
+        if *word & bit == 0 {
+            *word |= bit;
             *slot = self.claims.len() as u32;
-            self.claims.push(Claim { axis, sum: [0; 3], far: 0.0 });
+            self.claims.push(Claim { sum: [0; 3], far: 0.0 });
         }
         let claim = &mut self.claims[*slot as usize];
         claim.far = claim.far.max(far);
@@ -73,12 +78,15 @@ impl Claims {
         }
     }
 
-    /// Each bud that claims anything, unless the directions of what it claims cancel out.
+    /// Each bud that claims anything, unless the directions of what it claims cancel out; the oldest first.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (AxisId, Claimed)> + '_ {
-        self.claims.iter().filter_map(|claim| {
+        let words = self.claimants.iter().enumerate();
+        words.flat_map(|(word, &axes)| bits(axes).map(move |bit| word * 64 + bit)).filter_map(|axis| {
+            let claim = &self.claims[self.slots[axis] as usize];
             let [x, y, z] = claim.sum.map(|sum| sum as f32);
             let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
-            Some((claim.axis, Claimed { space, envelope: claim.far.is_finite().then_some(claim.far) }))
+            let envelope = claim.far.is_finite().then_some(claim.far);
+            Some((AxisId::new(axis), Claimed { space, envelope }))
         })
     }
 }
