@@ -1,11 +1,16 @@
 //! Points in space, found by place.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
-use crate::voxel_grid::{VoxelGrid, voxel_of};
+use crate::{
+    cells::bits,
+    voxel_grid::{VoxelGrid, voxel_of},
+};
 
-/// Points in one block: as many as the processor compares at once.
+/// Points in one block.
 const LANES: usize = 8;
+/// Lanes that the processor compares at once.
+const WIDTH: usize = 4;
 
 /// What a block holds beside its points, lane by lane.
 pub(crate) trait Lanes: Clone + core::fmt::Debug {
@@ -36,27 +41,29 @@ pub(crate) struct Vectors {
 }
 
 impl Vectors {
-    /// The vectors less `from`, dotted with themselves.
+    /// The vectors in the lanes from `lane` on, coordinate by coordinate.
     #[inline(always)]
-    fn distances_squared(&self, from: Vec3) -> [f32; LANES] {
-        let mut squares = [0.0; LANES];
-        for (lane, square) in squares.iter_mut().enumerate() {
-            let (dx, dy, dz) = (self.x[lane] - from.x, self.y[lane] - from.y, self.z[lane] - from.z);
-            *square = dx * dx + dy * dy + dz * dz;
-        }
-        squares
+    fn from(&self, lane: usize) -> [Vec4; 3] {
+        [&self.x, &self.y, &self.z].map(|values| Vec4::from_slice(&values[lane..lane + WIDTH]))
     }
 
-    /// `place` less each of `points`, dotted with these vectors.
+    /// `place` less the vectors in the lanes from `lane` on.
     #[inline(always)]
-    fn dots(&self, place: Vec3, points: &Self) -> [f32; LANES] {
-        let mut dots = [0.0; LANES];
-        for (lane, dot) in dots.iter_mut().enumerate() {
-            let (dx, dy, dz) = (place.x - points.x[lane], place.y - points.y[lane], place.z - points.z[lane]);
-            *dot = dx * self.x[lane] + dy * self.y[lane] + dz * self.z[lane];
-        }
-        dots
+    fn offsets(&self, lane: usize, place: Vec3) -> [Vec4; 3] {
+        let [x, y, z] = self.from(lane);
+        [Vec4::splat(place.x) - x, Vec4::splat(place.y) - y, Vec4::splat(place.z) - z]
     }
+}
+
+#[inline(always)]
+fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
+    ax * bx + ay * by + az * bz
+}
+
+/// Calls `test` with the first of each few lanes; puts together what it says of them, one bit each.
+#[inline(always)]
+fn lanes(mut test: impl FnMut(usize) -> u32) -> u64 {
+    (0..LANES).step_by(WIDTH).map(|lane| u64::from(test(lane)) << lane).fold(0, |all, some| all | some)
 }
 
 impl Lanes for Vectors {
@@ -158,19 +165,17 @@ impl Block<Vectors> {
         signed_cos_squared: f32,
         mut visit: impl FnMut(u32, f32, f32),
     ) {
-        let squares = self.places.distances_squared(place);
-        let dots = self.items.dots(place, &self.places);
-        let mut seen = [false; LANES];
-        let mut any = false;
-        for lane in 0..LANES {
-            seen[lane] =
-                squares[lane] <= limit && dots[lane] * dots[lane].abs() >= signed_cos_squared * squares[lane];
-            any |= seen[lane];
-        }
-        if any {
-            for lane in (0..LANES).filter(|&lane| seen[lane]) {
-                visit(self.number[lane], squares[lane], dots[lane]);
-            }
+        let mut squares = [Vec4::ZERO; LANES / WIDTH];
+        let mut dots = squares;
+        let seen = lanes(|lane| {
+            let offsets = self.places.offsets(lane, place);
+            let (square, along) = (dot(offsets, offsets), dot(offsets, self.items.from(lane)));
+            (squares[lane / WIDTH], dots[lane / WIDTH]) = (square, along);
+            let ahead = (along * along.abs()).cmpge(signed_cos_squared * square);
+            (square.cmple(Vec4::splat(limit)) & ahead).bitmask()
+        });
+        for lane in bits(seen) {
+            visit(self.number[lane], squares[lane / WIDTH][lane % WIDTH], dots[lane / WIDTH][lane % WIDTH]);
         }
     }
 }
@@ -248,12 +253,13 @@ impl<L: Lanes> PlaceGrid<L> {
     pub(crate) fn visit_near(&self, place: Vec3, radius: f32, mut visit: impl FnMut(u32, f32) -> Visit) {
         let limit = radius * radius;
         self.visit_blocks(place, radius, |block| {
-            let squares = block.places.distances_squared(place);
-            if squares.iter().fold(f32::INFINITY, |least, &square| least.min(square)) > limit {
-                return Visit::Go;
-            }
-            for (lane, &square) in squares.iter().enumerate() {
-                if square <= limit && visit(block.number[lane], square) == Visit::Stop {
+            let near = lanes(|lane| {
+                let offsets = block.places.offsets(lane, place);
+                dot(offsets, offsets).cmple(Vec4::splat(limit)).bitmask()
+            });
+            for lane in bits(near) {
+                let square = (place - block.places.get(lane)).length_squared();
+                if visit(block.number[lane], square) == Visit::Stop {
                     return Visit::Stop;
                 }
             }

@@ -101,7 +101,7 @@ impl Simulation {
         let Some(heading) = free.filter(is_free) else { return false };
         let end = base + heading;
         let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
-        if !in_world || (!is_led && self.is_taken(axis, end)) {
+        if !in_world || (!is_led && self.is_taken(axis, node, end)) {
             return false;
         }
 
@@ -162,8 +162,10 @@ impl Simulation {
 
     /// Whether a node there would lie in the occupancy zone of one that is not its own kin.
     ///
-    /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide.
-    fn is_taken(&self, axis: AxisId, place: Vec3) -> bool {
+    /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide. `base`
+    /// is the node the bud sits at: either its own or its bearer, so that what says of the bearer what is young
+    /// holds whenever the place is in its zone.
+    fn is_taken(&self, axis: AxisId, base: MetamerId, place: Vec3) -> bool {
         let radius = self.parameters.of(axis).occupancy_radius;
         let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
         let bearing_axis = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
@@ -173,6 +175,9 @@ impl Simulation {
             metamers.end(bearer).distance_squared(place) < zone * zone
         });
         self.space.is_occupied(place, radius, |id| {
+            if id == base {
+                return false;
+            }
             let other = metamers.axis(id);
             let is_own = other == axis || bearing_axis(other) == Some(axis);
             let is_kin = is_young && (Some(other) == parent || bearing_axis(other) == parent);
