@@ -97,18 +97,19 @@ impl MarkerField {
         let cone = Cone::new(parameters);
         self.visit(obstacles, low, high, |chunk, cells| {
             let free = cells & chunk.free;
+            let mut seen = 0;
             for row in rows(free) {
-                let (seen, squares) = chunk.seen(row, place, direction, cone);
-                for cell in bits(seen & free) {
-                    let (bit, distance_squared) = (1 << cell, squares[cell - row]);
-                    let is_outdone = distance_squared == chunk.nearest[cell] && chunk.claimant[cell] <= axis;
-                    if is_outdone || obstacles.hides(place, chunk.marker(cell)) {
-                        continue;
-                    }
-                    chunk.nearest[cell] = distance_squared;
-                    chunk.claimant[cell] = axis;
-                    chunk.claimed |= bit;
+                seen |= chunk.seen(row, place, direction, cone);
+            }
+            for cell in bits(seen & free) {
+                let distance_squared = chunk.distance_squared(cell, place);
+                let is_outdone = distance_squared == chunk.nearest[cell] && chunk.claimant[cell] <= axis;
+                if is_outdone || obstacles.hides(place, chunk.marker(cell)) {
+                    continue;
                 }
+                chunk.nearest[cell] = distance_squared;
+                chunk.claimant[cell] = axis;
+                chunk.claimed |= 1 << cell;
             }
         });
     }
@@ -249,16 +250,15 @@ impl Chunk {
         u64::from(squares.cmple(Vec4::splat(limit)).bitmask()) << row
     }
 
-    /// Which of the four markers from cell `row` on a bud perceives no farther away than their claimants do, and
-    /// the squared distances.
+    /// Which of the four markers from cell `row` on a bud perceives no farther away than their claimants do.
     #[inline(always)]
-    fn seen(&self, row: usize, place: Vec3, direction: Vec3, cone: Cone) -> (u64, [f32; 4]) {
+    fn seen(&self, row: usize, place: Vec3, direction: Vec3, cone: Cone) -> u64 {
         let [dx, dy, dz] = self.offsets(row, place);
         let squares = dx * dx + dy * dy + dz * dz;
         let dots = dx * direction.x + dy * direction.y + dz * direction.z;
         let near = squares.cmple(four(&self.nearest, row).min(Vec4::splat(cone.far_squared)));
         let ahead = (dots * dots.abs()).cmpge(squares * cone.signed_cos_squared);
-        (u64::from((near & ahead).bitmask()) << row, squares.to_array())
+        u64::from((near & ahead).bitmask()) << row
     }
 
     /// Offsets of the four markers from cell `row` on, coordinate by coordinate.
@@ -302,19 +302,18 @@ pub(crate) fn spacing(parameters: &Parameters) -> f32 {
 /// The box around the perception volume of a bud and the zone before it.
 fn reach(place: Vec3, direction: Vec3, parameters: &Parameters) -> (Vec3, Vec3) {
     let cos = parameters.cos_half_perception;
-    let sin = (1.0 - cos * cos).max(0.0).sqrt();
     let far = parameters.perception_radius();
-    // How far the unit cone reaches along an axis with which its own makes an angle of this cosine.
-    let extent = |along: f32| {
-        if along >= cos {
-            return 1.0;
-        }
-        (along * cos + (1.0 - along * along).max(0.0).sqrt() * sin).max(0.0)
-    };
+    let mut reach = [[0.0; 2]; 3];
+    for (reach, along) in reach.iter_mut().zip(direction.to_array()) {
+        // Sines of the angles that the axis of coordinates makes with the cone's own, and half its opening.
+        let across = ((1.0 - along * along) * (1.0 - cos * cos)).max(0.0).sqrt();
+        // How far the unit cone reaches both ways along an axis with which its own makes an angle of this cosine.
+        let extent = |along: f32| if along >= cos { 1.0 } else { (along * cos + across).max(0.0) };
+        *reach = [extent(-along), extent(along)];
+    }
+    let [low, high] = [0, 1].map(|end| Vec3::from_array(reach.map(|reach| reach[end])) * far);
     // A hair wider, against rounding.
     let margin = Vec3::splat(1e-3);
-    let high = Vec3::new(extent(direction.x), extent(direction.y), extent(direction.z)) * far;
-    let low = Vec3::new(extent(-direction.x), extent(-direction.y), extent(-direction.z)) * far;
     (place - low - margin, place + high + margin)
 }
 
