@@ -278,30 +278,36 @@ impl<L: Lanes> PlaceGrid<L> {
     }
 
     /// Calls `visit` with every block of every cell that is near enough to `place`: nearer than `radius`, and
-    /// then than the root of what `visit` last returned.
+    /// then than the root of what `visit` last returned. The place's own cell comes first: what ends a search is
+    /// mostly near.
     #[inline]
     pub(crate) fn visit_nearing(&self, place: Vec3, radius: f32, mut visit: impl FnMut(&Block<L>) -> f32) {
         let mut limit = radius * radius;
         let (low, centre) = (self.cell_of(place - radius), self.cell_of(place));
         let high = self.cell_of(place + radius);
-        // The place's own cell first: what ends a search is mostly near.
-        self.visit_cell(centre, &mut limit, &mut visit);
+        let heads = self.heads.within(low, high);
+        let count = |axis: usize| high[axis] - low[axis] + 1;
+        // Along an axis first the cell of the place itself, then the others.
+        let nth = |axis: usize, n: i32| match n {
+            0 => centre[axis],
+            _ => low[axis] + n - i32::from(low[axis] + n <= centre[axis]),
+        };
         let gap_squared = |cell: i32, at: f32| {
             let from = cell as f32 * self.cell;
             let gap = (from - at).max(at - (from + self.cell)).max(0.0);
             // A hair less than it is, for the gap itself is rounded.
             gap * gap * 0.9999
         };
-        for y in low[1]..=high[1] {
+        for y in (0..count(1)).map(|n| nth(1, n)) {
             let gap_y = gap_squared(y, place.y);
-            for z in low[2]..=high[2] {
+            for z in (0..count(2)).map(|n| nth(2, n)) {
                 let gap_yz = gap_y + gap_squared(z, place.z);
                 if gap_yz > limit {
                     continue;
                 }
-                for x in low[0]..=high[0] {
-                    if gap_yz + gap_squared(x, place.x) <= limit && [x, y, z] != centre {
-                        self.visit_cell([x, y, z], &mut limit, &mut visit);
+                for x in (0..count(0)).map(|n| nth(0, n)) {
+                    if gap_yz + gap_squared(x, place.x) <= limit {
+                        self.visit_chain(heads.get([x, y, z]), &mut limit, &mut visit);
                     }
                 }
             }
@@ -310,7 +316,7 @@ impl<L: Lanes> PlaceGrid<L> {
 
     /// Calls `visit` with every point in a cell.
     pub(crate) fn visit_in_cell(&self, cell: [i32; 3], mut visit: impl FnMut(u32)) {
-        self.visit_cell(cell, &mut 0.0, &mut |block| {
+        self.visit_chain(self.heads.get(cell), &mut 0.0, &mut |block| {
             block.number[..block.len as usize].iter().for_each(|&number| visit(number));
             0.0
         });
@@ -326,9 +332,10 @@ impl<L: Lanes> PlaceGrid<L> {
         found
     }
 
+    /// Calls `visit` with the blocks of a cell, until it returns a limit below zero.
     #[inline(always)]
-    fn visit_cell(&self, cell: [i32; 3], limit: &mut f32, visit: &mut impl FnMut(&Block<L>) -> f32) {
-        let mut at = self.heads.get(cell);
+    fn visit_chain(&self, head: u32, limit: &mut f32, visit: &mut impl FnMut(&Block<L>) -> f32) {
+        let mut at = head;
         while at != 0 && *limit >= 0.0 {
             let block = &self.blocks[at as usize - 1];
             *limit = visit(block);

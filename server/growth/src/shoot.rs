@@ -85,7 +85,8 @@ impl Simulation {
         let node = self.plant.bud_node(axis);
         let base = self.plant.metamers().end(node);
         let parameters = self.parameters.of(axis);
-        let laid_down = self.laid_down_heading(axis, node);
+        let before = self.plant.bud_direction(axis);
+        let laid_down = self.laid_down_heading(axis, node, before);
         let mut heading =
             next_heading(laid_down, self.tropism(axis, aim), aim.space, aim.weights(parameters), parameters);
         if let Some(Waypoint { position, weight }) = waypoint {
@@ -96,7 +97,7 @@ impl Simulation {
         let is_led = waypoint.is_some();
         let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis)));
         let is_free = |free: &Vec3| {
-            *free == heading || waypoint.is_none() || follows(*free, heading, self.plant.bud_direction(axis))
+            *free == heading || waypoint.is_none() || follows(*free, heading, before)
         };
         let Some(heading) = free.filter(is_free) else { return false };
         let end = base + heading;
@@ -105,7 +106,7 @@ impl Simulation {
             return false;
         }
 
-        let normal = self.next_normal(axis, node, heading);
+        let normal = self.next_normal(axis, node, before, heading);
         let (sin, cos) = parameters.branching;
         let mut laterals = [Vec3::ZERO; MAX_LATERALS];
         let buds = parameters.buds_per_node as usize;
@@ -118,8 +119,7 @@ impl Simulation {
     }
 
     /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.
-    fn laid_down_heading(&self, axis: AxisId, node: MetamerId) -> Vec3 {
-        let heading = self.plant.bud_direction(axis);
+    fn laid_down_heading(&self, axis: AxisId, node: MetamerId, heading: Vec3) -> Vec3 {
         let parameters = self.parameters.of(axis);
         // Opposite and whorled buds push an axis to no side.
         if !self.plant.has_grown(axis) || parameters.buds_per_node > 1 {
@@ -145,10 +145,11 @@ impl Simulation {
         Draw::new(self.seed, Purpose::Azimuth, axis.raw(), 0)
     }
 
-    /// The normal of a new internode: its axis' last one, carried along and turned by the phyllotactic angle.
-    fn next_normal(&self, axis: AxisId, node: MetamerId, heading: Vec3) -> Vec3 {
+    /// The normal of a new internode: its axis' last one, carried along from the heading before and turned by the
+    /// phyllotactic angle.
+    fn next_normal(&self, axis: AxisId, node: MetamerId, before: Vec3, heading: Vec3) -> Vec3 {
         if self.plant.has_grown(axis) {
-            let carried = transport(self.plant.metamers().normal(node), self.plant.heading(node), heading);
+            let carried = transport(self.plant.metamers().normal(node), before, heading);
             return turn(across(carried, heading), heading, self.parameters.of(axis).phyllotaxis);
         }
         if self.plant.axes().order(axis) == 0 {

@@ -27,6 +27,13 @@ impl<T: Copy + Default> VoxelGrid<T> {
         self.chunks.get(chunk_of(voxel)).map_or_else(T::default, |chunk| chunk[offset(voxel)])
     }
 
+    /// The values at the voxels of a box, to be asked for many times.
+    #[inline]
+    pub(crate) fn within(&self, low: [i32; 3], high: [i32; 3]) -> Window<'_, T> {
+        let is_whole = chunk_of(low) == chunk_of(high);
+        Window { grid: self, chunk: self.chunks.get(chunk_of(low)).filter(|_| is_whole) }
+    }
+
     /// The value at a voxel, to change.
     #[inline]
     pub(crate) fn get_mut(&mut self, voxel: [i32; 3]) -> &mut T {
@@ -36,6 +43,21 @@ impl<T: Copy + Default> VoxelGrid<T> {
     /// The values at the eight voxels from `low` to `low + 1`, x fastest, then z, then y.
     pub(crate) fn octet(&self, [x, y, z]: [i32; 3]) -> [T; 8] {
         [0, 1, 2, 3, 4, 5, 6, 7].map(|i| self.get([x + (i & 1), y + (i >> 2), z + (i >> 1 & 1)]))
+    }
+}
+
+/// The values at the voxels of a box.
+pub(crate) struct Window<'a, T> {
+    grid: &'a VoxelGrid<T>,
+    /// The chunk that holds all of them, if one does.
+    chunk: Option<&'a [T; VOXELS]>,
+}
+
+impl<T: Copy + Default> Window<'_, T> {
+    /// The value at a voxel.
+    #[inline]
+    pub(crate) fn get(&self, voxel: [i32; 3]) -> T {
+        self.chunk.map_or_else(|| self.grid.get(voxel), |chunk| chunk[offset(voxel)])
     }
 }
 
