@@ -1,8 +1,12 @@
 //! Chunks of space that exist where something was written.
 
-use glam::Vec3;
+use glam::{Vec3, Vec4};
 
 const ABSENT: u32 = u32::MAX;
+/// 1.5 · 2²³.
+const SHIFT: f32 = 12_582_912.0;
+/// The farthest place from the origin that a number with [`SHIFT`] added still tells apart, or nearly.
+const FARTHEST: f32 = 4_000_000.0;
 
 /// Finds chunks by their whole-number coordinates; a box around all of them, sparse in between.
 #[derive(Clone, Debug)]
@@ -109,10 +113,17 @@ impl<C> Directory<C> {
     }
 }
 
-/// The voxel of edge 1 a point lies in.
+/// The voxel of edge 1 a point lies in; beyond [`FARTHEST`] the one there.
+///
+/// The last binary place of a number as large as [`SHIFT`] is worth 1: adding that rounds to whole numbers, all
+/// three at once, which conversions one by one do not.
 #[inline]
 pub(crate) fn voxel_of(place: Vec3) -> [i32; 3] {
-    [floor(place.x), floor(place.y), floor(place.z)]
+    let place = place.extend(0.0).min(Vec4::splat(FARTHEST)).max(Vec4::splat(-FARTHEST));
+    let rounded = place + Vec4::splat(SHIFT);
+    let too_high = (rounded - Vec4::splat(SHIFT)).cmpgt(place);
+    let [x, y, z, _] = (rounded - Vec4::select(too_high, Vec4::ONE, Vec4::ZERO)).to_array();
+    [x, y, z].map(|x| x.to_bits() as i32 - SHIFT.to_bits() as i32)
 }
 
 /// A number that is close for places close to each other: the interleaved bits of their coordinates (Morton
@@ -129,13 +140,6 @@ fn spread(mut bits: u32) -> u32 {
     bits = (bits | bits << 8) & 0x0300_f00f;
     bits = (bits | bits << 4) & 0x030c_30c3;
     (bits | bits << 2) & 0x0924_9249
-}
-
-/// The greatest whole number not above `x`. Exact, and cheaper than `libm`'s on processors of the baseline.
-#[inline]
-fn floor(x: f32) -> i32 {
-    let toward_zero = x as i32;
-    toward_zero - i32::from(x < toward_zero as f32)
 }
 
 #[cfg(test)]
@@ -167,8 +171,10 @@ mod tests {
 
     #[test]
     fn floors_agree_with_the_library() {
-        for x in [-2.5f32, -2.0, -0.0, 0.0, 0.9, 1.0, 7.3, -1e-9] {
-            assert_eq!(floor(x), libm::floorf(x) as i32, "{x}");
+        let places = [-2.5f32, -2.0, -1.5, -0.5, -0.0, 0.0, 0.5, 0.9, 1.0, 1.5, 7.3, -1e-9, -0.999_999_94];
+        for x in places.into_iter().chain([2_000_000.75, -2_000_000.75, 4e6, -4e6, 1e30, -1e30]) {
+            let floor = libm::floorf(x.clamp(-4e6, 4e6)) as i32;
+            assert_eq!(voxel_of(Vec3::new(x, 0.5, x)), [floor, 0, floor], "{x}");
         }
     }
 }

@@ -96,9 +96,7 @@ impl Simulation {
         // Who is led goes where the finger went, through others' zones as well.
         let is_led = waypoint.is_some();
         let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis)));
-        let is_free = |free: &Vec3| {
-            *free == heading || waypoint.is_none() || follows(*free, heading, before)
-        };
+        let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
         let Some(heading) = free.filter(is_free) else { return false };
         let end = base + heading;
         let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
