@@ -30,7 +30,7 @@ pub struct Plant {
 }
 
 /// Metamers on the way from a tip to its seed, roughly: only speed depends on it.
-const TYPICAL_DEPTH: usize = 32;
+const TYPICAL_DEPTH: usize = 128;
 
 /// What the bud of an axis adds to it.
 #[derive(Clone, Copy, Debug)]
@@ -340,20 +340,25 @@ impl Plant {
             }
             return;
         }
-        let mut gained = vec![0u32; count];
-        for index in (0..count).rev() {
+        let mut gains = Gains::new(count);
+        for index in (born..count).rev() {
             let id = MetamerId::new(index);
-            if index >= born && !self.is_seed(id) {
-                self.metamers.tips[index] = 1;
-                let begins = self.begins_wood(id);
-                gained[self.metamers.parent[index].index()] += u32::from(begins);
+            if self.is_seed(id) {
+                continue;
             }
-            let (gain, parent) = (gained[index], self.metamers.parent[index]);
-            if gain > 0 {
-                self.metamers.tips[index] = self.metamers.tips[index].wrapping_add(gain);
-                if parent != MetamerId::NONE {
-                    gained[parent.index()] += gain;
-                }
+            self.metamers.tips[index] = 1;
+            if self.begins_wood(id) {
+                gains.add(self.metamers.parent[index].index(), 1);
+            }
+        }
+        for index in (0..count).rev() {
+            let gain = gains.at(index);
+            if gain == 0 {
+                continue;
+            }
+            self.metamers.tips[index] = self.metamers.tips[index].wrapping_add(gain);
+            if let Some(parent) = self.metamers.parent[index].some() {
+                gains.add(parent.index(), gain);
             }
         }
     }
@@ -429,5 +434,38 @@ impl Plant {
             hash.word(u64::from(id.raw()) | u64::from(diameter.to_bits()) << 32);
         }
         hash.finish()
+    }
+}
+
+/// Tips that metamers have gained in a step. Most gain few, and a column of bytes stays in the cache.
+struct Gains {
+    few: Vec<u8>,
+    /// Gains of those whose byte says [`Gains::MANY`].
+    many: BTreeMap<usize, u32>,
+}
+
+impl Gains {
+    const MANY: u8 = u8::MAX;
+
+    fn new(count: usize) -> Self {
+        Self { few: vec![0; count], many: BTreeMap::new() }
+    }
+
+    fn at(&self, index: usize) -> u32 {
+        match self.few[index] {
+            Self::MANY => self.many.get(&index).copied().unwrap_or(0),
+            few => u32::from(few),
+        }
+    }
+
+    fn add(&mut self, index: usize, gain: u32) {
+        let sum = self.at(index) + gain;
+        match u8::try_from(sum) {
+            Ok(few) if few != Self::MANY => self.few[index] = few,
+            _ => {
+                self.few[index] = Self::MANY;
+                self.many.insert(index, sum);
+            }
+        }
     }
 }
