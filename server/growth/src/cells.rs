@@ -7,27 +7,62 @@ use crate::directory::{Directory, voxel_of};
 /// Cells in a word: x fastest, then z, then y.
 pub(crate) const CELLS: usize = 64;
 const EDGE: i32 = 4;
-/// Cells whose x, y or z lies between two values: `RANGES[axis][low][high]`.
-const RANGES: [[[u64; 4]; 4]; 3] = ranges();
+/// Cells of a word whose x, y or z is at least a value, and at most one: `FROM[axis][least]`, `TO[axis][greatest]`.
+const FROM: [[u64; 4]; 3] = ranges(false);
+const TO: [[u64; 4]; 3] = ranges(true);
 
-/// Calls `visit` with the coordinates of each word that meets the box from `low` to `high`, in cells, and with
-/// those of its cells that do.
-#[inline(always)]
-pub(crate) fn visit_words(low: Vec3, high: Vec3, mut visit: impl FnMut([i32; 3], u64)) {
-    let (low, high) = (voxel_of(low), voxel_of(high));
-    let (first, last) = (low.map(|i| i >> 2), high.map(|i| i >> 2));
-    let within = |axis: usize, word: i32| {
-        let from = (low[axis] - word * EDGE).max(0) as usize;
-        let to = (high[axis] - word * EDGE).min(EDGE - 1) as usize;
-        RANGES[axis][from & 3][to & 3]
-    };
-    for y in first[1]..=last[1] {
-        let of_y = within(1, y);
-        for z in first[2]..=last[2] {
-            let of_yz = of_y & within(2, z);
-            for x in first[0]..=last[0] {
-                visit([x, y, z], of_yz & within(0, x));
+/// A box of cells.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CellBox {
+    /// The words that it meets: the first and the last along each axis.
+    first: [i32; 3],
+    last: [i32; 3],
+    /// The cells of the first and of the last of them that lie in it, as far as the axis has a say.
+    ends: [[u64; 2]; 3],
+}
+
+impl CellBox {
+    /// The cells that meet the box from `low` to `high`, in cells.
+    #[inline(always)]
+    pub(crate) fn new(low: Vec3, high: Vec3) -> Self {
+        let (low, high) = (voxel_of(low), voxel_of(high));
+        let (first, last) = (low.map(|i| i >> 2), high.map(|i| i >> 2));
+        let ends = core::array::from_fn(|axis| {
+            let from = FROM[axis][(low[axis] & 3) as usize];
+            let to = TO[axis][(high[axis] & 3) as usize];
+            if first[axis] == last[axis] { [from & to, 0] } else { [from, to] }
+        });
+        Self { first, last, ends }
+    }
+
+    /// Calls `visit` with the chunks of all words that the box meets, made if there were none, and with those of a
+    /// word's cells that lie in the box.
+    #[inline(always)]
+    pub(crate) fn visit<C>(
+        &self,
+        chunks: &mut Directory<C>,
+        make: impl Fn([i32; 3]) -> C + Copy,
+        mut visit: impl FnMut(&mut C, u64),
+    ) {
+        let Self { first, last, ends } = *self;
+        let within = |axis: usize, word: i32| match word {
+            _ if word == first[axis] => ends[axis][0],
+            _ if word == last[axis] => ends[axis][1],
+            _ => u64::MAX,
+        };
+        let (start, [_, per_y, per_z]) = chunks.cover(first, last);
+        let mut layer = start;
+        for y in first[1]..last[1] + 1 {
+            let of_y = within(1, y);
+            let mut row = layer;
+            for z in first[2]..last[2] + 1 {
+                let of_yz = of_y & within(2, z);
+                for (x, slot) in (first[0]..last[0] + 1).zip(row..) {
+                    visit(chunks.in_slot(slot, [x, y, z], make), of_yz & within(0, x));
+                }
+                row += per_z;
             }
+            layer += per_y;
         }
     }
 }
@@ -65,7 +100,7 @@ impl CellSet {
 
     /// Puts in the cells that meet the box from `low` to `high`, in cells.
     pub(crate) fn insert(&mut self, low: Vec3, high: Vec3) {
-        visit_words(low, high, |at, cells| self.words.get_or_make(at, || (at, 0)).1 |= cells);
+        CellBox::new(low, high).visit(&mut self.words, |at| (at, 0), |word, cells| word.1 |= cells);
     }
 
     /// Every cell.
@@ -74,21 +109,18 @@ impl CellSet {
     }
 }
 
-const fn ranges() -> [[[u64; 4]; 4]; 3] {
-    let mut ranges = [[[0; 4]; 4]; 3];
+const fn ranges(is_upper: bool) -> [[u64; 4]; 3] {
+    let mut ranges = [[0; 4]; 3];
     let mut cell = 0;
     while cell < CELLS {
         let within = [cell & 3, cell >> 4, cell >> 2 & 3];
         let mut axis = 0;
         while axis < 3 {
-            let mut low = 0;
-            while low <= within[axis] {
-                let mut high = within[axis];
-                while high < 4 {
-                    ranges[axis][low][high] |= 1 << cell;
-                    high += 1;
-                }
-                low += 1;
+            let mut bound = 0;
+            while bound < 4 {
+                let belongs = if is_upper { within[axis] <= bound } else { within[axis] >= bound };
+                ranges[axis][bound] |= (belongs as u64) << cell;
+                bound += 1;
             }
             axis += 1;
         }

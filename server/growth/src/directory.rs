@@ -49,13 +49,41 @@ impl<C> Directory<C> {
     pub(crate) fn number_or_make(&mut self, at: [i32; 3], make: impl FnOnce() -> C) -> u32 {
         match self.slot(at) {
             Some(slot) if self.table[slot] != ABSENT => self.table[slot],
-            _ => self.append(at, make),
+            _ => self.append(at, |_| make()),
         }
+    }
+
+    /// Makes room in the table for all chunks from `first` to `last`. Returns the slot of the first, and how far apart
+    /// those of neighbours along x, y and z are until a chunk is asked for elsewhere.
+    #[inline(always)]
+    pub(crate) fn cover(&mut self, first: [i32; 3], last: [i32; 3]) -> (usize, [usize; 3]) {
+        let start = match (self.slot(first), self.slot(last)) {
+            (Some(start), Some(_)) => start,
+            _ => self.widen_around(first, last),
+        };
+        let [width, _, depth] = self.size.map(|size| size as usize);
+        (start, [1, width * depth, width])
+    }
+
+    #[cold]
+    fn widen_around(&mut self, first: [i32; 3], last: [i32; 3]) -> usize {
+        self.widen(last);
+        self.slot(first).unwrap_or_else(|| self.widen(first))
+    }
+
+    /// The chunk in a slot that was made room for, made if there was none.
+    #[inline(always)]
+    pub(crate) fn in_slot(&mut self, slot: usize, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> &mut C {
+        let mut chunk = self.table[slot];
+        if chunk == ABSENT {
+            chunk = self.append(at, make);
+        }
+        &mut self.chunks[chunk as usize]
     }
 
     #[cold]
     #[inline(never)]
-    fn append(&mut self, at: [i32; 3], make: impl FnOnce() -> C) -> u32 {
+    fn append(&mut self, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> u32 {
         let slot = self.slot(at).unwrap_or_else(|| self.widen(at));
         let chunk = self.chunks.len();
         if chunk == self.chunks.capacity() {
@@ -63,7 +91,7 @@ impl<C> Directory<C> {
             self.chunks.reserve_exact(4 + chunk / 4);
         }
         self.table[slot] = chunk as u32;
-        self.chunks.push(make());
+        self.chunks.push(make(at));
         chunk as u32
     }
 
@@ -172,7 +200,7 @@ mod tests {
     #[test]
     fn floors_agree_with_the_library() {
         let places = [-2.5f32, -2.0, -1.5, -0.5, -0.0, 0.0, 0.5, 0.9, 1.0, 1.5, 7.3, -1e-9, -0.999_999_94];
-        for x in places.into_iter().chain([2_000_000.75, -2_000_000.75, 4e6, -4e6, 1e30, -1e30]) {
+        for x in places.into_iter().chain([2e6 + 0.75, -2e6 - 0.75, 4e6, -4e6, 1e30, -1e30]) {
             let floor = libm::floorf(x.clamp(-4e6, 4e6)) as i32;
             assert_eq!(voxel_of(Vec3::new(x, 0.5, x)), [floor, 0, floor], "{x}");
         }

@@ -11,7 +11,7 @@ use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 
 use crate::{
-    cells::{CELLS, bits, cell_at, visit_words},
+    cells::{CELLS, CellBox, bits, cell_at},
     directory::Directory,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
@@ -195,18 +195,11 @@ impl MarkerField {
 
     /// Calls `visit` with every chunk that meets the box from `low` to `high`, and which of its cells do.
     #[inline(always)]
-    fn visit(
-        &mut self,
-        obstacles: &Obstacles,
-        low: Vec3,
-        high: Vec3,
-        mut visit: impl FnMut(&mut Chunk, u64),
-    ) {
+    fn visit(&mut self, obstacles: &Obstacles, low: Vec3, high: Vec3, visit: impl FnMut(&mut Chunk, u64)) {
         let per_cell = 1.0 / self.spacing;
         let (seed, spacing) = (self.seed, self.spacing);
-        visit_words(low * per_cell, high * per_cell, |at, cells| {
-            visit(self.chunks.get_or_make(at, || Chunk::new(seed, spacing, at, obstacles)), cells);
-        });
+        let make = move |at| Chunk::new(seed, spacing, at, obstacles);
+        CellBox::new(low * per_cell, high * per_cell).visit(&mut self.chunks, make, visit);
     }
 }
 
