@@ -55,6 +55,12 @@ impl Vectors {
     }
 }
 
+/// The greater of two numbers, where it does not matter which if one is none: `f32::max` is slower for that.
+#[inline(always)]
+fn greater(a: f32, b: f32) -> f32 {
+    if a > b { a } else { b }
+}
+
 #[inline(always)]
 fn dot([ax, ay, az]: [Vec4; 3], [bx, by, bz]: [Vec4; 3]) -> Vec4 {
     ax * bx + ay * by + az * bz
@@ -241,6 +247,17 @@ impl<L: Lanes> PlaceGrid<L> {
         (moved != number).then_some(moved)
     }
 
+    /// Moves the point that stands here, if its new place lies in the same cell. Returns whether it does.
+    pub(crate) fn shift(&mut self, stand: Stand, place: Vec3, item: L::Item) -> bool {
+        let (block, lane) = (stand.block(), stand.lane());
+        let stays = self.cell_of(self.blocks[block].places.get(lane)) == self.cell_of(place);
+        if stays {
+            self.blocks[block].places.set(lane, place);
+            self.blocks[block].items.set(lane, item);
+        }
+        stays
+    }
+
     /// Place and item of the point that stands here.
     pub(crate) fn at(&self, stand: Stand) -> (Vec3, L::Item) {
         let block = &self.blocks[stand.block()];
@@ -294,7 +311,7 @@ impl<L: Lanes> PlaceGrid<L> {
         };
         let gap_squared = |cell: i32, at: f32| {
             let from = cell as f32 * self.cell;
-            let gap = (from - at).max(at - (from + self.cell)).max(0.0);
+            let gap = greater(greater(from - at, at - (from + self.cell)), 0.0);
             // A hair less than it is, for the gap itself is rounded.
             gap * gap * 0.9999
         };

@@ -75,8 +75,13 @@ impl Space {
 
     /// Enters a bud, or moves it if it is there already.
     pub fn place_bud(&mut self, axis: AxisId, bud: Bud) {
-        self.remove_bud(axis);
         let index = axis.index();
+        let stand = self.stands.get(index).copied().filter(|stand| *stand != Stand::NOWHERE);
+        if stand.is_some_and(|stand| self.buds.shift(stand, bud.position, bud.direction)) {
+            self.moved[index / 64] |= 1 << (index % 64);
+            return;
+        }
+        self.remove_bud(axis);
         if index >= self.stands.len() {
             if index >= self.stands.capacity() {
                 self.stands.reserve_exact(index + 1 - self.stands.len() + index / 16);

@@ -49,6 +49,7 @@ pub struct StepOutcome {
 #[derive(Clone, Copy, Debug)]
 struct Shoot {
     axis: AxisId,
+    vigor: f64,
     /// Internodes.
     length: u32,
     /// What it grows towards.
@@ -235,22 +236,18 @@ impl Simulation {
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
     fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Claimed)>) -> Vec<Shoot> {
-        let vigors: Vec<(AxisId, Claimed, f64)> = enabled
-            .map(|(axis, claimed)| {
-                (axis, claimed, self.canopy.bud_vigor(&self.plant, axis, &self.parameters))
-            })
+        let vigor = |axis| self.canopy.bud_vigor(&self.plant, axis, &self.parameters);
+        let mut shoots: Vec<Shoot> = enabled
+            .map(|(axis, claimed)| Shoot { axis, vigor: vigor(axis), length: 0, claimed })
+            .filter(|shoot| shoot.vigor > 0.0)
             .collect();
-        let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
-        let length = |axis, claimed: Claimed, vigor| {
-            let parameters = self.parameters.of(axis);
-            claimed.limit(vigor::shoot_length(vigor, greatest, parameters), parameters)
-        };
-        let mut shoots: Vec<Shoot> = vigors
-            .into_iter()
-            .filter(|&(.., vigor)| vigor > 0.0)
-            .map(|(axis, claimed, vigor)| Shoot { axis, length: length(axis, claimed, vigor), claimed })
-            .filter(|shoot| shoot.length > 0)
-            .collect();
+        let greatest = shoots.iter().map(|shoot| shoot.vigor).fold(0.0, f64::max);
+        for shoot in &mut shoots {
+            let parameters = self.parameters.of(shoot.axis);
+            let length = vigor::shoot_length(shoot.vigor, greatest, parameters);
+            shoot.length = shoot.claimed.limit(length, parameters);
+        }
+        shoots.retain(|shoot| shoot.length > 0);
         // As one number, for two are compared more slowly.
         shoots.sort_unstable_by_key(|shoot| u64::from(!shoot.length) << 32 | u64::from(shoot.axis.raw()));
         shoots
