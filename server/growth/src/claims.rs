@@ -78,6 +78,11 @@ impl Claims {
         }
     }
 
+    /// How many buds claim anything.
+    pub(crate) fn len(&self) -> usize {
+        self.claims.len()
+    }
+
     /// Each bud that claims anything, unless the directions of what it claims cancel out; the oldest first.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (AxisId, Claimed)> + '_ {
         let words = self.claimants.iter().enumerate();

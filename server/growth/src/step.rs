@@ -70,7 +70,8 @@ impl Simulation {
         let selection = Selection::new(&self.plant, input.chosen);
         self.sow_and_clear_markers(input, &selection);
         self.claim_markers(input, &selection);
-        let enabled: Vec<(AxisId, Claimed)> = self.claims.iter().collect();
+        let mut enabled: Vec<(AxisId, Claimed)> = Vec::with_capacity(self.claims.len());
+        enabled.extend(self.claims.iter());
         let buds_enabled = enabled.len() as u32;
 
         observer.enter(Phase::Growth);
@@ -237,10 +238,9 @@ impl Simulation {
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
     fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Claimed)>) -> Vec<Shoot> {
         let vigor = |axis| self.canopy.bud_vigor(&self.plant, axis, &self.parameters);
-        let mut shoots: Vec<Shoot> = enabled
-            .map(|(axis, claimed)| Shoot { axis, vigor: vigor(axis), length: 0, claimed })
-            .filter(|shoot| shoot.vigor > 0.0)
-            .collect();
+        let shoot = |(axis, claimed)| Shoot { axis, vigor: vigor(axis), length: 0, claimed };
+        let mut shoots = Vec::with_capacity(enabled.size_hint().1.unwrap_or(0));
+        shoots.extend(enabled.map(shoot).filter(|shoot| shoot.vigor > 0.0));
         let greatest = shoots.iter().map(|shoot| shoot.vigor).fold(0.0, f64::max);
         for shoot in &mut shoots {
             let parameters = self.parameters.of(shoot.axis);
