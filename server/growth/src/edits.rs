@@ -103,15 +103,11 @@ impl Simulation {
         self.plant.take_future(future)
     }
 
-    /// Lets wood die within a step; returns it.
+    /// Cuts living wood off within a step; returns it.
     fn cut(&mut self, cuts: &[MetamerId]) -> Vec<MetamerId> {
-        let mut gone = Vec::new();
-        for &cut in cuts {
-            if self.plant.is_alive(cut) && !self.plant.is_seed(cut) {
-                gone.extend(self.plant.prune(cut));
-            }
-        }
-        gone
+        let is_wood = |id: &MetamerId| self.plant.is_alive(*id) && !self.plant.is_seed(*id);
+        let cuts: Vec<MetamerId> = cuts.iter().copied().filter(is_wood).collect();
+        self.plant.prune(&cuts)
     }
 
     /// Tells light, space and buds what has gone, and what has moved and where it was.

@@ -43,7 +43,7 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     plain.plant.begin_step();
     for axis in all_axes(&plain.plant) {
         if plain.plant.is_standing(axis) && vigor.condemns(&plain.plant, axis, &plain.parameters) {
-            plain.plant.shed(axis);
+            plain.plant.shed(&[axis]);
         }
     }
     let claims = claims(&mut plain, input);

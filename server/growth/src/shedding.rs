@@ -7,8 +7,7 @@ use crate::{canopy::Canopy, parameter_table::ParameterTable};
 /// Steps a branch is given before it is judged: a shoot of the last step has had no light yet.
 const GRACE: u32 = 3;
 
-/// Axes whose branches do not pay, bearers before what they bear; branches inside others are left out by the
-/// caller, who sheds in this order.
+/// Axes whose branches do not pay, bearers before what they bear; some of them inside others.
 pub(crate) fn condemned(plant: &Plant, canopy: &Canopy, parameters: &ParameterTable) -> Vec<AxisId> {
     if parameters.scene().shedding_threshold == 0.0 {
         return Vec::new();

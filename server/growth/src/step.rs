@@ -160,27 +160,18 @@ impl Simulation {
 
     /// Sheds what does not pay; returns the nodes that went.
     fn shed(&mut self) -> Vec<Vec3> {
-        let mut gone = Vec::new();
         let condemned = shedding::condemned(&self.plant, &self.canopy, &self.parameters);
         if condemned.is_empty() {
-            return gone;
+            return Vec::new();
         }
-        for axis in condemned {
-            if !self.plant.is_standing(axis) {
-                continue;
-            }
-            let (_, axes) = self.plant.branch(axis);
-            for axis in axes {
-                self.space.remove_bud(axis);
-            }
-            for id in self.plant.shed(axis) {
-                let node = self.plant.metamers().end(id);
-                self.leave(id, node);
-                gone.push(node);
-            }
+        let (metamers, axes) = self.plant.shed(&condemned);
+        axes.into_iter().for_each(|axis| self.space.remove_bud(axis));
+        let nodes: Vec<Vec3> = metamers.iter().map(|&id| self.plant.metamers().end(id)).collect();
+        for (id, &node) in metamers.into_iter().zip(&nodes) {
+            self.leave(id, node);
         }
         self.canopy.bury(&self.plant);
-        gone
+        nodes
     }
 
     /// Lets buds grow: leaders of strokes along their paths, others into the space they have claimed.

@@ -220,7 +220,7 @@ mod tests {
         let mut plant = trunk(3, true);
         let whole = bark_mesh(&plant, &style(0.1));
         plant.begin_step();
-        plant.shed(AxisId::new(1));
+        plant.shed(&[AxisId::new(1)]);
         plant.end_step();
         let rest = bark_mesh(&plant, &style(0.1));
         assert!(rest.positions.len() < whole.positions.len());
@@ -251,7 +251,7 @@ mod tests {
             plant.set_width(MetamerId::new(row), Some(diameter));
         }
         if let Some(cut) = cut {
-            plant.prune(MetamerId::new(cut));
+            plant.prune(&[MetamerId::new(cut)]);
         }
         plant.end_step();
     }

@@ -28,6 +28,8 @@ pub enum Edit {
     Grafted(AxisId),
     /// Wood stands elsewhere.
     Carried(Box<Carried>),
+    /// A metamer of a graft carries so many tips of twigs that were shed from what it was copied from.
+    Scarred(MetamerId, u32),
     /// A width constraint came, went, or changed. The diameter is that on the other side of this step.
     Width(MetamerId, Option<f32>),
 }
@@ -47,30 +49,91 @@ pub struct Carried {
     pub directions: Vec<Vec3>,
 }
 
+/// What died in one go, in birth order.
+#[derive(Default)]
+struct Fallen {
+    metamers: Vec<MetamerId>,
+    /// Those of the metamers that nothing below drew along.
+    roots: Vec<MetamerId>,
+    axes: Vec<AxisId>,
+}
+
 /// No motion bears a row.
 const UNMOVED: u32 = u32::MAX;
 
 impl Plant {
-    /// Cuts off a metamer and everything above it, within a step: girth becomes what it were without them.
-    /// What remains of its axis has no bud any more. Returns what was cut off, in birth order.
+    /// Cuts off metamers and everything above them, within a step: girth becomes what it were without them.
+    /// What remains of their axes has no buds any more. Returns what was cut off, in birth order.
     ///
     /// # Panics
-    /// If the metamer is a seed, or dead.
-    pub fn prune(&mut self, cut: MetamerId) -> Vec<MetamerId> {
+    /// If one is a seed, or dead.
+    pub fn prune(&mut self, cuts: &[MetamerId]) -> Vec<MetamerId> {
         debug_assert!(self.timeline.recording, "changes belong to a step");
-        assert!(!self.is_seed(cut) && self.is_alive(cut), "only living wood can be cut");
-        let now = self.timeline.now;
-        let metamers = self.above(cut);
-        for axis in self.buds_of(&metamers) {
-            self.axes.death[axis.index()] = now;
+        assert!(
+            cuts.iter().all(|&cut| !self.is_seed(cut) && self.is_alive(cut)),
+            "only living wood can be cut"
+        );
+        let Fallen { metamers, roots, .. } = self.fell(cuts);
+        for cut in roots {
+            self.take_off_tips(cut);
+            self.timeline.edits.push(Edit::Pruned(cut));
         }
-        for &id in &metamers {
-            self.metamers.death[id.index()] = now;
-        }
-        self.living = self.living.wrapping_sub(metamers.len() as u32);
-        self.take_off_tips(cut);
-        self.timeline.edits.push(Edit::Pruned(cut));
         metamers
+    }
+
+    /// Sheds the branches that begin with some axes, within a step; their girth stays in the wood below.
+    /// Returns what was shed, and the axes whose buds died with it, both in birth order.
+    pub fn shed(&mut self, axes: &[AxisId]) -> (Vec<MetamerId>, Vec<AxisId>) {
+        debug_assert!(self.timeline.recording, "changes belong to a step");
+        let wood = axes.iter().filter_map(|&axis| self.axes.first(axis));
+        let wood: Vec<MetamerId> = wood.filter(|&first| self.is_alive(first)).collect();
+        let Fallen { metamers, roots, axes: mut dead } = self.fell(&wood);
+        self.timeline.edits.extend(roots.iter().map(|&root| Edit::Shed(self.metamers.axis(root))));
+        for &bud in axes {
+            if self.axes.first(bud).is_none() && self.is_axis_alive(bud) {
+                self.axes.death[bud.index()] = self.timeline.now;
+                self.timeline.edits.push(Edit::Shed(bud));
+                dead.push(bud);
+            }
+        }
+        (metamers, dead)
+    }
+
+    /// Lets living metamers die, and all that stands on them.
+    fn fell(&mut self, roots: &[MetamerId]) -> Fallen {
+        let mut fallen = Fallen::default();
+        let Some(first) = roots.iter().min().map(|first| first.index()) else { return fallen };
+        let now = self.timeline.now;
+        let mut falls = vec![false; self.metamer_count() - first];
+        for root in roots {
+            falls[root.index() - first] = true;
+        }
+        for index in first..self.metamer_count() {
+            let id = MetamerId::new(index);
+            let parent = self.metamers.parent[index];
+            let with_parent =
+                parent != MetamerId::NONE && parent.index() >= first && falls[parent.index() - first];
+            let is_root = falls[index - first];
+            falls[index - first] = (is_root || with_parent) && self.is_alive(id);
+            if falls[index - first] {
+                self.metamers.death[index] = now;
+                fallen.metamers.push(id);
+                if !with_parent {
+                    fallen.roots.push(id);
+                }
+            }
+        }
+        // No axis of a branch is older than that of its first metamer.
+        let oldest = fallen.roots.iter().map(|&root| self.metamers.axis(root).index()).min();
+        for axis in (oldest.unwrap_or(self.axis_count())..self.axis_count()).map(AxisId::new) {
+            let at = self.bud_node(axis).index().checked_sub(first);
+            if self.is_axis_alive(axis) && at.is_some_and(|at| falls[at]) {
+                self.axes.death[axis.index()] = now;
+                fallen.axes.push(axis);
+            }
+        }
+        self.living = self.living.wrapping_sub(fallen.metamers.len() as u32);
+        fallen
     }
 
     /// Moves the wood on a path and what it bears, within a step. A row of the path goes with its own motion,
@@ -206,7 +269,36 @@ impl Plant {
         for index in first_row..self.metamers.parent.len() {
             self.link(MetamerId::new(index));
         }
+        for (at, shed) in self.shed_tips(&rows).into_iter().enumerate().filter(|&(_, shed)| shed > 0) {
+            self.timeline.edits.push(Edit::Scarred(MetamerId::new(first_row + at), shed));
+        }
         root
+    }
+
+    /// Tips of twigs that were shed from each of the metamers of a branch.
+    fn shed_tips(&self, rows: &[MetamerId]) -> Vec<u32> {
+        // An end carries one tip of its own.
+        let mut living = vec![1u32; rows.len()];
+        let mut goes_on = vec![false; rows.len()];
+        for &row in rows {
+            let Some(at) = self.metamers.parent(row).and_then(|parent| rows.binary_search(&parent).ok())
+            else {
+                continue;
+            };
+            living[at] += self.metamers.tips(row);
+            goes_on[at] |= !self.begins_wood(row);
+        }
+        let own = |at: usize| living[at] - u32::from(goes_on[at]);
+        rows.iter().enumerate().map(|(at, &row)| self.metamers.tips(row).saturating_sub(own(at))).collect()
+    }
+
+    /// Adds the tips of shed twigs that grafts of a step have brought along, or takes them away.
+    pub(crate) fn scar(&mut self, edits: std::ops::Range<usize>, sign: i32) {
+        for at in edits {
+            if let Edit::Scarred(id, tips) = self.timeline.edits[at] {
+                self.add_tips(id, sign.wrapping_mul(tips as i32));
+            }
+        }
     }
 
     /// Sets, changes or removes a width constraint within a step: the diameter of a metamer in internodes.
@@ -229,38 +321,28 @@ impl Plant {
         past.iter().filter_map(|edit| if let Edit::Pruned(cut) = edit { Some(*cut) } else { None })
     }
 
-    /// The living metamers of the branch that begins with a living one, in birth order.
-    pub fn above(&self, first: MetamerId) -> Vec<MetamerId> {
-        self.connected(first, self.metamer_count(), |id| self.is_alive(id))
+    /// Tips of shed twigs that metamers of grafts carry, up to the present.
+    pub(crate) fn scars(&self) -> impl Iterator<Item = (MetamerId, u32)> + '_ {
+        let past = &self.timeline.edits[..self.timeline.present().edits as usize];
+        past.iter()
+            .filter_map(|edit| if let Edit::Scarred(id, tips) = edit { Some((*id, *tips)) } else { None })
     }
 
-    /// Rows up to `end` that hang together with `first` through rows that belong, in birth order.
-    pub(crate) fn connected(
-        &self,
-        first: MetamerId,
-        end: usize,
-        belongs: impl Fn(MetamerId) -> bool,
-    ) -> Vec<MetamerId> {
-        let mut inside = vec![false; end.saturating_sub(first.index())];
+    /// The living metamers of the branch that begins with a living one, in birth order.
+    pub fn above(&self, first: MetamerId) -> Vec<MetamerId> {
+        let mut inside = vec![false; self.metamer_count() - first.index()];
         let mut found = Vec::new();
-        for index in first.index()..end {
+        for index in first.index()..self.metamer_count() {
             let id = MetamerId::new(index);
             let parent = self.metamers.parent[index];
-            let hangs = id == first
-                || (parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()]);
-            if hangs && belongs(id) {
+            let stands_on =
+                parent != MetamerId::NONE && parent >= first && inside[parent.index() - first.index()];
+            if (id == first || stands_on) && self.is_alive(id) {
                 inside[index - first.index()] = true;
                 found.push(id);
             }
         }
         found
-    }
-
-    /// The axes whose living bud sits at one of some metamers, which are in birth order.
-    pub(crate) fn buds_of(&self, metamers: &[MetamerId]) -> Vec<AxisId> {
-        let buds = self.axes_from(metamers).filter(|&axis| self.is_axis_alive(axis));
-        let is_there = membership(metamers);
-        buds.filter(|&axis| is_there(self.bud_node(axis))).collect()
     }
 
     /// The axes that some metamers bear, which are in birth order: living buds and standing wood.

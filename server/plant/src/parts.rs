@@ -227,7 +227,8 @@ pub(crate) fn check_edit(
                 && carried.axes.iter().all(|axis| axis.raw() < before[1])
                 && places.into_iter().all(|place| place.is_finite())
         }
-        // A graft brings its constraints along.
+        // A graft brings scars and constraints along.
+        Edit::Scarred(id, _) => (before[0]..end[0]).contains(&id.raw()),
         Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_width),
     };
     if holds { Ok(()) } else { Err(BrokenPlant("an edit concerns what is not there".to_owned())) }

@@ -6,7 +6,6 @@ use glam::Vec3;
 
 use crate::{
     axes::Axes,
-    edits::Edit,
     hash::StableHash,
     id::{AxisId, MetamerId},
     metamers::{ALIVE, Appearance, Metamers, Row},
@@ -253,6 +252,7 @@ impl Plant {
             return false;
         }
         self.thicken_from(before.metamers as usize, self.metamers.parent.len());
+        self.scar(before.edits as usize..end.edits as usize, 1);
         let growths = before.growths + u32::from(std::mem::take(&mut self.timeline.grows));
         self.timeline.ends.push(StepEnd { growths, ..end });
         true
@@ -293,32 +293,6 @@ impl Plant {
             self.axes.push(id, direction, order);
         }
         id
-    }
-
-    /// Sheds the branch that begins with `axis`, within a step; its girth stays in the wood below.
-    pub fn shed(&mut self, axis: AxisId) -> Vec<MetamerId> {
-        debug_assert!(self.timeline.recording, "changes belong to a step");
-        let now = self.timeline.now;
-        let (metamers, axes) = self.branch(axis);
-        self.timeline.edits.push(Edit::Shed(axis));
-        for id in axes {
-            self.axes.death[id.index()] = now;
-        }
-        for &id in &metamers {
-            self.metamers.death[id.index()] = now;
-        }
-        self.living = self.living.wrapping_sub(metamers.len() as u32);
-        metamers
-    }
-
-    /// Everything alive that a branch consists of: its metamers and the axes with living buds, in birth order.
-    pub fn branch(&self, root: AxisId) -> (Vec<MetamerId>, Vec<AxisId>) {
-        let metamers = self.axes.first(root).map(|first| self.above(first)).unwrap_or_default();
-        let mut axes = self.buds_of(&metamers);
-        if metamers.is_empty() && self.is_axis_alive(root) {
-            axes.push(root);
-        }
-        (metamers, axes)
     }
 
     /// Enters a metamer into its axis.

@@ -62,7 +62,7 @@ impl Plant {
             match edit {
                 Edit::Carried(carried) => self.swap(carried),
                 Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
-                Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) => {}
+                Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
             }
         }
         self.timeline.edits = edits;
@@ -78,6 +78,8 @@ impl Plant {
     fn step_back(&mut self, journey: &mut Journey) {
         let now = self.timeline.now;
         let (before, end) = (self.timeline.before(now), self.timeline.present());
+        let range = before.edits as usize..end.edits as usize;
+        self.scar(range.clone(), -1);
         for index in (before.metamers..end.metamers).rev() {
             let id = MetamerId::new(index as usize);
             journey.went.push(id);
@@ -89,18 +91,15 @@ impl Plant {
         }
         self.note_axes(before, end, now, journey);
         self.timeline.now = now - 1;
-        let range = before.edits as usize..end.edits as usize;
+        let lost = self.lost_in(now);
+        self.living = self.living.wrapping_add(lost.len() as u32);
+        journey.came.extend(lost);
         let mut edits = std::mem::take(&mut self.timeline.edits);
         for edit in edits[range].iter_mut().rev() {
             journey.is_edited |= !matches!(edit, Edit::Width(..));
             match edit {
-                Edit::Shed(axis) => {
-                    if let Some(first) = self.axes.first(*axis) {
-                        self.revive(first, now, journey);
-                    }
-                }
+                Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
-                    self.revive(*cut, now, journey);
                     let tips = self.tips_lost_with(*cut);
                     self.add_tips(self.metamers.parent[cut.index()], tips);
                 }
@@ -117,18 +116,16 @@ impl Plant {
         let now = self.timeline.now;
         let end = self.timeline.present();
         self.note_axes(before, end, now, journey);
+        let lost = self.lost_in(now);
+        self.living = self.living.wrapping_sub(lost.len() as u32);
+        journey.went.extend(lost);
         let range = before.edits as usize..end.edits as usize;
         let mut edits = std::mem::take(&mut self.timeline.edits);
-        for edit in &mut edits[range] {
+        for edit in &mut edits[range.clone()] {
             journey.is_edited |= !matches!(edit, Edit::Width(..));
             match edit {
-                Edit::Shed(axis) => {
-                    if let Some(first) = self.axes.first(*axis) {
-                        self.bury(first, now, journey);
-                    }
-                }
+                Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
-                    self.bury(*cut, now, journey);
                     let tips = self.tips_lost_with(*cut);
                     self.add_tips(self.metamers.parent[cut.index()], tips.wrapping_neg());
                 }
@@ -149,6 +146,7 @@ impl Plant {
             }
         }
         self.thicken_from(before.metamers as usize, end.metamers as usize);
+        self.scar(range, 1);
     }
 
     /// Changes what an edit keeps for what is in force.
@@ -161,7 +159,7 @@ impl Plant {
                 journey.axes.extend(carried.metamers.iter().map(|&id| self.metamers.axis(id)));
             }
             Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
-            Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) => {}
+            Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
         }
     }
 
@@ -184,23 +182,19 @@ impl Plant {
         }
     }
 
-    fn revive(&mut self, first: MetamerId, step: u32, journey: &mut Journey) {
-        let lost = self.lost_with(first, step);
-        self.living = self.living.wrapping_add(lost.len() as u32);
-        journey.came.extend(lost);
-    }
-
-    fn bury(&mut self, first: MetamerId, step: u32, journey: &mut Journey) {
-        let lost = self.lost_with(first, step);
-        self.living = self.living.wrapping_sub(lost.len() as u32);
-        journey.went.extend(lost);
-    }
-
-    /// The metamers that died with a branch in a step.
-    fn lost_with(&self, first: MetamerId, step: u32) -> Vec<MetamerId> {
-        // A dead axis keeps its links, so its rows can be found again from its first metamer on.
-        let end = self.timeline.before(step).metamers as usize;
-        self.connected(first, end, |id| self.metamers.death[id.index()] == step)
+    /// The metamers that died in a step, in birth order.
+    fn lost_in(&self, step: u32) -> Vec<MetamerId> {
+        let (before, end) = (self.timeline.before(step), self.timeline.ends[step as usize]);
+        // None is older than the first of the branches that were lost.
+        let roots = self.timeline.edits[before.edits as usize..end.edits as usize].iter();
+        let first = roots.filter_map(|edit| match edit {
+            Edit::Shed(axis) => self.axes.first(*axis),
+            Edit::Pruned(cut) => Some(*cut),
+            _ => None,
+        });
+        let Some(first) = first.min() else { return Vec::new() };
+        let rows = (first.index()..before.metamers as usize).map(MetamerId::new);
+        rows.filter(|id| self.metamers.death[id.index()] == step).collect()
     }
 
     /// What a journey comes to: who came and went again need not be told.

@@ -78,7 +78,7 @@ fn happen(plant: &mut Plant, event: &Event) {
             let axis = living_axis(plant, *pick).filter(|&axis| plant.axes().order(axis) > 0);
             if let Some(axis) = axis {
                 plant.begin_step();
-                plant.shed(axis);
+                plant.shed(&[axis]);
                 plant.end_step();
             }
         }
@@ -90,7 +90,7 @@ fn happen(plant: &mut Plant, event: &Event) {
         Event::Prune(pick) => {
             if let Some(cut) = wood(plant, *pick) {
                 plant.begin_edit();
-                plant.prune(cut);
+                plant.prune(&[cut]);
                 plant.end_step();
             }
         }
@@ -119,11 +119,14 @@ fn happen(plant: &mut Plant, event: &Event) {
             let rotation = Quat::from_xyzw(0.6, 0.0, 0.0, 0.8);
             plant.begin_edit();
             let motion = Motion { rotation, from: foot, to: plant.metamers().end(onto) };
-            plant.graft(row, onto, &motion);
+            let tips = plant.metamers().tips(row);
+            let copy = plant.graft(row, onto, &motion);
             if *cut {
-                plant.prune(row);
+                plant.prune(&[row]);
             }
             plant.end_step();
+            let first = plant.axes().first(copy).expect("a graft has wood");
+            assert_eq!(plant.metamers().tips(first), tips, "a copy is as thick, whatever was shed from it");
         }
         Event::Width(row, width) => {
             if let Some(id) = wood(plant, *row) {

@@ -90,8 +90,8 @@ fn a_stub_is_as_wide_as_its_constraint() {
     let mut plant = saplings::fork();
     plant.begin_edit();
     plant.set_width(MetamerId::new(1), Some(0.5));
-    plant.prune(MetamerId::new(2));
-    plant.prune(MetamerId::new(4));
+    plant.prune(&[MetamerId::new(2)]);
+    plant.prune(&[MetamerId::new(4)]);
     plant.end_step();
     let text = String::from_utf8(skeleton_json(&plant, &style())).expect("JSON is UTF-8");
     assert!(

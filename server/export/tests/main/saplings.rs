@@ -50,12 +50,12 @@ fn happen(plant: &mut Plant, edit: Edit) {
     match edit {
         Edit::Shed(pick) => {
             if let Some(axis) = living_axis(plant, pick).filter(|&axis| plant.axes().order(axis) > 0) {
-                plant.shed(axis);
+                plant.shed(&[axis]);
             }
         }
         Edit::Prune(pick) => {
             if let Some(cut) = wood(plant, pick) {
-                plant.prune(cut);
+                plant.prune(&[cut]);
             }
         }
         Edit::Widen(pick, eighths) => {
@@ -88,7 +88,7 @@ pub fn fork() -> Plant {
     extend(&mut plant, AxisId::new(1), Vec3::X, 0.5);
     plant.end_step();
     plant.begin_step();
-    plant.shed(AxisId::new(1));
+    plant.shed(&[AxisId::new(1)]);
     extend(&mut plant, AxisId::new(2), Vec3::Z, 0.5);
     plant.end_step();
     plant

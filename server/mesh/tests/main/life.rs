@@ -64,7 +64,7 @@ pub fn happen(plant: &mut Plant, event: &Event) {
         Event::Shed(pick) => {
             if let Some(axis) = living_axis(plant, *pick).filter(|&axis| plant.axes().order(axis) > 0) {
                 plant.begin_step();
-                plant.shed(axis);
+                plant.shed(&[axis]);
                 plant.end_step();
             }
         }
@@ -76,7 +76,7 @@ pub fn happen(plant: &mut Plant, event: &Event) {
         Event::Prune(pick) => {
             if let Some(cut) = wood(plant, *pick) {
                 plant.begin_edit();
-                plant.prune(cut);
+                plant.prune(&[cut]);
                 plant.end_step();
             }
         }

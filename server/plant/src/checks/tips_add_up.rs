@@ -8,16 +8,20 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
     let mut carried = vec![0u32; plant.metamer_count()];
     let mut is_cut = vec![false; plant.metamer_count()];
     plant.cuts().for_each(|cut| is_cut[cut.index()] = true);
+    for (id, tips) in plant.scars() {
+        carried[id.index()] = carried[id.index()].wrapping_add(tips);
+    }
     for index in (0..plant.metamer_count()).rev() {
         let id = MetamerId::new(index);
         let m = plant.metamers();
         if plant.axes().last(m.axis(id)) == Some(id) && !plant.is_seed(id) {
-            carried[index] += 1;
+            carried[index] = carried[index].wrapping_add(1);
         }
         if let Some(parent) = m.parent(id) {
             // Where an axis was cut its end is a tip again.
             let kept = if is_cut[index] { u32::from(m.axis(parent) == m.axis(id)) } else { carried[index] };
-            carried[parent.index()] += if is_cut[index] && plant.is_seed(parent) { 0 } else { kept };
+            let kept = if is_cut[index] && plant.is_seed(parent) { 0 } else { kept };
+            carried[parent.index()] = carried[parent.index()].wrapping_add(kept);
         }
         require("tips_add_up", carried[index] == m.tips(id), || {
             format!("metamer {index} carries {} tips, not {}", carried[index], m.tips(id))

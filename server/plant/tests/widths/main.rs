@@ -59,13 +59,13 @@ fn happen(plant: &mut Plant, event: &Event) {
             let laterals: Vec<_> =
                 axes.filter(|&axis| plant.is_axis_alive(axis) && plant.axes().order(axis) > 0).collect();
             if let Some(&axis) = laterals.get(usize::from(*pick) % laterals.len().max(1)) {
-                plant.shed(axis);
+                plant.shed(&[axis]);
             }
         }
         Event::Prune(pick) => {
             let wood = wood(plant);
             if let Some(&cut) = wood.get(usize::from(*pick) % wood.len().max(1)) {
-                plant.prune(cut);
+                plant.prune(&[cut]);
             }
         }
     }
@@ -245,7 +245,7 @@ fn a_root_finds_its_exponent() {
 fn ghosts_of_shed_branches_keep_their_girth() {
     let mut plant = trident();
     plant.begin_step();
-    plant.shed(AxisId::new(2));
+    plant.shed(&[AxisId::new(2)]);
     plant.end_step();
     check(&plant, &[], &[0.173_205, 0.1, 0.1]);
     // Three equal leaves, one of them a ghost, in 0.3.
@@ -257,7 +257,7 @@ fn ghosts_of_shed_branches_keep_their_girth() {
 fn pruned_branches_leave_no_girth() {
     let mut plant = trident();
     plant.begin_edit();
-    plant.prune(MetamerId::new(4));
+    plant.prune(&[MetamerId::new(4)]);
     plant.end_step();
     check(&plant, &[], &[0.141_421, 0.1, 0.1]);
     check(&plant, &[(3, 0.2)], &[0.223_607, 0.1, 0.2]);
@@ -268,7 +268,7 @@ fn a_stub_keeps_the_width_that_holds_it() {
     let mut plant = pole(5);
     plant.begin_edit();
     plant.set_width(MetamerId::new(2), Some(0.4));
-    plant.prune(MetamerId::new(3));
+    plant.prune(&[MetamerId::new(3)]);
     plant.end_step();
     check(&plant, &[(2, 0.4)], &[0.4, 0.4]);
     let girth = Girth::new(2.0, TWIG);
@@ -329,7 +329,7 @@ fn wishes_beyond_reason_stay_finite() {
 fn seeds_and_dead_wood_are_passed_over() {
     let mut plant = trident();
     plant.begin_step();
-    plant.shed(AxisId::new(1));
+    plant.shed(&[AxisId::new(1)]);
     plant.end_step();
     check(&plant, &[(0, 5.0), (3, 5.0)], &[0.173_205, 0.1, 0.1]);
     let girth = Girth::new(2.0, TWIG);

@@ -106,6 +106,10 @@ fn write_edits(out: &mut Writer, edits: &[Edit]) {
             out.list(&carried.axes, |out, id| out.u32(id.raw()));
             out.vectors(&carried.directions);
         }
+        Edit::Scarred(id, tips) => {
+            out.tagged(5, id.raw());
+            out.u32(*tips);
+        }
         Edit::Width(id, diameter) => {
             out.tagged(4, id.raw());
             out.option(diameter.map(f32::to_bits));
@@ -132,6 +136,7 @@ fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
             directions: reader.list(Reader::vector)?,
         })),
         4 => Edit::Width(metamer(row), reader.option()?.map(f32::from_bits)),
+        5 => Edit::Scarred(metamer(row), reader.u32()?),
         _ => return Err(damaged("an edit of unknown kind")),
     })
 }
