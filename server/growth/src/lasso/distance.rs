@@ -51,9 +51,14 @@ pub(super) fn lower_envelope(mut raster: Raster) -> Raster {
     raster
 }
 
-/// The squared distance, in pixels, from each pixel's centre to the nearest pixel for which `is_target` holds;
-/// infinite if there is none.
-pub(super) fn squared_distance(width: usize, mask: &[bool], is_target: impl Fn(bool) -> bool) -> Raster {
+/// The squared distance, in pixels, from each pixel's centre to the nearest pixel for which `is_target` holds, where
+/// that is at most `limit`; some greater number, or infinite, elsewhere.
+pub(super) fn squared_distance(
+    width: usize,
+    mask: &[bool],
+    limit: f32,
+    is_target: impl Fn(bool) -> bool,
+) -> Raster {
     let mut values: Vec<f32> =
         mask.iter().map(|&inside| if is_target(inside) { 0.0 } else { f32::INFINITY }).collect();
     // Along columns a target is simply so many pixels away: down and up again, all columns side by side.
@@ -66,7 +71,9 @@ pub(super) fn squared_distance(width: usize, mask: &[bool], is_target: impl Fn(b
         step_from(&below[..width], &mut above[(row - 1) * width..]);
     }
     for value in &mut values {
-        *value *= *value;
+        let squared = *value * *value;
+        // What is too far away along the column is so for the whole row.
+        *value = if squared > limit { f32::INFINITY } else { squared };
     }
     let mut raster = Raster { width, values };
     envelopes_of_rows(&mut raster);
@@ -180,18 +187,22 @@ mod tests {
         #[test]
         fn distances_are_whole_and_exact(
             width in 1usize..14,
-            mask in prop::collection::vec(any::<bool>(), 1..140),
+            mask in prop::collection::vec(prop::bool::weighted(0.2), 1..140),
+            limit in 0f32..40.0,
         ) {
             let mask = &mask[..mask.len() - mask.len() % width.min(mask.len())];
             let width = width.min(mask.len());
-            let found = squared_distance(width, mask, |inside| inside);
+            let found = squared_distance(width, mask, f32::INFINITY, |inside| inside);
+            let near = squared_distance(width, mask, limit, |inside| inside);
             for (i, &value) in found.values.iter().enumerate() {
                 let least = mask.iter().enumerate().filter(|(_, inside)| **inside).map(|(j, _)| {
                     let across = (j % width).abs_diff(i % width);
                     let along = (j / width).abs_diff(i / width);
                     (across * across + along * along) as f32
                 });
-                prop_assert_eq!(value, least.fold(f32::INFINITY, f32::min));
+                let least = least.fold(f32::INFINITY, f32::min);
+                prop_assert_eq!(value, least);
+                prop_assert!(near.values[i] == least || (near.values[i] > limit && least > limit));
             }
         }
     }

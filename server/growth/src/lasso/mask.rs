@@ -80,18 +80,19 @@ impl Mask {
         let limit = reach * reach;
         // Where a disc fits in, and all that such discs cover.
         let roomy: Vec<bool> = depth.values.iter().map(|&d| d >= limit).collect();
-        let covered = squared_distance(self.width, &roomy, |fits| fits);
+        // Two pixels more: discs on a grid leave some of a smooth rim uncovered.
+        let cover = (reach + 2.0) * (reach + 2.0);
+        let covered = squared_distance(self.width, &roomy, cover, |fits| fits);
         let narrow: Vec<bool> = self
             .inside
             .iter()
             .zip(&covered.values)
-            // Two pixels more: discs on a grid leave some of a smooth rim uncovered.
-            .map(|(&inside, &distance)| inside && distance > (reach + 2.0) * (reach + 2.0))
+            .map(|(&inside, &distance)| inside && distance > cover)
             .collect();
         if !narrow.contains(&true) {
             return depth;
         }
-        let near = squared_distance(self.width, &narrow, |narrow| narrow);
+        let near = squared_distance(self.width, &narrow, limit, |narrow| narrow);
         for (inside, distance) in self.inside.iter_mut().zip(near.values) {
             *inside |= distance <= limit;
         }
@@ -101,7 +102,7 @@ impl Mask {
 
     /// The squared distance, in pixels, from each pixel to the background.
     pub(super) fn depth(&self) -> Raster {
-        squared_distance(self.width, &self.inside, |inside| !inside)
+        squared_distance(self.width, &self.inside, f32::INFINITY, |inside| !inside)
     }
 
     /// Keeps a frame of background, from which distances are measured.
