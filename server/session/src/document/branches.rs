@@ -85,7 +85,8 @@ impl Document {
     ) -> Result<(), Problem> {
         let branch = self.wood("row", row)?;
         let bearer = self.wood("onto", onto)?;
-        let is_on_branch = self.plant().above(branch).binary_search(&bearer).is_ok();
+        let rows = self.plant().above(branch);
+        let is_on_branch = rows.binary_search(&bearer).is_ok();
         if is_on_branch {
             return Err(Problem {
                 code: ProblemCode::Refused,
@@ -103,6 +104,10 @@ impl Document {
             self.require_no_bend_of(branch)?;
             self.base_of(branch, "moved")?
         };
+        if keep {
+            let brought = self.plant().widths().filter(|(id, _)| rows.binary_search(id).is_ok()).count();
+            self.require_widths(brought)?;
+        }
         let motion = Motion { rotation, from: base, to: self.plant().metamers().end(bearer) };
         let original = if keep { Original::Stays } else { Original::Goes };
         let before = self.record(Kind::Graft, author, None);

@@ -109,7 +109,7 @@ impl Document {
         }
         state.obstacles = Obstacles::solids(&obstacles.standing);
         let history = times::read_history(&mut reader, &plant, &shelf)?;
-        let futures = times::read_futures(&mut reader, &history, &shelf)?;
+        let futures = times::read_futures(&mut reader, &plant, &history, &shelf)?;
         let strokes = hands::read_strokes(&mut reader, &plant)?;
         let bends = hands::read_bends(&mut reader, &plant)?;
         let steps_begun = reader.u32()?;

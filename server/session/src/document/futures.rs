@@ -17,7 +17,7 @@ use super::{
 /// Metamers that all futures may hold (`LM11`).
 const MAX_METAMERS: usize = 4_000_000;
 /// Places of wood that was moved, in the present line and all futures (`LM11`).
-const MAX_PLACES: u64 = 32_000_000;
+const MAX_PLACES: u64 = 4_000_000;
 
 /// A line of time from where it leaves another one.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,6 +104,14 @@ impl Futures {
         }
     }
 
+    /// Forgets everything that hangs on a line which is gone.
+    fn forget_with(&mut self, gone: u32) {
+        let mut lines = vec![gone];
+        while let Some(line) = lines.pop() {
+            lines.extend(self.all.extract_if(.., |future| future.on == Some(line)).map(|future| future.line));
+        }
+    }
+
     fn metamers(&self) -> usize {
         self.all.iter().map(|future| future.rows.metamers()).sum()
     }
@@ -144,6 +152,7 @@ impl Document {
     pub(super) fn unrecord(&mut self, before: Before) {
         if before.left_a_future {
             self.return_to_future();
+            self.futures.newest -= 1;
         }
         self.history.operations.truncate(before.operations);
         self.history.done = before.done;
@@ -176,13 +185,12 @@ impl Document {
         true
     }
 
-    /// Undoes [`Document::leave_future`].
+    /// Takes the future up again that was left last, right here.
     fn return_to_future(&mut self) {
         let Some(Future { line, fork, operations, rows, .. }) = self.futures.all.pop() else { return };
         self.history.operations.truncate(fork.shared);
         self.history.operations.extend(operations);
         self.futures.take_over(line);
-        self.futures.newest -= 1;
         self.futures.present = line;
         // It was cut off right here.
         let _fits = self.simulation.take_future(rows);
@@ -214,22 +222,26 @@ impl Document {
         let Future { operations, rows, .. } = self.futures.all.remove(at);
         let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
         let left_rows = self.simulation.stash_future();
-        if !left.is_empty() || left_rows.steps() > 0 {
+        let is_left = !left.is_empty() || left_rows.steps() > 0;
+        if is_left {
             let present = self.futures.present;
             self.futures.hand_over(fork, present);
-            self.futures.all.push(Future {
-                line: present,
-                on: None,
-                fork,
-                operations: left,
-                rows: left_rows,
-            });
+            let future = Future { line: present, on: None, fork, operations: left, rows: left_rows };
+            self.futures.all.push(future);
+        }
+        self.history.done = self.history.operations.len();
+        if let Err(error) = self.simulation.take_future(rows) {
+            if is_left {
+                self.return_to_future();
+            }
+            self.futures.forget_with(line);
+            return Err(refused(format!("future {line} is damaged: {error}")));
         }
         self.futures.take_over(line);
         self.futures.present = line;
         self.history.operations.extend(operations);
         self.history.done = self.history.done_at(fork.step);
-        self.simulation.take_future(rows).map_err(|error| refused(format!("this future is damaged: {error}")))
+        Ok(())
     }
 
     /// Whether so many places of wood more can be kept, if need be in place of futures.

@@ -34,6 +34,7 @@ impl Document {
         let Some(pending) = self.pending.pop_front() else { return false };
         match pending {
             Pending::Brush(input) => {
+                self.resume_stroke();
                 self.step(&input, observer);
             }
             Pending::Autonomous { left, chosen } => {
@@ -59,6 +60,7 @@ impl Document {
             }
             Pending::Settle { stroke, left, chosen } => {
                 let outcome = if left > 0 && self.simulation.has_guidance() {
+                    self.resume_stroke();
                     self.step(&StepInput { chosen, ..StepInput::default() }, observer)
                 } else {
                     StepOutcome::default()
@@ -80,6 +82,19 @@ impl Document {
             self.history.forget_idle();
         }
         true
+    }
+
+    /// A stroke grows on after somebody did something else meanwhile: what it grows from here on is an operation of
+    /// its own, or undoing the other one would take it back as well (`CM5`).
+    fn resume_stroke(&mut self) {
+        let operations = &self.history.operations[..self.history.done];
+        let belongs = |kind| matches!(kind, Kind::Stroke | Kind::Growth | Kind::Lasso);
+        if operations.last().is_none_or(|last| belongs(last.kind)) {
+            return;
+        }
+        let stroke = operations.iter().rev().find(|operation| operation.kind == Kind::Stroke);
+        let author = stroke.map(|stroke| stroke.author.clone()).unwrap_or_default();
+        self.record(Kind::Stroke, &author, None);
     }
 
     /// Steps still to be run; a lasso counts as one, for nobody knows.

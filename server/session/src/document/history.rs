@@ -90,6 +90,13 @@ pub(super) struct Latest {
     pub rotation: Option<Quat>,
 }
 
+impl Operation {
+    /// A stroke in which nothing had grown when somebody else did something: undoing it would show nothing.
+    fn is_idle_stroke(&self) -> bool {
+        self.kind == Kind::Stroke && self.first == self.last
+    }
+}
+
 /// All operations of the present line, those undone behind those in force.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct History {
@@ -200,6 +207,9 @@ impl History {
     /// The step to go to for taking back the last operation in force, which is in force no more.
     pub fn undo(&mut self) -> Option<u32> {
         self.done = self.done.checked_sub(1)?;
+        while self.done > 0 && self.operations[self.done].is_idle_stroke() {
+            self.done -= 1;
+        }
         Some(self.operations[self.done].first)
     }
 
@@ -210,6 +220,9 @@ impl History {
                 return None;
             }
             self.done += 1;
+            while self.done < self.operations.len() && self.operations[self.done - 1].is_idle_stroke() {
+                self.done += 1;
+            }
         }
         self.current().map(|operation| operation.last)
     }

@@ -1,6 +1,6 @@
 //! Cutting branches off (`PR`).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_growth::Simulation;
 use espalier_plant::{MetamerId, Plant};
@@ -49,7 +49,8 @@ pub(crate) fn prune(simulation: &mut Simulation, rows: &[u32]) -> Result<(), Pro
 fn cuts(plant: &Plant, rows: &[u32]) -> Result<Vec<MetamerId>, Problem> {
     let limbs = Limbs::of(plant);
     let mut cuts = BTreeSet::new();
-    for (index, &row) in rows.iter().enumerate() {
+    let mut asked = BTreeSet::new();
+    for (index, &row) in rows.iter().enumerate().filter(|&(_, &row)| asked.insert(row)) {
         let field = format!("rows[{index}]");
         let metamer = wood_of(plant, &field, row)?;
         let found = limbs.cuts(metamer).map_err(|sentence| Problem {
@@ -68,26 +69,31 @@ struct Limbs<'a> {
     plant: &'a Plant,
     /// How many living metamers grow from each node.
     bears: Vec<u32>,
-    constrained: BTreeSet<MetamerId>,
+    /// What grows from each metamer whose width is held.
+    held: BTreeMap<MetamerId, Vec<MetamerId>>,
 }
 
 impl<'a> Limbs<'a> {
     fn of(plant: &'a Plant) -> Self {
         let mut bears = vec![0; plant.metamer_count()];
+        let mut held: BTreeMap<MetamerId, Vec<MetamerId>> =
+            plant.widths().map(|(id, _)| (id, Vec::new())).collect();
         for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
             if let Some(parent) = plant.metamers().parent(id) {
                 bears[parent.index()] += 1;
+                if let Some(above) = held.get_mut(&parent) {
+                    above.push(id);
+                }
             }
         }
-        Self { plant, bears, constrained: plant.widths().map(|(id, _)| id).collect() }
+        Self { plant, bears, held }
     }
 
     /// What is cut for one row (`PR1`), or a sentence that says why nothing can be.
     fn cuts(&self, row: MetamerId) -> Result<Vec<MetamerId>, &'static str> {
-        if self.constrained.contains(&row) {
-            let above = self.children(row);
+        if let Some(above) = self.held.get(&row) {
             let nothing = "nothing stands above its width constraint";
-            return if above.is_empty() { Err(nothing) } else { Ok(above) };
+            return if above.is_empty() { Err(nothing) } else { Ok(above.clone()) };
         }
         let mut cut = row;
         loop {
@@ -95,18 +101,11 @@ impl<'a> Limbs<'a> {
             let parent = parent.ok_or("it belongs to a trunk, and nothing branches off below it")?;
             let axes = self.plant.metamers();
             let begins_axis = axes.axis(parent) != axes.axis(cut);
-            if begins_axis || self.bears[parent.index()] > 1 || self.constrained.contains(&parent) {
+            if begins_axis || self.bears[parent.index()] > 1 || self.held.contains_key(&parent) {
                 return Ok(vec![cut]);
             }
             cut = parent;
         }
-    }
-
-    fn children(&self, node: MetamerId) -> Vec<MetamerId> {
-        let later = (node.index() + 1..self.plant.metamer_count()).map(MetamerId::new);
-        later
-            .filter(|&id| self.plant.is_alive(id) && self.plant.metamers().parent(id) == Some(node))
-            .collect()
     }
 }
 

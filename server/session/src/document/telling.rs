@@ -39,6 +39,9 @@ impl Document {
 
     /// The width constraints in force, in order of their rows (`WI2`).
     pub fn widths(&self) -> Vec<WidthConstraint> {
+        if self.plant().widths().next().is_none() {
+            return Vec::new();
+        }
         let girth = self.girth();
         let told = |width: &widths::Width| WidthConstraint {
             row: width.metamer.raw(),

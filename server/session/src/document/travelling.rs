@@ -44,10 +44,8 @@ impl Document {
         if step > last {
             return Err(Problem::out_of_range("step", step, format!("0 to {last}")));
         }
-        if step != self.plant().step() {
-            self.history.done = self.history.done_at(step);
-            self.travel(step);
-        }
+        self.history.done = self.history.done_at(step);
+        self.travel(step);
         self.keep_to_line();
         Ok(())
     }

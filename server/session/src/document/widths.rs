@@ -6,7 +6,11 @@ use espalier_proto::Problem;
 use super::{
     Document,
     history::{Kind, Latest},
+    refused,
 };
+
+/// Width constraints in force at once (`LM12`): all of them are told to everybody after each change.
+const MAX_WIDTHS: usize = 256;
 
 impl Document {
     pub(super) fn set_width(
@@ -19,6 +23,9 @@ impl Document {
         let metamer = self.wood("row", row)?;
         if self.width(metamer) == diameter {
             return Ok(());
+        }
+        if diameter.is_some() && self.width(metamer).is_none() {
+            self.require_widths(1)?;
         }
         let now = self.plant().step();
         let continues = self.history.continues(&[Kind::Width], author, gesture, now);
@@ -35,6 +42,17 @@ impl Document {
         let is_kept = self.history.continues(&[Kind::Width], author, gesture, step);
         self.history.latest = is_kept.then_some(Latest { step, row, rotation: None });
         Ok(())
+    }
+
+    /// Whether so many width constraints more may be in force (`LM12`).
+    pub(super) fn require_widths(&self, more: usize) -> Result<(), Problem> {
+        let held = self.plant().widths().count();
+        if more == 0 || held + more <= MAX_WIDTHS {
+            return Ok(());
+        }
+        Err(refused(format!(
+            "{held} width constraints are in force, and {MAX_WIDTHS} may be; remove some first"
+        )))
     }
 
     /// The constraint on a metamer.

@@ -62,6 +62,7 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, shelf: &Shelf) 
 
 pub(super) fn read_futures(
     reader: &mut Reader<'_>,
+    plant: &Plant,
     history: &History,
     shelf: &Shelf,
 ) -> Result<Futures, DocumentError> {
@@ -74,14 +75,23 @@ pub(super) fn read_futures(
         if rows.step() != fork.step {
             return Err(damaged("a future begins elsewhere than its rows"));
         }
+        if operations.iter().any(|operation| operation.last > fork.step.saturating_add(rows.steps())) {
+            return Err(damaged("an operation of a future spans steps that are not there"));
+        }
         Ok(Future { line, on, fork, operations, rows })
     })?;
-    check(&all, present, newest, history)?;
+    check(&all, present, newest, [history.operations.len(), plant.last_step() as usize])?;
     Ok(Futures { all, present, newest })
 }
 
 /// Checks that the lines are a tree, and that each leaves the other where that has steps and operations.
-fn check(all: &[Future], present: u32, newest: u32, history: &History) -> Result<(), DocumentError> {
+/// The present line is so many operations and steps long.
+fn check(
+    all: &[Future],
+    present: u32,
+    newest: u32,
+    [operations, steps]: [usize; 2],
+) -> Result<(), DocumentError> {
     let find = |line: u32| all.iter().find(|future| future.line == line);
     if present > newest {
         return Err(damaged("the present line has no number"));
@@ -99,14 +109,17 @@ fn check(all: &[Future], present: u32, newest: u32, history: &History) -> Result
         if below.is_some() {
             return Err(damaged("futures hang on one another in a ring"));
         }
-        let (operations, end) = match future.on.and_then(find) {
+        let (operations, steps) = match future.on.and_then(find) {
             Some(on) if on.fork > future.fork => {
                 return Err(damaged("a future leaves a line before it begins"));
             }
-            Some(on) => (on.fork.shared + on.operations.len(), on.fork.step + on.rows.steps()),
-            None => (history.operations.len(), u32::MAX),
+            Some(on) => {
+                let steps = on.fork.step as usize + on.rows.steps() as usize;
+                (on.fork.shared + on.operations.len(), steps)
+            }
+            None => (operations, steps),
         };
-        if future.fork.shared > operations || future.fork.step > end {
+        if future.fork.shared > operations || future.fork.step as usize > steps {
             return Err(damaged("a future leaves a line beyond its end"));
         }
     }

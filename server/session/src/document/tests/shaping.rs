@@ -399,3 +399,62 @@ fn lm11_the_oldest_futures_are_forgotten() {
     let saved = Document::from_bytes(&document.to_saved_bytes()).expect("our own bytes");
     assert_eq!((saved.timeline().futures.len(), saved.plant().hash()), (0, document.plant().hash()));
 }
+
+#[test]
+fn cm5_a_stroke_that_goes_on_after_a_cut_is_another_operation() {
+    let mut document = tree();
+    let stroke =
+        |x: f32| Action::StrokeMove { stroke: 7, samples: vec![sample(x, 12.0, 4.0), sample(x, 16.0, 4.0)] };
+    apply(&mut document, &Action::StrokeBegin { stroke: 7, bud: None });
+    let lateral = laterals(&document)[0];
+    document
+        .apply("bob", &Action::Prune { rows: vec![lateral.raw()], gesture: None })
+        .expect("it is a lateral");
+    let cut = document.plant().hash();
+    apply(&mut document, &stroke(3.0));
+    apply(&mut document, &Action::StrokeEnd { stroke: 7 });
+    let grown = document.plant().hash();
+    assert_ne!(grown, cut, "the stroke grows something");
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.plant().hash(), cut, "undo takes back the stroke alone");
+    apply(&mut document, &Action::Undo);
+    assert!(document.plant().is_alive(lateral), "and then the cut");
+    let before = document.plant().hash();
+    apply(&mut document, &Action::Undo);
+    assert_ne!(document.plant().hash(), before, "a stroke without growth is passed over");
+    for _ in 0..3 {
+        apply(&mut document, &Action::Redo);
+    }
+    assert_eq!(document.plant().hash(), grown);
+}
+
+#[test]
+fn tt2_scrubbing_to_where_one_is_ends_strokes() {
+    let mut document = tree();
+    apply(&mut document, &Action::StrokeBegin { stroke: 7, bud: None });
+    let step = document.plant().step();
+    apply(&mut document, &Action::GoTo { step });
+    assert!(document.open_strokes("ann").is_empty());
+}
+
+#[test]
+fn lm12_width_constraints_are_limited() {
+    let mut document = tree();
+    let rows: Vec<u32> = (1..document.plant().metamer_count() as u32)
+        .filter(|&row| document.plant().is_alive(MetamerId::new(row as usize)))
+        .collect();
+    let width = |row: u32| Action::SetWidth { row, diameter: Some(0.3), gesture: None };
+    while document.plant().living_count() < 300 {
+        grow(&mut document, 1, None);
+    }
+    let more = (1..document.plant().metamer_count() as u32)
+        .filter(|row| !rows.contains(row) && document.plant().is_alive(MetamerId::new(*row as usize)));
+    let all: Vec<u32> = rows.iter().copied().chain(more).collect();
+    for &row in &all[..256] {
+        apply(&mut document, &width(row));
+    }
+    let hash = document.hash();
+    assert_eq!(refusal(&mut document, &width(all[256])).0, ProblemCode::Refused);
+    assert_eq!(document.hash(), hash);
+    apply(&mut document, &Action::SetWidth { row: all[0], diameter: Some(0.4), gesture: None });
+}
