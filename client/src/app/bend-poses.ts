@@ -1,7 +1,7 @@
 import { Bent } from "../scene/bent";
 import type { TreeTable } from "../scene/tree-table";
 import type { PoseFrame, RowMotion } from "../wire/pose";
-import type { ShapingView } from "./tools/bend-tool";
+import type { ShapingView } from "./tools/shaping-view";
 
 /** The bend that this page's own hand has under way. */
 export interface OwnBends {

@@ -123,12 +123,13 @@ describe("handshake", () => {
     core.submit({ kind: "stroke_begin", stroke: 1 });
     core.message(1, { type: "acknowledged", id: 1 });
     core.submit({ kind: "stroke_end", stroke: 1 });
+    core.submit({ kind: "bend_end", bend: 1 });
     core.submit(undo);
     core.effects();
     core.closed(2, 4004);
     expect(kinds(core.effects())).toEqual(["rekeyed"]);
     expect(core.record().key).toBe("key-2-of-the-test");
-    // The stroke's beginning belongs to the old key, so its end is not carried over; the undo is.
+    // What begins a stroke or a bend belongs to the old key, so its end is not carried over; the undo is.
     expect(core.record().pending).toEqual([{ id: 1, command: undo }]);
     expect(reconnect(0)).toEqual([1]);
   });

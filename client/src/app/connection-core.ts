@@ -401,15 +401,15 @@ export class ConnectionCore {
     this.#effects.push(entry ? { kind: "problem", problem, command: entry.command } : { kind: "problem", problem });
   }
 
-  /** Goes on under a new key, with numbers from 1; a stroke whose beginning is gone cannot be continued there. */
+  /** Goes on under a new key, with numbers from 1; a stroke or bend whose beginning is gone cannot be continued there. */
   #rekey(): void {
-    const begun = new Set<number>();
+    const begun = new Set<string>();
     const kept = this.#pending.filter(({ command, refused }) => {
-      if (command.kind === "stroke_begin") {
-        begun.add(command.stroke);
+      const name = "stroke" in command ? `stroke ${command.stroke}` : "bend" in command ? `bend ${command.bend}` : null;
+      if (name !== null && command.kind.endsWith("_begin")) {
+        begun.add(name);
       }
-      const continues = command.kind === "stroke_move" || command.kind === "stroke_end";
-      return !refused && (!continues || begun.has(command.stroke));
+      return !refused && (name === null || begun.has(name));
     });
     this.#key = this.#options.newKey();
     this.#acknowledged = 0;

@@ -12,7 +12,7 @@ import { minus, turned, UNTURNED } from "./tools/branch-turn";
 /** Room between the tree and its ghost, as a share of the tree's width, and at least in internodes. */
 const GAP = 0.12;
 const LEAST_GAP = 2;
-/** The share of the picture that the question whether to keep them lies over. */
+/** The share of the picture, at its foot, that the question whether to keep them lies over, and the tools after it. */
 const COVERED = 0.16;
 /** A copy under the finger need not have every twig. */
 const MOST_COPIED = 20_000;
@@ -83,7 +83,7 @@ export class GhostStage {
     const view = this.#view;
     view?.showGhost(null);
     if (becoming) {
-      view?.frameBox(becoming.bounds());
+      view?.frameBox(becoming.bounds(), COVERED);
     } else {
       view?.unframe();
     }

@@ -3,9 +3,11 @@ import { plainly } from "./plain-words";
 
 describe("plain words", () => {
   it("say that a branch is gone", () => {
-    const problem = { code: "not_found", field: "row", message: "there is no living metamer with row 152" } as const;
-    const turn = { kind: "turn_branch", row: 152, rotation: [0, 0, 0, 1] } as const;
-    expect(plainly(problem, { ...turn, rotation: [0, 0, 0, 1] })).toMatch(/^That branch is gone/);
+    for (const field of ["row", "rows[3]", "onto", "base", "touches[0]"]) {
+      const message = "there is no living metamer with row 152";
+      expect(plainly({ code: "not_found", field, message })).toMatch(/^That branch is gone/);
+    }
+    expect(plainly({ code: "not_found", field: "future", message: "There is no such future." })).toMatch(/future/);
   });
 
   it("name no rows, and are a sentence", () => {

@@ -99,6 +99,20 @@ describe("a prediction", () => {
     expect([prediction.rows.peek(), prediction.grown.peek()]).toEqual([null, null]);
   });
 
+  it("of other branches takes the place of the one that is shown", () => {
+    const { prediction, asked, became, submitted } = setUp();
+    prediction.ask([5]);
+    prediction.receive(ghost(1));
+    prediction.ask([8]);
+    expect([became, prediction.grown.peek()]).toEqual([[], null]);
+    prediction.keep();
+    expect(submitted, "nobody has seen it yet").toEqual([]);
+    prediction.receive(ghost(2));
+    expect(asked.map(([rows]) => rows)).toEqual([[5], [8]]);
+    prediction.keep();
+    expect(submitted[0]).toMatchObject({ rows: [8] });
+  });
+
   it("takes a refusal for its own only while a question is open", () => {
     const { prediction } = setUp();
     expect(prediction.refused()).toBe(false);

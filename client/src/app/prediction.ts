@@ -36,6 +36,7 @@ export class Prediction {
   readonly grown = signal<number | null>(null);
   #options: PredictionOptions;
   #ghost = new TreeTable();
+  #shown = false;
   /** The steps of the question that is not yet answered. */
   #asked: number | null = null;
 
@@ -50,7 +51,8 @@ export class Prediction {
       this.#options.tell(TRUNK);
       return;
     }
-    this.#vanish(null);
+    // A ghost that is there already stays until the next one comes.
+    this.grown.value = null;
     this.rows.value = rows;
     this.cuts.value = cuts;
     this.#asked = null;
@@ -79,6 +81,7 @@ export class Prediction {
     this.#ghost.apply({ epoch, sequence, catchUp: true, changes });
     this.grown.value = this.#asked ?? this.steps.peek();
     this.#asked = null;
+    this.#shown = true;
     this.#options.show(this.#ghost);
     this.#question();
   }
@@ -136,13 +139,10 @@ export class Prediction {
   #end(becoming: TreeTable | null = null): void {
     this.rows.value = null;
     this.cuts.value = [];
+    this.grown.value = null;
     this.#asked = null;
-    this.#vanish(becoming);
-  }
-
-  #vanish(becoming: TreeTable | null): void {
-    if (this.grown.peek() !== null) {
-      this.grown.value = null;
+    if (this.#shown) {
+      this.#shown = false;
       this.#options.end(becoming);
     }
   }

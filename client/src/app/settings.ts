@@ -14,8 +14,6 @@ export interface Settings {
   readonly hasOutlined: Signal<boolean>;
   /** From 0, a branch that is bent keeps its length, to 1, it stretches. */
   readonly stretch: Signal<number>;
-  /** Whether a branch was bent, after which the hint rests. */
-  readonly hasBent: Signal<boolean>;
   /** Whether the strip of time is unfolded. */
   readonly timelineOpen: Signal<boolean>;
   /** The session to come back to. */
@@ -31,7 +29,6 @@ export function loadSettings(store: Storage): Settings {
     hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
     hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
     stretch: kept(store, "stretch", 0.3, (value) => typeof value === "number" && value >= 0 && value <= 1),
-    hasBent: kept(store, "bent", false, (value) => typeof value === "boolean"),
     timelineOpen: kept(store, "timeline", true, (value) => typeof value === "boolean"),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
   };

@@ -396,7 +396,11 @@ export class Studio {
       this.tools.abandon();
       return;
     }
-    this.toasts.show(plainly(problem, command));
+    if (problem.code === "not_found" && problem.field === "bend") {
+      // What was still under way of a bend that was refused or given up says nothing new.
+      return;
+    }
+    this.toasts.show(plainly(problem));
     console.warn("The server refused:", problem);
   }
 

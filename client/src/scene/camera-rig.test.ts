@@ -74,6 +74,15 @@ describe("the camera", () => {
     expect(rig.pose).toEqual(before);
   });
 
+  it("stays with what it framed, though nothing may be there yet", () => {
+    const rig = new CameraRig();
+    rig.keep({ min: [-1, 0, -1], max: [1, 2, 1] });
+    rig.frame({ min: [-40, 0, -40], max: [40, 60, 40] }, 0.45);
+    rig.keep({ min: [-1, 0, -1], max: [1, 3, 1] });
+    settle(rig);
+    expect(2 * rig.pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.45).toBeGreaterThan(80);
+  });
+
   it("stays where a hand has moved it meanwhile", () => {
     const rig = new CameraRig();
     rig.keep(tree);

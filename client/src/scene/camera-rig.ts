@@ -45,6 +45,8 @@ export class CameraRig {
   private easing = false;
   /** Where the goal was before the last `frame`, as long as nobody has moved the camera since. */
   private before: Pose | null = null;
+  /** What `frame` showed; it may be about to grow there, and stays in reach until somebody moves the camera. */
+  private framed: Box | null = null;
 
   constructor() {
     const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
@@ -64,7 +66,7 @@ export class CameraRig {
 
   /** Tells what is to be kept in reach. */
   keep(box: Box): void {
-    this.box = box;
+    this.box = this.framed ? union(box, this.framed) : box;
     this.limit();
   }
 
@@ -102,7 +104,8 @@ export class CameraRig {
   /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
   frame(box: Box, aspect: number, covered = 0): void {
     this.before = structuredClone(this.goal);
-    this.box = box;
+    this.framed = box;
+    this.box = union(this.box, box);
     const pose = fitted(box, aspect, this.goal.yaw);
     pose.distance /= 1 - covered;
     pose.target[1] -= covered * pose.distance * Math.tan(FIELD_OF_VIEW / 2);
@@ -116,6 +119,7 @@ export class CameraRig {
     if (!this.before) return;
     Object.assign(this.goal, this.before);
     this.before = null;
+    this.framed = null;
     this.easing = true;
     this.limit();
   }
@@ -146,6 +150,7 @@ export class CameraRig {
   private take(): void {
     this.easing = false;
     this.before = null;
+    this.framed = null;
   }
 
   private furthest(): number {
@@ -175,6 +180,15 @@ export function fitted(box: Box, aspect: number, yaw: number): Pose {
     yaw,
     pitch: FIRST_PITCH,
     distance,
+  };
+}
+
+/** The box around two boxes. */
+export function union(a: Box, b: Box): Box {
+  const axes = [0, 1, 2] as const;
+  return {
+    min: axes.map((axis) => Math.min(a.min[axis], b.min[axis])) as [number, number, number],
+    max: axes.map((axis) => Math.max(a.max[axis], b.max[axis])) as [number, number, number],
   };
 }
 

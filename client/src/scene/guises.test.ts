@@ -5,6 +5,7 @@ import { CHUNK_ROWS, POSITION_STEPS } from "../wire/generated";
 import { Bent } from "./bent";
 import { Felled } from "./felled";
 import { type Guise, Guises, type Rotation, rotated, SlotWriter } from "./guises";
+import { normalOf } from "./node-frames";
 import { borne, Swollen, swelling } from "./swollen";
 import { radiusOf, TreeTable } from "./tree-table";
 import type { Vec3 } from "./vector";
@@ -107,6 +108,12 @@ describe("a bent path", () => {
     commit(after, (row) => (carried(row) ? swung(row) : place(table, row)));
     for (const [i, row] of path.entries()) {
       for (const k of [0, 1, 2]) expect(texels[SLOT * i + 8 + k]).toBeCloseTo(after.frames[4 * row + k]!, 2);
+    }
+    // The bark of what is carried turns no further when the places come.
+    for (let row = 0; row < table.rows; row += 1) {
+      if (!carried(row) || path.includes(row)) continue;
+      const normal = rotated(QUARTER, normalOf(table.frames, row));
+      expect(distance(normal, normalOf(after.frames, row)), `row ${row}`).toBeLessThan(0.25);
     }
   });
 

@@ -20,16 +20,22 @@ export interface Skeleton {
 type Vector = [number, number, number];
 
 const MIN_LENGTH = 1e-6;
+/** A vector with less of itself than this across an axis, squared, says nothing about which way is across. */
+const MIN_ACROSS = 1e-4;
 
 /** Writes the frame of `row` into `frames` (x y z w per row); says whether it moved noticeably. */
 export function updateFrame(skeleton: Skeleton, frames: Float32Array, row: number): boolean {
   const tangent = nodeTangent(skeleton, row);
   const parent = skeleton.parent[row]!;
-  const continues = parent >= 0 && skeleton.startsAxis[row] === 0 && skeleton.parent[parent]! >= 0;
-  const normal = continues
-    ? transported(skeleton.position, parent, row, normalOf(frames, parent), tangentOf(frames, parent), tangent)
-    : anyNormal(tangent);
-  return writeFrame(frames, row, normal, tangent);
+  return writeFrame(frames, row, normalAt(skeleton, frames, row, parent, tangent), tangent);
+}
+
+/** A lateral takes its normal from the axis that bears it, so that its bark turns with what bears it. */
+function normalAt(skeleton: Skeleton, frames: Float32Array, row: number, parent: number, tangent: Vector): Vector {
+  if (parent < 0 || skeleton.parent[parent]! < 0) return anyNormal(tangent);
+  const normal = normalOf(frames, parent);
+  if (skeleton.startsAxis[row] === 1) return perpendicular(normal, tangent);
+  return transported(skeleton.position, parent, row, normal, tangentOf(frames, parent), tangent);
 }
 
 /** The direction of the tube at a node: the mean of the metamer that ends there and the one that goes on. */
@@ -86,7 +92,8 @@ function transported(
 
 /** `vector` made perpendicular to a unit `tangent`. */
 function perpendicular(vector: Vector, tangent: Vector): Vector {
-  return normalised(subtract(vector, scale(tangent, dot(vector, tangent)))) ?? anyNormal(tangent);
+  const across = subtract(vector, scale(tangent, dot(vector, tangent)));
+  return dot(across, across) < MIN_ACROSS ? anyNormal(tangent) : (normalised(across) ?? anyNormal(tangent));
 }
 
 function anyNormal(tangent: Vector): Vector {

@@ -26,7 +26,8 @@ export class Sight {
     this.pitch = pose.pitch;
     this.distance = pose.distance;
     camera.aspect = aspect;
-    camera.near = Math.max(0.05, 0.02 * pose.distance);
+    // An eye just above the ground must not cut away the ground before its feet.
+    camera.near = Math.max(0.05, Math.min(0.02 * pose.distance, 1.5 * eye[1]));
     camera.far = pose.distance + 1500;
     camera.updateProjectionMatrix();
     camera.position.set(...eye);

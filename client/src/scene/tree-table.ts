@@ -72,6 +72,7 @@ export class TreeTable implements Skeleton {
   };
   private staleFrames = new Uint8Array(0);
   private moved = new Uint8Array(0);
+  private turned = new Uint8Array(0);
   private firstStale = Number.POSITIVE_INFINITY;
   private readonly extent = new Bounds();
   private readonly start: number;
@@ -335,9 +336,12 @@ export class TreeTable implements Skeleton {
         this.mark(row, Dirty.Drawn | Dirty.Shape);
         this.staleFrames[row] = 1;
       }
+      // A lateral's frame follows from the one of the node that bears it.
+      if (parent >= 0 && this.turned[parent] === 1) this.staleFrames[row] = 1;
       if (this.staleFrames[row] === 0) continue;
       this.staleFrames[row] = 0;
       const turned = updateFrame(this, this.frames, row);
+      if (turned) this.turned[row] = 1;
       const measured = this.measure(row, parent);
       if (!turned && !measured) continue;
       this.mark(row, Dirty.Drawn);
@@ -345,6 +349,7 @@ export class TreeTable implements Skeleton {
       if (successor >= 0) this.staleFrames[successor] = 1;
     }
     this.moved.fill(0, Math.min(this.firstStale, this.rows), this.rows);
+    this.turned.fill(0, Math.min(this.firstStale, this.rows), this.rows);
     this.firstStale = Number.POSITIVE_INFINITY;
   }
 
@@ -389,6 +394,7 @@ export class TreeTable implements Skeleton {
     this.growing = grown(this.growing, room);
     this.staleFrames = grown(this.staleFrames, room);
     this.moved = grown(this.moved, room);
+    this.turned = grown(this.turned, room);
     this.dirty.bits = grown(this.dirty.bits, room);
   }
 }

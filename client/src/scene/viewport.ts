@@ -2,7 +2,7 @@ import { Scene, WebGLRenderer } from "three";
 import type { DrawingPlane } from "../wire/generated";
 import { Branches } from "./branches";
 import { BrushShell } from "./brush-shell";
-import { type Box, CameraRig, fitted } from "./camera-rig";
+import { type Box, CameraRig, fitted, union } from "./camera-rig";
 import { Environment } from "./environment";
 import { Foliage } from "./foliage";
 import { Ghost, type GhostPose } from "./ghost";
@@ -444,13 +444,5 @@ export class Viewport {
     this.ghost.restored();
     this.shadowStale = true;
     this.invalidate();
-  };
-}
-
-function union(a: Box, b: Box): Box {
-  const axes = [0, 1, 2] as const;
-  return {
-    min: axes.map((axis) => Math.min(a.min[axis], b.min[axis])) as [number, number, number],
-    max: axes.map((axis) => Math.max(a.max[axis], b.max[axis])) as [number, number, number],
   };
 }

@@ -1,13 +1,17 @@
 import { expect, test } from "vitest";
-import { changed } from "./picture";
+import { type Box, changed } from "./picture";
 import { LANDSCAPE, type Point, type Screen, type Tablet, way } from "./tablet";
 import { type Grown, SEED, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 
-/** Where the limb leaves the stem, and where it ends. */
-const fork: Point = { x: SEED.x, y: 560 };
+/** Where the stroke of the limb begins, beside the stem: on it a finger that is slow to move would choose. */
+const fork: Point = { x: SEED.x + 30, y: 560 };
+/** Where it ends. */
 const tip: Point = { x: 830, y: 480 };
+
+/** The picture without what lies along its foot. */
+const workspace: Box = { x: 140, y: 80, width: 1040, height: 600 };
 
 /** A stem with one limb to the right, each a stroke of its own. */
 async function limbed(screen?: Screen): Promise<Grown> {
@@ -84,7 +88,7 @@ test("another future stays reachable from where it branched off", async () => {
   const one = await tablet.facts();
   await tablet.tap("Undo");
   await tablet.until("the limb is gone", (facts) => facts.metamers < metamers);
-  await tablet.swipe([way(fork, { x: 360, y: 470 })]);
+  await tablet.swipe([way({ x: SEED.x - 30, y: 560 }, { x: 360, y: 470 })]);
   await tablet.untilQuiet();
   const two = await tablet.until("a future is kept", (facts) => facts.futures === 1);
 
@@ -219,7 +223,7 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   expect((await tablet.untilQuiet()).operations).toBe("stroke stroke");
   // The camera goes back to where it was.
   const after = await tablet.photograph("61-discarded");
-  expect(changed(before, after), "everything is as it was").toBeLessThan(0.01);
+  expect(changed(before, after, workspace), "everything is as it was").toBeLessThan(0.01);
 
   await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
   await tablet.until("it is there again", (facts) => facts.ghost === "8");

@@ -1,10 +1,12 @@
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../test/small-tree";
 import type { Bent } from "../../scene/bent";
 import type { Command } from "../../wire/generated";
 import type { Point } from "../ports";
 import { holdAt, naturalBase, related } from "./bend-hold";
 import { BendTool } from "./bend-tool";
+
+afterEach(() => vi.useRealTimers());
 
 function setUp() {
   const table = tableOf(SMALL);
@@ -18,7 +20,7 @@ function setUp() {
     view,
     submit: (command) => void sent.push(command),
     newBend: () => sent.length + 1,
-    unsettledMoves: () => world.unsettled,
+    unsettled: () => world.unsettled,
     stretch: () => 0.5,
     say: (sentence) => void said.push(sentence),
     // Puts what is dragged where it is wanted and leaves the rest.
@@ -162,7 +164,7 @@ describe("bending", () => {
     finger(1).down(9);
     expect([tool.takes(...at(13)), tool.takes(900, 100), tool.takes(...at(2))]).toEqual(["leave", "leave", "take"]);
     finger(1).by(30, 0, 9);
-    expect(tool.takes(...at(2)), "while it bends a further finger rests").toBe("ignore");
+    expect([tool.takes(...at(13)), tool.takes(...at(7))], "while it bends").toEqual(["ignore", "take"]);
   });
 
   it("a finger that rests has the branch come up to it", () => {
@@ -221,6 +223,54 @@ describe("bending", () => {
     view.worn.clear();
     finger(1).by(0, -60, 9);
     expect(sent[before]).toMatchObject({ kind: "bend_begin" });
+  });
+
+  it("a finger that joins later bends on from there", () => {
+    const { table, tool, sent, view, finger } = setUp();
+    finger(1).down(2);
+    finger(2).down(9);
+    finger(2).by(0, -100, 9);
+    finger(3).down(7);
+    expect(kinds(sent)).toEqual(["bend_begin", "bend_move", "bend_end"]);
+    finger(2).by(0, -120, 9);
+    expect(sent, "the last pose is on its way").toHaveLength(3);
+    tableOf(
+      SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [4, 3, 0] as const } : twig)),
+      table,
+    );
+    view.worn.clear();
+    tool.told();
+    tool.tick();
+    // A pixel up is now counted from where the end has come to.
+    finger(2).by(0, -50, 9);
+    finger(3).by(0, 30, 7);
+    tool.tick();
+    expect(sent.slice(3)).toMatchObject([
+      { kind: "bend_begin", base: 2, touches: [9, 7] },
+      {
+        kind: "bend_move",
+        targets: [
+          [4, 3.3, 0],
+          [2, 1.7, 0],
+        ],
+      },
+    ]);
+  });
+
+  it("a bend that comes to nothing is not waited for", () => {
+    vi.useFakeTimers();
+    const { tool, view, world, finger } = setUp();
+    finger(1).down(9);
+    finger(1).by(30, 0, 9);
+    finger(1).up();
+    world.unsettled = 1;
+    tool.told();
+    vi.advanceTimersByTime(9000);
+    expect(view.worn.size).toBe(1);
+    world.unsettled = 0;
+    tool.told();
+    vi.advanceTimersByTime(9000);
+    expect(view.worn.size).toBe(0);
   });
 
   it("a branch that is gone ends its bend and unmarks what was marked", () => {

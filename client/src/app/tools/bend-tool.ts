@@ -1,31 +1,21 @@
 import { signal } from "@preact/signals";
 import type { Bend } from "../../scene/bend/bend";
 import { Bent } from "../../scene/bent";
-import type { Guise } from "../../scene/guises";
 import type { TreeTable } from "../../scene/tree-table";
 import { radiusOf } from "../../scene/tree-table";
 import { type Command, MAX_BEND_TOUCHES } from "../../wire/generated";
 import type { Grip } from "../gestures";
 import type { Point } from "../ports";
 import { type Hold, holdAt, naturalBase, related } from "./bend-hold";
+import type { ShapingView } from "./shaping-view";
 import { type GripTool, PICK_TOLERANCE, withinReach } from "./tool";
 
 /** Rounds that are played again for a finger that rests, so that the branch comes up to it. */
 const ROUNDS_AT_REST = 8;
 /** Moves that may be under way; beyond it the newest waits for its turn. */
 const MAX_UNSETTLED = 6;
-
-/** What shaping a branch by hand needs of the view. */
-export interface ShapingView {
-  pointOnPlane(x: number, y: number, through: Point): Point | null;
-  pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Point } | null;
-  /** Where a row is drawn. */
-  placeOf(row: number): Point;
-  wear(guise: Guise): void;
-  doff(guise: Guise): void;
-  wears(guise: Guise): boolean;
-  guiseChanged(): void;
-}
+/** How long after its answer a bend may take to show in the rows, in milliseconds. */
+const LINGERS = 1500;
 
 /** Bends a path as the server will, before it answers. */
 export type BendSolver = Pick<Bend, "drag" | "relax" | "motions">;
@@ -36,15 +26,13 @@ export interface BendOptions {
   readonly submit: (command: Command) => void;
   /** A number no other bend of this client has. */
   readonly newBend: () => number;
-  /** How many `bend_move` the server has not yet answered. */
-  readonly unsettledMoves: () => number;
+  /** How many commands of a kind the server has not yet answered. */
+  readonly unsettled: (kind: Command["kind"]) => number;
   /** 0, stiff in length, to 1, stretchy. */
   readonly stretch: () => number;
   /** `nodes` are where the base begins and the end of each internode of the path. */
   readonly solver: (nodes: Point[], radii: number[], stretch: number) => BendSolver;
   readonly say: (sentence: string) => void;
-  /** A branch was bent. */
-  readonly bent?: () => void;
 }
 
 interface Finger {
@@ -56,12 +44,15 @@ interface Finger {
   x: number;
   y: number;
   moved: boolean;
+  /** It drags what an earlier bend has moved: from where it is now, not from where it came down. */
+  regrips: boolean;
 }
 
 interface Touch {
   readonly row: number;
-  /** Where the metamer's end was when it was taken. */
+  /** Where the metamer's end was when it was taken, and where the finger was then. */
   readonly rest: Point;
+  readonly anchor: Point;
   /** The finger that drags it; a handle that was set stays put. */
   readonly finger: number | null;
   target: Point;
@@ -109,7 +100,11 @@ export class BendTool implements GripTool {
     }
     const row = this.#pick(x, y)?.row ?? null;
     if (this.#bending) {
-      return "ignore";
+      const { path } = this.#bending.hold;
+      const [base = 0, end = 0] = [path[0], path[path.length - 1]];
+      const { table } = this.#options;
+      const joins = row !== null && row > base && holdAt(table, base, [row]) && related(table, end, row);
+      return joins && this.#fingers.size <= MAX_BEND_TOUCHES ? "take" : "ignore";
     }
     const others = [...this.#fingers.values()].map((finger) => finger.row);
     const joins = row !== null && others.every((other) => other !== null && related(this.#options.table, other, row));
@@ -119,7 +114,15 @@ export class BendTool implements GripTool {
   gripBegin(id: number, x: number, y: number, slop: number): void {
     const picked = this.#pick(x, y);
     const point = picked?.point ?? [0, 0, 0];
-    this.#fingers.set(id, { row: picked?.row ?? null, point, from: { x, y }, slop, x, y, moved: false });
+    if (this.#bending) {
+      // One more finger makes another bend of it, as soon as this one is in the table.
+      this.#finish();
+      for (const finger of this.#fingers.values()) {
+        finger.regrips = true;
+      }
+    }
+    const [row, from] = [picked?.row ?? null, { x, y }];
+    this.#fingers.set(id, { row, point, from, slop, x, y, moved: false, regrips: false });
     this.#most = Math.max(this.#most, this.#fingers.size);
     this.#show();
   }
@@ -165,7 +168,10 @@ export class BendTool implements GripTool {
   /** Sends where the fingers are; while they rest the branch still comes up to them. */
   tick(): void {
     const bending = this.#bending;
-    if (!bending || this.#options.unsettledMoves() >= MAX_UNSETTLED) {
+    if (!bending && [...this.#fingers.values()].some((finger) => finger.moved)) {
+      this.#begin();
+    }
+    if (!bending || this.#options.unsettled("bend_move") >= MAX_UNSETTLED) {
       return;
     }
     if (bending.unsent) {
@@ -246,6 +252,8 @@ export class BendTool implements GripTool {
     for (const guise of [...this.#settling.keys()]) {
       if (!view.wears(guise) || guise.over(table)) {
         this.#settling.delete(guise);
+      } else if (this.#options.unsettled("bend_end") === 0) {
+        this.#linger(guise);
       }
     }
     if (this.#bending?.guise.over(table)) {
@@ -259,6 +267,15 @@ export class BendTool implements GripTool {
     } else if (this.handles.peek().some(gone)) {
       this.handles.value = this.handles.peek().filter((row) => !gone(row));
     }
+  }
+
+  /** A bend that was answered is in the table with the next rows; if not, it came to nothing. */
+  #linger(guise: Bent): void {
+    setTimeout(() => {
+      if (this.#settling.delete(guise)) {
+        this.#options.view.doff(guise);
+      }
+    }, LINGERS);
   }
 
   /** One finger marks a base, then places above it that stay put; the same place again lets go of it. */
@@ -280,7 +297,7 @@ export class BendTool implements GripTool {
   }
 
   #begin(): void {
-    const { table, view, submit, newBend, stretch, solver, say, bent } = this.#options;
+    const { table, view, submit, newBend, stretch, solver, say } = this.#options;
     if ([...this.#settling.keys()].some((guise) => view.wears(guise) && !guise.over(table))) {
       // The pose of the last bend is on its way; taking hold of the branch before it comes would make it jump.
       return;
@@ -300,7 +317,10 @@ export class BendTool implements GripTool {
     const fingerOf = new Map(dragged.map(([id, { row }]) => [row, id]));
     const touches = hold.touches.slice(0, MAX_BEND_TOUCHES).map((row): Touch => {
       const rest = view.placeOf(row);
-      return { row, rest, finger: fingerOf.get(row) ?? null, target: rest };
+      const id = fingerOf.get(row);
+      const finger = id === undefined ? undefined : this.#fingers.get(id);
+      const now = finger?.regrips ? view.pointOnPlane(finger.x, finger.y, finger.point) : null;
+      return { row, rest, anchor: now ?? finger?.point ?? rest, finger: id ?? null, target: rest };
     });
     const { path } = hold;
     const guise = new Bent(table, path);
@@ -321,7 +341,6 @@ export class BendTool implements GripTool {
     view.wear(guise);
     const rows = touches.map(({ row }) => row);
     submit({ kind: "bend_begin", bend: number, base: grips.base, touches: rows, stretch: stretch() });
-    bent?.();
     this.#show();
   }
 
@@ -358,7 +377,7 @@ export class BendTool implements GripTool {
       const finger = touch.finger === null ? undefined : this.#fingers.get(touch.finger);
       const place = finger && this.#options.view.pointOnPlane(finger.x, finger.y, finger.point);
       if (finger && place) {
-        const way = (axis: 0 | 1 | 2) => touch.rest[axis] + place[axis] - finger.point[axis];
+        const way = (axis: 0 | 1 | 2) => touch.rest[axis] + place[axis] - touch.anchor[axis];
         touch.target = withinReach([way(0), way(1), way(2)]);
       }
     }

@@ -4,9 +4,9 @@ import type { TreeTable } from "../../scene/tree-table";
 import { type Command, MAX_PRUNED_ROWS } from "../../wire/generated";
 import type { StrokePoint } from "../gestures";
 import type { Point } from "../ports";
-import type { ShapingView } from "./bend-tool";
 import { CutLine } from "./cut-line";
 import { PruneRule } from "./prune-rule";
+import type { ShapingView } from "./shaping-view";
 import { PICK_TOLERANCE, type StrokeTool } from "./tool";
 
 /** A line shorter than this, in pixels, is a tap. */

@@ -162,6 +162,37 @@ describe("toolbox", () => {
     expect([tools.hold.value, world.chosen, sent]).toEqual([null, [[5, 6]], []]);
   });
 
+  it("a double tap goes to the shears, from the tools that draw growth", () => {
+    const { tools, sent, toasts } = setUp();
+    const doubles = (["brush", "lasso", "seed", "bend", "width", "prune"] as const).filter((tool) => {
+      tools.choose(tool);
+      return tools.doubles();
+    });
+    expect(doubles).toEqual(["brush", "lasso"]);
+    tools.choose("brush");
+    tools.gesture({ kind: "double-tap", x: 900, y: 500 });
+    expect([sent, toasts.list.value.length], "nothing is there").toEqual([[], 0]);
+    tools.gesture({ kind: "double-tap", x: 500, y: 500 });
+    expect([sent, toasts.list.value.length], "what cannot be cut is explained").toEqual([[], 1]);
+  });
+
+  it("a tool that takes hold gets its fingers, and the view what it leaves", () => {
+    const { tools, world } = setUp();
+    expect(tools.grip(500, 500), "the brush draws").toBeNull();
+    tools.choose("width");
+    expect(tools.grip(500, 500)).toBe("take");
+    tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 500, slop: 9 });
+    expect([tools.drawing.value, tools.grip(900, 500)]).toEqual([true, "leave"]);
+    tools.gesture({ kind: "grip-drop" });
+    expect(tools.drawing.value).toBe(false);
+    tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 500, slop: 9 });
+    tools.gesture({ kind: "grip-end", id: 1 });
+    expect([tools.drawing.value, tools.shaping.value?.width.chosen.value]).toEqual([false, 3]);
+    expect([tools.release(), tools.release()], "Escape takes the ring away first").toEqual([true, false]);
+    world.ready = false;
+    expect(tools.grip(500, 500)).toBeNull();
+  });
+
   it("without a session nothing is drawn", () => {
     const { tools, sent, world, draw } = setUp();
     world.ready = false;

@@ -402,13 +402,10 @@ export class Toolbox {
       view,
       submit,
       newBend: next,
-      unsettledMoves: () => unsettled("bend_move"),
+      unsettled,
       stretch: () => settings.stretch.peek(),
       solver: (nodes, radii, stretch) => new Bend(nodes, radii, stretch),
       say,
-      bent: () => {
-        settings.hasBent.value = true;
-      },
     });
     const width = new WidthTool({
       table,

@@ -3,7 +3,7 @@ import { type Girth, Swollen } from "../../scene/swollen";
 import { radiusOf, type TreeTable } from "../../scene/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
 import type { Grip } from "../gestures";
-import type { ShapingView } from "./bend-tool";
+import type { ShapingView } from "./shaping-view";
 import { type GripTool, PICK_TOLERANCE } from "./tool";
 
 /** The slimmest a limb can be made, in internodes. */

@@ -58,7 +58,6 @@ export function App({ studio }: { studio: Studio }) {
       <Seedlings studio={studio} />
       <OutlineOverlay studio={studio} />
       <BudMarker studio={studio} />
-      <BranchHandle studio={studio} />
       <BendMarks studio={studio} />
       <WidthRings studio={studio} />
       <CutLineMark studio={studio} />
@@ -66,6 +65,7 @@ export function App({ studio }: { studio: Studio }) {
       <HoldRing studio={studio} />
       <SideBar studio={studio} />
       <TopBar studio={studio} />
+      <BranchHandle studio={studio} />
       {Pulled !== null && <Pulled studio={studio} />}
       <PredictionBar studio={studio} />
       <ToolOptions studio={studio} />

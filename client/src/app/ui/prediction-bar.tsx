@@ -7,6 +7,8 @@ import { useFrames } from "./use-frames";
 
 /** Branches and twigs of a cut that are marked; of a hundred branches each still gets its mark. */
 const MOST_MARKED = 64;
+/** The radius of a mark, in pixels. */
+const RING = 11;
 
 /** What would become of the tree without some branches: how far to look, and whether to do it. */
 export function PredictionBar({ studio }: { studio: Studio }) {
@@ -52,48 +54,38 @@ export function PredictionBar({ studio }: { studio: Studio }) {
 
 /** Where the prediction is cut: a mark on the tree, and its like on the ghost beside it. */
 export function PredictionMarks({ studio }: { studio: Studio }) {
-  const marks = useRef<SVGGElement>(null);
-  const { table } = studio;
-  const cuts = studio.branches.prediction.cuts.value;
-  const beside = studio.branches.ghosts.beside.value;
+  const [casing, marks] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
+  const { prediction, ghosts } = studio.branches;
+  const cuts = prediction.cuts.value;
+  const beside = ghosts.beside.value;
   // Each frame of rows may have moved them.
   const revision = studio.revision.value;
   const places = useMemo(() => cuts.slice(0, MOST_MARKED).map((row) => borneAt(studio, row)), [cuts, revision]);
   useFrames(cuts.length > 0, () => {
     const project = studio.stage.projector();
-    for (const [i, place] of places.entries()) {
-      const [here, there] = [marks.current?.children[2 * i], marks.current?.children[2 * i + 1]];
-      put(here, project?.(place));
-      put(there, beside && project?.([place[0] + beside[0], place[1] + beside[1], place[2] + beside[2]]));
+    let [rings, strokes] = ["", ""];
+    for (const [x, y, z] of places) {
+      const there = beside && project?.([x + beside[0], y + beside[1], z + beside[2]]);
+      for (const place of [project?.([x, y, z]), there]) {
+        if (place) {
+          const [left, top] = [place[0].toFixed(1), place[1].toFixed(1)];
+          rings += `M${left} ${top}m-${RING} 0a${RING} ${RING} 0 1 0 ${2 * RING} 0a${RING} ${RING} 0 1 0-${2 * RING} 0`;
+          strokes += `M${left} ${top}m-6 6 12-12`;
+        }
+      }
     }
+    casing.current?.setAttribute("d", rings);
+    marks.current?.setAttribute("d", rings + strokes);
   });
-  if (cuts.length === 0 || table.rows === 0) {
+  if (cuts.length === 0) {
     return null;
   }
   return (
-    <svg class="overlay cut-marks" aria-hidden="true">
-      <g ref={marks}>
-        {places.flatMap((place, i) => [
-          <CutMark key={`here ${i} ${place.join()}`} />,
-          <CutMark key={`there ${i} ${place.join()}`} />,
-        ])}
-      </g>
+    <svg class="overlay" aria-hidden="true">
+      <path class="cut-casing" ref={casing} />
+      <path class="cut-mark" ref={marks} />
     </svg>
   );
-}
-
-function CutMark() {
-  return (
-    <g transform="translate(-99 -99)">
-      <circle class="cut-casing" r="11" />
-      <circle class="cut-ring" r="11" />
-      <path class="cut-line" d="M-6 6 6-6" />
-    </g>
-  );
-}
-
-function put(mark: Element | undefined, place: readonly [number, number] | null | undefined): void {
-  mark?.setAttribute("transform", place ? `translate(${place[0]} ${place[1]})` : "translate(-99 -99)");
 }
 
 /** Where the branch that begins with a row is borne. */

@@ -91,7 +91,7 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
     <div
       class={`width-knob ${side}`}
       role="slider"
-      tabIndex={0}
+      tabIndex={side === "right" ? 0 : -1}
       aria-label="Diameter"
       aria-valuemin={0.01}
       aria-valuemax={100}
