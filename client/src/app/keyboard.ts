@@ -26,6 +26,10 @@ const ARROWS: Record<string, readonly [number, number]> = {
   arrowdown: [0, -1],
 };
 
+/** Where the signs for back and forth in time are on most keyboards, whatever Shift makes of them. */
+const TIME_KEYS: Record<string, -1 | 1> = { Comma: -1, Period: 1 };
+const TIME_SIGNS: Record<string, -1 | 1> = { ",": -1, "<": -1, ".": 1, ">": 1 };
+
 /** Listens to the keyboard; `handHeld` says whether the space bar is down. */
 export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop(): void } {
   let space = false;
@@ -52,8 +56,10 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
       return;
     }
     const [right, up] = ARROWS[key] ?? [0, 0];
-    if ((right !== 0 || up !== 0) && actions.turn(event.shiftKey ? 0 : right, up, event.shiftKey ? right : 0)) {
-      event.preventDefault();
+    if ((right !== 0 || up !== 0) && !takesArrows(event.target)) {
+      if (actions.turn(event.shiftKey ? 0 : right, up, event.shiftKey ? right : 0)) {
+        event.preventDefault();
+      }
       return;
     }
     switch (key) {
@@ -70,14 +76,6 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
           growing = key;
           actions.grow(key === "g" ? 1 : -1);
         }
-        break;
-      case ",":
-      case ".":
-        actions.travel(key === "." ? 1 : -1, event.altKey);
-        break;
-      case "<":
-      case ">":
-        actions.travel(key === ">" ? 1 : -1, true);
         break;
       case "[":
         actions.widen(-1);
@@ -115,6 +113,8 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
       case "?":
         actions.help();
         break;
+      default:
+        travel(event, actions);
     }
   };
   const release = (event: KeyboardEvent) => {
@@ -130,6 +130,24 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
   // A window that loses the focus never hears of the key's release.
   addEventListener("blur", rest, { signal: stop.signal });
   return { handHeld: () => space, stop: () => stop.abort() };
+}
+
+/** A sign says which way; where Shift or Alt has made another sign of it, its place does. */
+function travel({ key, code, shiftKey, altKey }: KeyboardEvent, actions: KeyActions): void {
+  const placed = shiftKey || altKey ? TIME_KEYS[code] : undefined;
+  const direction = TIME_SIGNS[key] ?? placed;
+  if (direction !== undefined) {
+    // A sign that takes Shift to type, as "." does on a French keyboard, means a step all the same.
+    actions.travel(direction, altKey || placed === direction || key === "<" || key === ">");
+  }
+}
+
+/** Whether the arrow keys already mean something there: a slider, a choice, a list. */
+function takesArrows(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) {
+    return target.type !== "checkbox";
+  }
+  return target instanceof HTMLElement && (target.localName === "select" || target.getAttribute("role") === "slider");
 }
 
 function typing(target: EventTarget | null): boolean {

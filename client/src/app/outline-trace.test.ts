@@ -25,6 +25,18 @@ describe("outline trace", () => {
     expect(trace.shown.value?.stage).toBe("drawing");
   });
 
+  it("quick growth may be told of before its command is acknowledged", () => {
+    const trace = new OutlineTrace();
+    trace.told(3, 0);
+    trace.grow([[0, 0, 0]], 4);
+    trace.settled(4);
+    expect(trace.shown.value?.stage, "nothing was told since").toBe("growing");
+    trace.grow([[0, 0, 0]], 5);
+    trace.told(4, 0);
+    trace.settled(5);
+    expect(trace.shown.value).toBeNull();
+  });
+
   it("shows what was drawn up to then", () => {
     const trace = new OutlineTrace();
     const points: [number, number][] = [[1, 1]];

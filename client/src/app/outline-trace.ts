@@ -12,6 +12,8 @@ export class OutlineTrace {
   readonly shown = signal<Outline | null>(null);
   /** The number of the command that grows it. */
   #command = 0;
+  /** How many steps were left when the server last told since it was sent. */
+  #left: number | null = null;
 
   draw(points: readonly Point2[] | null): void {
     this.shown.value = points && { stage: "drawing", points: [...points] };
@@ -20,11 +22,18 @@ export class OutlineTrace {
   grow(places: readonly Point[], command: number): void {
     this.shown.value = { stage: "growing", places };
     this.#command = command;
+    this.#left = null;
   }
 
   /** The server has told how things stand: all commands up to `settled` are taken, so many steps are left. */
   told(settled: number, pendingSteps: number): void {
-    if (this.shown.peek()?.stage === "growing" && settled >= this.#command && pendingSteps === 0) {
+    this.#left = pendingSteps;
+    this.settled(settled);
+  }
+
+  /** All commands up to `settled` are taken. Quick growth is told of before its command is acknowledged. */
+  settled(settled: number): void {
+    if (this.shown.peek()?.stage === "growing" && settled >= this.#command && this.#left === 0) {
       this.clear();
     }
   }

@@ -5,14 +5,14 @@ import type { Command } from "../wire/generated";
 import type { GhostFrame } from "../wire/ghost";
 import { MOST_STEPS, Prediction } from "./prediction";
 
-function setUp() {
+function setUp({ endsWithCommands = false } = {}) {
   const asked: [number[], number][] = [];
   const submitted: Command[] = [];
   const shown: (number | null)[] = [];
   const became: (number | null)[] = [];
   const told: string[] = [];
   const server = { there: true };
-  const prediction = new Prediction({
+  const prediction: Prediction = new Prediction({
     cutsOf: (rows) => rows.filter((row) => row !== 1),
     predict: (rows, steps) => {
       if (server.there) {
@@ -20,7 +20,13 @@ function setUp() {
       }
       return server.there;
     },
-    submit: (command) => submitted.push(command),
+    submit: (command) => {
+      // As the studio does with every command.
+      if (endsWithCommands) {
+        prediction.lost();
+      }
+      submitted.push(command);
+    },
     newGesture: () => 77,
     show: (table: TreeTable) => shown.push(table.rows),
     end: (becoming: TreeTable | null) => {
@@ -111,6 +117,37 @@ describe("a prediction", () => {
     expect(asked.map(([rows]) => rows)).toEqual([[5], [8]]);
     prediction.keep();
     expect(submitted[0]).toMatchObject({ rows: [8] });
+  });
+
+  it("PD2: ends with what else this client does, and may be asked anew", () => {
+    const { prediction, asked, shown } = setUp();
+    prediction.ask([5]);
+    prediction.lost();
+    expect([prediction.rows.peek(), prediction.grown.peek(), shown]).toEqual([null, null, []]);
+    prediction.ask([8]);
+    prediction.receive(ghost(1));
+    prediction.look(12);
+    prediction.lost();
+    expect([prediction.rows.peek(), shown[shown.length - 1]]).toEqual([null, null]);
+    prediction.receive(nothing);
+    expect(asked).toEqual([
+      [[5], 10],
+      [[8], 10],
+      [[8], 12],
+    ]);
+    prediction.ask([5]);
+    prediction.receive(ghost(2));
+    expect(prediction.grown.peek()).toBe(12);
+  });
+
+  it("that is kept is not ended by its own commands", () => {
+    const { prediction, submitted, became } = setUp({ endsWithCommands: true });
+    prediction.ask([5]);
+    prediction.receive(ghost(1));
+    prediction.keep();
+    expect(submitted.map(({ kind }) => kind)).toEqual(["prune", "grow"]);
+    expect(became).toHaveLength(1);
+    expect(became[0], "the view goes to what the tree will be").not.toBeNull();
   });
 
   it("takes a refusal for its own only while a question is open", () => {

@@ -2,11 +2,11 @@ import { signal } from "@preact/signals";
 import { TreeTable } from "../scene/tree-table";
 import type { Command } from "../wire/generated";
 import type { GhostFrame } from "../wire/ghost";
+import { TRUNK_STAYS } from "./tools/prune-rule";
 
 /** Steps that can be predicted with the slider. */
 export const MOST_STEPS = 30;
 const FIRST_STEPS = 10;
-const TRUNK = "The trunk cannot be cut off. Set a width on it, then cut above: a stub stays.";
 
 export interface PredictionOptions {
   /** The rows with which begins what is cut off at others; none for the trunk (`PR1`). */
@@ -48,7 +48,7 @@ export class Prediction {
   ask(rows: readonly number[]): void {
     const cuts = this.#options.cutsOf(rows);
     if (cuts.length === 0) {
-      this.#options.tell(TRUNK);
+      this.#options.tell(TRUNK_STAYS);
       return;
     }
     // A ghost that is there already stays until the next one comes.
@@ -115,7 +115,7 @@ export class Prediction {
     }
   }
 
-  /** The connection is another one: nobody will answer what was asked. */
+  /** Nobody will answer what was asked: the connection is another one, or this client does something else (`PD2`). */
   lost(): void {
     if (this.rows.peek() !== null) {
       this.#end();

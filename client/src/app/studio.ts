@@ -272,6 +272,8 @@ export class Studio {
   }
 
   submit(command: Command): void {
+    // The server gives up what it was asked to predict and does not always say so (`PD2`).
+    this.branches.prediction.lost();
     this.#connection?.submit(command);
   }
 
@@ -293,7 +295,7 @@ export class Studio {
       this.document.value = null;
       this.rows.value = 0;
       this.bud.release();
-      this.tools.outline.clear();
+      this.tools.clear();
       this.obstacles.clear();
       this.time.clear();
       this.branches.clear();
@@ -318,6 +320,7 @@ export class Studio {
             this.settled.value = settled;
           });
           this.tools.told();
+          this.tools.outline.settled(settled);
         },
         state: (state) => {
           this.document.value = state;

@@ -127,6 +127,11 @@ describe("the edges of operations", () => {
     expect([edgeBeside(LIFE, 40, -1), edgeBeside(LIFE, 40, 1), edgeBeside(LIFE, 17, -1)]).toEqual([17, 117, 16]);
   });
 
+  it("are found in a life of very many operations", () => {
+    const many = Array.from({ length: 200_000 }, (_, i) => operation("growth", i, i + 1));
+    expect([edgeBeside(many, 150_000, -1), edgeBeside(many, 150_000, 1)]).toEqual([149_999, 150_001]);
+  });
+
   it("end where time does", () => {
     expect([edgeBeside(LIFE, 0, -1), edgeBeside(LIFE, 117, 1)]).toEqual([0, 117]);
   });

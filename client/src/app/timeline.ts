@@ -136,6 +136,14 @@ export function peopleOf({ operations, futures }: Pick<Timeline, "operations" | 
 
 /** The step at the next edge of an operation before (−1) or after (1) a step; the same step where there is none. */
 export function edgeBeside(operations: readonly TimelineOperation[], step: number, direction: -1 | 1): number {
-  const edges = operations.flatMap(({ first, last }) => [first, last]).filter((edge) => (edge - step) * direction > 0);
-  return edges.length === 0 ? step : direction > 0 ? Math.min(...edges) : Math.max(...edges);
+  let nearest = step;
+  for (const { first, last } of operations) {
+    for (const edge of [first, last]) {
+      const beyond = (edge - step) * direction;
+      if (beyond > 0 && (nearest === step || beyond < (nearest - step) * direction)) {
+        nearest = edge;
+      }
+    }
+  }
+  return nearest;
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { branchRows } from "./branch-rows";
+import { axisRows, branchRows } from "./branch-rows";
 
 /** A seed, a trunk of three, a limb of two on its first node that bears a twig, and another limb on its second. */
 const table = {
@@ -30,5 +30,16 @@ describe("branch rows", () => {
 
   it("are no more than asked for", () => {
     expect(branchRows(table, 3, 3)).toEqual([1, 2, 3]);
+  });
+});
+
+describe("an axis' rows", () => {
+  it("go from its base to its tip, without what it bears", () => {
+    expect([3, 5, 8, 6, 7].map((row) => axisRows(table, row))).toEqual([[1, 2, 3], [4, 5, 8], [4, 5, 8], [6], [7]]);
+  });
+
+  it("end where it is dead", () => {
+    const radiusCode = [0, 9, 9, 9, 9, 9, 9, 9, 0];
+    expect(axisRows({ ...table, radiusCode }, 4)).toEqual([4, 5]);
   });
 });

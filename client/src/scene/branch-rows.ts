@@ -20,6 +20,18 @@ export function axisStart(table: Rows, row: number): number {
   }
 }
 
+/** The living rows of the axis a row belongs to, from its base to its tip. */
+export function axisRows(table: Rows, row: number): number[] {
+  const found = [axisStart(table, row)];
+  for (let next = found[0]! + 1; next < table.rows; next += 1) {
+    const follows = table.parent[next] === found[found.length - 1] && table.startsAxis[next] === 0;
+    if (follows && table.radiusCode[next] !== 0) {
+      found.push(next);
+    }
+  }
+  return found;
+}
+
 /** The rows from one up to another above it, both included; null if it is not above. */
 export function pathUp(table: Pick<Rows, "parent">, base: number, top: number): number[] | null {
   const path: number[] = [];

@@ -146,7 +146,7 @@ test("a seed is planted where the ground is tapped, and grows", async () => {
   expect(planted.tool, "the brush is at hand again").toBe("brush");
   expect(await tablet.page.locator(".seedling").count()).toBe(2);
   await tablet.photograph("25-two-seeds");
-  await tablet.swipe([way({ x: 860, y: 770 }, { x: 860, y: 480 })]);
+  await tablet.swipe([way({ x: 860, y: 745 }, { x: 860, y: 460 })]);
   expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(5);
   expect(await tablet.page.locator(".seedling").count()).toBe(1);
 });

@@ -235,3 +235,23 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   await tablet.tap("Undo");
   await tablet.until("one operation is undone", (facts) => facts.metamers === metamers && facts.done === 2);
 });
+
+test("PD2: whatever else is done ends a prediction, also one in the making", async () => {
+  const { tablet } = await limbed();
+  const { page } = tablet;
+  const bar = page.getByRole("region", { name: "Prediction" });
+  const ask = () => tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.tap("Prune");
+  await page.getByLabel("What if?").check();
+  await ask();
+  await tablet.until("the ghost is there", (facts) => facts.ghost === "10");
+  await page.getByLabel("Steps to look ahead").focus();
+  await page.keyboard.press("End");
+  await tablet.tap("Undo");
+  await bar.waitFor({ state: "detached" });
+  await tablet.until("one stroke is undone", (facts) => facts.done === 1 && facts.ghost === "");
+  await tablet.tap("Redo");
+  expect((await tablet.untilQuiet()).done).toBe(2);
+  await ask();
+  await tablet.until("another one is made", (facts) => facts.ghost === "30");
+});

@@ -160,6 +160,10 @@ export class BendTool implements GripTool {
   }
 
   gripDrop(): void {
+    if (this.#bending) {
+      // What was bent stays so, for a bend that nobody ends would keep others from this branch.
+      this.#finish();
+    }
     this.#fingers.clear();
     this.#most = 0;
     this.#show();

@@ -198,13 +198,13 @@ describe("grafting", () => {
     near(turned(copies[copies.length - 1]?.turn ?? [0, 0, 0, 1], [1, 0, 0]), [0, 0, 1]);
   });
 
-  it("moves no branch onto itself, but may copy it there", () => {
+  it("BR2: sets no branch on itself, nor a copy of it", () => {
     const { hand } = setUp();
     hand.take(5);
-    hand.beginPlacing("move");
-    expect([hand.mayBear(7), hand.mayBear(4)]).toEqual([false, true]);
-    hand.beginPlacing("copy");
-    expect(hand.mayBear(7)).toBe(true);
+    for (const mode of ["move", "copy"] as const) {
+      hand.beginPlacing(mode);
+      expect([5, 7, 8, 2, 4].map((row) => hand.mayBear(row))).toEqual([false, false, false, true, true]);
+    }
   });
 
   it("needs a limb", () => {

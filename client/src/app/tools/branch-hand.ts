@@ -242,9 +242,9 @@ export class BranchHand {
     }
   }
 
-  /** Whether a metamer may bear the branch: it cannot be moved onto itself. */
+  /** Whether a metamer may bear the branch, or a copy of it: it cannot be one of its own (`BR2`). */
   mayBear(row: number): boolean {
-    return this.placing.peek() === "copy" || !this.holds(row);
+    return !this.holds(row);
   }
 
   /** Shows the branch on a limb, pointing towards a place or as it stood on its own limb. */

@@ -1,3 +1,6 @@
+/** What a person is told where nothing comes off (`PR1`). */
+export const TRUNK_STAYS = "The trunk cannot be cut off. Set a width on it, then cut above: a stub stays.";
+
 /** What is asked of the rows. */
 export interface Wood {
   readonly rows: number;

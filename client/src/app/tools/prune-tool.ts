@@ -5,7 +5,7 @@ import { type Command, MAX_PRUNED_ROWS } from "../../wire/generated";
 import type { StrokePoint } from "../gestures";
 import type { Point } from "../ports";
 import { CutLine } from "./cut-line";
-import { PruneRule } from "./prune-rule";
+import { PruneRule, TRUNK_STAYS } from "./prune-rule";
 import type { ShapingView } from "./shaping-view";
 import { PICK_TOLERANCE, type StrokeTool } from "./tool";
 
@@ -13,7 +13,6 @@ import { PICK_TOLERANCE, type StrokeTool } from "./tool";
 const TAP = 8;
 /** How long after its answer a cut may take to show in the rows, in milliseconds. */
 const LINGERS = 1500;
-const TRUNK = "The trunk cannot be cut off. Set a width on it, then cut above: a stub stays.";
 
 export interface PruneOptions {
   readonly table: TreeTable;
@@ -178,7 +177,7 @@ export class PruneTool implements StrokeTool {
 
   #foresee(rule: PruneRule, rows: readonly number[]): void {
     const cuts = rule.cutsAtAll(rows);
-    cuts.length > 0 ? this.#options.predict(cuts.slice(0, MAX_PRUNED_ROWS)) : this.#options.say(TRUNK);
+    cuts.length > 0 ? this.#options.predict(cuts.slice(0, MAX_PRUNED_ROWS)) : this.#options.say(TRUNK_STAYS);
   }
 
   #cut(rule: PruneRule, rows: readonly number[]): void {
@@ -186,7 +185,7 @@ export class PruneTool implements StrokeTool {
     const possible = rows.filter((row) => rule.cutsAt(row).length > 0);
     const cuts = rule.cutsAtAll(possible);
     if (cuts.length === 0) {
-      this.#options.say(TRUNK);
+      this.#options.say(TRUNK_STAYS);
       return;
     }
     const asked = possible.length <= MAX_PRUNED_ROWS ? possible : cuts.slice(0, MAX_PRUNED_ROWS);

@@ -317,7 +317,7 @@ export class Toolbox {
   cancel(): void {
     if (this.#active instanceof BrushTool) {
       this.end();
-    } else if (this.#active instanceof BendTool) {
+    } else if (this.#active instanceof BendTool || this.#active instanceof WidthTool) {
       this.#active.cancel();
       this.#rest();
     } else {
@@ -332,6 +332,18 @@ export class Toolbox {
     const tool = this.#active;
     this.#rest();
     tool?.abandon();
+  }
+
+  /** Another session is opened: what all tools hold and have marked is of the old one. */
+  clear(): void {
+    this.abandon();
+    for (const tool of Object.values(this.#tools ?? {})) {
+      if ("abandon" in tool) {
+        tool.abandon();
+      }
+      tool.release?.();
+    }
+    this.outline.clear();
   }
 
   #gripBegin(gesture: Extract<Gesture, { kind: "grip-begin" }>): void {

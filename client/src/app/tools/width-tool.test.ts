@@ -152,6 +152,42 @@ describe("what is shown", () => {
       { row: 8, diameter: 1.5 },
     ]);
     expect(tool.chosen.value).toBe(8);
+    const gestures = sent.map((command) => (command.kind === "set_width" ? command.gesture : null));
+    expect(gestures[0]).toBe(gestures[1]);
+  });
+
+  it("keys move a width along its own limb only", () => {
+    const { tool, sent, world } = setUp();
+    tool.receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
+    tool.choose(7);
+    expect(tool.place()).toEqual({ along: 2, of: 4 });
+    tool.step(1);
+    tool.step(1);
+    expect([tool.chosen.value, tool.widths.value]).toEqual([9, [{ row: 9, diameter: 1.5, effective: 1.5 }]]);
+    tool.step(1);
+    expect(sent, "no further than its tip").toHaveLength(4);
+    world.unsettled = 1;
+    tool.step(-1);
+    expect(tool.chosen.value, "the move before is not answered").toBe(9);
+    world.unsettled = 0;
+    tool.step(-9);
+    expect([tool.chosen.value, tool.place()]).toEqual([6, { along: 1, of: 4 }]);
+  });
+
+  it("a width that is given up is what it was before, in the same gesture", () => {
+    const { tool, sent } = setUp();
+    tool.take(7, 10);
+    tool.pull(900, 400);
+    tool.cancel();
+    expect(sent).toEqual([]);
+    tool.receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
+    tool.take(7, 10);
+    tool.pull(900, 400);
+    tool.tick();
+    tool.cancel();
+    expect(sent).toMatchObject([{ row: 7 }, { row: 7, diameter: 1.5 }]);
+    expect(sent[0]).toHaveProperty("gesture", sent[1]?.kind === "set_width" ? sent[1].gesture : null);
+    expect(tool.wanted.value).toBeNull();
   });
 
   it("a limb that is gone takes its ring along", () => {

@@ -1,4 +1,5 @@
 import { computed, signal } from "@preact/signals";
+import { axisRows } from "../../scene/branch-rows";
 import { type Girth, Swollen } from "../../scene/swollen";
 import { radiusOf, type TreeTable } from "../../scene/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
@@ -39,7 +40,11 @@ interface Setting {
   readonly gesture: number;
   /** How thick the limb was when it was taken, and how far the fingers were then apart or from its middle, in pixels. */
   readonly from: { readonly diameter: number; readonly spread: number };
+  /** The width that was set there before. */
+  readonly before: number | null;
   unsent: boolean;
+  /** Whether the server has heard of it. */
+  sent: boolean;
 }
 
 interface Finger {
@@ -158,7 +163,9 @@ export class WidthTool implements GripTool {
       row,
       gesture: this.#options.newGesture(),
       from: { diameter: this.#present(row), spread },
+      before: this.#heldAt(row),
       unsent: false,
+      sent: false,
     };
   }
 
@@ -209,11 +216,38 @@ export class WidthTool implements GripTool {
       return;
     }
     const { submit, newGesture } = this.#options;
-    const diameter = this.widths.peek().find((width) => width.row === row)?.diameter;
+    const diameter = this.#heldAt(row);
     this.choose(to);
-    if (diameter !== undefined) {
-      submit({ kind: "set_width", row, diameter: null, gesture: newGesture() });
-      submit({ kind: "set_width", row: to, diameter, gesture: newGesture() });
+    if (diameter !== null) {
+      // One gesture, so that one undo puts it back.
+      const gesture = newGesture();
+      submit({ kind: "set_width", row, diameter: null, gesture });
+      submit({ kind: "set_width", row: to, diameter, gesture });
+      // Until the server tells all widths, this one is already where it goes.
+      this.widths.value = this.widths
+        .peek()
+        .filter((width) => width.row !== to)
+        .map((width) => (width.row === row ? { ...width, row: to } : width));
+    }
+  }
+
+  /** Where the chosen place is on its limb: a number of metamers from the base, itself included, of so many. */
+  place(): { readonly along: number; readonly of: number } | null {
+    const row = this.chosen.peek();
+    const limb = row === null ? [] : axisRows(this.#options.table, row);
+    return row === null ? null : { along: limb.indexOf(row) + 1, of: limb.length };
+  }
+
+  /** Moves the chosen width by so many metamers along its limb, as keys do; one move at a time. */
+  step(metamers: number): void {
+    const row = this.chosen.peek();
+    if (row === null || this.#options.unsettled() > 0) {
+      return;
+    }
+    const limb = axisRows(this.#options.table, row);
+    const to = limb[Math.min(limb.length - 1, Math.max(0, limb.indexOf(row) + metamers))];
+    if (to !== undefined) {
+      this.shift(to);
     }
   }
 
@@ -232,6 +266,16 @@ export class WidthTool implements GripTool {
     this.#fingers.clear();
     this.#most = 0;
     this.#forget();
+  }
+
+  /** The limb is as thick as before it was taken in hand. */
+  cancel(): void {
+    const setting = this.#setting;
+    if (setting?.sent) {
+      const { row, gesture, before } = setting;
+      this.#options.submit({ kind: "set_width", row, diameter: before, gesture });
+    }
+    this.abandon();
   }
 
   release(): boolean {
@@ -308,8 +352,14 @@ export class WidthTool implements GripTool {
     const diameter = this.wanted.peek();
     setting.unsent = false;
     if (diameter !== null) {
+      setting.sent = true;
       this.#options.submit({ kind: "set_width", row: setting.row, diameter, gesture: setting.gesture });
     }
+  }
+
+  /** The width that is set at a row. */
+  #heldAt(row: number): number | null {
+    return this.widths.peek().find((width) => width.row === row)?.diameter ?? null;
   }
 
   #present(row: number): number {

@@ -19,9 +19,9 @@ const SHAPING: readonly Line[] = [
   ["Bend with a mouse or pen", "Drag a branch; click first where it shall bend from"],
   ["Width", "Pinch around a limb, or tap it and pull the ring"],
   ["Prune", "Tap a branch, or draw a line through many"],
-  ["Branch", "Drag turns it about its base, a second finger twists; then move or copy it"],
+  ["Branch", "Drag turns it about its base, a second finger or the wheel twists; then move or copy it"],
   ["What if?", "A ghost shows how the tree grows on without a branch"],
-  ["Double tap a branch", "Cut it off, without leaving the brush"],
+  ["Double tap, double click a branch", "Cut it off, without leaving the brush"],
 ];
 
 const TRAVELLING: readonly Line[] = [
@@ -47,7 +47,7 @@ const KEYS: readonly Line[] = [
   ["F", "Show the whole tree"],
   ["Ctrl Z", "Undo, with Shift redo"],
   ["Space", "Held: drag to move"],
-  ["Alt wheel", "Radius"],
+  ["Alt wheel", "Radius; twists a branch that is held"],
 ];
 
 /** The gestures and keys on one card, and the few settings. */

@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import type { WidthConstraint } from "../../wire/generated";
+import { MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
 import type { Studio } from "../studio";
-import type { WidthTool } from "../tools/width-tool";
+import { LEAST_DIAMETER, type WidthTool } from "../tools/width-tool";
 import { CloseIcon } from "./icons";
 import { type Ring, ringAt } from "./ring";
 import { useFrames } from "./use-frames";
@@ -10,6 +10,9 @@ import { useFrames } from "./use-frames";
 const KNOB_GAP = 26;
 /** How near to a limb a ring that is dragged along it has to be kept, in pixels. */
 const ALONG = 60;
+
+/** Which way a key goes: to a thicker limb, or towards the limb's tip. */
+const WAYS: Record<string, -1 | 1> = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 };
 
 /** Rings around the limbs whose width is set, and the one in hand with its knobs. */
 export function WidthRings({ studio }: { studio: Studio }) {
@@ -22,9 +25,9 @@ export function WidthRings({ studio }: { studio: Studio }) {
   // Each frame of rows may have moved a limb.
   void studio.revision.value;
   const set = width?.widths.value ?? [];
-  const free =
-    chosen === null || set.some(({ row }) => row === chosen) ? [] : [{ row: chosen, diameter: 0, effective: 0 }];
-  const rings = shown ? [...set, ...free] : [];
+  // The one in hand comes last, over the others, and keeps its element and the focus wherever it is moved.
+  const others = set.filter(({ row }) => row !== chosen);
+  const rings = shown ? [...others, ...(chosen === null ? [] : [{ row: chosen, diameter: 0, effective: 0 }])] : [];
   const diameter = (row: number) => (row === chosen && wanted !== null ? wanted : (width?.diameterOf(row) ?? 0));
   useFrames(rings.length > 0, () => {
     for (const [i, { row }] of rings.entries()) {
@@ -58,7 +61,7 @@ export function WidthRings({ studio }: { studio: Studio }) {
       <div class="width-labels" ref={labels}>
         {rings.map((constraint) =>
           constraint.row === chosen ? (
-            <Widget key={chosen} studio={studio} width={width} row={chosen} diameter={diameter(chosen)} />
+            <Widget key="chosen" studio={studio} width={width} row={chosen} diameter={diameter(chosen)} />
           ) : (
             <div key={constraint.row} class="width-widget">
               <button
@@ -87,47 +90,62 @@ interface WidgetProps {
 /** The ring in hand: a knob on either side, a dot to move it by, its width as a number, and a way to take it away. */
 function Widget({ studio, width, row, diameter }: WidgetProps) {
   const set = width.limits.value.has(row);
-  const knob = (side: "left" | "right") => (
-    <div
-      class={`width-knob ${side}`}
-      role="slider"
-      tabIndex={side === "right" ? 0 : -1}
-      aria-label="Diameter"
-      aria-valuemin={0.01}
-      aria-valuemax={100}
-      aria-valuenow={diameter}
-      aria-valuetext={`${figure(diameter)} internodes`}
-      aria-hidden={side === "left"}
-      onPointerDown={(event) => {
-        event.currentTarget.setPointerCapture(event.pointerId);
-        width.take(row, awayFrom(studio, row, event));
-      }}
-      onPointerMove={(event) => {
-        if (event.currentTarget.hasPointerCapture(event.pointerId)) {
-          width.pull(...onCanvas(event));
-          width.tick();
-        }
-      }}
-      onPointerUp={() => width.letGo()}
-      onPointerCancel={() => width.letGo()}
-      onKeyDown={(event) => {
-        const factor = { ArrowUp: 1.05, ArrowRight: 1.05, ArrowDown: 1 / 1.05, ArrowLeft: 1 / 1.05 }[event.key];
-        if (factor !== undefined) {
-          event.preventDefault();
-          width.type(diameter * factor);
-        } else if (event.key === "Delete" || event.key === "Backspace") {
-          width.remove();
-        }
-      }}
-    />
-  );
+  const place = width.place();
+  type Press = PointerEvent & { readonly currentTarget: HTMLElement };
+  const pulls = {
+    onPointerDown: (event: Press) => {
+      event.currentTarget.setPointerCapture(event.pointerId);
+      width.take(row, awayFrom(studio, row, event));
+    },
+    onPointerMove: (event: Press) => {
+      if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+        width.pull(...onCanvas(event));
+        width.tick();
+      }
+    },
+    onPointerUp: () => width.letGo(),
+    onPointerCancel: () => width.letGo(),
+  };
   const to = useRef<number | null>(null);
   return (
     <div class="width-widget" data-chosen="true">
-      {knob("left")}
-      {knob("right")}
+      {/* The right knob does the same, and is the one that keys reach. */}
+      <div class="width-knob left" aria-hidden="true" {...pulls} />
+      <div
+        class="width-knob right"
+        role="slider"
+        tabIndex={0}
+        aria-label="Diameter"
+        aria-valuemin={LEAST_DIAMETER}
+        aria-valuemax={MAX_DIAMETER}
+        aria-valuenow={diameter}
+        aria-valuetext={`${figure(diameter)} internodes`}
+        onKeyDown={(event) => {
+          const way = WAYS[event.key];
+          if (way !== undefined) {
+            event.preventDefault();
+            width.type(diameter * 1.05 ** way);
+          } else if (event.key === "Delete" || event.key === "Backspace") {
+            width.remove();
+          }
+        }}
+        {...pulls}
+      />
       <div
         class="width-dot"
+        role="slider"
+        tabIndex={0}
+        aria-label="Place along the limb"
+        aria-valuemin={1}
+        aria-valuemax={place?.of ?? 1}
+        aria-valuenow={place?.along ?? 1}
+        onKeyDown={(event) => {
+          const way = WAYS[event.key];
+          if (way !== undefined) {
+            event.preventDefault();
+            width.step(way);
+          }
+        }}
         title="Drag to move the ring along the limb"
         onPointerDown={(event) => {
           event.currentTarget.setPointerCapture(event.pointerId);
@@ -162,7 +180,7 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
           }
         }}
       >
-        <Entry width={width} diameter={diameter} />
+        <Entry key={row} width={width} diameter={diameter} />
         <button
           type="button"
           aria-label={set ? "Remove this width" : "Leave this limb as it is"}

@@ -7,6 +7,7 @@ mod golden;
 mod invariants;
 mod obstructing;
 mod selecting;
+mod shaping;
 
 use espalier_growth::{
     BrushPiece, BrushSample, NoObserver, ParameterValues, Parameters, Simulation, StepInput, StrokeId,

@@ -14,6 +14,7 @@ enum Event {
     Undo,
     Redo,
     Apical(f32),
+    Shedding(f32),
     Seed(f32),
     Begin(u32),
     Move(u32, f32, f32, f32),
@@ -63,6 +64,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         3 => Just(Event::Undo),
         2 => Just(Event::Redo),
         1 => (0.4f32..0.7).prop_map(Event::Apical),
+        1 => (0f32..0.5).prop_map(Event::Shedding),
         1 => (-20f32..20.0).prop_map(Event::Seed),
         1 => (90u32..92).prop_map(Event::Begin),
         2 => (90u32..92, -6f32..6.0, 0f32..14.0, 0f32..4.0).prop_map(|(n, x, y, r)| Event::Move(n, x, y, r)),
@@ -149,6 +151,11 @@ fn happen(document: &mut Document, number: usize, event: &Event) {
         Event::Undo => Action::Undo,
         Event::Redo => Action::Redo,
         Event::Apical(value) => patch(*value),
+        Event::Shedding(threshold) => {
+            let patch =
+                ParametersPatch { shedding_threshold: Some(*threshold), ..ParametersPatch::default() };
+            Action::SetParameters(Box::new(patch))
+        }
         Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
         Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
         Event::Move(stroke, x, y, r) => {

@@ -1,0 +1,116 @@
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { type KeyActions, listenToKeys } from "./keyboard";
+
+class Field {
+  readonly localName: string = "div";
+  readonly #role: string | null;
+  constructor(role: string | null = null) {
+    this.#role = role;
+  }
+  getAttribute(name: string) {
+    return name === "role" ? this.#role : null;
+  }
+}
+
+class Input extends Field {
+  override readonly localName = "input";
+  readonly type: string;
+  constructor(type: string) {
+    super();
+    this.type = type;
+  }
+}
+
+class Area extends Field {}
+class Button extends Field {}
+
+afterEach(() => vi.unstubAllGlobals());
+
+function setUp() {
+  const page = new EventTarget();
+  vi.stubGlobal("addEventListener", page.addEventListener.bind(page));
+  vi.stubGlobal("HTMLElement", Field);
+  vi.stubGlobal("HTMLInputElement", Input);
+  vi.stubGlobal("HTMLTextAreaElement", Area);
+  vi.stubGlobal("HTMLButtonElement", Button);
+  const done: unknown[][] = [];
+  const actions = new Proxy({} as KeyActions, {
+    get:
+      (_, name) =>
+      (...given: unknown[]) => {
+        if (name !== "busy") {
+          done.push([name, ...given]);
+        }
+        return name === "turn";
+      },
+  });
+  listenToKeys(actions);
+  const press = (key: string, more: Partial<KeyboardEvent> = {}, target: unknown = null) => {
+    const event = Object.assign(new Event("keydown", { cancelable: true }), { key, code: "", ...more });
+    Object.defineProperty(event, "target", { value: target });
+    page.dispatchEvent(event);
+    return event;
+  };
+  return { done, press };
+}
+
+describe("arrow keys", () => {
+  it("turn what is held, with Shift about itself", () => {
+    const { done, press } = setUp();
+    expect(press("ArrowLeft", {}, new Button()).defaultPrevented).toBe(true);
+    press("ArrowUp", {}, new Input("checkbox"));
+    press("ArrowRight", { shiftKey: true });
+    expect(done).toEqual([
+      ["turn", -1, 0, 0],
+      ["turn", 0, 1, 0],
+      ["turn", 0, 0, 1],
+    ]);
+  });
+
+  it("belong to a slider that has the focus", () => {
+    const { done, press } = setUp();
+    for (const target of [new Input("range"), new Input("radio"), new Field("slider")]) {
+      expect(press("ArrowLeft", {}, target).defaultPrevented).toBe(false);
+    }
+    expect(done).toEqual([]);
+  });
+});
+
+describe("travelling by keys", () => {
+  it("goes by steps, with Shift or Alt by operations", () => {
+    const { done, press } = setUp();
+    press(",", { code: "Comma" });
+    press(".", { code: "Period" });
+    press("<", { code: "Comma", shiftKey: true });
+    press(".", { code: "Period", altKey: true });
+    expect(done).toEqual([
+      ["travel", -1, false],
+      ["travel", 1, false],
+      ["travel", -1, true],
+      ["travel", 1, true],
+    ]);
+  });
+
+  it("knows the keys by their place where Shift makes other signs of them", () => {
+    const { done, press } = setUp();
+    // A German keyboard, and Alt on a Mac.
+    press(";", { code: "Comma", shiftKey: true });
+    press(":", { code: "Period", shiftKey: true });
+    press("≥", { code: "Period", altKey: true });
+    expect(done).toEqual([
+      ["travel", -1, true],
+      ["travel", 1, true],
+      ["travel", 1, true],
+    ]);
+  });
+
+  it("goes by what is typed where the keys lie elsewhere", () => {
+    const { done, press } = setUp();
+    // A French keyboard, and a Hungarian one.
+    press(",", { code: "KeyM" });
+    press(".", { code: "Comma", shiftKey: true });
+    press("?", { code: "Comma", shiftKey: true });
+    press(";", { code: "Comma" });
+    expect(done).toEqual([["travel", -1, false], ["travel", 1, false], ["help"]]);
+  });
+});
