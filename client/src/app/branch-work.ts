@@ -22,6 +22,8 @@ export interface BranchWorkOptions {
   readonly cut: (rows: readonly number[]) => void;
   readonly screen: () => { readonly right: Point; readonly up: Point };
   readonly say: (sentence: string) => void;
+  /** Whether the server is still growing something. */
+  readonly busy: () => boolean;
 }
 
 /** What is done with whole branches: held, turned, moved, copied, cut, and what cutting them would do. */
@@ -33,7 +35,7 @@ export class BranchWork {
   #stopMarking = () => {};
 
   constructor(options: BranchWorkOptions) {
-    const { table, submit, newGesture, predict, limits, say } = options;
+    const { table, submit, newGesture, predict, limits, say, busy } = options;
     this.#options = options;
     this.ghosts = new GhostStage(table);
     this.prediction = new Prediction({
@@ -49,6 +51,7 @@ export class BranchWork {
       rows: table,
       submit,
       newGesture,
+      busy,
       branchAbove: (row, most) => subtreeRows(table, row, most),
       showTurn: (turn) => this.ghosts.showTurn(turn),
       showCopy: (row, pose) => this.ghosts.showCopy(row, pose),

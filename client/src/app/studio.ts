@@ -89,6 +89,7 @@ export class Studio {
     cut: (rows) => this.tools.shaping.peek()?.prune.cut(rows),
     screen: () => this.stage.middle(),
     say: (sentence) => this.toasts.show(sentence),
+    busy: () => this.#busy(),
   });
   readonly tools = new Toolbox({
     table: this.table,
@@ -101,7 +102,8 @@ export class Studio {
     next: () => this.#next(),
     // What is durable may still have to grow: a heavy tree must not fall behind the finger.
     unsettledMoves: () => Math.max(this.#unsettled("stroke_move"), this.document.peek()?.pending_steps ?? 0),
-    unsettled: (kind) => this.#unsettled(kind),
+    // What is durable may have to wait for growth that was asked for before; until then its preview stays.
+    unsettled: (kind) => this.#unsettled(kind) + (this.#busy() ? 1 : 0),
     girth: () => {
       const { girth_exponent: exponent = 2.5, twig_diameter: twigDiameter = 0.07 } = this.parameters.peek() ?? {};
       return { exponent, twigDiameter };
@@ -281,6 +283,11 @@ export class Studio {
     return this.#connection?.next ?? 1;
   }
 
+  /** Whether the server still grows what was asked for before. */
+  #busy(): boolean {
+    return (this.document.peek()?.pending_steps ?? 0) > 0;
+  }
+
   #unsettled(kind: Command["kind"]): number {
     return this.#connection?.unsettled(kind) ?? 0;
   }
@@ -324,6 +331,7 @@ export class Studio {
         },
         state: (state) => {
           this.document.value = state;
+          this.tools.told();
           this.tools.outline.told(this.#connection?.settled ?? 0, state.pending_steps);
         },
         parameters: (parameters) => {

@@ -28,6 +28,7 @@ function setUp() {
   const turns: (TurnPreview | null)[] = [];
   const copies: (GhostPose | null)[] = [];
   let gesture = 40;
+  const world = { busy: false };
   const hand = new BranchHand({
     rows,
     submit: (command) => sent.push(command),
@@ -35,6 +36,7 @@ function setUp() {
       gesture += 1;
       return gesture;
     },
+    busy: () => world.busy,
     branchAbove: (row) => (row === 5 ? [5, 6, 7, 8] : [row]),
     showTurn: (turn) => turns.push(turn),
     showCopy: (_, pose) => copies.push(pose),
@@ -46,7 +48,7 @@ function setUp() {
     }
     return command as Extract<Command, { kind: Kind }>;
   };
-  return { hand, rows, sent, turns, copies, last };
+  return { world, hand, rows, sent, turns, copies, last };
 }
 
 const screen = { right: [1, 0, 0], up: [0, 1, 0] } as const;
@@ -136,6 +138,20 @@ describe("turning", () => {
       end === "refused" ? hand.refused() : vi.advanceTimersByTime(10_000);
       expect(turns[turns.length - 1]).toBeNull();
     }
+  });
+
+  it("stays where it was turned to while the server has something else to grow first", () => {
+    const { hand, turns, world } = setUp();
+    hand.take(5);
+    hand.beginTurn();
+    hand.turn(quarter);
+    hand.endTurn();
+    world.busy = true;
+    vi.advanceTimersByTime(60_000);
+    expect(turns[turns.length - 1]).not.toBeNull();
+    world.busy = false;
+    vi.advanceTimersByTime(10_000);
+    expect(turns[turns.length - 1]).toBeNull();
   });
 
   it("by a hair is none, and a cancelled one neither", () => {

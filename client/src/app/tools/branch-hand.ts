@@ -49,6 +49,8 @@ export interface TurnPreview {
 export interface BranchHandOptions {
   readonly rows: BranchRows;
   readonly submit: (command: Command) => void;
+  /** Whether the server still has something to grow before it comes to what was asked for. */
+  readonly busy: () => boolean;
   /** A number that no other operation of this client has. */
   readonly newGesture: () => number;
   /** The living rows of the branch that begins with a row, parents first; at most `most`. */
@@ -330,7 +332,16 @@ export class BranchHand {
       onto === null ? branchAbove(row, MOST_WITNESSES).map((at) => ({ row: at, place: placeOf(rows, at) })) : [];
     this.#awaited = { rows: rows.rows, onto, before };
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#settle(), PATIENCE);
+    this.#timer = setTimeout(() => this.#lookAgain(), PATIENCE);
+  }
+
+  /** What waits behind long growth is still to come; what has not come by now otherwise never will. */
+  #lookAgain(): void {
+    if (this.#options.busy()) {
+      this.#timer = setTimeout(() => this.#lookAgain(), PATIENCE);
+    } else {
+      this.#settle();
+    }
   }
 
   /** Nothing is awaited any more, and nothing shown that is not in the rows. */

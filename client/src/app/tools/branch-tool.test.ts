@@ -36,6 +36,7 @@ function setUp() {
     rows,
     submit: (command) => sent.push(command),
     newGesture: () => 1,
+    busy: () => false,
     branchAbove: () => [4, 5],
     showTurn: (turn) => {
       shown = turn?.rotation ?? null;

@@ -131,6 +131,14 @@ describe("what is shown", () => {
     expect([tool.wanted.value, view.worn.size]).toEqual([null, 0]);
   });
 
+  it("a limb gets no slimmer than what it bears is held to be", () => {
+    const { tool, view } = setUp();
+    tool.receive([{ row: 8, diameter: 1.2, effective: 1.2 }]);
+    tool.choose(7);
+    tool.type(0.2);
+    expect(drawn(view.worn)).toEqual([1.2]);
+  });
+
   it("a width is removed, and one that was never set sends nothing", () => {
     const { tool, sent } = setUp();
     tool.choose(7);

@@ -1,5 +1,5 @@
 import { computed, signal } from "@preact/signals";
-import { axisRows } from "../../scene/branch-rows";
+import { axisRows, pathUp } from "../../scene/branch-rows";
 import { type Girth, Swollen } from "../../scene/swollen";
 import { radiusOf, type TreeTable } from "../../scene/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
@@ -40,6 +40,8 @@ interface Setting {
   readonly gesture: number;
   /** How thick the limb was when it was taken, and how far the fingers were then apart or from its middle, in pixels. */
   readonly from: { readonly diameter: number; readonly spread: number };
+  /** A limb is never slimmer than what it bears is held to be. */
+  readonly least: number;
   /** The width that was set there before. */
   readonly before: number | null;
   unsent: boolean;
@@ -163,6 +165,7 @@ export class WidthTool implements GripTool {
       row,
       gesture: this.#options.newGesture(),
       from: { diameter: this.#present(row), spread },
+      least: this.#leastAt(row),
       before: this.#heldAt(row),
       unsent: false,
       sent: false,
@@ -326,7 +329,7 @@ export class WidthTool implements GripTool {
       return;
     }
     clearTimeout(this.#lingering);
-    const wanted = tidied(Math.min(MAX_DIAMETER, Math.max(LEAST_DIAMETER, diameter)));
+    const wanted = tidied(Math.min(MAX_DIAMETER, Math.max(setting.least, diameter)));
     this.wanted.value = wanted;
     setting.unsent = true;
     if (this.#guise && view.wears(this.#guise)) {
@@ -355,6 +358,12 @@ export class WidthTool implements GripTool {
       setting.sent = true;
       this.#options.submit({ kind: "set_width", row: setting.row, diameter, gesture: setting.gesture });
     }
+  }
+
+  #leastAt(row: number): number {
+    const { table } = this.#options;
+    const above = this.widths.peek().filter((width) => width.row > row && pathUp(table, row, width.row) !== null);
+    return Math.max(LEAST_DIAMETER, ...above.map(({ effective }) => effective));
   }
 
   /** The width that is set at a row. */
