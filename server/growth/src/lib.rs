@@ -51,4 +51,4 @@ pub use space::Space;
 pub use step::{StepInput, StepOutcome};
 
 /// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
-pub const SIMULATION_VERSION: u32 = 2;
+pub const SIMULATION_VERSION: u32 = 3;

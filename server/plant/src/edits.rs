@@ -62,7 +62,7 @@ struct Fallen {
 const UNMOVED: u32 = u32::MAX;
 
 impl Plant {
-    /// Cuts off metamers and everything above them, within a step: girth becomes what it were without them.
+    /// Cuts off metamers and everything above them, within a step: girth becomes what it would be without them.
     /// What remains of their axes has no buds any more. Returns what was cut off, in birth order.
     ///
     /// # Panics
