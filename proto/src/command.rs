@@ -150,6 +150,10 @@ pub enum Command {
         touches: Vec<u32>,
         /// From 0, stiff in length, to 1, stretchy.
         stretch: f32,
+        /// Bends of one client with the same gesture, one after the other, are one operation.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
     },
     /// The fingers move (`BE3`).
     BendMove {

@@ -542,7 +542,11 @@ touches: Array<number>,
 /**
  * From 0, stiff in length, to 1, stretchy.
  */
-stretch: number, } | { "kind": "bend_move", 
+stretch: number, 
+/**
+ * Bends of one client with the same gesture, one after the other, are one operation.
+ */
+gesture?: number, } | { "kind": "bend_move", 
 /**
  * The number given in `bend_begin`.
  */

@@ -35,8 +35,8 @@ fn bend_events() {
     let (top, middle, base) = (path[0], path[length / 2], path[length]);
     let place = document.plant().metamers().end(top);
     let between = document.plant().metamers().end(middle);
-    let begin =
-        Action::BendBegin { bend: 1, base: base.raw(), touches: vec![top.raw(), middle.raw()], stretch: 0.1 };
+    let touches = vec![top.raw(), middle.raw()];
+    let begin = Action::BendBegin { bend: 1, base: base.raw(), touches, stretch: 0.1, gesture: None };
     document.apply("bench", &begin).expect("it is a path");
     let mut costs = Vec::new();
     for event in 0..240 {

@@ -115,6 +115,8 @@ pub enum Action {
         touches: Vec<u32>,
         /// 0 to 1.
         stretch: f32,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
     },
     /// The touches of a bend move.
     BendMove {
@@ -217,8 +219,8 @@ impl Action {
                 Self::MoveObstacle { id: *id, pose }
             }
             &Command::RemoveObstacle { id } => Self::RemoveObstacle { id },
-            Command::BendBegin { bend, base, touches, stretch } => {
-                shaping::bend_begin(*bend, *base, touches, *stretch)?
+            Command::BendBegin { bend, base, touches, stretch, gesture } => {
+                shaping::bend_begin(*bend, *base, touches, *stretch, *gesture)?
             }
             Command::BendMove { bend, targets } => shaping::bend_move(*bend, targets)?,
             &Command::BendEnd { bend } => Self::BendEnd { bend },

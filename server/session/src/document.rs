@@ -140,8 +140,8 @@ impl Document {
             Action::PlaceObstacle(obstacle) => self.place_obstacle(author, obstacle),
             Action::MoveObstacle { id, pose } => self.move_obstacle(author, *id, *pose),
             Action::RemoveObstacle { id } => self.remove_obstacle(author, *id),
-            Action::BendBegin { bend, base, touches, stretch } => {
-                self.begin_bend(author, *bend, *base, touches, *stretch)
+            Action::BendBegin { bend, base, touches, stretch, gesture } => {
+                self.begin_bend(author, *bend, *base, touches, *stretch, *gesture)
             }
             Action::BendMove { bend, targets } => self.move_bend(author, *bend, targets),
             Action::BendEnd { bend } => self.end_bend(author, *bend),

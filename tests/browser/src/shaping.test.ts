@@ -202,6 +202,70 @@ test("a double tap cuts a branch off, and draws nothing", async () => {
   await tablet.until("it is back", (facts) => facts.metamers === metamers);
 });
 
+test("a double click cuts a branch off as well", async () => {
+  const { tablet, metamers, sent } = await limbed();
+  await tablet.page.mouse.dblclick(745, 542);
+  const cut = await tablet.until("the limb is gone", (facts) => facts.metamers < metamers - 3);
+  expect(cut.sent, "one command, and no stroke").toBe(sent + 1);
+});
+
+test("a pen bends, widens and prunes", async () => {
+  const { tablet, address, metamers } = await limbed();
+  const straight = await extentOf(address);
+  await tablet.tap("Bend");
+  await tablet.draw([onStem(600)]);
+  await tablet.page.locator(".bend-base").waitFor();
+  await tablet.draw(way(onStem(440), { x: 740, y: 480 }));
+  expect((await tablet.untilQuiet()).operations).toMatch(/ bend$/);
+  expect(await extentOf(address), "the tree stands otherwise").not.toEqual(straight);
+  await tablet.tap("Undo");
+  await tablet.untilQuiet();
+  expect(await extentOf(address), "one bend, one undo").toEqual(straight);
+
+  await tablet.tap("Width");
+  await tablet.draw([onStem(580)]);
+  const ring = tablet.page.getByLabel("Diameter in internodes");
+  const slim = Number(await ring.inputValue());
+  const knob = (await tablet.page.locator(".width-knob.right").boundingBox())!;
+  const grip = { x: knob.x + knob.width / 2, y: knob.y + knob.height / 2 };
+  await tablet.draw(way(grip, { x: grip.x + 30, y: grip.y }, 10));
+  await tablet.untilQuiet();
+  expect(Number(await ring.inputValue())).toBeGreaterThan(slim + 0.2);
+
+  await tablet.tap("Prune");
+  await tablet.draw(way({ x: 700, y: 440 }, { x: 760, y: 620 }));
+  await tablet.until("the limb is gone", (facts) => facts.metamers < metamers - 2);
+});
+
+test("a width shows under the fingers before the server answers, and Escape takes it back", async () => {
+  const { tablet, address } = await limbed();
+  const slim = await extentOf(address);
+  await tablet.page.keyboard.press("w");
+  const { mouse, keyboard } = tablet.page;
+  await mouse.click(SEED.x, 580);
+  const knob = (await tablet.page.locator(".width-knob.right").boundingBox())!;
+  const grip = { x: knob.x + knob.width / 2, y: knob.y + knob.height / 2 };
+  const before = await tablet.photograph("43-before-the-ring");
+  const trunk: Box = { x: SEED.x - 30, y: 556, width: 60, height: 16 };
+  const pull = async () => {
+    await mouse.move(grip.x, grip.y);
+    await mouse.down();
+    for (const { x, y } of way(grip, { x: grip.x + 60, y: grip.y }, 10)) await mouse.move(x, y);
+  };
+  workshop.server.pause();
+  await pull();
+  await until("it is thick at once", async () => {
+    return changed(before, await tablet.photograph("43-thick-at-once"), trunk) > 0.1;
+  });
+  workshop.server.resume();
+  await tablet.until("it is sent", (facts) => facts.sent === facts.acknowledged);
+  await keyboard.press("Escape");
+  await mouse.up();
+  await tablet.untilQuiet();
+  expect(await extentOf(address), "it is as it was").toEqual(slim);
+  expect((await tablet.facts()).operations).not.toContain("width");
+});
+
 test("what is cut disappears at once, and the trunk is explained", async () => {
   const { tablet, metamers } = await limbed();
   await tablet.tap("Prune");

@@ -156,6 +156,30 @@ export class Tablet {
     await this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
   }
 
+  /** One event of a pen on the glass. */
+  async pen(type: "mousePressed" | "mouseMoved" | "mouseReleased", { x, y }: Point): Promise<void> {
+    const down = type === "mouseReleased" ? 0 : 1;
+    await this.#touch.send("Input.dispatchMouseEvent", {
+      type,
+      x,
+      y,
+      button: "left",
+      buttons: down,
+      clickCount: 1,
+      force: 0.5 * down,
+      pointerType: "pen",
+    });
+  }
+
+  /** A pen drawn along a way. */
+  async draw(path: readonly Point[], pause = 16): Promise<void> {
+    for (const [i, point] of path.entries()) {
+      await this.pen(i === 0 ? "mousePressed" : "mouseMoved", point);
+      await this.page.waitForTimeout(pause);
+    }
+    await this.pen("mouseReleased", path[path.length - 1]!);
+  }
+
   /** One finger pressed on a place and held still. */
   async hold(place: Point, milliseconds: number): Promise<void> {
     await this.touch("touchStart", [place]);

@@ -49,7 +49,7 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
     ann.until_settled().await;
     let (top, base) = limb(&ann, 6);
     let rest = ann.table.form();
-    let mut all = vec![Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2 }];
+    let mut all = vec![Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2, gesture: None }];
     for part in 1..=12 {
         let target = beside(&ann, top, [0.25 * part as f32, -0.1 * part as f32, 0.0]);
         all.push(Command::BendMove { bend: 1, targets: vec![target] });
@@ -151,4 +151,46 @@ async fn pd2_a_ghost_comes_to_who_asked() {
     assert_eq!(ann.problems[0].code, ProblemCode::NotFound);
     bob.listen(Duration::from_millis(100)).await;
     assert!(bob.ghosts.is_empty());
+}
+
+#[tokio::test]
+async fn what_another_has_cut_cannot_be_edited() {
+    let (mut ann, server, _scratch) = Client::alone(&[]).await;
+    let mut bob = Client::connect(server.port(), &ann.session, "browser-2").await;
+    ann.send(grow(9)).await;
+    ann.until_settled().await;
+    bob.until("bob sees the tree", |bob| bob.timeline.step == 9).await;
+    let (top, base) = limb(&bob, 6);
+    bob.send(Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2, gesture: None }).await;
+    let target = beside(&bob, top, [1.0, 0.0, 0.0]);
+    bob.send(Command::BendMove { bend: 1, targets: vec![target] }).await;
+    bob.until_settled().await;
+    ann.until("ann sees it bend", |ann| !ann.poses.is_empty()).await;
+    ann.send(Command::Prune { rows: vec![top], gesture: None }).await;
+    ann.until_settled().await;
+    assert_eq!(ann.table.rows[top as usize].radius, 0, "it is cut");
+    let left = ann.table.form();
+    // Bob has not looked yet: his hands are where the branch was.
+    let rotation = [0.0, 0.0, 0.6, 0.8];
+    for (command, field) in [
+        (Command::BendMove { bend: 1, targets: vec![target] }, "bend"),
+        (Command::BendEnd { bend: 1 }, "bend"),
+        (Command::BendBegin { bend: 2, base, touches: vec![top], stretch: 0.2, gesture: None }, "touches[0]"),
+        (Command::SetWidth { row: top, diameter: Some(1.0), gesture: None }, "row"),
+        (Command::TurnBranch { row: top, rotation, gesture: None }, "row"),
+        (Command::Graft { row: top, onto: base, rotation, keep: true }, "row"),
+        (Command::Prune { rows: vec![top], gesture: None }, "rows[0]"),
+        (Command::Grow { steps: 1, gesture: None, bud: Some(top) }, "bud"),
+    ] {
+        bob.refused.clear();
+        bob.send(command.clone()).await;
+        bob.until("it is answered", |bob| !bob.refused.is_empty()).await;
+        let problem = &bob.refused[0].1;
+        assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some(field)), "{command:?}");
+        assert!(problem.allowed.is_some(), "it says what is allowed: {problem:?}");
+    }
+    bob.until_form(&left).await;
+    until_equal(&mut ann, &mut bob).await;
+    assert_eq!((bob.timeline.operations.len(), bob.timeline.done), (2, 2), "growth and the cut, nothing else");
+    assert!(bob.poses.last().is_some_and(|pose| pose.motions.is_empty()), "BE4: his bend is over");
 }

@@ -20,6 +20,7 @@ function setUp() {
     view,
     submit: (command) => void sent.push(command),
     newBend: () => sent.length + 1,
+    newGesture: () => 100 + sent.length,
     unsettled: () => world.unsettled,
     stretch: () => 0.5,
     say: (sentence) => void said.push(sentence),
@@ -84,7 +85,7 @@ describe("bending", () => {
     finger(1).up();
     finger(2).up();
     expect(kinds(sent)).toEqual(["bend_begin", "bend_move"]);
-    expect(sent[0]).toEqual({ kind: "bend_begin", bend: 1, base: 2, touches: [9, 7], stretch: 0.5 });
+    expect(sent[0]).toEqual({ kind: "bend_begin", bend: 1, base: 2, touches: [9, 7], stretch: 0.5, gesture: 100 });
     expect(sent[1]).toEqual({
       kind: "bend_move",
       bend: 1,
@@ -246,7 +247,7 @@ describe("bending", () => {
     finger(3).by(0, 30, 7);
     tool.tick();
     expect(sent.slice(3)).toMatchObject([
-      { kind: "bend_begin", base: 2, touches: [9, 7] },
+      { kind: "bend_begin", base: 2, touches: [9, 7], gesture: 100 },
       {
         kind: "bend_move",
         targets: [
@@ -255,6 +256,20 @@ describe("bending", () => {
         ],
       },
     ]);
+    expect(sent[0], "one operation for undo").toMatchObject({ gesture: 100 });
+    for (const id of [1, 2, 3]) {
+      finger(id).up();
+    }
+    tableOf(
+      SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [5, 3, 0] as const } : twig)),
+      table,
+    );
+    view.worn.clear();
+    tool.told();
+    const before = sent.length;
+    finger(1).down(9);
+    finger(1).by(0, -50, 9);
+    expect(sent[before], "another touch, another operation").toMatchObject({ gesture: 100 + before });
   });
 
   it("a bend that comes to nothing is not waited for", () => {

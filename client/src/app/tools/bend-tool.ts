@@ -26,6 +26,8 @@ export interface BendOptions {
   readonly submit: (command: Command) => void;
   /** A number no other bend of this client has. */
   readonly newBend: () => number;
+  /** A number for what the hand does without letting go. */
+  readonly newGesture: () => number;
   /** How many commands of a kind the server has not yet answered. */
   readonly unsettled: (kind: Command["kind"]) => number;
   /** 0, stiff in length, to 1, stretchy. */
@@ -87,6 +89,8 @@ export class BendTool implements GripTool {
   #bending: Bending | null = null;
   /** Bends that were let go and are not yet in the table. */
   #settling = new Map<Bent, number>();
+  /** Bends made without letting go are one operation. */
+  #gesture: number | null = null;
   /** The most fingers since the last was lifted: only a lone one taps. */
   #most = 0;
 
@@ -155,6 +159,7 @@ export class BendTool implements GripTool {
     }
     if (this.#fingers.size === 0) {
       this.#most = 0;
+      this.#gesture = null;
     }
     this.#show();
   }
@@ -166,6 +171,7 @@ export class BendTool implements GripTool {
     }
     this.#fingers.clear();
     this.#most = 0;
+    this.#gesture = null;
     this.#show();
   }
 
@@ -301,7 +307,7 @@ export class BendTool implements GripTool {
   }
 
   #begin(): void {
-    const { table, view, submit, newBend, stretch, solver, say } = this.#options;
+    const { table, view, submit, newBend, newGesture, stretch, solver, say } = this.#options;
     if ([...this.#settling.keys()].some((guise) => view.wears(guise) && !guise.over(table))) {
       // The pose of the last bend is on its way; taking hold of the branch before it comes would make it jump.
       return;
@@ -344,7 +350,9 @@ export class BendTool implements GripTool {
     this.base.value = grips.base;
     view.wear(guise);
     const rows = touches.map(({ row }) => row);
-    submit({ kind: "bend_begin", bend: number, base: grips.base, touches: rows, stretch: stretch() });
+    this.#gesture ??= newGesture();
+    const gesture = this.#gesture;
+    submit({ kind: "bend_begin", bend: number, base: grips.base, touches: rows, stretch: stretch(), gesture });
     this.#show();
   }
 

@@ -414,6 +414,7 @@ export class Toolbox {
       view,
       submit,
       newBend: next,
+      newGesture: next,
       unsettled,
       stretch: () => settings.stretch.peek(),
       solver: (nodes, radii, stretch) => new Bend(nodes, radii, stretch),

@@ -198,6 +198,20 @@ describe("what is shown", () => {
     expect(tool.wanted.value).toBeNull();
   });
 
+  it("Escape first gives up how far the ring was pulled, then the ring", () => {
+    const { tool, sent, view, x, y } = setUp();
+    tool.take(7, 50);
+    tool.pull(x + 90, y);
+    tool.tick();
+    expect(tool.release()).toBe(true);
+    expect(diameters(sent).at(-1), "it was not set before").toBe(null);
+    expect([tool.chosen.value, view.worn.size]).toEqual([7, 0]);
+    tool.pull(x + 120, y);
+    tool.letGo();
+    expect(sent, "the hand that still pulls does nothing more").toHaveLength(2);
+    expect([tool.release(), tool.chosen.value]).toEqual([true, null]);
+  });
+
   it("a limb that is gone takes its ring along", () => {
     const { table, tool, view } = setUp();
     tool.choose(7);

@@ -282,6 +282,11 @@ export class WidthTool implements GripTool {
   }
 
   release(): boolean {
+    if (this.#setting) {
+      // The ring is in hand: what is most at hand is how far it was pulled.
+      this.cancel();
+      return true;
+    }
     const any = this.chosen.peek() !== null;
     this.choose(null);
     return any;

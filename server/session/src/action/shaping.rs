@@ -31,7 +31,13 @@ impl Prediction {
     }
 }
 
-pub(super) fn bend_begin(bend: u32, base: u32, touches: &[u32], stretch: f32) -> Result<Action, Problem> {
+pub(super) fn bend_begin(
+    bend: u32,
+    base: u32,
+    touches: &[u32],
+    stretch: f32,
+    gesture: Option<u32>,
+) -> Result<Action, Problem> {
     counted("touches", touches.len(), 1, MAX_BEND_TOUCHES)?;
     if let Some(index) = (1..touches.len()).find(|&index| touches[..index].contains(&touches[index])) {
         let field = format!("touches[{index}]");
@@ -40,7 +46,7 @@ pub(super) fn bend_begin(bend: u32, base: u32, touches: &[u32], stretch: f32) ->
     if !(0.0..=1.0).contains(&stretch) {
         return Err(Problem::out_of_range("stretch", stretch, "0 to 1"));
     }
-    Ok(Action::BendBegin { bend, base, touches: touches.to_vec(), stretch })
+    Ok(Action::BendBegin { bend, base, touches: touches.to_vec(), stretch, gesture })
 }
 
 pub(super) fn bend_move(bend: u32, targets: &[[f32; 3]]) -> Result<Action, Problem> {

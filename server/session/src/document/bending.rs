@@ -24,6 +24,8 @@ pub(super) struct OpenBend {
     /// Where on the path each touch is.
     pub touches: Vec<usize>,
     pub solver: Bend,
+    /// Neighbours with the same gesture are one operation.
+    pub gesture: Option<u32>,
     /// Whether anything was moved.
     pub is_moved: bool,
 }
@@ -54,7 +56,7 @@ impl OpenBends {
         hash.word(u64::from(self.begun));
         for bend in &self.open {
             hash.word(u64::from(bend.number) | u64::from(bend.id) << 32);
-            hash.word(u64::from(bend.is_moved));
+            hash.word(u64::from(bend.is_moved) | u64::from(bend.gesture.unwrap_or(u32::MAX)) << 1);
             for touch in &bend.touches {
                 hash.word(*touch as u64);
             }
@@ -90,6 +92,7 @@ impl Document {
         base: u32,
         touches: &[u32],
         stretch: f32,
+        gesture: Option<u32>,
     ) -> Result<(), Problem> {
         if self.bends.find(author, number).is_ok() {
             return Err(refused(format!("bend {number} has begun already")));
@@ -119,7 +122,16 @@ impl Document {
         let solver = Bend::new(&nodes, &radii, stretch);
         self.bends.begun = self.bends.begun.wrapping_add(1);
         let (author, id) = (author.to_owned(), self.bends.begun);
-        self.bends.open.push(OpenBend { author, number, id, path, touches, solver, is_moved: false });
+        self.bends.open.push(OpenBend {
+            author,
+            number,
+            id,
+            path,
+            touches,
+            solver,
+            gesture,
+            is_moved: false,
+        });
         Ok(())
     }
 
@@ -151,10 +163,14 @@ impl Document {
         let places = self.plant().above(bend.path[1]).len();
         self.require_places(places)?;
         let now = self.plant().step();
-        let before = self.record(Kind::Bend, author, None);
+        // Where a finger joins in or lifts, one bend ends and the next begins: to the hand they are one.
+        let continues = self.history.continues(&[Kind::Bend], author, bend.gesture, now);
+        let recorded = (!continues).then(|| self.record(Kind::Bend, author, bend.gesture));
         let carried = self.simulation.carry(&bend.path, &motions);
         if carried.is_err() || self.plant().step() == now {
-            self.unrecord(before);
+            if let Some(recorded) = recorded {
+                self.refuse(recorded);
+            }
             return carried.map_err(said);
         }
         self.history.reach(now + 1);

@@ -32,13 +32,13 @@ impl Document {
         // Where the gesture's step cannot be taken back, what is new about its rotation comes on top.
         let latest = self.history.latest.filter(|latest| continues && latest.row == row);
         let so_far = latest.and_then(|latest| latest.rotation).unwrap_or(Quat::IDENTITY);
-        let before = (!continues).then(|| self.record(Kind::Turn, author, gesture));
+        let recorded = (!continues).then(|| self.record(Kind::Turn, author, gesture));
         let motion = self.turn_about(branch, base, rotation * so_far.inverse());
         match self.simulation.carry(&[branch], &[motion]) {
             Ok(()) if self.plant().step() > now => self.turned(row, rotation, places),
             outcome => {
-                if let Some(before) = before {
-                    self.unrecord(before);
+                if let Some(recorded) = recorded {
+                    self.refuse(recorded);
                 }
                 outcome.map_err(said)?;
             }
@@ -63,7 +63,7 @@ impl Document {
         } else {
             self.history.latest = None;
             self.history.reach(now - 1);
-            self.history.forget_idle();
+            self.forget_idle();
         }
         Ok(())
     }
@@ -110,9 +110,9 @@ impl Document {
         }
         let motion = Motion { rotation, from: base, to: self.plant().metamers().end(bearer) };
         let original = if keep { Original::Stays } else { Original::Goes };
-        let before = self.record(Kind::Graft, author, None);
+        let recorded = self.record(Kind::Graft, author, None);
         if let Err(error) = self.simulation.graft(branch, bearer, &motion, original) {
-            self.unrecord(before);
+            self.refuse(recorded);
             return Err(said(error));
         }
         self.history.reach(self.plant().step());

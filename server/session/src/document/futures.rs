@@ -10,7 +10,7 @@ use espalier_proto::{Problem, ProblemCode, version::MAX_FUTURES};
 
 use super::{
     Document,
-    history::{Kind, Latest, Operation, Setting, hash_operations},
+    history::{Before, Kind, Operation, Setting, hash_operations},
     refused,
 };
 
@@ -52,13 +52,11 @@ pub(super) struct Futures {
     pub newest: u32,
 }
 
-/// What there was before an operation was recorded.
+/// That an operation was recorded, which may yet be refused.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Before {
-    operations: usize,
-    done: usize,
-    latest: Option<Latest>,
-    left_a_future: bool,
+pub(super) struct Recorded {
+    /// How to take back the operation before it.
+    earlier: Option<Before>,
 }
 
 impl Futures {
@@ -130,10 +128,10 @@ impl Futures {
 impl Document {
     /// Starts an operation at the present; what lies ahead becomes a future. Where the setting is not that of the
     /// line, which ungrowing can bring about, an operation that makes it so comes before.
-    pub(super) fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) -> Before {
-        let (operations, done) = (self.history.operations.len(), self.history.done);
-        let latest = self.history.latest;
-        let left_a_future = self.leave_future();
+    pub(super) fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) -> Recorded {
+        let earlier = self.history.before;
+        let (done, latest) = (self.history.done, self.history.latest);
+        let left = self.leave_future();
         let now = self.plant().step();
         let present = self.setting();
         let line = self.history.setting().clone();
@@ -145,28 +143,49 @@ impl Document {
             self.history.push(Kind::Obstacle, author, None, now, present.clone());
         }
         self.history.push(kind, author, gesture, now, present);
-        Before { operations, done, latest, left_a_future }
+        self.history.before = Some(Before { done, latest, left });
+        Recorded { earlier }
     }
 
-    /// Takes back that an operation was recorded: it came to nothing.
-    pub(super) fn unrecord(&mut self, before: Before) {
-        if before.left_a_future {
+    /// Takes back that an operation was recorded: it was refused, and nothing has happened.
+    pub(super) fn refuse(&mut self, recorded: Recorded) {
+        self.unrecord();
+        self.history.before = recorded.earlier;
+    }
+
+    /// Takes back that the last operation was recorded: it came to nothing, and what lay ahead lies ahead again.
+    fn unrecord(&mut self) {
+        let Some(before) = self.history.before.take() else {
+            self.history.pop();
+            return;
+        };
+        let left_last = self.futures.all.last().map(|future| future.line);
+        if before.left.is_some() && before.left == left_last {
             self.return_to_future();
             self.futures.newest -= 1;
+        } else {
+            self.history.operations.truncate(before.done);
         }
-        self.history.operations.truncate(before.operations);
         self.history.done = before.done;
         self.history.latest = before.latest;
     }
 
-    /// Puts what lies ahead aside, and what was left of the present operation with it; false if nothing does.
-    fn leave_future(&mut self) -> bool {
+    /// Takes back that the last operation was recorded if it has come to nothing.
+    pub(super) fn forget_idle(&mut self) {
+        if self.history.is_idle() {
+            self.unrecord();
+        }
+    }
+
+    /// Puts what lies ahead aside, and what was left of the present operation with it; the line that is a future
+    /// now, if anything lay ahead.
+    fn leave_future(&mut self) -> Option<u32> {
         let now = self.plant().step();
         let history = &mut self.history;
         let in_part = history.is_in_part(now);
         if !in_part && history.done == history.operations.len() && now == self.simulation.plant().last_step()
         {
-            return false;
+            return None;
         }
         let shared = history.done - usize::from(in_part);
         let operations = history.operations[shared..].to_vec();
@@ -182,7 +201,7 @@ impl Document {
         self.futures.all.push(Future { line, on: None, fork, operations, rows });
         self.futures.newest += 1;
         self.futures.present = self.futures.newest;
-        true
+        Some(line)
     }
 
     /// Takes the future up again that was left last, right here.

@@ -79,7 +79,7 @@ impl Document {
         self.history.reach(self.simulation.plant().step());
         self.release_lost_bends();
         if self.pending.is_empty() && self.strokes.is_empty() {
-            self.history.forget_idle();
+            self.forget_idle();
         }
         true
     }

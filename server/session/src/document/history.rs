@@ -90,6 +90,16 @@ pub(super) struct Latest {
     pub rotation: Option<Quat>,
 }
 
+/// What there was before the last operation was recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Before {
+    /// Operations in force.
+    pub done: usize,
+    pub latest: Option<Latest>,
+    /// The line that lay ahead, and is a future now.
+    pub left: Option<u32>,
+}
+
 impl Operation {
     /// A stroke in which nothing had grown when somebody else did something: undoing it would show nothing.
     fn is_idle_stroke(&self) -> bool {
@@ -106,11 +116,13 @@ pub(super) struct History {
     /// The setting before the first of them.
     pub initial: Setting,
     pub latest: Option<Latest>,
+    /// How to take back that the last operation was recorded; none once something else has happened.
+    pub before: Option<Before>,
 }
 
 impl History {
     pub fn new(initial: Setting) -> Self {
-        Self { operations: Vec::new(), done: 0, initial, latest: None }
+        Self { operations: Vec::new(), done: 0, initial, latest: None, before: None }
     }
 
     /// The last operation in force.
@@ -150,6 +162,7 @@ impl History {
         });
         self.done += 1;
         self.latest = None;
+        self.before = None;
     }
 
     /// The operation in progress has reached a step.
@@ -160,15 +173,18 @@ impl History {
         }
     }
 
-    /// Forgets the last operation if it neither grew nor changed anything: undoing it would show nothing.
-    pub fn forget_idle(&mut self) {
+    /// Whether the last operation neither grew nor changed anything: undoing it would show nothing.
+    pub fn is_idle(&self) -> bool {
         let idle = |last: &Operation| {
             last.first == last.last && !matches!(last.kind, Kind::Parameters | Kind::Obstacle)
         };
-        if self.done == self.operations.len() && self.current().is_some_and(idle) {
-            self.operations.pop();
-            self.done -= 1;
-        }
+        self.done == self.operations.len() && self.current().is_some_and(idle)
+    }
+
+    /// Takes the last operation off, which is in force.
+    pub fn pop(&mut self) {
+        self.operations.pop();
+        self.done = self.done.min(self.operations.len());
     }
 
     /// The operation in progress has left things so.
@@ -232,6 +248,9 @@ impl History {
         hash_operations(&self.operations, hash);
         if let Some(latest) = self.latest {
             hash.word(u64::from(latest.step) | u64::from(latest.row) << 32);
+        }
+        if let Some(before) = self.before {
+            hash.word(before.done as u64 | u64::from(before.left.map_or(u32::MAX, |line| line)) << 32);
         }
     }
 }

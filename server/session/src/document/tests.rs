@@ -130,6 +130,31 @@ fn a_stroke_that_grows_nothing_is_no_operation() {
 }
 
 #[test]
+fn what_comes_to_nothing_leaves_redo_as_it_was() {
+    let mut document = Document::new(4);
+    stroke(&mut document, 1);
+    grow(&mut document, 4, None);
+    let grown = document.plant().hash();
+    for back in [Action::Undo, Action::Ungrow { steps: 2 }] {
+        document.apply("ann", &back).expect("there is growth to take back");
+        let (hash, timeline) = (document.hash(), document.timeline());
+        let far = vec![sample(300.0, 300.0, 0.1)];
+        for action in [
+            Action::StrokeBegin { stroke: 2, bud: None },
+            Action::StrokeMove { stroke: 2, samples: far },
+            Action::StrokeEnd { stroke: 2 },
+        ] {
+            document = Document::from_bytes(&document.to_bytes()).expect("its own bytes");
+            document.apply("ann", &action).expect("the stroke is well formed");
+        }
+        assert_eq!(document.timeline(), timeline, "nothing grew, so nothing lay ahead in vain");
+        assert_ne!(document.hash(), hash, "strokes are counted, for they key their randomness");
+        document.apply("ann", &Action::Redo).expect("what was undone is still ahead");
+        assert_eq!(document.plant().hash(), grown);
+    }
+}
+
+#[test]
 fn parameters_as_they_are_keep_redo() {
     let mut document = Document::new(4);
     grow(&mut document, 3, None);

@@ -68,6 +68,7 @@ impl Document {
         self.strokes.close_all();
         self.bends.close_all();
         self.history.latest = None;
+        self.history.before = None;
         self.simulation.go_to(step);
     }
 }

@@ -38,7 +38,7 @@ impl Document {
         let step = self.plant().step();
         self.history.reach(step);
         // Back where the gesture began, there is nothing to undo.
-        self.history.forget_idle();
+        self.forget_idle();
         let is_kept = self.history.continues(&[Kind::Width], author, gesture, step);
         self.history.latest = is_kept.then_some(Latest { step, row, rotation: None });
         Ok(())

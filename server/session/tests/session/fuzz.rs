@@ -68,8 +68,9 @@ fn shaping() -> impl Strategy<Value = Command> {
     let again = rotation.clone();
     let place = || prop::array::uniform3(-3.0f32..9.0);
     prop_oneof![
-        4 => (0u32..2, row(), prop::collection::vec(row(), 1..3), 0.0f32..1.0)
-            .prop_map(|(bend, base, touches, stretch)| Command::BendBegin { bend, base, touches, stretch }),
+        4 => (0u32..2, row(), prop::collection::vec(row(), 1..3), 0.0f32..1.0, gesture()).prop_map(
+            |(bend, base, touches, stretch, gesture)| Command::BendBegin { bend, base, touches, stretch, gesture },
+        ),
         4 => (0u32..2, prop::collection::vec(place(), 1..3))
             .prop_map(|(bend, targets)| Command::BendMove { bend, targets }),
         2 => (0u32..2).prop_map(|bend| Command::BendEnd { bend }),

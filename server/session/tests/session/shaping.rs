@@ -22,7 +22,7 @@ fn limb(world: &World) -> (u32, u32) {
 
 fn begin(world: &World) -> Command {
     let (top, base) = limb(world);
-    Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.1 }
+    Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.1, gesture: None }
 }
 
 fn drag(x: f32) -> Command {

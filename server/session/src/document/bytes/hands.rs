@@ -43,6 +43,7 @@ pub(super) fn write_bends(out: &mut Writer, bends: &OpenBends) {
         out.list(&bend.path, |out, row| out.u32(row.raw()));
         out.list(&bend.touches, |out, &touch| out.u32(touch as u32));
         out.0.push(u8::from(bend.is_moved));
+        out.option(bend.gesture);
         let state = bend.solver.state();
         out.vectors(&state.nodes);
         out.list(&state.radii, |out, &radius| out.f32(radius));
@@ -62,6 +63,7 @@ pub(super) fn read_bends(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenB
         let path = r.list(|r| r.row().map(|row| MetamerId::new(row as usize)))?;
         let touches = r.list(|r| r.u32().map(|touch| touch as usize))?;
         let is_moved = r.u8()? != 0;
+        let gesture = r.option()?;
         let state = BendState {
             nodes: r.list(Reader::vector)?,
             radii: r.list(Reader::f32)?,
@@ -77,7 +79,7 @@ pub(super) fn read_bends(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenB
             return Err(damaged("a bend follows no branch"));
         }
         let solver = Bend::from_state(&state).ok_or_else(|| damaged("a bend cannot go on"))?;
-        Ok(OpenBend { author, number, id, path, touches, solver, is_moved })
+        Ok(OpenBend { author, number, id, path, touches, solver, gesture, is_moved })
     })?;
     Ok(OpenBends { open, begun })
 }

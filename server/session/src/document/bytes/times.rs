@@ -9,20 +9,38 @@ use super::{
 };
 use crate::document::{
     futures::{Fork, Future, Futures},
-    history::{History, Kind, Latest, Operation},
+    history::{Before, History, Kind, Latest, Operation},
 };
 
 pub(super) fn write_history(out: &mut Writer, history: &History, shelf: &Shelf) {
     shelf.write_setting(out, &history.initial);
     out.u32(history.done as u32);
     write_operations(out, &history.operations, shelf);
-    out.list(history.latest.as_slice(), |out, latest| {
+    write_latest(out, history.latest);
+    out.list(history.before.as_slice(), |out, before| {
+        out.u32(before.done as u32);
+        write_latest(out, before.latest);
+        out.option(before.left);
+    });
+}
+
+fn write_latest(out: &mut Writer, latest: Option<Latest>) {
+    out.list(latest.as_slice(), |out, latest| {
         out.u32(latest.step);
         out.u32(latest.row);
         out.list(latest.rotation.as_slice(), |out, rotation| {
             rotation.to_array().into_iter().for_each(|c| out.f32(c));
         });
     });
+}
+
+fn read_latest(reader: &mut Reader<'_>) -> Result<Option<Latest>, DocumentError> {
+    let latest = reader.list(|r| {
+        let (step, row) = (r.u32()?, r.u32()?);
+        let rotation = r.list(|r| Ok(Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?])))?;
+        Ok(Latest { step, row, rotation: rotation.first().copied() })
+    })?;
+    Ok(latest.first().copied())
 }
 
 pub(super) fn read_history(
@@ -39,12 +57,14 @@ pub(super) fn read_history(
     if done > operations.len() {
         return Err(damaged("more operations are in force than there are"));
     }
-    let latest = reader.list(|r| {
-        let (step, row) = (r.u32()?, r.u32()?);
-        let rotation = r.list(|r| Ok(Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?])))?;
-        Ok(Latest { step, row, rotation: rotation.first().copied() })
-    })?;
-    Ok(History { operations, done, initial, latest: latest.first().copied() })
+    let latest = read_latest(reader)?;
+    let before = reader
+        .list(|r| Ok(Before { done: r.u32()? as usize, latest: read_latest(r)?, left: r.option()? }))?;
+    let before = before.first().copied();
+    if before.is_some_and(|before| before.done >= operations.len()) {
+        return Err(damaged("the last operation began after itself"));
+    }
+    Ok(History { operations, done, initial, latest, before })
 }
 
 pub(super) fn write_futures(out: &mut Writer, futures: &Futures, shelf: &Shelf) {

@@ -116,7 +116,7 @@ fn hold(document: &Document, bend: u32, end: u32, length: u32, touches: u32, str
     }
     let base = path[path.len() - 1];
     let touches = path.iter().step_by(2).take(touches as usize).copied().collect();
-    Action::BendBegin { bend, base, touches, stretch }
+    Action::BendBegin { bend, base, touches, stretch, gesture: Some(bend % 2) }
 }
 
 fn drag(document: &Document, bend: u32, shift: [f32; 3]) -> Action {

@@ -55,7 +55,7 @@ fn laterals(document: &Document) -> Vec<MetamerId> {
 
 fn begin(bend: u32, base: MetamerId, touches: &[MetamerId]) -> Action {
     let touches = touches.iter().map(|id| id.raw()).collect();
-    Action::BendBegin { bend, base: base.raw(), touches, stretch: 0.2 }
+    Action::BendBegin { bend, base: base.raw(), touches, stretch: 0.2, gesture: None }
 }
 
 fn end(document: &Document, id: MetamerId) -> Vec3 {
@@ -88,6 +88,53 @@ fn be1_a_bend_is_one_operation_for_undo() {
     assert_eq!(document.plant().hash(), before);
     apply(&mut document, &Action::Redo);
     assert_eq!(document.plant().hash(), after);
+}
+
+#[test]
+fn be1_bends_of_one_gesture_are_one_operation() {
+    let mut document = tree();
+    let path = long_path(&document, 8);
+    let (top, between, base) = (path[0], path[3], path[7]);
+    let before = document.plant().hash();
+    let bend = |document: &mut Document, bend, touches: &[MetamerId], gesture| {
+        let rows = touches.iter().map(|id| id.raw()).collect();
+        let base = base.raw();
+        apply(document, &Action::BendBegin { bend, base, touches: rows, stretch: 0.2, gesture });
+        let targets = touches.iter().map(|&id| end(document, id) + Vec3::new(0.8, -0.2, 0.1)).collect();
+        apply(document, &Action::BendMove { bend, targets });
+        apply(document, &Action::BendEnd { bend });
+    };
+    bend(&mut document, 1, &[top], Some(5));
+    bend(&mut document, 2, &[top, between], Some(5));
+    assert_eq!(
+        document.timeline().operations.len(),
+        2,
+        "a finger that joins in makes no operation of its own"
+    );
+    let after = document.plant().hash();
+    bend(&mut document, 3, &[top], Some(6));
+    bend(&mut document, 4, &[top], None);
+    assert_eq!(document.timeline().operations.len(), 4);
+    apply(&mut document, &Action::Undo);
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.plant().hash(), after);
+    apply(&mut document, &Action::Undo);
+    assert_eq!(document.plant().hash(), before, "both rounds of the gesture went with one undo");
+}
+
+#[test]
+fn wi1_a_width_dragged_back_leaves_redo_as_it_was() {
+    let mut document = tree();
+    let row = long_path(&document, 4)[3].raw();
+    grow(&mut document, 2, None);
+    apply(&mut document, &Action::Undo);
+    let timeline = document.timeline();
+    let width = |diameter| Action::SetWidth { row, diameter, gesture: Some(3) };
+    apply(&mut document, &width(Some(0.8)));
+    assert_eq!(document.timeline().futures.len(), 1, "TT3: the growth undone is another future");
+    apply(&mut document, &width(None));
+    assert_eq!(document.timeline(), timeline);
+    assert!(document.figures().can_redo);
 }
 
 #[test]
