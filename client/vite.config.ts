@@ -1,9 +1,12 @@
 import { defineConfig } from "vitest/config";
+import { shellWorker } from "./shell-plugin.ts";
+import { leanThree } from "./three-plugin.ts";
 
 const server = "http://127.0.0.1:7700";
 
 export default defineConfig({
   base: "/",
+  plugins: [leanThree(), shellWorker()],
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
   // three.js is most of the one chunk, and the first picture needs all of it.
   build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 800 },

@@ -1,18 +1,28 @@
 import { render } from "preact";
+import { keepShell } from "./app/keep-shell";
 import { Studio } from "./app/studio";
 import { App } from "./app/ui/app";
 import "./app/ui/styles/base.css";
+import "./app/ui/styles/layout.css";
 import "./app/ui/styles/bars.css";
 import "./app/ui/styles/status.css";
 import "./app/ui/styles/tools.css";
 import "./app/ui/styles/shaping.css";
 import "./app/ui/styles/panels.css";
+import "./app/ui/styles/controls.css";
+import "./app/ui/styles/widgets.css";
+import "./app/ui/styles/architecture.css";
+import "./app/ui/styles/brush.css";
+import "./app/ui/styles/looks.css";
+import "./app/ui/styles/sun.css";
 import "./app/ui/styles/timeline.css";
 import "./app/ui/styles/branch.css";
 import "./app/ui/styles/sheets.css";
+import "./app/ui/styles/help.css";
 
 const root = document.getElementById("app");
 if (!root) {
   throw new Error("index.html has no element #app.");
 }
 render(<App studio={new Studio()} />, root);
+keepShell();

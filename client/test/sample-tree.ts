@@ -83,6 +83,7 @@ function asFrame(metamers: Metamer[], random: () => number): Frame {
       radius: new Uint16Array(count),
       foliage: new Uint8Array(count),
       light: new Uint8Array(count),
+      born: new Uint32Array(count),
     };
     for (let i = 0; i < count; i += 1) {
       const row = first + i;
@@ -99,6 +100,8 @@ function asFrame(metamers: Metamer[], random: () => number): Frame {
       );
       rows.foliage[i] = radius < 0.085 ? 3 | (Math.floor(16 * Math.min(0.99, 0.3 + 0.6 * outer * random())) << 4) : 0;
       rows.light[i] = Math.round(255 * (0.15 + 0.85 * outer));
+      // A crown grows by about as much in each step, for it is thicker the longer it grows.
+      rows.born[i] = parent < 0 ? 0 : 1 + Math.floor((20 * row) / n);
     }
     changes.push({ change: "replace", chunk: first / CHUNK_ROWS, generation: 1, rows });
   }

@@ -42,6 +42,7 @@ export function tableOf(twigs: readonly Twig[], table = new TreeTable(() => 0)):
     ),
     foliage: Uint8Array.from(twigs, () => 0),
     light: Uint8Array.from(twigs, ({ light = 200 }) => light),
+    born: Uint32Array.from(twigs, (_, row) => row),
   };
   const sequence = (table.sequence ?? 0) + 1;
   table.apply({ epoch: 1, sequence, catchUp: true, changes: [{ change: "replace", chunk: 0, generation: 1, rows }] });

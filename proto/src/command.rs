@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::{
+    appearance::AppearancePatch,
     obstacle::{Obstacle, Pose},
     parameters::ParametersPatch,
 };
@@ -117,6 +118,19 @@ pub enum Command {
     SetParameters {
         /// The fields to change.
         parameters: ParametersPatch,
+        /// Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
+    },
+    /// Change how the tree and its surroundings look (`AP1`).
+    SetAppearance {
+        /// The sections to change, each as a whole.
+        appearance: AppearancePatch,
+        /// Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
     },
     /// Plant a seed on the ground: another plant that competes for the same light and space.
     PlantSeed {

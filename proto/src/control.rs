@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::{
+    appearance::Appearance,
     command::Command,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
@@ -153,6 +154,11 @@ pub enum ServerMessage {
     Parameters {
         /// The parameters in force.
         parameters: Box<Parameters>,
+    },
+    /// How the tree looks: after the welcome, and when it changes (`AP3`).
+    Appearance {
+        /// The appearance in force.
+        appearance: Box<Appearance>,
     },
     /// The obstacles in the scene, all of them: after the welcome if there are any, and when they change (`OB3`).
     Obstacles {

@@ -87,6 +87,8 @@ pub enum Column {
     Foliage = 3,
     /// The light it receives.
     Light = 4,
+    /// When it was born.
+    Born = 5,
 }
 
 /// Values of one column.
@@ -102,6 +104,8 @@ pub enum Values {
     Foliage(Vec<u8>),
     /// Light exposure from 0 (dark) to 255 (full).
     Light(Vec<u8>),
+    /// Steps of growth up to its birth, the one in which it was born included; 0 for the first seed.
+    Born(Vec<u32>),
 }
 
 /// Whole rows, column by column; all columns have the same length.
@@ -117,6 +121,8 @@ pub struct Rows {
     pub foliage: Vec<u8>,
     /// See [`Values::Light`].
     pub light: Vec<u8>,
+    /// See [`Values::Born`].
+    pub born: Vec<u32>,
 }
 
 impl Rows {
@@ -138,6 +144,7 @@ impl Rows {
         write_column(out, &self.radius, |v| u32::from(*v));
         out.extend_from_slice(&self.foliage);
         out.extend_from_slice(&self.light);
+        write_births(out, &self.born);
     }
 
     fn read(bytes: &mut &[u8]) -> Result<Self, FrameError> {
@@ -148,12 +155,14 @@ impl Rows {
             radius: read_column(bytes, count, |v| u16::try_from(v).ok())?,
             foliage: read_bytes(bytes, count)?,
             light: read_bytes(bytes, count)?,
+            born: read_births(bytes, count)?,
         })
     }
 
     fn is_consistent(&self) -> bool {
         let n = self.len();
-        (self.position.len(), self.radius.len(), self.foliage.len(), self.light.len()) == (n, n, n, n)
+        let lengths = [self.position.len(), self.radius.len(), self.foliage.len(), self.light.len()];
+        lengths == [n; 4] && self.born.len() == n
     }
 }
 
@@ -161,7 +170,7 @@ impl Values {
     /// How many values.
     pub fn len(&self) -> usize {
         match self {
-            Self::Parent(v) => v.len(),
+            Self::Parent(v) | Self::Born(v) => v.len(),
             Self::Position(v) => v.len(),
             Self::Radius(v) => v.len(),
             Self::Foliage(v) | Self::Light(v) => v.len(),
@@ -181,6 +190,7 @@ impl Values {
             Self::Radius(_) => Column::Radius,
             Self::Foliage(_) => Column::Foliage,
             Self::Light(_) => Column::Light,
+            Self::Born(_) => Column::Born,
         }
     }
 
@@ -190,6 +200,7 @@ impl Values {
             Self::Position(v) => write_positions(out, v),
             Self::Radius(v) => write_column(out, v, |v| u32::from(*v)),
             Self::Foliage(v) | Self::Light(v) => out.extend_from_slice(v),
+            Self::Born(v) => write_births(out, v),
         }
     }
 
@@ -200,6 +211,7 @@ impl Values {
             2 => Self::Radius(read_column(bytes, count, |v| u16::try_from(v).ok())?),
             3 => Self::Foliage(read_bytes(bytes, count)?),
             4 => Self::Light(read_bytes(bytes, count)?),
+            5 => Self::Born(read_births(bytes, count)?),
             _ => return Err(FrameError::Body),
         })
     }
@@ -308,7 +320,7 @@ pub(crate) fn read_changes(mut body: &[u8]) -> Result<Vec<ChunkChange>, FrameErr
     Ok(changes)
 }
 
-fn write_column<T>(out: &mut Vec<u8>, values: &[T], code: impl Fn(&T) -> u32) {
+fn write_column<T>(out: &mut Vec<u8>, values: &[T], mut code: impl FnMut(&T) -> u32) {
     for value in values {
         varint::write(out, code(value));
     }
@@ -319,6 +331,12 @@ fn write_positions(out: &mut Vec<u8>, positions: &[[i32; 3]]) {
     for axis in 0..3 {
         write_column(out, positions, |p| varint::zigzag(p[axis]));
     }
+}
+
+/// Each as the difference to the one before it: rows are in birth order, so nearly all are 0.
+fn write_births(out: &mut Vec<u8>, births: &[u32]) {
+    let mut before = 0;
+    write_column(out, births, |&born| born.wrapping_sub(std::mem::replace(&mut before, born)));
 }
 
 fn read_byte(bytes: &mut &[u8]) -> Result<u8, FrameError> {
@@ -345,9 +363,17 @@ fn read_bytes(bytes: &mut &[u8], count: usize) -> Result<Vec<u8>, FrameError> {
 fn read_column<T>(
     bytes: &mut &[u8],
     count: usize,
-    parse: impl Fn(u32) -> Option<T>,
+    mut parse: impl FnMut(u32) -> Option<T>,
 ) -> Result<Vec<T>, FrameError> {
     (0..count).map(|_| parse(read_varint(bytes)?).ok_or(FrameError::Body)).collect()
+}
+
+fn read_births(bytes: &mut &[u8], count: usize) -> Result<Vec<u32>, FrameError> {
+    let mut before = 0u32;
+    read_column(bytes, count, |later| {
+        before = before.wrapping_add(later);
+        Some(before)
+    })
 }
 
 fn read_positions(bytes: &mut &[u8], count: usize) -> Result<Vec<[i32; 3]>, FrameError> {

@@ -1,6 +1,6 @@
 //! The parameters of growth as they travel. Names, ranges and defaults stand in `PROTOCOL.md`.
 
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 /// How vigor is shared out among the branches of a plant.
@@ -12,11 +12,6 @@ pub enum VigorModel {
     BorchertHonda,
     /// Along each axis by rank: what has more light for each bud weighs more.
     Priority,
-}
-
-/// A field that is there holds a value; `null` is none.
-fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
-    T::deserialize(deserializer).map(Some)
 }
 
 /// Declares the full set and the patch together, so that they cannot differ.
@@ -35,7 +30,7 @@ macro_rules! parameters {
         pub struct ParametersPatch {
             $(
                 $(#[doc = $doc])+
-                #[serde(default, deserialize_with = "present", skip_serializing_if = "Option::is_none")]
+                #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
                 #[ts(optional)]
                 pub $name: Option<$type>,
             )+

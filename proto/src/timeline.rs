@@ -13,8 +13,10 @@ pub enum OperationKind {
     Growth,
     /// Growth into an outline.
     Lasso,
-    /// A change of parameters.
+    /// A change of parameters, perhaps with one of the appearance.
     Parameters,
+    /// A change of the appearance alone.
+    Appearance,
     /// A seed planted.
     Seed,
     /// An obstacle placed, moved or removed.

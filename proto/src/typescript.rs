@@ -3,7 +3,8 @@
 use ts_rs::{Config, TS};
 
 use crate::{
-    command, control, envelope, frame, library, obstacle, parameters, problem, species, timeline, version,
+    appearance, command, control, envelope, frame, library, obstacle, parameters, problem, schematic,
+    species, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -49,6 +50,8 @@ pub fn declarations() -> String {
         out.push_str(&format!("  {name}: {},\n", u16::from(code)));
     }
     out.push_str("} as const;\n");
+    let default = serde_json::to_string_pretty(&appearance::Appearance::default()).unwrap_or_default();
+    out.push_str(&format!("\nexport const DEFAULT_APPEARANCE: Appearance = {default};\n"));
     for declaration in [
         command::StrokeSample::decl(&config),
         parameters::VigorModel::decl(&config),
@@ -60,10 +63,22 @@ pub fn declarations() -> String {
         obstacle::Obstacle::decl(&config),
         obstacle::PlacedShape::decl(&config),
         obstacle::PlacedObstacle::decl(&config),
+        appearance::LeafKind::decl(&config),
+        appearance::LeafLook::decl(&config),
+        appearance::Place::decl(&config),
+        appearance::FlowerKind::decl(&config),
+        appearance::FlowerLook::decl(&config),
+        appearance::FruitKind::decl(&config),
+        appearance::FruitLook::decl(&config),
+        appearance::BarkKind::decl(&config),
+        appearance::BarkLook::decl(&config),
+        appearance::Sky::decl(&config),
+        appearance::Ground::decl(&config),
+        appearance::Background::decl(&config),
+        appearance::Appearance::decl(&config),
+        appearance::AppearancePatch::decl(&config),
         command::Command::decl(&config),
-        species::LeafKind::decl(&config),
-        species::BarkKind::decl(&config),
-        species::Fruit::decl(&config),
+        schematic::Schematic::decl(&config),
         species::Species::decl(&config),
         problem::ProblemCode::decl(&config),
         problem::Problem::decl(&config),

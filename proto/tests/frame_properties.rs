@@ -12,13 +12,21 @@ fn positions(count: usize) -> impl Strategy<Value = Vec<[i32; 3]>> {
 
 fn rows(counts: std::ops::RangeInclusive<usize>) -> impl Strategy<Value = Rows> {
     counts.prop_flat_map(|n| {
-        (vec(any::<u32>(), n), positions(n), vec(any::<u16>(), n), vec(any::<u8>(), n), vec(any::<u8>(), n))
-            .prop_map(|(parent, position, radius, foliage, light)| Rows {
+        (
+            vec(any::<u32>(), n),
+            positions(n),
+            vec(any::<u16>(), n),
+            vec(any::<u8>(), n),
+            vec(any::<u8>(), n),
+            vec(any::<u32>(), n),
+        )
+            .prop_map(|(parent, position, radius, foliage, light, born)| Rows {
                 parent,
                 position,
                 radius,
                 foliage,
                 light,
+                born,
             })
     })
 }
@@ -33,6 +41,7 @@ fn patched() -> impl Strategy<Value = (Vec<u8>, Values)> {
             vec(any::<u16>(), n).prop_map(Values::Radius),
             vec(any::<u8>(), n).prop_map(Values::Foliage),
             vec(any::<u8>(), n).prop_map(Values::Light),
+            vec(any::<u32>(), n).prop_map(Values::Born),
         ];
         (Just(rows), values)
     })
@@ -154,7 +163,7 @@ fn fr1_what_is_reserved_is_refused() {
     assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
     assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
     assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
-    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 5, 1, 0, 0])), Err(FrameError::Body));
+    assert_eq!(Frame::decode(&headed(&[4, 0, 0, 6, 1, 0, 0])), Err(FrameError::Body));
 }
 
 #[test]

@@ -15,6 +15,7 @@ fn sapling() -> Rows {
         radius: vec![0, 460, 440, 392, 392],
         foliage: vec![0x00, 0x00, 0x73, 0xf3, 0x93],
         light: vec![0, 120, 180, 255, 210],
+        born: vec![0, 1, 1, 2, 4],
     }
 }
 
@@ -39,6 +40,7 @@ fn catch_up() -> Frame {
         radius: (0..CHUNK_ROWS).map(|i| if i == 0 { 0 } else { 700 - i as u16 }).collect(),
         foliage: (0..CHUNK_ROWS).map(|i| (i % 256) as u8).collect(),
         light: (0..CHUNK_ROWS).map(|i| (255 - i) as u8).collect(),
+        born: (0..CHUNK_ROWS).map(|i| (i as u32).div_ceil(9)).collect(),
     };
     let next = Rows {
         parent: vec![2, 513],
@@ -46,6 +48,8 @@ fn catch_up() -> Frame {
         radius: vec![u16::MAX, 1],
         foliage: vec![0xff, 0x0f],
         light: vec![255, 1],
+        // They rise along a plant; the format holds any.
+        born: vec![u32::MAX, 300],
     };
     Frame {
         epoch: u32::MAX,
@@ -75,6 +79,7 @@ fn truncate() -> Frame {
                     radius: vec![392],
                     foliage: vec![0x83],
                     light: vec![200],
+                    born: vec![5],
                 },
             },
         ],
@@ -94,6 +99,7 @@ fn patches() -> Frame {
             patch((0..=255).collect(), Values::Radius((0..256).map(|i| 300 + i % 7).collect())),
             patch(vec![17], Values::Foliage(vec![0x40])),
             patch(vec![100, 200], Values::Light(vec![0, 255])),
+            patch(vec![0, 1, 7], Values::Born(vec![129, 129, 4000])),
         ],
     }
 }
@@ -127,6 +133,7 @@ fn described_change(change: &ChunkChange) -> Value {
                 Values::Radius(v) => ("radius", json!(v)),
                 Values::Foliage(v) => ("foliage", json!(v)),
                 Values::Light(v) => ("light", json!(v)),
+                Values::Born(v) => ("born", json!(v)),
             };
             json!({
                 "change": "patch", "chunk": chunk, "generation": generation, "rows": rows,
@@ -143,6 +150,7 @@ fn described_rows(rows: &Rows) -> Value {
         "radius": rows.radius,
         "foliage": rows.foliage,
         "light": rows.light,
+        "born": rows.born,
     })
 }
 

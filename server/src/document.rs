@@ -4,6 +4,7 @@ use espalier_export::{
     ExportError,
     picture::{self, Look},
 };
+use espalier_growth::species::Stand;
 use espalier_mesh::Style;
 use espalier_session::{Document, DocumentError, style_options};
 
@@ -25,16 +26,21 @@ pub enum FileError {
 
 /// The plants of a stored document as glTF binary.
 pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
-    Ok(file(&mut Document::from_bytes(bytes)?, &Look::default(), Format::Glb)?)
+    Ok(file(&mut Document::from_bytes(bytes)?, Stand::Ground, Format::Glb)?)
 }
 
-/// The plants of a document in a file format.
-pub fn file(document: &mut Document, look: &Look, format: Format) -> Result<Vec<u8>, ExportError> {
-    let parameters = document.parameters();
+/// The plants of a document in a file format, in a picture on such a stand.
+pub fn file(document: &mut Document, stand: Stand, format: Format) -> Result<Vec<u8>, ExportError> {
+    let (parameters, appearance) = (document.parameters(), *document.appearance());
     let style = Style::new(style_options(&parameters));
     match format {
-        Format::Glb => espalier_export::glb(document.portrait(), &style, parameters.internode_length),
+        Format::Glb => {
+            espalier_export::glb(document.portrait(), &style, &appearance, parameters.internode_length)
+        }
         Format::Skeleton => Ok(espalier_export::skeleton_json(document.portrait(), &style)),
-        Format::Picture => Ok(picture::draw(document.portrait(), &style, look, PICTURE.0, PICTURE.1).png()),
+        Format::Picture => {
+            let look = Look { appearance, stand };
+            Ok(picture::draw(document.portrait(), &style, &look, PICTURE.0, PICTURE.1).png())
+        }
     }
 }

@@ -10,6 +10,7 @@ mod listener;
 mod live;
 mod name;
 mod pool;
+mod portrait;
 mod serve;
 
 use std::process::ExitCode;

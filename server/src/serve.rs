@@ -19,6 +19,7 @@ use crate::{
     listener,
     live::Sessions,
     pool::SimulationPool,
+    portrait::Portraits,
 };
 
 /// How long the server waits for sessions and connections when it stops.
@@ -83,6 +84,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         sessions: sessions.clone(),
         pool,
         metamer_budget: options.metamer_budget,
+        portraits: Portraits::default(),
     };
     let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
 

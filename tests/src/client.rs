@@ -3,8 +3,8 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, Parameters, PlacedObstacle,
-    PoseFrame, Problem, ServerMessage, Timeline, WidthConstraint,
+    Appearance, ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, Parameters,
+    PlacedObstacle, PoseFrame, Problem, ServerMessage, Timeline, WidthConstraint,
 };
 use futures_util::{SinkExt, StreamExt};
 use tokio::{net::TcpStream, time};
@@ -46,6 +46,10 @@ pub struct Client {
     pub state: DocumentState,
     /// The newest parameters.
     pub parameters: Parameters,
+    /// The newest looks.
+    pub appearance: Appearance,
+    /// How often the looks were told.
+    pub appearances: usize,
     /// The newest list of obstacles.
     pub obstacles: Vec<PlacedObstacle>,
     /// The newest lines of time.
@@ -157,6 +161,8 @@ impl Client {
             table: Table::new(epoch),
             state,
             parameters: *parameters,
+            appearance: Appearance::default(),
+            appearances: 0,
             obstacles: Vec::new(),
             timeline: Timeline::default(),
             widths: Vec::new(),
@@ -365,6 +371,10 @@ impl Client {
             ServerMessage::Obstacles { obstacles } => self.obstacles = obstacles,
             ServerMessage::Timeline(timeline) => self.timeline = *timeline,
             ServerMessage::Widths { widths } => self.widths = widths,
+            ServerMessage::Appearance { appearance } => {
+                self.appearance = *appearance;
+                self.appearances += 1;
+            }
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }

@@ -15,6 +15,8 @@ pub struct Row {
     pub foliage: u8,
     /// Light.
     pub light: u8,
+    /// Steps of growth up to its birth.
+    pub born: u32,
 }
 
 /// What a row is apart from its looks: light and vigor are shown as they were last worth a patch.
@@ -140,6 +142,7 @@ impl Table {
                 radius: rows.radius[i],
                 foliage: rows.foliage[i],
                 light: rows.light[i],
+                born: rows.born[i],
             };
         }
         Ok(())
@@ -155,6 +158,7 @@ impl Table {
             Values::Radius(v) => self.rows[row].radius = v[i],
             Values::Foliage(v) => self.rows[row].foliage = v[i],
             Values::Light(v) => self.rows[row].light = v[i],
+            Values::Born(_) => panic!("a metamer never changes its birth"),
         }
         Ok(())
     }

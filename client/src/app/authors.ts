@@ -1,3 +1,5 @@
+import { say } from "./words";
+
 /** Hues that are told apart on the strip, light or dark. */
 const HUES = [208, 28, 285, 340, 176, 52, 250, 5] as const;
 
@@ -8,5 +10,5 @@ export function authorColour(author: number, people: number): string {
 
 /** Names are not asked for: people are told apart by colour and number. */
 export function authorName(author: number): string {
-  return `Person ${author + 1}`;
+  return say("timeline.person", { number: author + 1 });
 }

@@ -8,6 +8,7 @@ import type { Point } from "./ports";
 import { Prediction } from "./prediction";
 import { BranchHand } from "./tools/branch-hand";
 import { PruneRule } from "./tools/prune-rule";
+import type { Key } from "./words";
 
 export interface BranchWorkOptions {
   readonly table: TreeTable;
@@ -21,7 +22,7 @@ export interface BranchWorkOptions {
   /** Cuts the branches off at these rows. */
   readonly cut: (rows: readonly number[]) => void;
   readonly screen: () => { readonly right: Point; readonly up: Point };
-  readonly say: (sentence: string) => void;
+  readonly say: (text: Key) => void;
   /** Whether the server is still growing something. */
   readonly busy: () => boolean;
 }

@@ -1,3 +1,5 @@
+import { say } from "./words";
+
 /** The widest brush, in internodes (`LM2`). */
 export const MAX_RADIUS = 40;
 /** The narrowest brush that is not sketching. */
@@ -30,5 +32,5 @@ export function stepRadius(radius: number, notches: number): number {
 
 /** The radius in words. */
 export function radiusLabel(radius: number): string {
-  return radius === 0 ? "Sketch" : radius < 10 ? radius.toFixed(1) : radius.toFixed(0);
+  return radius === 0 ? say("bars.radius.short") : radius < 10 ? radius.toFixed(1) : radius.toFixed(0);
 }

@@ -1,4 +1,5 @@
 import {
+  type Appearance,
   type ClientMessage,
   CloseCode,
   type Command,
@@ -51,6 +52,7 @@ export type Effect =
   | { readonly kind: "rekeyed" }
   | { readonly kind: "state"; readonly state: DocumentState }
   | { readonly kind: "parameters"; readonly parameters: Parameters }
+  | { readonly kind: "appearance"; readonly appearance: Appearance }
   | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
   | { readonly kind: "timeline"; readonly timeline: Timeline }
   | { readonly kind: "widths"; readonly widths: readonly WidthConstraint[] }
@@ -202,6 +204,9 @@ export class ConnectionCore {
         break;
       case "parameters":
         this.#effects.push({ kind: "parameters", parameters: message.parameters });
+        break;
+      case "appearance":
+        this.#effects.push({ kind: "appearance", appearance: message.appearance });
         break;
       case "obstacles":
         this.#effects.push({ kind: "obstacles", obstacles: message.obstacles });

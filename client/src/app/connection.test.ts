@@ -96,6 +96,7 @@ function setUp() {
       commands: nothing,
       state: nothing,
       parameters: nothing,
+      appearance: nothing,
       obstacles: nothing,
       timeline: nothing,
       widths: nothing,

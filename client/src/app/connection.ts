@@ -1,4 +1,5 @@
 import type {
+  Appearance,
   ClientMessage,
   Command,
   DocumentState,
@@ -50,6 +51,8 @@ export interface ConnectionEvents<Aside> {
   commands(sent: number, settled: number): void;
   state(state: DocumentState): void;
   parameters(parameters: Parameters): void;
+  /** How the tree looks from now on. */
+  appearance(appearance: Appearance): void;
   /** All obstacles there are. */
   obstacles(obstacles: readonly PlacedObstacle[]): void;
   /** What was done, and all other futures. */
@@ -263,6 +266,9 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
           break;
         case "parameters":
           events.parameters(effect.parameters);
+          break;
+        case "appearance":
+          events.appearance(effect.appearance);
           break;
         case "obstacles":
           events.obstacles(effect.obstacles);

@@ -1,3 +1,5 @@
+import { say } from "./words";
+
 /** A file with its name, as chosen on this device. */
 export interface NamedBytes {
   readonly name: string;
@@ -22,13 +24,13 @@ export function packedModel(files: readonly NamedBytes[]): Uint8Array<ArrayBuffe
   }
   const main = files.find(({ name }) => name.toLowerCase().endsWith(".gltf"));
   if (!main) {
-    throw new Error("Choose a .glb, or a .gltf together with its .bin files.");
+    throw new Error(say("scene.no-file"));
   }
   let gltf: Gltf;
   try {
     gltf = JSON.parse(new TextDecoder().decode(main.bytes)) as Gltf;
   } catch {
-    throw new Error(`${main.name} is no glTF file.`);
+    throw new Error(say("scene.no-gltf", { name: main.name }));
   }
   const offsets: number[] = [];
   const parts: Uint8Array[] = [];
@@ -57,7 +59,7 @@ const EMPTY = "data:image/png;base64,";
 
 function bufferOf(uri: string | undefined, files: readonly NamedBytes[]): Uint8Array {
   if (uri === undefined) {
-    throw new Error("This glTF file names no place for its data.");
+    throw new Error(say("scene.no-place"));
   }
   const inline = /^data:[^,]*;base64,(.*)$/s.exec(uri)?.[1];
   if (inline !== undefined) {
@@ -66,7 +68,7 @@ function bufferOf(uri: string | undefined, files: readonly NamedBytes[]): Uint8A
   const name = decodeURIComponent(uri).split("/").pop();
   const file = files.find((candidate) => candidate.name === name);
   if (!file) {
-    throw new Error(`This model also needs the file ${name}; choose both together.`);
+    throw new Error(say("scene.file-missing", { name: name ?? "" }));
   }
   return file.bytes;
 }

@@ -1,27 +1,50 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { Parameters } from "../wire/generated";
-import { type NumberParameter, patchFor, SECTIONS, shownValue } from "./growth-parameters";
+import {
+  DEFAULTS,
+  helpOf,
+  NUMBERS,
+  type NumberName,
+  nameOf,
+  OF_THE_BRUSH,
+  OF_THE_LEAVES,
+  patchFor,
+  patchFrom,
+  SECTIONS,
+  SWITCHES,
+  shownValue,
+  WIDGETS,
+} from "./growth-parameters";
+import { language } from "./words";
 
-const all = SECTIONS.flatMap(({ parameters }) => parameters);
-const numbers = all.filter((parameter): parameter is NumberParameter => parameter.kind === "number");
+/** Where each parameter can be set, panel by panel. */
+const all = [
+  ...SECTIONS.flatMap(({ parameters }) => parameters),
+  ...Object.values(WIDGETS).flat(),
+  ...Object.values(SWITCHES),
+  ...OF_THE_BRUSH,
+  ...OF_THE_LEAVES,
+];
+const numbers = Object.values(NUMBERS);
 
-/** The table of parameters in the protocol's own words: name to range. */
-function tableOfProtocol(): Map<string, string> {
+/** The table of parameters in the protocol's own words: name to default and range. */
+function tableOfProtocol(): Map<string, { readonly value: string; readonly range: string }> {
   const text = readFileSync(new URL("../../../proto/PROTOCOL.md", import.meta.url), "utf8");
   const table = text.slice(text.indexOf("\n## Parameters"));
-  const rows = new Map<string, string>();
+  const rows = new Map<string, { readonly value: string; readonly range: string }>();
   for (const line of table.split("\n")) {
-    const cells = line.split("|").map((cell) => cell.trim());
-    for (const [, name] of cells[1]?.matchAll(/`(\w+)`/g) ?? []) {
-      rows.set(name!, cells[4] ?? "");
-    }
+    const [, names = "", , values = "", range = ""] = line.split("|").map((cell) => cell.trim());
+    const each = values.replaceAll("`", "").split(", ");
+    [...names.matchAll(/`(\w+)`/g)].forEach(([, name], i) => {
+      rows.set(name!, { value: each[i] ?? "", range });
+    });
   }
   return rows;
 }
 
 describe("growth parameters", () => {
-  it("are those of the protocol, each once", () => {
+  it("are those of the protocol, each in one place", () => {
     expect(all.map(({ name }) => name).sort()).toEqual([...tableOfProtocol().keys()].sort());
   });
 
@@ -29,9 +52,24 @@ describe("growth parameters", () => {
     const table = tableOfProtocol();
     expect(numbers.length).toBeGreaterThan(30);
     for (const { name, least, most } of numbers) {
-      const range = /^(\S+) to ([\d.]+)/.exec((table.get(name) ?? "").replace("−", "-"));
+      const range = /^(\S+) to ([\d.]+)/.exec((table.get(name)?.range ?? "").replace("−", "-"));
       expect([least, most], name).toEqual([Number(range?.[1]), Number(range?.[2])]);
     }
+  });
+
+  it("begin and are reset as the protocol says", () => {
+    for (const [name, { value }] of tableOfProtocol()) {
+      expect(String(DEFAULTS[name as keyof Parameters]), name).toBe(value);
+    }
+  });
+
+  it.each(["en", "de"] as const)("each has a name and a sentence of help (%s)", (spoken) => {
+    language.value = spoken;
+    for (const parameter of all) {
+      expect(nameOf(parameter).length, parameter.name).toBeGreaterThan(2);
+      expect(helpOf(parameter), parameter.name).toMatch(/^[A-ZÄÖÜ0-9].+\.$/);
+    }
+    language.value = "en";
   });
 
   it("a slider's steps reach both ends of its range", () => {
@@ -65,12 +103,21 @@ describe("growth parameters", () => {
     expect(patchFor("leaf_size", 2, {} as Parameters)).toEqual({ leaf_size: 2 });
   });
 
+  it("a group is reset to the values of another set", () => {
+    const source = { ...DEFAULTS, branching_angle: 80, deflection_angle: 12 };
+    expect(patchFrom(source, WIDGETS.fork)).toEqual({ branching_angle: 80, deflection_angle: 12 });
+  });
+
   it("values are read with the digits that matter", () => {
-    const named = (name: string) => numbers.find((parameter) => parameter.name === name)!;
-    expect(shownValue(named("apical_control"), 0.52)).toBe("0.520");
-    expect(shownValue(named("phyllotactic_angle"), 137.5)).toBe("137.5°");
-    expect(shownValue(named("max_shoot_length"), 4)).toBe("4");
-    expect(shownValue(named("marker_max_age"), 8)).toBe("8 steps");
-    expect(shownValue(named("gravimorphism_shift"), -0.5)).toBe("−0.50");
+    const shown = (name: NumberName, value: number) => shownValue(NUMBERS[name], value);
+    expect(shown("apical_control", 0.52)).toBe("0.520");
+    expect(shown("phyllotactic_angle", 137.5)).toBe("137.5°");
+    expect(shown("max_shoot_length", 4)).toBe("4");
+    expect(shown("marker_max_age", 8)).toBe("8 steps");
+    expect(shown("gravimorphism_shift", -0.5)).toBe("−0.50");
+    language.value = "de";
+    expect(shown("internode_length", 0.105)).toBe("0,105 m");
+    expect(shown("marker_max_age", 8)).toBe("8 Schritte");
+    language.value = "en";
   });
 });

@@ -114,3 +114,23 @@ describe("travelling by keys", () => {
     expect(done).toEqual([["travel", -1, false], ["travel", 1, false], ["help"]]);
   });
 });
+
+describe("letters", () => {
+  it("D draws in the next way, with Shift in the one before", () => {
+    const { done, press } = setUp();
+    press("d");
+    press("D", { shiftKey: true });
+    expect(done).toEqual([
+      ["drawMode", 1],
+      ["drawMode", -1],
+    ]);
+  });
+
+  it("H hides everything, or brings it back", () => {
+    const { done, press } = setUp();
+    press("h");
+    press("H", {}, new Input("search"));
+    press("h", {}, new Input("range"));
+    expect(done).toEqual([["bare"], ["bare"]]);
+  });
+});

@@ -6,6 +6,10 @@ export interface KeyActions {
   redo(): void;
   frame(): void;
   help(): void;
+  /** Hides everything but the workspace, or brings it back. */
+  bare(): void;
+  /** Shows the tree in the next way there is, or the one before. */
+  drawMode(direction: -1 | 1): void;
   tool(tool: ToolName): void;
   escape(): void;
   widen(notches: number): void;
@@ -110,6 +114,12 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
       case "f":
         actions.frame();
         break;
+      case "d":
+        actions.drawMode(event.shiftKey ? -1 : 1);
+        break;
+      case "h":
+        actions.bare();
+        break;
       case "?":
         actions.help();
         break;
@@ -153,7 +163,7 @@ function takesArrows(target: EventTarget | null): boolean {
 function typing(target: EventTarget | null): boolean {
   if (target instanceof HTMLInputElement) {
     // A slider or a switch takes no letters.
-    return target.type === "text" || target.type === "number";
+    return ["text", "number", "search"].includes(target.type);
   }
   return target instanceof HTMLTextAreaElement;
 }

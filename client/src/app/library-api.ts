@@ -1,4 +1,5 @@
 import type { NewSession, Problem, RenameTree, SavedTree, SaveTree, SessionCreated } from "../wire/generated";
+import { say } from "./words";
 
 /** A request the server refused, or that never reached it. */
 export class RequestFailed extends Error {
@@ -13,8 +14,6 @@ export class RequestFailed extends Error {
     this.problem = problem;
   }
 }
-
-const UNREACHABLE: Problem = { code: "unavailable", message: "The server does not answer. Is it running?" };
 
 /** Starts a session, empty or from a saved tree. */
 export async function createSession(request: NewSession = {}): Promise<string> {
@@ -76,19 +75,32 @@ export async function askFor(
   method: string,
   path: string,
   sent?: { readonly type: string; readonly body: BodyInit },
+  signal?: AbortSignal,
 ): Promise<Response> {
   let response: Response;
   try {
     const body = sent && { headers: { "content-type": sent.type }, body: sent.body };
-    response = await fetch(path, { method, ...body });
-  } catch {
-    throw new RequestFailed(0, UNREACHABLE);
+    response = await fetch(path, { method, ...body, ...(signal ? { signal } : {}) });
+  } catch (error) {
+    if (signal?.aborted) {
+      throw error;
+    }
+    throw silence();
   }
   if (!response.ok) {
-    const json: unknown = await response.json().catch(() => undefined);
-    throw new RequestFailed(response.status, asProblem(json) ?? unexplained(response.status));
+    throw refusal(response.status, await response.json().catch(() => undefined));
   }
   return response;
+}
+
+/** What an answer that is no success says. */
+export function refusal(status: number, json: unknown): RequestFailed {
+  return new RequestFailed(status, asProblem(json) ?? unexplained(status));
+}
+
+/** What no answer at all says. */
+export function silence(): RequestFailed {
+  return new RequestFailed(0, { code: "unavailable", message: say("problems.silent") });
 }
 
 function asProblem(json: unknown): Problem | null {
@@ -97,5 +109,5 @@ function asProblem(json: unknown): Problem | null {
 }
 
 function unexplained(status: number): Problem {
-  return { code: "unavailable", message: `The server answered with status ${status} and no reason.` };
+  return { code: "unavailable", message: say("problems.unexplained", { status }) };
 }

@@ -105,8 +105,8 @@ describe("obstacle list", () => {
   it("an imported model is at hand, a broken one is told of", async () => {
     const { list, world } = setUp();
     await list.import([{ name: "a.glb", bytes: new Uint8Array(4) }]);
-    expect([list.chosen.value, list.importing.value]).toEqual([9, false]);
+    expect([list.chosen.value, list.transfer.progress.value]).toEqual([9, null]);
     await list.import([{ name: "a.obj", bytes: new Uint8Array(4) }]);
-    expect([world.failures.length, list.importing.value]).toEqual([1, false]);
+    expect([world.failures.length, list.transfer.progress.value]).toEqual([1, null]);
   });
 });

@@ -3,6 +3,7 @@ import type { DrawnObstacle, TriangleMesh } from "../scene/obstacle-meshes";
 import type { Command, PlacedObstacle, Pose, Shape } from "../wire/generated";
 import { type NamedBytes, packedModel } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
+import { Transfer } from "./transfer";
 
 export interface ObstacleListOptions {
   readonly submit: (command: Command) => void;
@@ -18,7 +19,8 @@ export class ObstacleList {
   readonly list = signal<readonly PlacedObstacle[]>([]);
   /** The obstacle at hand. */
   readonly chosen = signal<number | null>(null);
-  readonly importing = signal(false);
+  /** A model on its way to the server. */
+  readonly transfer = new Transfer();
   /** The list as it is drawn. */
   readonly drawn = computed<readonly DrawnObstacle[]>(() => {
     const [moved, meshes] = [this.#moved.value, this.#meshes.value];
@@ -100,17 +102,17 @@ export class ObstacleList {
 
   async import(files: readonly NamedBytes[]): Promise<void> {
     const session = this.#options.session();
-    if (session === null || this.importing.peek()) {
+    if (session === null) {
       return;
     }
-    this.importing.value = true;
     try {
-      const { id } = await (this.#options.uploadModel ?? uploadModel)(session, packedModel(files));
-      this.chosen.value = id;
+      const send = this.#options.uploadModel ?? uploadModel;
+      const placed = await this.transfer.run((signal, tell) => send(session, packedModel(files), signal, tell));
+      if (placed) {
+        this.chosen.value = placed.id;
+      }
     } catch (error) {
       this.#options.failed(error);
-    } finally {
-      this.importing.value = false;
     }
   }
 

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { plainly } from "./plain-words";
+import { language } from "./words";
 
 describe("plain words", () => {
   it("say that a branch is gone", () => {
@@ -13,6 +14,19 @@ describe("plain words", () => {
   it("name no rows, and are a sentence", () => {
     const problem = { code: "refused", message: "row 7 is the foot of a trunk, which cannot be turned" } as const;
     expect(plainly(problem)).toBe("That branch is the foot of a trunk, which cannot be turned.");
+  });
+
+  it("known sentences are told in the language of the page", () => {
+    language.value = "de";
+    try {
+      expect(plainly({ code: "refused", message: "there is nothing to undo" })).toMatch(/rückgängig/);
+      const many = "the scene has 64 obstacles; remove one first";
+      expect(plainly({ code: "refused", message: many })).toMatch(/64 Hindernisse/);
+      expect(plainly({ code: "out_of_range", allowed: "0 to 40", message: "radius is 50" })).toMatch(/0 to 40/);
+      expect(plainly({ code: "refused", message: "the moon is full" })).toBe("The moon is full.");
+    } finally {
+      language.value = "en";
+    }
   });
 
   it("leave sentences as they are", () => {

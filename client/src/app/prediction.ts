@@ -3,6 +3,7 @@ import { TreeTable } from "../scene/tree-table";
 import type { Command } from "../wire/generated";
 import type { GhostFrame } from "../wire/ghost";
 import { TRUNK_STAYS } from "./tools/prune-rule";
+import type { Key } from "./words";
 
 /** Steps that can be predicted with the slider. */
 export const MOST_STEPS = 30;
@@ -21,7 +22,7 @@ export interface PredictionOptions {
   /** It has gone; the tree may be about to become what it was. */
   readonly end: (becoming: TreeTable | null) => void;
   /** Something a person should know. */
-  readonly tell: (text: string) => void;
+  readonly tell: (text: Key) => void;
 }
 
 /** What would become of the tree without some branches: a ghost beside it, to be kept or discarded. */
@@ -132,7 +133,7 @@ export class Prediction {
       this.#asked = steps;
     } else {
       this.#end();
-      this.#options.tell("There is no connection to ask; try again in a moment.");
+      this.#options.tell("tools.no-connection");
     }
   }
 

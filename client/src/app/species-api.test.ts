@@ -1,6 +1,5 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import type { Parameters, Species } from "../wire/generated";
-import { isGrown, listSpecies } from "./species-api";
+import { listSpecies, pictureOf } from "./species-api";
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -25,13 +24,7 @@ describe("species", () => {
     await expect(listSpecies()).rejects.toThrow("does not answer");
   });
 
-  it("the one in force is known by its parameters, as 32-bit floats", () => {
-    const parameters = { apical_control: 0.515, buds_per_node: 2, trunk_upward: true, vigor_model: "priority" };
-    const oak = { parameters } as unknown as Species;
-    const sent = { ...parameters, apical_control: Math.fround(0.515) } as unknown as Parameters;
-    expect(isGrown(oak, sent)).toBe(true);
-    for (const change of [{ apical_control: 0.516 }, { trunk_upward: false }, { vigor_model: "borchert_honda" }]) {
-      expect(isGrown(oak, { ...sent, ...change }), JSON.stringify(change)).toBe(false);
-    }
+  it("each has an address for its picture", () => {
+    expect(pictureOf("cedar-of-lebanon")).toBe("/api/species/cedar-of-lebanon/picture");
   });
 });

@@ -14,14 +14,7 @@ export async function listSpecies(): Promise<readonly Species[]> {
   }
 }
 
-/** Whether the parameters in force are a species' own. */
-export function isGrown(species: Species, parameters: object): boolean {
-  const now = new Map<string, unknown>(Object.entries(parameters));
-  return Object.entries(species.parameters).every(([name, value]) => {
-    const other = now.get(name);
-    // Numbers travel as 32-bit floats.
-    return typeof value === "number" && typeof other === "number"
-      ? Math.abs(value - other) <= 1e-5 * Math.max(1, Math.abs(value))
-      : value === other;
-  });
+/** Where a picture of a grown tree of a species is. */
+export function pictureOf(slug: string): string {
+  return `/api/species/${encodeURIComponent(slug)}/picture`;
 }

@@ -1,5 +1,9 @@
+import { RADIANS_PER_PIXEL } from "../scene/camera-rig";
+import type { DrawMode, Legend } from "../scene/draw-mode";
 import type { TreeTable } from "../scene/tree-table";
+import type { View } from "../scene/view";
 import type { Viewport } from "../scene/viewport";
+import type { Appearance } from "../wire/generated";
 import type { Point } from "./ports";
 import { nearestBase, scaleAt } from "./scene-link";
 import type { Settings } from "./settings";
@@ -15,6 +19,9 @@ export class Stage {
   #view: Viewport | null = null;
   #canvas: HTMLCanvasElement | null = null;
   #radiusTimer = 0;
+  /** What a picture made later begins with. */
+  #appearance: Appearance | null = null;
+  #mode: DrawMode = "lit";
 
   /** `busy` tells whether a tool shows itself, which the radius then must not. */
   constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
@@ -26,6 +33,10 @@ export class Stage {
   attach(view: Viewport, canvas: HTMLCanvasElement): void {
     this.#view = view;
     this.#canvas = canvas;
+    if (this.#appearance) {
+      view.setAppearance(this.#appearance);
+    }
+    view.setDrawMode(this.#mode);
   }
 
   detach(): void {
@@ -53,8 +64,40 @@ export class Stage {
     this.#view?.setLeafSize(size);
   }
 
+  /** How the tree and its surroundings look. */
+  setAppearance(appearance: Appearance): void {
+    this.#appearance = appearance;
+    this.#view?.setAppearance(appearance);
+  }
+
+  /** What is shown of the tree. */
+  setDrawMode(mode: DrawMode): void {
+    this.#mode = mode;
+    this.#view?.setDrawMode(mode);
+  }
+
+  /** What the draw mode's colours mean, as the tree is now. */
+  legend(): Legend | null {
+    return this.#view?.legend() ?? null;
+  }
+
   frameTree(): void {
     this.#view?.frameTree();
+  }
+
+  look(view: View): void {
+    this.#view?.look(view);
+  }
+
+  /** Turns the tree around the vertical, by radians: above 0 its front goes to the right. */
+  turn(radians: number): void {
+    this.#view?.orbit(radians / RADIANS_PER_PIXEL, 0);
+  }
+
+  /** How far the tree is turned, in radians from −π to π; 0 as a page opens. */
+  get turned(): number {
+    const [right] = this.screenAxes() ?? [[1, 0, 0]];
+    return Math.atan2(right[2], right[0]);
   }
 
   hideBrush(): void {

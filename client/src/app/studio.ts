@@ -1,43 +1,57 @@
-import { batch, effect, signal } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { axisStart } from "../scene/branch-rows";
+import type { DrawMode } from "../scene/draw-mode";
 import { TreeTable } from "../scene/tree-table";
-import { Viewport } from "../scene/viewport";
+import { viewIn } from "../scene/view";
 import { FrameKind } from "../wire/envelope";
 import type { Frame } from "../wire/frame";
-import type { Command, DocumentState, Parameters, ParametersPatch, Problem } from "../wire/generated";
+import {
+  type Appearance,
+  type AppearancePatch,
+  type Command,
+  DEFAULT_APPEARANCE,
+  type DocumentState,
+  type Parameters,
+  type ParametersPatch,
+} from "../wire/generated";
 import { decodeServerFrame } from "../wire/server-frame";
 import { BranchWork } from "./branch-work";
-import { stepRadius } from "./brush-radius";
 import { ChosenBud } from "./chosen-bud";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { browserClock, Connection } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
+import { Draft } from "./draft";
+import { Exports, keepFile } from "./exports";
 import { GrowControl } from "./grow-control";
-import { deflectionFor, KEY_RATE } from "./grow-pacer";
-import { listenToKeys } from "./keyboard";
 import { createSession, sessionExists, socketAddress } from "./library-api";
 import { ObstacleList } from "./obstacle-list";
-import { publishFacts } from "./page-facts";
 import { followPageLife } from "./page-life";
-import { plainly } from "./plain-words";
-import { listenToPointers } from "./pointer-source";
+import { refused } from "./refusals";
 import { mayReload } from "./reload-guard";
 import { type AsideServerFrame, rowStore } from "./scene-link";
+import { pathOf, sessionInPath } from "./session-address";
 import { loadSettings } from "./settings";
 import { Stage } from "./stage";
 import { TimelineControl } from "./timeline-control";
 import { Toasts } from "./toasts";
 import { PICK_TOLERANCE } from "./tools/tool";
 import { Toolbox } from "./tools/toolbox";
+import { Tour } from "./tour";
+import { say } from "./words";
 
-export type SheetName = "save" | "library" | "share" | "help";
-export type PanelName = "growth" | "scene";
+/** Cards over the workspace, one at a time. */
+export type SheetName = "save" | "library" | "share" | "help" | "settings";
+
+/** The panels, as they stand in the tool bar. */
+export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "background", "scene"] as const;
+export type PanelName = (typeof PANEL_NAMES)[number];
 
 /** What keeps the workspace from being used, with a way on. */
 export type Hindrance = "unknown-session" | "version" | "no-server" | "no-webgl";
 
 const RETRY_START = 2000;
-const BUD_LOST = "The chosen branch is gone; every branch grows again.";
+/** So many attempts at a first connection are quietly made. */
+const SILENT_AFTER = 2;
 
 /** One open page: the session it shows and the tools at hand. */
 export class Studio {
@@ -48,7 +62,24 @@ export class Studio {
   readonly attempts = signal(0);
   readonly hindrance = signal<Hindrance | null>(null);
   readonly document = signal<DocumentState | null>(null);
-  readonly parameters = signal<Parameters | null>(null);
+  /** What trees grow by, as it is set here and by others. */
+  readonly growing = new Draft<Parameters, null>({
+    none: null,
+    submit: (parameters, gesture) => this.submit({ kind: "set_parameters", parameters, ...joined(gesture) }),
+    newGesture: () => this.newGesture(),
+    busy: () => this.#busy(),
+    clock: browserClock,
+  });
+  readonly parameters = this.growing.value;
+  /** How the tree looks, as it is set here and by others. */
+  readonly looks = new Draft<Appearance>({
+    none: DEFAULT_APPEARANCE,
+    submit: (appearance, gesture) => this.submit({ kind: "set_appearance", appearance, ...joined(gesture) }),
+    newGesture: () => this.newGesture(),
+    busy: () => this.#busy(),
+    clock: browserClock,
+  });
+  readonly appearance = this.looks.value;
   readonly rows = signal(0);
   /** Counts the frames of rows that came in. */
   readonly revision = signal(0);
@@ -56,11 +87,22 @@ export class Studio {
   readonly settled = signal(0);
   readonly sheet = signal<SheetName | null>(null);
   readonly panel = signal<PanelName | null>(null);
+  /** What is shown of the tree, on this device alone. */
+  readonly drawMode = signal<DrawMode>("lit");
+  /** Whether the sun keeps its place on the glass while the tree is turned. */
+  readonly sunPinned = signal(false);
+  /** Whether nothing but the workspace is shown. */
+  readonly bare = signal(false);
   readonly table = new TreeTable();
   readonly bud = new ChosenBud(this.table);
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     session: () => this.session.peek(),
+    failed: (error) => this.toasts.show(sentence(error)),
+  });
+  readonly exports = new Exports({
+    session: () => this.session.peek(),
+    give: keepFile,
     failed: (error) => this.toasts.show(sentence(error)),
   });
   readonly growth = new GrowControl({
@@ -88,7 +130,7 @@ export class Studio {
     limits: () => this.tools.shaping.peek()?.width.limits.peek() ?? new Set(),
     cut: (rows) => this.tools.shaping.peek()?.prune.cut(rows),
     screen: () => this.stage.middle(),
-    say: (sentence) => this.toasts.show(sentence),
+    say: (text) => this.toasts.show(say(text)),
     busy: () => this.#busy(),
   });
   readonly tools = new Toolbox({
@@ -114,77 +156,20 @@ export class Studio {
     choose: (x, y) => this.chooseBud(x, y),
   });
 
+  readonly tour = new Tour({
+    settings: this.settings,
+    ready: () => this.phase.value === "connected" && this.rows.value > 0 && this.hindrance.value === null,
+    drawn: () => (this.tools.drawing.value ? 0 : (this.document.value?.metamers ?? 0)),
+    turned: () => this.stage.turned,
+    growing: () => this.growth.deflection.value !== 0,
+  });
+
   readonly stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
   #connection: Connection<Frame, AsideServerFrame> | null = null;
   #framed = false;
   /** The view is no longer that of a fresh page. */
   #moved = false;
-
-  /** Takes the canvas into use; returns what gives it back. */
-  attach(canvas: HTMLCanvasElement): () => void {
-    let viewport: Viewport;
-    try {
-      viewport = new Viewport(canvas, this.table);
-    } catch (error) {
-      console.error(error);
-      this.hindrance.value = "no-webgl";
-      return () => {};
-    }
-    this.stage.attach(viewport, canvas);
-    this.branches.attach(viewport);
-    this.tools.attach(viewport);
-    const keys = listenToKeys({
-      undo: () => this.undo(),
-      redo: () => this.redo(),
-      frame: () => this.stage.frameTree(),
-      help: () => {
-        this.sheet.value = "help";
-      },
-      tool: (tool) => this.tools.choose(tool),
-      escape: () => this.escape(),
-      widen: (notches) => this.stage.setRadius(stepRadius(this.settings.radius.peek(), notches)),
-      turn: (right, up, twist) => this.branches.step(right, up, twist),
-      travel: (direction, edge) => (edge ? this.time.toEdge(direction) : this.time.by(direction)),
-      grow: (direction) =>
-        direction === 0 ? this.growth.release() : this.growth.to(direction * deflectionFor(KEY_RATE)),
-      busy: () => this.sheet.peek() !== null,
-    });
-    const stopPointers = listenToPointers(canvas, {
-      gesture: (gesture) => {
-        this.stage.radiusSeen();
-        this.tools.gesture(gesture);
-      },
-      doubles: () => this.tools.doubles(),
-      grip: (x, y) => this.tools.grip(x, y),
-      hover: (place) => this.tools.hover(place),
-      widen: (factor) => {
-        if (!this.branches.step(0, 0, Math.log(factor) * 8)) {
-          this.stage.setRadius(stepRadius(this.settings.radius.peek(), Math.log(factor) * 8));
-        }
-      },
-      handHeld: keys.handHeld,
-      holdable: (x, y) => this.tools.holdable(x, y),
-    });
-    const stopPublishing = effect(() => publishFacts(this));
-    const stopScene = effect(() => {
-      const chosen = this.panel.value === "scene" ? this.obstacles.chosen.value : null;
-      viewport.showObstacles(this.obstacles.drawn.value, chosen);
-    });
-    const stopLife = this.#followPageLife();
-    return () => {
-      stopLife();
-      stopScene();
-      stopPublishing();
-      stopPointers();
-      keys.stop();
-      this.#leave();
-      this.tools.detach();
-      this.branches.detach();
-      this.stage.detach();
-      viewport.dispose();
-    };
-  }
 
   /** Opens what the address names, or the session of last time, or a new one. */
   async start(): Promise<void> {
@@ -196,7 +181,7 @@ export class Studio {
     try {
       const last = this.settings.lastSession.peek();
       const session = last !== null && (await sessionExists(last)) ? last : await createSession();
-      history.replaceState(null, "", `/s/${session}`);
+      history.replaceState(null, "", pathOf(session));
       this.#open(session);
     } catch {
       this.hindrance.value = "no-server";
@@ -212,7 +197,7 @@ export class Studio {
   async newSession(tree?: string): Promise<void> {
     try {
       const session = await createSession(tree === undefined ? {} : { tree });
-      history.pushState(null, "", `/s/${session}`);
+      history.pushState(null, "", pathOf(session));
       this.#open(session);
       this.sheet.value = null;
     } catch (error) {
@@ -233,8 +218,19 @@ export class Studio {
     this.submit({ kind: "stop" });
   }
 
-  setParameters(parameters: ParametersPatch): void {
-    this.submit({ kind: "set_parameters", parameters });
+  /** Sets parameters of growth; with a gesture they are one operation for undo with what else has it. */
+  setParameters(parameters: ParametersPatch, gesture?: number): void {
+    this.growing.commit(parameters, gesture);
+  }
+
+  /** Sets sections of the appearance, each as a whole; with a gesture as above. */
+  dress(appearance: AppearancePatch, gesture?: number): void {
+    this.looks.commit(appearance, gesture);
+  }
+
+  /** A number that no other operation of this client has. */
+  newGesture(): number {
+    return this.#next();
   }
 
   /** Chooses the branch at a place, so that it alone grows; where there is none, or the same, every branch grows. */
@@ -254,7 +250,9 @@ export class Studio {
 
   /** Steps back from what is most at hand: a drawing, a tool, a choice, a panel. */
   escape(): void {
-    if (this.branches.prediction.rows.peek() !== null) {
+    if (this.bare.peek()) {
+      this.bare.value = false;
+    } else if (this.branches.prediction.rows.peek() !== null) {
       this.branches.prediction.discard();
     } else if (this.tools.drawing.peek()) {
       this.tools.cancel();
@@ -273,10 +271,16 @@ export class Studio {
     this.panel.value = this.panel.peek() === panel ? null : panel;
   }
 
-  submit(command: Command): void {
+  /** Hides everything but the workspace, or brings it back. */
+  setBare(bare: boolean): void {
+    this.bare.value = bare;
+  }
+
+  /** Sends a command and gives its number; 0 while no session is open. */
+  submit(command: Command): number {
     // The server gives up what it was asked to predict and does not always say so (`PD2`).
     this.branches.prediction.lost();
-    this.#connection?.submit(command);
+    return this.#connection?.submit(command) ?? 0;
   }
 
   #next(): number {
@@ -293,13 +297,15 @@ export class Studio {
   }
 
   #open(session: string): void {
-    this.#leave();
+    this.leave();
     batch(() => {
       this.session.value = session;
       this.settings.lastSession.value = session;
       // Another session does not make a browser draw that cannot.
       this.hindrance.value = this.stage.lit ? null : "no-webgl";
       this.document.value = null;
+      this.growing.clear();
+      this.looks.clear();
       this.rows.value = 0;
       this.bud.release();
       this.tools.clear();
@@ -326,6 +332,8 @@ export class Studio {
             this.sent.value = sent;
             this.settled.value = settled;
           });
+          this.growing.settle(settled);
+          this.looks.settle(settled);
           this.tools.told();
           this.tools.outline.settled(settled);
         },
@@ -334,10 +342,8 @@ export class Studio {
           this.tools.told();
           this.tools.outline.told(this.#connection?.settled ?? 0, state.pending_steps);
         },
-        parameters: (parameters) => {
-          this.parameters.value = parameters;
-          this.stage.setLeafSize(parameters.leaf_size);
-        },
+        parameters: (parameters) => this.growing.receive(parameters),
+        appearance: (appearance) => this.looks.receive(appearance),
         obstacles: (obstacles) => {
           // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
           obstacles.length === 0 ? this.obstacles.clear() : this.obstacles.receive(obstacles);
@@ -351,9 +357,11 @@ export class Studio {
         },
         widths: (widths) => this.tools.shaping.peek()?.width.receive(widths),
         timeline: (timeline) => this.time.receive(timeline),
-        problem: (problem, command) => this.#onProblem(problem, command),
+        problem: (problem, command) => refused(this, problem, command),
         rows: () => this.#onRows(),
         rekeyed: () => {
+          this.growing.letGo();
+          this.looks.letGo();
           this.tools.abandon();
           this.tools.outline.clear();
         },
@@ -376,43 +384,16 @@ export class Studio {
       this.attempts.value = attempts;
       if (stopped !== null) {
         this.hindrance.value = stopped;
+      } else if (phase === "connected" && this.hindrance.peek() === "no-server") {
+        this.hindrance.value = null;
+      } else if (attempts >= SILENT_AFTER && this.document.peek() === null) {
+        // With nothing on the page yet there is nothing to do but wait.
+        this.hindrance.value ??= "no-server";
       }
     });
     if (stopped === "unknown-session" && this.settings.lastSession.peek() === this.session.peek()) {
       this.settings.lastSession.value = null;
     }
-  }
-
-  #onProblem(problem: Problem, command?: Command): void {
-    if (command?.kind === "lasso") {
-      this.tools.outline.clear();
-    }
-    if (command?.kind === "go_to") {
-      this.time.stop();
-    }
-    this.branches.refused(command);
-    this.tools.refused(command);
-    if (command?.kind.endsWith("_obstacle")) {
-      this.obstacles.preview(null);
-    }
-    if (problem.code === "not_found" && problem.field === "bud") {
-      this.#loseBud();
-      return;
-    }
-    if (problem.code === "not_found" && problem.field === "stroke") {
-      // Someone went back in time, which ends every stroke; what was still under way of this one is refused.
-      if (this.tools.drawing.peek()) {
-        this.toasts.show("The tree went back in time; your stroke ended there.");
-      }
-      this.tools.abandon();
-      return;
-    }
-    if (problem.code === "not_found" && problem.field === "bend") {
-      // What was still under way of a bend that was refused or given up says nothing new.
-      return;
-    }
-    this.toasts.show(plainly(problem));
-    console.warn("The server refused:", problem);
   }
 
   #onRows(): void {
@@ -421,28 +402,32 @@ export class Studio {
     this.branches.hand.keep();
     this.tools.told();
     if (!this.bud.keep()) {
-      this.toasts.show(BUD_LOST);
+      this.toasts.show(say("notices.bud-lost"));
     }
     this.stage.changed();
     if (!this.#framed && this.table.rows > 0) {
       this.#framed = true;
       // A page opens with a view that suits a seed; a tree that is there already is shown as a whole.
-      if (this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0)) {
+      const view = viewIn(location.search);
+      if (view) {
+        this.stage.look(view);
+      } else if (this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0)) {
         this.stage.frameTree();
       }
     }
   }
 
-  /** The server does not know the chosen branch: it was shed, or someone went back to before it grew. */
-  #loseBud(): void {
+  /** The branch that was chosen is gone: it was shed, or someone went back to before it grew. */
+  loseBud(): void {
     this.tools.abandon();
     if (this.bud.row.peek() !== null) {
       this.bud.release();
-      this.toasts.show(BUD_LOST);
+      this.toasts.show(say("notices.bud-lost"));
     }
   }
 
-  #leave(): void {
+  /** Ends what is under way and lets the session go. */
+  leave(): void {
     this.tools.end();
     this.growth.release();
     this.#connection?.close();
@@ -450,7 +435,7 @@ export class Studio {
   }
 
   /** Ends strokes and keeps what is unsent when the page goes, wakes the connection when it comes back. */
-  #followPageLife(): () => void {
+  followPageLife(): () => void {
     return followPageLife({
       leaving: () => {
         this.tools.end();
@@ -476,16 +461,12 @@ export class Studio {
   }
 }
 
+/** A gesture as a command carries it. */
+function joined(gesture: number | undefined): { gesture?: number } {
+  return gesture === undefined ? {} : { gesture };
+}
+
 /** What to tell a person about an error. */
 export function sentence(error: unknown): string {
   return error instanceof Error ? error.message : String(error);
-}
-
-function sessionInPath(path: string): string | null {
-  const name = /^\/s\/([^/]+)\/?$/.exec(path)?.[1];
-  try {
-    return name === undefined ? null : decodeURIComponent(name);
-  } catch {
-    return null;
-  }
 }

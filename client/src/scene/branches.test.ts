@@ -1,13 +1,14 @@
 import type { Mesh } from "three";
-import { expect, it } from "vitest";
+import { describe, expect, it } from "vitest";
 import { randoms } from "../../test/randoms";
 import { sampleTree } from "../../test/sample-tree";
+import { SMALL, tableOf } from "../../test/small-tree";
 import type { ChunkChange } from "../wire/frame";
 import { CHUNK_ROWS } from "../wire/generated";
 import { Branches } from "./branches";
 import { Foliage } from "./foliage";
 import { makeMaterials } from "./materials";
-import { Dirty, TreeTable } from "./tree-table";
+import { TreeTable } from "./tree-table";
 
 /** Every row that instances of these meshes draw, with its parent. */
 function drawn(meshes: Mesh[]): Map<number, number> {
@@ -23,6 +24,8 @@ function drawn(meshes: Mesh[]): Map<number, number> {
   return rows;
 }
 
+const wood = (branches: Branches) => branches.meshes.filter((mesh) => mesh !== branches.faces);
+
 /** How many leaves of each row are drawn. */
 function leaves(mesh: Mesh): Map<number, number> {
   const counts = new Map<number, number>();
@@ -36,12 +39,12 @@ function leaves(mesh: Mesh): Map<number, number> {
   return counts;
 }
 
-it("exactly the living metamers and their leaves are drawn, whatever was changed", () => {
+it("exactly the living metamers and their leaves are drawn, whatever was changed", { timeout: 30_000 }, () => {
   const random = randoms(31);
   const table = new TreeTable(() => 0);
   const materials = makeMaterials({});
   const branches = new Branches(materials);
-  const foliage = new Foliage(materials);
+  const foliage = new Foliage(materials, {});
   const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
   table.apply(sample);
   let sequence = sample.sequence;
@@ -64,6 +67,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
           radius: Uint16Array.from({ length: n }, () => 390 + Math.floor(random() * 250)),
           foliage: Uint8Array.from({ length: n }, () => Math.floor(random() * 256)),
           light: new Uint8Array(n),
+          born: new Uint32Array(n),
         },
       });
     } else {
@@ -85,11 +89,13 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
       },
       (row, bits) => {
         branches.update(table, row);
-        if ((bits & Dirty.Shape) !== 0) foliage.update(table, row);
+        foliage.update(table, row, bits);
       },
     );
     branches.upload();
-    foliage.upload();
+    const eye = [40 * random() - 20, 30 * random(), 10 + 200 * random()] as const;
+    branches.see(table, { eye, pixels: 900 }, random() < 0.5);
+    foliage.upload(table);
     const expected = new Map<number, number>();
     const expectedLeaves = new Map<number, number>();
     for (let row = 0; row < table.rows; row += 1) {
@@ -98,7 +104,114 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
       const count = table.foliage[row]! & 15;
       if (count > 0) expectedLeaves.set(row, count);
     }
-    expect(new Map([...drawn(branches.meshes)].sort((a, b) => a[0] - b[0]))).toEqual(expected);
-    expect(new Map([...leaves(foliage.mesh)].sort((a, b) => a[0] - b[0]))).toEqual(expectedLeaves);
+    expect(new Map([...drawn(wood(branches))].sort((a, b) => a[0] - b[0]))).toEqual(expected);
+    expect(new Map([...leaves(foliage.meshes[0]!)].sort((a, b) => a[0] - b[0]))).toEqual(expectedLeaves);
   }
+});
+
+/** Branches that have taken over a table. */
+function branchesOf(table: TreeTable): Branches {
+  const branches = new Branches(makeMaterials({}));
+  table.drain(
+    (rows) => branches.truncate(rows),
+    (row) => branches.update(table, row),
+  );
+  branches.upload();
+  return branches;
+}
+
+/** Triangles that meshes draw. */
+function triangles(meshes: Mesh[]): number {
+  return meshes.reduce((sum, { geometry }) => {
+    const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
+    return sum + (count * geometry.getIndex()!.count) / 3;
+  }, 0);
+}
+
+describe("branches", { timeout: 30_000 }, () => {
+  const large = sampleTree({ seed: 4, height: 90, orders: 5 });
+
+  it("of 100 000 metamers seen whole take less than half a million triangles", () => {
+    const table = new TreeTable(() => 0);
+    table.apply(large);
+    expect(table.rows).toBeGreaterThan(100_000);
+    const branches = branchesOf(table);
+    branches.see(table, { eye: [0, 45, 190], pixels: 1600 }, true);
+    expect(triangles(branches.meshes) * (100_000 / table.rows)).toBeLessThan(500_000);
+  });
+
+  it("are rounder from near than from far", () => {
+    const table = new TreeTable(() => 0);
+    table.apply(sampleTree({ seed: 4, height: 30, orders: 3 }));
+    const branches = branchesOf(table);
+    branches.see(table, { eye: [0, 15, 400], pixels: 1000 }, true);
+    const far = triangles(branches.meshes);
+    branches.see(table, { eye: [0, 3, 5], pixels: 1000 }, true);
+    expect(triangles(branches.meshes)).toBeGreaterThan(5 * far);
+  });
+
+  it("are looked at a few a frame, until all have been", () => {
+    const [table, other] = [new TreeTable(() => 0), new TreeTable(() => 0)];
+    for (const each of [table, other]) each.apply(large);
+    const [branches, atOnce] = [branchesOf(table), branchesOf(other)];
+    const onlooker = { eye: [0, 20, 30], pixels: 1000 } as const;
+    let frames = 1;
+    while (branches.see(table, onlooker, false)) frames += 1;
+    expect(frames).toBeGreaterThan(3);
+    atOnce.see(other, onlooker, true);
+    expect(triangles(branches.meshes)).toBe(triangles(atOnce.meshes));
+    expect(branches.see(table, onlooker, false)).toBe(false);
+  });
+
+  it("overlap exactly where an axis passes from one level to another", () => {
+    const table = new TreeTable(() => 0);
+    table.apply(sampleTree({ seed: 4, height: 30, orders: 3 }));
+    const branches = branchesOf(table);
+    for (const eye of [
+      [0, 3, 5],
+      [10, 20, 40],
+      [0, 12, 9],
+    ] as const) {
+      branches.see(table, { eye, pixels: 1000 }, true);
+      const level = new Map(wood(branches).flatMap((mesh, i) => [...drawn([mesh]).keys()].map((row) => [row, i])));
+      let joints = 0;
+      for (const { geometry } of wood(branches)) {
+        const { array } = geometry.getAttribute("metamer");
+        for (let i = 0; i < Number((geometry as unknown as { instanceCount: number }).instanceCount); i += 1) {
+          const [row, parent, flags] = [array[4 * i]!, array[4 * i + 1]!, array[4 * i + 3]!];
+          const passes = table.startsAxis[row] === 0 && level.has(parent) && level.get(parent) !== level.get(row);
+          expect((flags & 16) !== 0, `row ${row}`).toBe(passes);
+          if (passes) joints += 1;
+        }
+      }
+      expect(joints).toBeGreaterThan(5);
+    }
+  });
+
+  it("show a cut face only where a thick one ends", () => {
+    const faces = (table: TreeTable) => [...drawn([branchesOf(table).faces]).keys()];
+    expect(faces(tableOf(SMALL.map((twig, row) => (row > 4 ? twig : { ...twig, radius: 0.5 }))))).toEqual([5, 9]);
+    const pruned = tableOf(SMALL.map((twig, row) => (row === 4 || row === 5 ? { ...twig, dead: true } : twig)));
+    expect(faces(pruned)).toEqual([3, 9]);
+    expect(faces(tableOf(SMALL.map((twig) => ({ ...twig, radius: 0.1 }))))).toEqual([]);
+  });
+
+  it("show none where a lateral goes on in place of what was cut", () => {
+    const cutAbove = (heir: number) =>
+      tableOf(
+        SMALL.map((twig, row) => {
+          if (row === 4 || row === 5) return { ...twig, dead: true };
+          return row >= 12 ? { ...twig, radius: heir } : twig;
+        }),
+      );
+    const table = cutAbove(0.4);
+    const branches = branchesOf(table);
+    expect([...drawn([branches.faces]).keys()]).not.toContain(3);
+    // It is cut as well, and a stub is left.
+    table.radiusCode[12] = 0;
+    branches.update(table, 12);
+    branches.upload();
+    expect([...drawn([branches.faces]).keys()]).toContain(3);
+    expect([...drawn([branchesOf(cutAbove(0.2)).faces]).keys()], "a slim one does not").toContain(3);
+  });
 });

@@ -1,5 +1,6 @@
 import { Damper } from "./damper";
 import type { Vec3 } from "./vector";
+import type { View } from "./view";
 
 /** Where the camera is: on a sphere around a target, looking at it. */
 export interface Pose {
@@ -31,7 +32,8 @@ const MIN_DISTANCE = 2.5;
 const MAX_PITCH = 1.5;
 /** The eye stays this far above the ground. */
 const EYE_CLEARANCE = 0.6;
-const RADIANS_PER_PIXEL = 0.006;
+/** How far the view turns with a finger. */
+export const RADIANS_PER_PIXEL = 0.006;
 const SMALLEST_FIT = 20;
 
 /** An orbiting camera that follows its goal smoothly and never loses the tree or goes under the ground. */
@@ -112,6 +114,22 @@ export class CameraRig {
     Object.assign(this.goal, pose);
     this.easing = true;
     this.limit();
+  }
+
+  /** Shows the box at once, as a view wants it. */
+  look(box: Box, aspect: number, view: View): void {
+    this.take();
+    this.box = union(this.box, box);
+    const pose = fitted(box, aspect, (view.yaw * Math.PI) / 180);
+    pose.pitch = (view.pitch * Math.PI) / 180;
+    pose.distance /= view.zoom;
+    const half = pose.distance * Math.tan(FIELD_OF_VIEW / 2);
+    pose.target[0] -= view.right * half * Math.cos(pose.yaw);
+    pose.target[1] -= view.up * half;
+    pose.target[2] += view.right * half * Math.sin(pose.yaw);
+    Object.assign(this.goal, pose);
+    this.limit();
+    Object.assign(this.pose, structuredClone(this.goal));
   }
 
   /** Eases back to where the camera was before the last `frame`, unless somebody has moved it since. */

@@ -1,9 +1,10 @@
-import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector3, Vector4 } from "three";
+import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 import { Branches } from "./branches";
 import type { Box } from "./camera-rig";
-import { Foliage } from "./foliage";
-import { BRANCH_FRAGMENT, BRANCH_VERTEX, DEPTH_FRAGMENT } from "./glsl/branch";
-import { LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
+import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "./glsl/branch";
+import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
+import { DEPTH_FRAGMENT } from "./glsl/shadow";
+import { LeafRows } from "./leaf-rows";
 import type { Uniforms } from "./materials";
 import { NodeTexture } from "./node-texture";
 import type { TreeTable } from "./tree-table";
@@ -24,7 +25,7 @@ export class Ghost {
   private readonly nodes = new NodeTexture();
   private readonly materials: RawShaderMaterial[];
   private readonly branches: Branches;
-  private readonly foliage: Foliage;
+  private readonly leaves: LeafRows;
   private readonly pose = { turn: new Quaternion(), from: new Vector3(), to: new Vector3() };
   private box: Box | null = null;
 
@@ -32,6 +33,10 @@ export class Ghost {
     const uniforms: Uniforms = {
       ...shared,
       uNodes: this.nodes.uniform,
+      // A ghost is always lit: numbers of its rows are not told apart from the tree's.
+      uMode: { value: 0 },
+      // Both passes must meet the very same leaves, however they are looked at.
+      uLeafLevel: { value: new Vector2(2, 1) },
       uGhostTurn: { value: this.pose.turn },
       uGhostFrom: { value: this.pose.from },
       uGhostTo: { value: this.pose.to },
@@ -57,16 +62,15 @@ export class Ghost {
         ...options,
       });
     const both = { side: 2 } as const;
-    const bark = shader(BRANCH_VERTEX, BRANCH_FRAGMENT, colour, { FURROWED: "" });
-    const twig = shader(BRANCH_VERTEX, BRANCH_FRAGMENT, colour);
+    const bark = shader(BRANCH_VERTEX, BRANCH_FRAGMENT, colour);
     const branchDepth = shader(BRANCH_VERTEX, DEPTH_FRAGMENT, depth);
     const leaf = shader(LEAF_VERTEX, LEAF_FRAGMENT, { ...colour, ...both });
-    const leafDepth = shader(LEAF_VERTEX, DEPTH_FRAGMENT, { ...depth, ...both });
-    this.materials = [bark, twig, branchDepth, leaf, leafDepth];
-    this.branches = new Branches({ bark, twig, branchDepth });
-    this.foliage = new Foliage({ leaf, leafDepth });
-    const seen = [...this.branches.meshes, this.foliage.mesh];
-    const first = [...this.branches.casters, this.foliage.caster];
+    const leafDepth = shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, { ...depth, ...both });
+    this.materials = [bark, branchDepth, leaf, leafDepth];
+    this.branches = new Branches({ bark, twig: bark, branchDepth }, { strips: false });
+    this.leaves = new LeafRows({ leaf, leafDepth }, uniforms);
+    const seen = [...this.branches.meshes, this.leaves.mesh];
+    const first = [...this.branches.casters, this.leaves.caster];
     for (const mesh of first) mesh.renderOrder = 1;
     for (const mesh of seen) mesh.renderOrder = 2;
     this.group.add(...first, ...seen);
@@ -90,7 +94,7 @@ export class Ghost {
         if (needed >= 0) this.nodes.write(table, needed);
       }
       this.branches.update(table, row);
-      this.foliage.update(table, row);
+      this.leaves.update(table, row);
       if (table.radiusCode[row] === 0) continue;
       for (const axis of [0, 1, 2] as const) {
         const at = table.position[3 * row + axis]!;
@@ -100,10 +104,9 @@ export class Ghost {
     }
     this.nodes.upload();
     this.branches.upload();
-    this.foliage.upload();
+    this.leaves.upload();
     // Both passes must meet the very same surface.
     this.branches.detail(false);
-    this.foliage.detail(false);
     this.group.visible = true;
     this.box = low[0] <= high[0] ? { min: low, max: high } : { min: [0, 0, 0], max: [0, 0, 0] };
   }
@@ -119,9 +122,9 @@ export class Ghost {
     this.box = null;
     this.group.visible = false;
     this.branches.truncate(0);
-    this.foliage.truncate(0);
+    this.leaves.truncate(0);
     this.branches.upload();
-    this.foliage.upload();
+    this.leaves.upload();
   }
 
   /** A restored context has lost every texture. */
@@ -131,7 +134,7 @@ export class Ghost {
 
   dispose(): void {
     this.branches.dispose();
-    this.foliage.dispose();
+    this.leaves.dispose();
     this.nodes.dispose();
     for (const material of this.materials) material.dispose();
   }

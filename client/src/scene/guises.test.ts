@@ -148,6 +148,7 @@ describe("a bent path", () => {
       radius: Uint16Array.of(400),
       foliage: Uint8Array.of(3),
       light: Uint8Array.of(9),
+      born: Uint32Array.of(1),
     };
     const changes: ChunkChange[] = [
       { change: "append", chunk: (row - start) / CHUNK_ROWS, generation: 2, start, rows },

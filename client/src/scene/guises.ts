@@ -136,7 +136,11 @@ export class Guises {
    * Has the rows wear what they should after the table or the guises changed, and tells of each that wears another
    * slot; false if nothing but what the slots say can have changed.
    */
-  dress(table: TreeTable, changed: (row: number, slot: number) => void, tableChanged: boolean): boolean {
+  dress(
+    table: TreeTable,
+    changed: (row: number, slot: number, before: number) => void,
+    tableChanged: boolean,
+  ): boolean {
     if (!this.stale && !(tableChanged && this.active)) return false;
     this.stale = false;
     const { rows, parent } = table;
@@ -169,9 +173,10 @@ export class Guises {
         wears = wearer.wears;
         this.bears[row] = wearer.bears ?? inherited;
       }
-      if (wears === this.wears[row]) continue;
+      const before = this.wears[row]!;
+      if (wears === before) continue;
       this.wears[row] = wears;
-      changed(row, wears);
+      changed(row, wears, before);
     }
     this.lowest = lowest;
     this.write(table);
@@ -209,6 +214,21 @@ export class Guises {
     const t = this.texels;
     const [x, y, z] = rotated([t[at]!, t[at + 1]!, t[at + 2]!, t[at + 3]!], place);
     return [x + t[at + 4]!, y + t[at + 5]!, z + t[at + 6]!];
+  }
+
+  /** What a row wears: 0 for nothing, below 0 where it is its own. */
+  wornBy(row: number): number {
+    return this.active && row < this.known ? this.wears[row]! : 0;
+  }
+
+  /** What a radius becomes in a slot, as the slots were written last. */
+  radiusIn(slot: number, radius: number): number {
+    if (slot === 0) return radius;
+    const at = Math.abs(slot) * SLOT;
+    const own = this.texels[at + 11]!;
+    if (slot < 0 && own > 0) return own;
+    const [exponent, factor] = [this.texels[at + 12]!, this.texels[at + 13]!];
+    return exponent === 1 ? radius : factor * Math.max(radius, 1e-4) ** exponent;
   }
 
   /** Whether a row is not drawn at all. */

@@ -1,5 +1,14 @@
-import { DoubleSide, FrontSide, GLSL3, type IUniform, RawShaderMaterial } from "three";
-import { BRANCH_FRAGMENT, BRANCH_VERTEX, DEPTH_FRAGMENT } from "./glsl/branch";
+import {
+  CustomBlending,
+  DoubleSide,
+  FrontSide,
+  GLSL3,
+  type IUniform,
+  OneFactor,
+  RawShaderMaterial,
+  ZeroFactor,
+} from "three";
+import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "./glsl/branch";
 import {
   BRUSH_FRAGMENT,
   BRUSH_VERTEX,
@@ -8,14 +17,27 @@ import {
   SKY_FRAGMENT,
   SKY_VERTEX,
 } from "./glsl/environment";
-import { LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
+import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
 import { OBSTACLE_FRAGMENT, OBSTACLE_VERTEX } from "./glsl/obstacle";
+import { ornamentDepthFragment, ornamentFragment, ornamentVertex } from "./glsl/ornament";
+import { DEPTH_FRAGMENT } from "./glsl/shadow";
+import { SKELETON_FRAGMENT, SKELETON_VERTEX } from "./glsl/skeleton";
 import { PLANE_SHOWN } from "./obstacle-meshes";
 
 /** Uniforms by name; materials share the objects, so one assignment reaches all of them. */
 export type Uniforms = Record<string, IUniform>;
 
 export type Materials = ReturnType<typeof makeMaterials>;
+
+/** What is thinner than a pixel covers some of its samples; the picture itself stays opaque. */
+const COVERAGE = {
+  alphaToCoverage: true,
+  blending: CustomBlending,
+  blendSrc: OneFactor,
+  blendDst: ZeroFactor,
+  blendSrcAlpha: ZeroFactor,
+  blendDstAlpha: OneFactor,
+};
 
 /** Every material of the scene. */
 export function makeMaterials(uniforms: Uniforms) {
@@ -31,20 +53,28 @@ export function makeMaterials(uniforms: Uniforms) {
     polygonOffsetFactor: -1,
     polygonOffsetUnits: -4,
   };
+  // What a picture leaves out is cut away, as finely as the screen has samples.
+  const cutOut = { side: DoubleSide, alphaToCoverage: true };
+  const caster = { side: DoubleSide, defines: { CASTER: "" } };
   const plane = { PLANE: PLANE_SHOWN.toFixed(1) };
   return {
-    bark: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { defines: { FURROWED: "" }, side: FrontSide }),
-    twig: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { side: FrontSide }),
-    branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide, colorWrite: false }),
-    leaf: shader(LEAF_VERTEX, LEAF_FRAGMENT, { side: DoubleSide }),
-    leafDepth: shader(LEAF_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide, colorWrite: false }),
+    bark: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { side: FrontSide }),
+    twig: shader(BRANCH_VERTEX, BRANCH_FRAGMENT, { defines: { RIBBON: "" }, side: DoubleSide, ...COVERAGE }),
+    branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { defines: { RIBBON: "", CASTER: "" }, side: DoubleSide }),
+    leaf: shader(LEAF_VERTEX, LEAF_FRAGMENT, cutOut),
+    leafDepth: shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, caster),
+    flower: shader(ornamentVertex("Flower"), ornamentFragment("Flower"), cutOut),
+    flowerDepth: shader(ornamentVertex("Flower"), ornamentDepthFragment("Flower"), caster),
+    fruit: shader(ornamentVertex("Fruit"), ornamentFragment("Fruit"), cutOut),
+    fruitDepth: shader(ornamentVertex("Fruit"), ornamentDepthFragment("Fruit"), caster),
     sky: shader(SKY_VERTEX, SKY_FRAGMENT, { depthWrite: false }),
     ground: shader(GROUND_VERTEX, GROUND_FRAGMENT),
     clay: clay({}),
     clayChosen: clay({ CHOSEN: "" }),
     clayPlane: clay(plane, over),
     clayPlaneChosen: clay({ ...plane, CHOSEN: "" }, over),
-    clayDepth: shader(OBSTACLE_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide, colorWrite: false }),
+    clayDepth: shader(OBSTACLE_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide }),
+    skeleton: shader(SKELETON_VERTEX, SKELETON_FRAGMENT, { transparent: true, side: DoubleSide }),
     brush: shader(BRUSH_VERTEX, BRUSH_FRAGMENT, { transparent: true, depthTest: false, depthWrite: false }),
   };
 }

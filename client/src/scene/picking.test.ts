@@ -70,6 +70,7 @@ describe("a pick", () => {
             radius: Uint16Array.of(0, 500, 0, 500),
             foliage: new Uint8Array(4),
             light: new Uint8Array(4),
+            born: new Uint32Array(4),
           },
         },
       ],

@@ -114,4 +114,15 @@ describe("quality control", () => {
     expect(waits.at(-1)).toBe(Number.POSITIVE_INFINITY);
     expect(waits).toEqual([...waits].sort((a, b) => a - b));
   });
+
+  it("a page opens modestly, and no movement pays for that", () => {
+    const control = new QualityControl();
+    control.open(0);
+    expect(control.quality.scale).toBeLessThan(1);
+    for (const cost of [900, 700, 400, 300]) control.measured(cost);
+    expect(control.quality.scale).toBe(0.5);
+    control.rest();
+    expect(control.quality).toBe(QUALITIES[0]);
+    expect(new Set(move(control, tablet, 1000, 5000))).toEqual(new Set([1]));
+  });
 });

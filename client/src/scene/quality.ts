@@ -18,6 +18,8 @@ export const QUALITIES: readonly [Quality, ...Quality[]] = [
   { scale: 0.35, smooth: false, shadowEvery: Number.POSITIVE_INFINITY, detailed: false },
 ];
 
+/** What a page opens with: something is to be seen soon, and the rest of it comes over that. */
+const OPENING = 2;
 /** How long nothing moves before the whole quality comes back, in milliseconds. */
 export const REST_AFTER = 250;
 /** Frames that take longer than this are slow; a display that shows only 30 a second is not. */
@@ -39,6 +41,8 @@ export class QualityControl {
   private lastMoved = Number.NEGATIVE_INFINITY;
   private recent: number[] = [];
   private quickInRow = 0;
+  /** Nothing has been learnt from frames in which everything is used for the first time. */
+  private opening = false;
   /** The best level this movement may use; a failed try is not repeated before the next rest. */
   private best = 0;
 
@@ -49,6 +53,13 @@ export class QualityControl {
 
   get resting(): boolean {
     return !this.moving;
+  }
+
+  /** The first picture is about to be drawn. */
+  open(now: number): void {
+    this.moved(now);
+    this.level = OPENING;
+    this.opening = true;
   }
 
   /** Something moves, grows or is touched. */
@@ -64,7 +75,7 @@ export class QualityControl {
 
   /** A frame of the movement took this many milliseconds. */
   measured(duration: number): void {
-    if (!this.moving) return;
+    if (!this.moving || this.opening) return;
     this.recent.push(duration);
     if (this.recent.length > JUDGED) this.recent.shift();
     this.quickInRow = duration <= QUICK ? this.quickInRow + 1 : 0;
@@ -86,6 +97,10 @@ export class QualityControl {
   rest(): void {
     if (!this.moving) return;
     this.moving = false;
+    if (this.opening) {
+      this.opening = false;
+      return;
+    }
     // Where frames were quick throughout, the next movement may begin one better.
     this.first = Math.max(0, this.level - (this.quickInRow >= JUDGED ? 1 : 0));
   }

@@ -3,10 +3,12 @@ import {
   BufferGeometry,
   type Camera,
   GLSL3,
+  LinearFilter,
   Mesh,
   NearestFilter,
   RawShaderMaterial,
   Scene,
+  Vector2,
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
@@ -20,9 +22,18 @@ void main() { gl_Position = vec4(position, 1.0); }
 const FRAGMENT = /* glsl */ `
 precision highp float;
 uniform sampler2D uPicture;
+uniform sampler2D uBefore;
+uniform float uShare;
 out vec4 colour;
-void main() { colour = vec4(texelFetch(uPicture, ivec2(gl_FragCoord.xy), 0).rgb, 1.0); }
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 picture = texelFetch(uPicture, at, 0).rgb;
+  if (uShare < 1.0) picture = mix(texture(uBefore, gl_FragCoord.xy / vec2(textureSize(uPicture, 0))).rgb, picture, uShare);
+  colour = vec4(picture, 1.0);
+}
 `;
+/** How long a better picture takes to come over a lesser one, in milliseconds. */
+const FADE = 260;
 
 /** The canvas's pixels: as many as it shows and antialiased, or fewer and plain where frames must be quick. */
 export class Screen {
@@ -32,14 +43,29 @@ export class Screen {
     magFilter: NearestFilter,
     generateMipmaps: false,
   });
+  /** A lesser picture that the present one comes over. */
+  private readonly before = new WebGLRenderTarget(1, 1, {
+    minFilter: LinearFilter,
+    magFilter: LinearFilter,
+    generateMipmaps: false,
+  });
+  private readonly share = { value: 1 };
+  /** When it began to, or null. */
+  private fading: number | null = null;
   private readonly material = new RawShaderMaterial({
     glslVersion: GLSL3,
-    uniforms: { uPicture: { value: this.target.texture } },
+    uniforms: {
+      uPicture: { value: this.target.texture },
+      uBefore: { value: this.before.texture },
+      uShare: this.share,
+    },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     depthTest: false,
     depthWrite: false,
   });
+  /** Pixels drawn, across and down. */
+  readonly size = new Vector2(1, 1);
   private readonly copy = new Scene();
   private readonly whole: Mesh;
   private width = 1;
@@ -61,18 +87,48 @@ export class Screen {
     this.width = width;
     this.height = height;
     this.ratio = ratio;
-    this.fit();
+    this.allot();
   }
 
-  /** Draws with a share of the pixels along each side, antialiased or plain. */
-  draw(scene: Scene, camera: Camera, scale: number, smooth: boolean): void {
+  /** Chooses a share of the pixels along each side, antialiased or plain. */
+  fit(scale: number, smooth: boolean): void {
+    if (scale === this.scale && smooth === this.smooth) return;
+    this.scale = scale;
+    this.smooth = smooth;
+    this.allot();
+  }
+
+  /** Whether a picture drawn like this would be a better one than the last. */
+  improves(scale: number, smooth: boolean): boolean {
+    return scale > this.scale || (smooth && !this.smooth);
+  }
+
+  /** Draws the picture as coarsely as the last, for the next one to come over it by and by. */
+  remember(scene: Scene, camera: Camera): void {
+    const { renderer, before, size } = this;
+    before.setSize(size.x, size.y);
+    renderer.setRenderTarget(before);
+    renderer.clear();
+    renderer.render(scene, camera);
+    renderer.setRenderTarget(null);
+  }
+
+  /** Shows what was drawn a little more, and says whether that goes on; null if it is shown already. */
+  fade(camera: Camera): boolean | null {
+    if (this.fading === null) return null;
+    const share = Math.min(1, (performance.now() - this.fading) / FADE);
+    this.share.value = share * share * (3 - 2 * share);
+    this.renderer.render(this.copy, camera);
+    if (share === 1) this.fading = null;
+    return share < 1;
+  }
+
+  /** Draws the scene; it comes over what was remembered just before, or shows at once. */
+  draw(scene: Scene, camera: Camera, over = false): void {
     const { renderer, target } = this;
-    if (scale !== this.scale || smooth !== this.smooth) {
-      this.scale = scale;
-      this.smooth = smooth;
-      this.fit();
-    }
-    if (!smooth) {
+    this.share.value = over ? 0 : 1;
+    this.fading = null;
+    if (!this.smooth) {
       renderer.clear();
       renderer.render(scene, camera);
       return;
@@ -82,18 +138,22 @@ export class Screen {
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
     renderer.render(this.copy, camera);
+    // The time it took to draw is no part of the fade.
+    if (over) this.fading = performance.now();
   }
 
   dispose(): void {
     this.target.dispose();
+    this.before.dispose();
     this.material.dispose();
     this.whole.geometry.dispose();
   }
 
-  private fit(): void {
+  private allot(): void {
     const { renderer, width, height } = this;
     renderer.setDrawingBufferSize(width, height, this.ratio * this.scale);
     const { domElement } = renderer;
+    this.size.set(domElement.width, domElement.height);
     if (this.smooth) this.target.setSize(domElement.width, domElement.height);
   }
 }

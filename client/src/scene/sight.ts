@@ -28,7 +28,8 @@ export class Sight {
     camera.aspect = aspect;
     // An eye just above the ground must not cut away the ground before its feet.
     camera.near = Math.max(0.05, Math.min(0.02 * pose.distance, 1.5 * eye[1]));
-    camera.far = pose.distance + 1500;
+    // The ground goes on as far as that, see `environment.ts`.
+    camera.far = pose.distance + Math.max(1500, 8 * pose.distance);
     camera.updateProjectionMatrix();
     camera.position.set(...eye);
     camera.lookAt(...pose.target);
@@ -89,8 +90,7 @@ export class Sight {
 
   projection(): Projection {
     const { width, height } = this;
-    const pixelsPerInternode = height / (2 * Math.tan(FIELD_OF_VIEW / 2));
-    return { clipFromWorld: this.clipFromWorld(), width, height, pixelsPerInternode };
+    return { clipFromWorld: this.clipFromWorld(), width, height, pixelsPerInternode: pixelsPerInternode(height) };
   }
 
   private clipFromWorld(): number[] {
@@ -101,6 +101,11 @@ export class Sight {
   private depthOf(point: Vec3, forward: Vector3): number {
     return new Vector3(...point).sub(this.camera.position).dot(forward);
   }
+}
+
+/** How many pixels an internode at distance one is long in a picture of this height. */
+export function pixelsPerInternode(height: number): number {
+  return height / (2 * Math.tan(FIELD_OF_VIEW / 2));
 }
 
 function along({ origin, direction }: Ray, length: number): Vec3 {

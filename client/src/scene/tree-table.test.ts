@@ -14,6 +14,7 @@ function rows(...of: [number, number, number, number, number][]): Rows {
     radius: Uint16Array.from(of, (r) => r[4]),
     foliage: Uint8Array.from(of, () => 3),
     light: Uint8Array.from(of, () => 200),
+    born: Uint32Array.from(of, (_, row) => row),
   };
 }
 
@@ -213,6 +214,7 @@ function wholly(table: TreeTable): ChunkChange[] {
         radius: Uint16Array.from(all, (row) => table.radiusCode[row]!),
         foliage: Uint8Array.from(all, (row) => table.foliage[row]!),
         light: Uint8Array.from(all, (row) => table.light[row]!),
+        born: Uint32Array.from(all, (row) => table.born[row]!),
       },
     });
   }

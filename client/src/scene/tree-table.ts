@@ -48,6 +48,8 @@ export class TreeTable implements Skeleton {
   foliage = new Uint8Array(0);
   /** Exposure 0 to 255. */
   light = new Uint8Array(0);
+  /** The step of growth in which each metamer was born; 0 for the first seed. */
+  born = new Uint32Array(0);
   /** The living row that continues the axis, or -1. */
   successor = new Int32Array(0);
   /** Quaternion of each node's frame, x y z w with w ≥ 0. */
@@ -207,6 +209,7 @@ export class TreeTable implements Skeleton {
       this.radiusCode[row] = rows.radius[i]!;
       this.foliage[row] = rows.foliage[i]!;
       this.light[row] = rows.light[i]!;
+      this.born[row] = rows.born[i]!;
       if (row >= known) this.birth[row] = LONG_AGO;
       this.link(row);
       this.mark(row, Dirty.Drawn | Dirty.Shape);
@@ -240,6 +243,10 @@ export class TreeTable implements Skeleton {
           break;
         case "light":
           this.light[row] = values[i]!;
+          this.mark(row, Dirty.Drawn);
+          break;
+        case "born":
+          this.born[row] = values[i]!;
           this.mark(row, Dirty.Drawn);
           break;
       }
@@ -386,6 +393,7 @@ export class TreeTable implements Skeleton {
     this.radiusCode = grown(this.radiusCode, room);
     this.foliage = grown(this.foliage, room);
     this.light = grown(this.light, room);
+    this.born = grown(this.born, room);
     this.successor = grown(this.successor, room);
     this.frames = grown(this.frames, 4 * room);
     this.arc = grown(this.arc, room);

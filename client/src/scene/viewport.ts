@@ -1,32 +1,33 @@
-import { Scene, WebGLRenderer } from "three";
-import type { DrawingPlane } from "../wire/generated";
-import { Branches } from "./branches";
+import { Scene, Vector4, WebGLRenderer } from "three";
+import type { Appearance, DrawingPlane } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
 import { type Box, CameraRig, fitted, union } from "./camera-rig";
+import type { DrawMode, Legend } from "./draw-mode";
 import { Environment } from "./environment";
-import { Foliage } from "./foliage";
+import type { Fineness } from "./fineness";
+import { FrameLoop, type FrameTime } from "./frame-loop";
 import { Ghost, type GhostPose } from "./ghost";
-import { type Guise, Guises } from "./guises";
+import type { Guise } from "./guises";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
-import { NodeTexture } from "./node-texture";
 import { NoiseTextures } from "./noise-texture";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
 import { type Pick, pickBranch } from "./picking";
-import { QualityControl } from "./quality";
 import { Screen } from "./screen";
-import { Sight } from "./sight";
+import { pixelsPerInternode, Sight } from "./sight";
 import { Sun } from "./sun";
 import { encodePicture } from "./thumbnail";
-import { Dirty, type TreeTable } from "./tree-table";
+import type { TreeTable } from "./tree-table";
+import { TreeView } from "./tree-view";
 import type { Vec3 } from "./vector";
+import type { View } from "./view";
 
 const MAX_PIXEL_RATIO = 2;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
 const SHADOW_REACH = 40;
-/** What the first frame after a pause counts as, in seconds: the pause itself is no part of any movement. */
-const FIRST_STEP = 1 / 60;
+/** A line's width in pixels of the page. */
+const LINE = 1.2;
 
 /** The picture on a canvas: what is in it, the camera, and what a finger on it means. Draws only when needed. */
 export class Viewport {
@@ -36,31 +37,24 @@ export class Viewport {
   private readonly rig = new CameraRig();
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
-  private readonly nodes = new NodeTexture();
-  private readonly guises = new Guises();
   private readonly noise = new NoiseTextures();
-  private readonly branches: Branches;
-  private readonly foliage: Foliage;
+  private readonly tree: TreeView;
   private readonly environment: Environment;
   private readonly sun: Sun;
   private readonly obstacles: ObstacleMeshes;
   private readonly brush: BrushShell;
   private readonly ghost: Ghost;
   private readonly screen: Screen;
-  private readonly control = new QualityControl();
+  private readonly frames: FrameLoop;
   private readonly resizing: ResizeObserver;
-  private request = 0;
-  /** When the movement under way was last drawn. */
-  private lastFrame: number | null = null;
-  private tableChanged = true;
-  private guisesChanged = false;
+  private readonly eye = new Vector4();
+  private drawMode: DrawMode = "lit";
+  /** Whether there has been no tree yet. */
+  private empty = true;
+  /** Whether details are still to be chosen. */
+  private unsettled = false;
   private shadowStale = true;
   private shadowDrawn = Number.NEGATIVE_INFINITY;
-  /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
-  private requested = 0;
-  private began: number | null = null;
-  private restTimer = 0;
-  private held = false;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -71,22 +65,24 @@ export class Viewport {
     this.screen = new Screen(this.renderer);
     this.uniforms.uTime = { value: 0 };
     this.uniforms.uLeafSize = { value: 0.7 };
-    this.uniforms.uNodes = this.nodes.uniform;
-    this.uniforms.uGuises = this.guises.uniform;
     this.uniforms.uNoise = { value: this.noise.space };
     this.uniforms.uFlatNoise = { value: this.noise.plane };
+    this.uniforms.uView = { value: this.eye };
+    this.uniforms.uPicture = { value: this.screen.size };
+    this.uniforms.uLine = { value: LINE };
     this.uniforms.uWorldFromClip = { value: this.sight.worldFromClip };
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
-    this.branches = new Branches(this.materials);
-    this.foliage = new Foliage(this.materials);
+    this.tree = new TreeView(this.table, this.materials, this.uniforms);
     this.environment = new Environment(this.materials, this.uniforms);
     this.obstacles = new ObstacleMeshes(this.materials);
     this.brush = new BrushShell(this.materials, this.uniforms);
-    this.scene.add(...this.environment.meshes, ...this.branches.meshes, this.foliage.mesh, this.brush.mesh);
+    this.scene.add(...this.environment.meshes, this.tree.group, this.brush.mesh);
     this.ghost = new Ghost(this.uniforms);
     this.scene.add(this.obstacles.bodies, this.ghost.group);
-    this.sun.casters.add(...this.branches.casters, this.foliage.caster, this.obstacles.casters);
+    this.sun.casters.add(this.tree.casters, this.obstacles.casters);
+    this.frames = new FrameLoop(this.draw, () => this.frames.control.quality.scale < 1 || this.shadowStale);
+    this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextrestored", this.restored);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
@@ -95,8 +91,35 @@ export class Viewport {
 
   /** The table has changed; what is new is drawn with the next frame. */
   changed(): void {
-    this.tableChanged = true;
-    this.invalidate();
+    this.tree.changed();
+    if (this.empty && this.table.rows > 0) {
+      this.empty = false;
+      this.frames.control.open(performance.now());
+    }
+    this.frames.invalidate();
+  }
+
+  /** How the tree and its surroundings look. */
+  setAppearance(appearance: Appearance): void {
+    this.environment.setBackground(appearance.background);
+    this.tree.setAppearance(appearance);
+    this.shadowStale = true;
+    this.stir();
+  }
+
+  /** What is shown of the tree. */
+  setDrawMode(mode: DrawMode): void {
+    this.drawMode = mode;
+    this.tree.setMode(mode);
+    this.environment.setNeutral(mode !== "lit");
+    this.shadowStale = true;
+    this.stir();
+  }
+
+  /** What the draw mode's colours mean, as the tree is now. */
+  legend(): Legend | null {
+    this.tree.sync();
+    return this.tree.legend;
   }
 
   /** Length of a leaf in internodes. */
@@ -104,7 +127,7 @@ export class Viewport {
     if (this.uniforms.uLeafSize!.value === size) return;
     this.uniforms.uLeafSize!.value = size;
     this.shadowStale = true;
-    this.invalidate();
+    this.frames.invalidate();
   }
 
   /** Turns around the target. */
@@ -135,6 +158,12 @@ export class Viewport {
   /** Eases it to a view of what will be there. */
   frameBox(box: Box, covered = 0): void {
     this.rig.frame(box, this.sight.width / this.sight.height, covered);
+    this.stir();
+  }
+
+  /** Shows the whole tree at once, as a view wants it. */
+  look(view: View): void {
+    this.rig.look(this.table.bounds(), this.sight.width / this.sight.height, view);
     this.stir();
   }
 
@@ -171,35 +200,36 @@ export class Viewport {
 
   /** The branch under or near a place on the canvas. */
   pick(x: number, y: number, tolerancePixels: number): Pick | null {
-    const drawn = this.guises.active ? this.guises : null;
+    const { guises } = this.tree;
+    const drawn = guises.active ? guises : null;
     return pickBranch(this.table, this.aimed().projection(), x, y, tolerancePixels, drawn);
   }
 
   /** Draws rows otherwise than the table has them until it has caught up, or the guise is taken off. */
   wear(guise: Guise): void {
-    this.guises.put(guise);
+    this.tree.guises.put(guise);
     this.guiseChanged();
   }
 
   /** Draws them as they are again. */
   doff(guise: Guise): void {
-    if (this.guises.take(guise)) this.guiseChanged();
+    if (this.tree.guises.take(guise)) this.guiseChanged();
   }
 
   wears(guise: Guise): boolean {
-    return this.guises.has(guise);
+    return this.tree.guises.has(guise);
   }
 
   /** What a guise that is worn shows has changed. */
   guiseChanged(): void {
-    this.guisesChanged = true;
+    this.tree.guiseChanged();
     this.shadowStale = true;
     this.stir();
   }
 
   /** Where a row is drawn. */
   placeOf(row: number): Vec3 {
-    return this.guises.placeOf(this.table, row);
+    return this.tree.guises.placeOf(this.table, row);
   }
 
   /** The obstacle under a place on the canvas. */
@@ -237,8 +267,7 @@ export class Viewport {
 
   /** A finger is down or a lever is held: the picture is not the one at rest until it is let go. */
   hold(held: boolean): void {
-    this.held = held;
-    this.stir();
+    this.frames.hold(held);
   }
 
   /** Shows the brush around a point. */
@@ -258,31 +287,30 @@ export class Viewport {
     const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
     const passing = [this.brush.mesh, this.ghost.group].filter(({ visible }) => visible);
     for (const object of passing) object.visible = false;
+    const mode = this.drawMode;
+    if (mode !== "lit") this.setDrawMode("lit");
     this.sync();
-    this.detail(false);
-    if (this.shadowStale) this.drawShadow();
     this.sight.aim(pose, this.rig.eye(pose), width / height);
+    this.refine(height, 0, pose.distance);
+    if (this.shadowStale) this.drawShadow();
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
     for (const object of passing) object.visible = true;
+    if (mode !== "lit") this.setDrawMode(mode);
     return picture;
   }
 
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
-    cancelAnimationFrame(this.request);
-    clearTimeout(this.restTimer);
+    this.frames.dispose();
     this.resizing.disconnect();
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
     for (const part of [
-      this.branches,
-      this.foliage,
+      this.tree,
       this.environment,
       this.obstacles,
       this.brush,
       this.ghost,
       this.screen,
-      this.nodes,
-      this.guises,
       this.noise,
       this.sun,
     ])
@@ -291,33 +319,28 @@ export class Viewport {
     this.renderer.dispose();
   }
 
-  private invalidate(): void {
-    if (this.request !== 0) return;
-    this.requested = performance.now();
-    this.request = requestAnimationFrame(this.draw);
-  }
-
   /** Draws again, as part of a movement. */
   private stir(): void {
-    this.control.moved(performance.now());
-    this.invalidate();
+    this.frames.stir();
   }
 
-  private readonly draw = (milliseconds: number): void => {
-    const began = performance.now();
-    const { control } = this;
-    this.request = 0;
-    if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
-    const step = this.lastFrame === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastFrame) / 1000);
-    this.lastFrame = null;
+  private readonly draw = ({ began, step, asked }: FrameTime): boolean => {
+    const { control } = this.frames;
+    // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
+    const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
+    if (fades !== null) return fades;
     this.sync();
     const now = this.table.now();
     this.uniforms.uTime!.value = now;
-    const growing = now < this.table.settledAt + AFTERGROWTH_SECONDS;
+    const growing = now < Math.max(this.table.settledAt + AFTERGROWTH_SECONDS, this.tree.glidesUntil);
     const moving = this.rig.step(step);
     if (growing || moving) control.moved(began);
     const { quality } = control;
-    this.detail(quality.detailed);
+    const { camera } = this.aimed();
+    const over = control.resting && this.screen.improves(quality.scale, quality.smooth);
+    if (over) this.screen.remember(this.scene, camera);
+    this.screen.fit(quality.scale, quality.smooth);
+    this.unsettled = this.refine(this.screen.size.y, quality.detailed ? 1 : 0);
     this.shadowStale ||= growing;
     if (this.shadowStale && began - this.shadowDrawn >= quality.shadowEvery) {
       this.drawShadow();
@@ -325,78 +348,30 @@ export class Viewport {
       // One more frame after the last growth shows everything full grown.
       this.shadowStale = growing;
     }
-    this.screen.draw(this.scene, this.aimed().camera, quality.scale, quality.smooth);
-    // A frame at rest is followed by a pause, which tells nothing.
-    this.began = control.resting ? null : began;
-    this.awaitRest();
-    if (!growing && !moving) return;
-    this.lastFrame = milliseconds;
-    this.invalidate();
-    this.requested = began;
+    this.screen.draw(this.scene, camera, over);
+    return growing || moving || over || this.unsettled;
   };
 
-  /** Has the picture at rest drawn once nothing has moved for a while. */
-  private awaitRest(): void {
-    clearTimeout(this.restTimer);
-    const wait = this.control.restIn(performance.now());
-    if (wait !== null && !this.held) this.restTimer = window.setTimeout(this.rest, wait);
-  }
-
-  private readonly rest = (): void => {
-    if (this.held) return;
-    if (this.request !== 0 || this.control.restIn(performance.now()) !== 0) {
-      this.awaitRest();
-      return;
-    }
-    const reduced = this.control.quality.scale < 1 || this.shadowStale;
-    this.control.rest();
-    this.began = null;
-    if (reduced) this.invalidate();
-  };
-
-  private detail(detailed: boolean): void {
-    this.branches.detail(detailed);
-    this.foliage.detail(detailed);
-    this.uniforms.uShadowTaps!.value = detailed ? 3 : 1;
+  /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
+  private refine(height: number, ease: number, distance = this.rig.pose.distance): boolean {
+    const { position } = this.sight.camera;
+    const fineness: Fineness = { eye: [position.x, position.y, position.z], pixels: pixelsPerInternode(height), ease };
+    this.eye.set(...fineness.eye, fineness.pixels);
+    this.uniforms.uShadowTaps!.value = ease > 0.5 ? 3 : 1;
+    this.environment.reach(distance);
+    return this.tree.detail(fineness, this.frames.control.resting);
   }
 
   /** Takes over what changed in the table. */
   private sync(): void {
-    const { table, tableChanged } = this;
-    if (tableChanged) this.syncTable();
-    if (!tableChanged && !this.guisesChanged) return;
-    this.guisesChanged = false;
-    if (tableChanged) this.guises.settle(table);
-    if (!this.guises.dress(table, (row, slot) => this.nodes.dress(table, row, slot), tableChanged)) {
-      this.guises.write(table);
-    }
-    this.nodes.upload();
-  }
-
-  private syncTable(): void {
-    this.tableChanged = false;
+    if (!this.tree.sync()) return;
     this.shadowStale = true;
-    const { table } = this;
-    this.nodes.reserve(table.rows);
-    table.drain(
-      (rows) => {
-        this.branches.truncate(rows);
-        this.foliage.truncate(rows);
-      },
-      (row, bits) => {
-        this.nodes.write(table, row);
-        this.branches.update(table, row);
-        if ((bits & Dirty.Shape) !== 0) this.foliage.update(table, row);
-      },
-    );
-    this.branches.upload();
-    this.foliage.upload();
-    this.environment.update(table);
+    this.environment.update(this.table);
     this.rig.keep(this.reach());
   }
 
   private drawShadow(): void {
-    this.sun.render(this.renderer, this.uniforms, this.extent());
+    this.sun.render(this.renderer, this.extent(), this.environment.towardsLight);
   }
 
   private drawScene(): void {
@@ -434,15 +409,14 @@ export class Viewport {
     this.sight.width = width;
     this.sight.height = height;
     this.screen.resize(width, height, Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
-    this.invalidate();
+    this.frames.invalidate();
   }
 
   /** A restored context has lost every texture and buffer. */
   private readonly restored = (): void => {
-    this.nodes.uploadWhole();
-    this.guises.uploadWhole();
+    this.tree.restored();
     this.ghost.restored();
     this.shadowStale = true;
-    this.invalidate();
+    this.frames.invalidate();
   };
 }

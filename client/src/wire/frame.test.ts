@@ -83,9 +83,14 @@ describe("a frame", () => {
   it("refuses counts and rows outside a chunk", async () => {
     await refused(headed([2, 0, 1, 0]), /count of 0/);
     await refused(headed([2, 0, 1, 129, 2]), /count of 257/);
-    await refused(headed([3, 0, 1, 255, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]), /past the end/);
+    await refused(headed([3, 0, 1, 255, 1, 2, ...new Array(16).fill(0)]), /past the end/);
     await refused(headed([4, 0, 1, 4, 2, 255, 1, 0, 7, 7]), /past the end/);
     await refused(headed([4, 0, 1, 2, 1, 0, 128, 128, 4]), /16 bits/);
+  });
+
+  it("reads births as differences", async () => {
+    const frame = await decodeFrame(headed([4, 0, 1, 5, 3, 0, 0, 0, 130, 1, 0, 4]));
+    expect(frame.changes[0]).toMatchObject({ column: "born", values: Uint32Array.of(130, 130, 134) });
   });
 
   it("is a frame or a FrameError, whatever the bytes", async () => {

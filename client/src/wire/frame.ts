@@ -32,6 +32,8 @@ export interface Rows {
   foliage: Uint8Array;
   /** Exposure 0 to 255. */
   light: Uint8Array;
+  /** Steps of growth up to its birth, that in which it was born included. */
+  born: Uint32Array;
 }
 
 /** Values of one column, encoded as in `Rows`. */
@@ -98,6 +100,7 @@ function readRows(reader: ByteReader): Rows {
     radius: readRadii(reader, count),
     foliage: reader.take(count),
     light: reader.take(count),
+    born: readBirths(reader, count),
   };
 }
 
@@ -113,6 +116,8 @@ function readValues(reader: ByteReader, column: number, count: number): Values {
       return { column: "foliage", values: reader.take(count) };
     case 4:
       return { column: "light", values: reader.take(count) };
+    case 5:
+      return { column: "born", values: readBirths(reader, count) };
     default:
       throw new FrameError(`Column ${column} is unknown.`);
   }
@@ -121,6 +126,17 @@ function readValues(reader: ByteReader, column: number, count: number): Values {
 function readVarints(reader: ByteReader, count: number): Uint32Array {
   const values = new Uint32Array(count);
   for (let i = 0; i < count; i += 1) values[i] = reader.varint();
+  return values;
+}
+
+/** Each travels as the difference to the one before it. */
+function readBirths(reader: ByteReader, count: number): Uint32Array {
+  const values = new Uint32Array(count);
+  let born = 0;
+  for (let i = 0; i < count; i += 1) {
+    born = (born + reader.varint()) >>> 0;
+    values[i] = born;
+  }
   return values;
 }
 

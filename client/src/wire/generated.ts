@@ -34,6 +34,67 @@ export const CloseCode = {
   Replaced: 4004,
 } as const;
 
+export const DEFAULT_APPEARANCE: Appearance = {
+  "leaves": {
+    "shape": "ovate",
+    "tint": [
+      88,
+      128,
+      52
+    ],
+    "vigor_shift": 0.4,
+    "season": 1.0,
+    "orientation": 0.0
+  },
+  "flowers": {
+    "kind": "none",
+    "tint": [
+      246,
+      236,
+      240
+    ],
+    "size": 0.5,
+    "share": 0.5,
+    "place": "twigs",
+    "vigor": 0.0
+  },
+  "fruits": {
+    "kind": "none",
+    "tint": [
+      178,
+      44,
+      34
+    ],
+    "size": 0.4,
+    "share": 0.2,
+    "place": "twigs",
+    "vigor": 0.0
+  },
+  "bark": {
+    "kind": "furrowed",
+    "tint": [
+      121,
+      110,
+      97
+    ],
+    "relief": 1.0,
+    "root_flare": 1.0,
+    "collar": 1.0,
+    "smoothing": 1.0
+  },
+  "background": {
+    "sky": "meadow",
+    "ground": "grass",
+    "backdrop": [
+      226,
+      222,
+      214
+    ],
+    "sun_azimuth": 310.0,
+    "sun_elevation": 48.0
+  }
+};
+
 export type StrokeSample = { 
 /**
  * The centre of the brush.
@@ -450,6 +511,186 @@ shape: PlacedShape,
  */
 pose: Pose, };
 
+export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale";
+
+export type LeafLook = { 
+/**
+ * Their form.
+ */
+shape: LeafKind, 
+/**
+ * Their colour in summer: red, green and blue in sRGB.
+ */
+tint: [number, number, number], 
+/**
+ * How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
+ */
+vigor_shift: number, 
+/**
+ * 0 bud burst, 1 summer, 2 autumn, 3 winter, and anything between; evergreen leaves hardly change.
+ */
+season: number, 
+/**
+ * -1 hanging, 0 by the rule of `LF2`, 1 raised.
+ */
+orientation: number, };
+
+export type Place = "tips" | "twigs" | "wood";
+
+export type FlowerKind = "none" | "rosette" | "catkin" | "panicle";
+
+export type FlowerLook = { 
+/**
+ * Their form, or none.
+ */
+kind: FlowerKind, 
+/**
+ * Their colour: red, green and blue in sRGB.
+ */
+tint: [number, number, number], 
+/**
+ * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ */
+size: number, 
+/**
+ * Which share of the places bears one, 0 to 1.
+ */
+share: number, 
+/**
+ * Where they are borne.
+ */
+place: Place, 
+/**
+ * Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+ */
+vigor: number, };
+
+export type FruitKind = "none" | "round" | "cone" | "nut" | "winged";
+
+export type FruitLook = { 
+/**
+ * Their form, or none.
+ */
+kind: FruitKind, 
+/**
+ * Their colour: red, green and blue in sRGB.
+ */
+tint: [number, number, number], 
+/**
+ * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ */
+size: number, 
+/**
+ * Which share of the places bears one, 0 to 1.
+ */
+share: number, 
+/**
+ * Where they are borne.
+ */
+place: Place, 
+/**
+ * Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+ */
+vigor: number, };
+
+export type BarkKind = "smooth" | "furrowed" | "plated" | "papery" | "flaking" | "banded" | "stringy";
+
+export type BarkLook = { 
+/**
+ * Its pattern.
+ */
+kind: BarkKind, 
+/**
+ * Its colour: red, green and blue in sRGB.
+ */
+tint: [number, number, number], 
+/**
+ * How deep its furrows look, 0 to 2; 1 by default.
+ */
+relief: number, 
+/**
+ * How far the trunk widens at the ground, 0 to 2; 1 by default.
+ */
+root_flare: number, 
+/**
+ * How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
+ */
+collar: number, 
+/**
+ * How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
+ */
+smoothing: number, };
+
+export type Sky = "meadow" | "clear" | "overcast" | "studio";
+
+export type Ground = "grass" | "earth" | "sand" | "snow" | "plain";
+
+export type Background = { 
+/**
+ * What is above.
+ */
+sky: Sky, 
+/**
+ * What is below.
+ */
+ground: Ground, 
+/**
+ * The colour of the studio's backdrop: red, green and blue in sRGB.
+ */
+backdrop: [number, number, number], 
+/**
+ * Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
+ */
+sun_azimuth: number, 
+/**
+ * How high it is, in degrees above the horizon, -10 to 90.
+ */
+sun_elevation: number, };
+
+export type Appearance = { 
+/**
+ * The leaves.
+ */
+leaves: LeafLook, 
+/**
+ * The flowers.
+ */
+flowers: FlowerLook, 
+/**
+ * The fruits.
+ */
+fruits: FruitLook, 
+/**
+ * The wood.
+ */
+bark: BarkLook, 
+/**
+ * All around.
+ */
+background: Background, };
+
+export type AppearancePatch = { 
+/**
+ * The leaves.
+ */
+leaves?: LeafLook, 
+/**
+ * The flowers.
+ */
+flowers?: FlowerLook, 
+/**
+ * The fruits.
+ */
+fruits?: FruitLook, 
+/**
+ * The wood.
+ */
+bark?: BarkLook, 
+/**
+ * All around.
+ */
+background?: Background, };
+
 export type Command = { "kind": "stroke_begin", 
 /**
  * The client's own number for this stroke.
@@ -506,7 +747,19 @@ steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "set_pa
 /**
  * The fields to change.
  */
-parameters: ParametersPatch, } | { "kind": "plant_seed", 
+parameters: ParametersPatch, 
+/**
+ * Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
+ */
+gesture?: number, } | { "kind": "set_appearance", 
+/**
+ * The sections to change, each as a whole.
+ */
+appearance: AppearancePatch, 
+/**
+ * Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
+ */
+gesture?: number, } | { "kind": "plant_seed", 
 /**
  * Where, in internode lengths.
  */
@@ -624,23 +877,40 @@ step: number, } | { "kind": "take_future",
  */
 future: number, };
 
-export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale" | "blossom";
-
-export type BarkKind = "smooth" | "furrowed" | "plated" | "papery" | "flaking" | "banded" | "stringy";
-
-export type Fruit = { 
+export type Schematic = { 
 /**
- * Red, green and blue in sRGB.
+ * Four numbers for each metamer, in internode lengths: x and y of where it begins, x and y of where it ends.
+ * The trunk begins at (0, 0), y points up.
  */
-tint: [number, number, number], 
+segments: Array<number>, 
 /**
- * Diameter in internodes.
+ * The metamer it grows from, by its place in these lists; -1 for the first of the trunk. Never a later one.
  */
-size: number, 
+parents: Array<number>, 
 /**
- * Fruits to a leaf.
+ * Radius at its end, in internode lengths.
  */
-share: number, };
+radii: Array<number>, 
+/**
+ * 0 for the trunk, 1 for its branches, 2 for theirs.
+ */
+orders: Array<number>, 
+/**
+ * Vigor of the shoot, 0 (weak) to 1.
+ */
+vigor: Array<number>, 
+/**
+ * Light it receives, 0 (dark) to 1.
+ */
+light: Array<number>, 
+/**
+ * How many leaves it bears.
+ */
+leaves: Array<number>, 
+/**
+ * The step in which it was born, 1 and up.
+ */
+born: Array<number>, };
 
 export type Species = { 
 /**
@@ -660,29 +930,13 @@ botanical: string,
  */
 sentence: string, 
 /**
- * What its leaves look like.
- */
-leaf: LeafKind, 
-/**
- * Colour of the leaves: red, green and blue in sRGB.
- */
-leaf_tint: [number, number, number], 
-/**
- * The fruit it bears, if any is to be seen.
- */
-fruit: Fruit | null, 
-/**
- * What its bark looks like.
- */
-bark: BarkKind, 
-/**
- * Colour of the bark: red, green and blue in sRGB.
- */
-bark_tint: [number, number, number], 
-/**
  * What `set_parameters` is given when it is picked.
  */
-parameters: Parameters, };
+parameters: Parameters, 
+/**
+ * What it looks like: all but the background is what `set_appearance` is given when it is picked.
+ */
+appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "unavailable";
 
@@ -704,7 +958,7 @@ allowed?: string,
  */
 message: string, };
 
-export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft";
+export type OperationKind = "stroke" | "growth" | "lasso" | "parameters" | "appearance" | "seed" | "obstacle" | "bend" | "width" | "prune" | "turn" | "graft";
 
 export type TimelineOperation = { 
 /**
@@ -937,7 +1191,11 @@ state: DocumentState, } | { "type": "parameters",
 /**
  * The parameters in force.
  */
-parameters: Parameters, } | { "type": "obstacles", 
+parameters: Parameters, } | { "type": "appearance", 
+/**
+ * The appearance in force.
+ */
+appearance: Appearance, } | { "type": "obstacles", 
 /**
  * In order of their ids.
  */

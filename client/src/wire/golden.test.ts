@@ -39,6 +39,7 @@ function describedRows(rows: Rows): object {
     radius: [...rows.radius],
     foliage: [...rows.foliage],
     light: [...rows.light],
+    born: [...rows.born],
   };
 }
 

@@ -1,5 +1,6 @@
 //! glTF 2.0 binary: bark and leaves as two meshes, in metres, Y up.
 
+use espalier_growth::appearance::Appearance;
 use espalier_mesh::{Style, TriangleMesh, bark_mesh, leaf_mesh};
 use espalier_plant::Plant;
 use glam::Vec3;
@@ -8,6 +9,7 @@ use crate::gltf::{
     ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Material,
     Mesh, Node, PbrMetallicRoughness, Primitive, Root, Scene, UNSIGNED_INT, UNSIGNED_SHORT,
 };
+use crate::picture::{linear, season};
 
 const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
 const VERSION: u32 = 2;
@@ -31,22 +33,29 @@ pub enum ExportError {
 }
 
 /// The present of `plant` as a glTF binary file. A plant without wood gives a valid file without meshes.
-pub fn glb(plant: &Plant, style: &Style, metres_per_internode: f32) -> Result<Vec<u8>, ExportError> {
+pub fn glb(
+    plant: &Plant,
+    style: &Style,
+    appearance: &Appearance,
+    metres_per_internode: f32,
+) -> Result<Vec<u8>, ExportError> {
     if !(metres_per_internode.is_finite() && metres_per_internode > 0.0) {
         return Err(ExportError::Scale(metres_per_internode));
     }
     let mut writer = Writer::new(metres_per_internode);
-    writer.add("Bark", &bark_mesh(plant, style), bark_material())?;
-    writer.add("Leaves", &leaf_mesh(plant, style), leaf_material())?;
+    writer.add("Bark", &bark_mesh(plant, style), bark_material(linear(appearance.bark.tint)))?;
+    if let Some(colour) = season::mean_colour(&appearance.leaves) {
+        writer.add("Leaves", &leaf_mesh(plant, style), leaf_material(colour))?;
+    }
     writer.finish()
 }
 
-/// Colours are linear, and those of the client without its textures.
-fn bark_material() -> Material {
+/// The colour is linear.
+fn bark_material(colour: Vec3) -> Material {
     Material {
         name: "Bark",
         pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: [0.19, 0.155, 0.12, 1.0],
+            base_color_factor: colour.extend(1.0).to_array(),
             metallic_factor: 0.0,
             roughness_factor: 0.95,
         },
@@ -54,11 +63,11 @@ fn bark_material() -> Material {
     }
 }
 
-fn leaf_material() -> Material {
+fn leaf_material(colour: Vec3) -> Material {
     Material {
         name: "Leaves",
         pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: [0.105, 0.2, 0.0375, 1.0],
+            base_color_factor: colour.extend(1.0).to_array(),
             metallic_factor: 0.0,
             roughness_factor: 0.7,
         },

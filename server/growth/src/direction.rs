@@ -24,7 +24,11 @@ impl Tropism {
                 let (sin, cos) = parameters.setpoint;
                 let level = Vec3::new(heading.x, 0.0, heading.z);
                 // Near the vertical the plane of bending is a matter of chance, but of one chance per axis.
-                let outward = if level.length_squared() < 1e-4 { azimuth(chance) } else { level.normalize() };
+                let outward = if level.length_squared() < 1e-4 {
+                    azimuth(chance, parameters)
+                } else {
+                    level.normalize()
+                };
                 Vec3::Y * cos + outward * sin
             }
         }
@@ -32,7 +36,10 @@ impl Tropism {
 }
 
 /// The horizontal direction that chance gives an axis.
-pub(crate) fn azimuth(chance: Draw) -> Vec3 {
+pub(crate) fn azimuth(chance: Draw, parameters: &Parameters) -> Vec3 {
+    if parameters.is_flat {
+        return if chance.unit(0) < 0.5 { Vec3::X } else { Vec3::NEG_X };
+    }
     let (sin, cos) = libm::sincosf(TAU * chance.unit(0));
     Vec3::new(cos, 0.0, sin)
 }

@@ -26,10 +26,17 @@ const SPACING: (f32, f32) = (0.5, 8.0);
 /// The markers of the lattice, as far as nodes and buds have touched it.
 #[derive(Clone, Debug)]
 pub(crate) struct MarkerField {
+    lattice: Lattice,
+    chunks: Directory<Chunk>,
+}
+
+/// Where markers lie: one in each cell, or, for plants that grow in the plane z = 0, one in each cell of that plane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lattice {
     seed: u32,
     /// Edge of a cell.
-    spacing: f32,
-    chunks: Directory<Chunk>,
+    pub(crate) spacing: f32,
+    is_flat: bool,
 }
 
 /// 4 × 4 × 4 markers, x fastest, then z, then y.
@@ -53,7 +60,7 @@ struct Chunk {
 impl MarkerField {
     /// A field that nothing has touched.
     pub(crate) fn new(seed: u32, parameters: &Parameters) -> Self {
-        Self { seed, spacing: spacing(parameters), chunks: Directory::new() }
+        Self { lattice: Lattice::new(seed, parameters), chunks: Directory::new() }
     }
 
     /// A node takes the markers in its zone.
@@ -196,16 +203,16 @@ impl MarkerField {
     /// Calls `visit` with every chunk that meets the box from `low` to `high`, and which of its cells do.
     #[inline(always)]
     fn visit(&mut self, obstacles: &Obstacles, low: Vec3, high: Vec3, visit: impl FnMut(&mut Chunk, u64)) {
-        let per_cell = 1.0 / self.spacing;
-        let (seed, spacing) = (self.seed, self.spacing);
-        let make = move |at| Chunk::new(seed, spacing, at, obstacles);
+        let lattice = self.lattice;
+        let per_cell = 1.0 / lattice.spacing;
+        let make = move |at| Chunk::new(lattice, at, obstacles);
         CellBox::new(low * per_cell, high * per_cell).visit(&mut self.chunks, make, visit);
     }
 }
 
 impl Chunk {
     #[cold]
-    fn new(seed: u32, spacing: f32, at: [i32; 3], obstacles: &Obstacles) -> Self {
+    fn new(lattice: Lattice, at: [i32; 3], obstacles: &Obstacles) -> Self {
         let mut chunk = Self {
             x: [0.0; CELLS],
             y: [0.0; CELLS],
@@ -217,7 +224,7 @@ impl Chunk {
             claimed: 0,
         };
         for cell in 0..CELLS {
-            let marker = marker_in(seed, spacing, cell_at(at, cell));
+            let Some(marker) = lattice.marker_in(cell_at(at, cell)) else { continue };
             [chunk.x[cell], chunk.y[cell], chunk.z[cell]] = marker.to_array();
             chunk.valid |= u64::from(marker.y > 0.0 && !obstacles.contains(marker)) << cell;
         }
@@ -271,12 +278,20 @@ fn four(values: &[f32; CELLS], row: usize) -> Vec4 {
     Vec4::from_slice(&values[row & (CELLS - 4)..])
 }
 
-/// The marker in a cell of the lattice.
-pub(crate) fn marker_in(seed: u32, spacing: f32, cell: [i32; 3]) -> Vec3 {
-    let [x, y, z] = cell;
-    let draw = Draw::new(seed, Purpose::Autonomous, (x as u32 & 0xffff) | (z as u32) << 16, y as u32);
-    let offset = Vec3::new(draw.unit(0), draw.unit(1), draw.unit(2));
-    (Vec3::new(x as f32, y as f32, z as f32) + offset) * spacing
+impl Lattice {
+    pub(crate) fn new(seed: u32, parameters: &Parameters) -> Self {
+        Self { seed, spacing: spacing(parameters), is_flat: parameters.is_flat }
+    }
+
+    /// The marker in a cell, if there is one.
+    pub(crate) fn marker_in(&self, cell: [i32; 3]) -> Option<Vec3> {
+        let [x, y, z] = cell;
+        let draw =
+            Draw::new(self.seed, Purpose::Autonomous, (x as u32 & 0xffff) | (z as u32) << 16, y as u32);
+        let offset = Vec3::new(draw.unit(0), draw.unit(1), draw.unit(2));
+        let marker = (Vec3::new(x as f32, y as f32, z as f32) + offset) * self.spacing;
+        if self.is_flat { (z == 0).then_some(marker.with_z(0.0)) } else { Some(marker) }
+    }
 }
 
 /// Stands for an axis that there is not.
@@ -285,8 +300,12 @@ fn nobody() -> AxisId {
 }
 
 /// Edge of a cell: a perception volume then holds `markers_per_bud` markers on average.
-pub(crate) fn spacing(parameters: &Parameters) -> f32 {
+fn spacing(parameters: &Parameters) -> f32 {
     let (near, far) = (parameters.occupancy_radius, parameters.perception_radius());
+    if parameters.is_flat {
+        let area = 0.5 * parameters.perception_angle.to_radians() * (far * far - near * near);
+        return (area / parameters.markers_per_bud as f32).sqrt().clamp(SPACING.0, SPACING.1);
+    }
     let cap = core::f32::consts::TAU / 3.0 * (1.0 - parameters.cos_half_perception);
     let volume = cap * (far * far * far - near * near * near);
     libm::cbrtf(volume / parameters.markers_per_bud as f32).clamp(SPACING.0, SPACING.1)

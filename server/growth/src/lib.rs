@@ -4,6 +4,7 @@
 //! the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
 //! so the same inputs give the same plant bit for bit, on any number of threads.
 
+pub mod appearance;
 mod brush;
 mod canopy;
 mod cells;
@@ -25,6 +26,7 @@ mod place_grid;
 pub mod random;
 #[cfg(test)]
 mod reference;
+mod schematic;
 mod selection;
 mod shedding;
 mod shoot;
@@ -46,6 +48,7 @@ pub use observer::{NoObserver, Observer, Phase};
 pub use obstacles::{MAX_TRIANGLES, Obstacle, ObstacleError, Obstacles, Shape, TriangleMesh};
 pub use parameter_table::ParameterTable;
 pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorModel};
+pub use schematic::{SCHEMATIC_METAMERS, schematic};
 pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
 pub use space::Space;
 pub use step::{StepInput, StepOutcome};

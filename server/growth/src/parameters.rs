@@ -166,9 +166,13 @@ pub struct Parameters {
     pub(crate) is_gravimorphic: bool,
     /// Sine and cosine of each lateral's turn around its node.
     pub(crate) whorl: [(f32, f32); MAX_LATERALS],
+    /// Whether everything grows in the plane z = 0.
+    pub(crate) is_flat: bool,
 }
 
 const WEIGHT_TOLERANCE: f32 = 1e-3;
+/// Smaller phyllotactic angles leave successive buds on one side, as far as a plane has sides.
+const LEAST_ALTERNATE_ANGLE: f32 = 60.0;
 /// Lateral buds at one node at most.
 pub(crate) const MAX_LATERALS: usize = 4;
 
@@ -200,8 +204,24 @@ impl Parameters {
             deflection: sin_cos(values.deflection_angle),
             setpoint: sin_cos(values.setpoint_angle),
             phyllotaxis: sin_cos(values.phyllotactic_angle),
+            is_flat: false,
             values,
         })
+    }
+
+    /// The same for a plant that grows in the plane z = 0, exactly: markers lie in it, and lateral buds to the left
+    /// and to the right.
+    #[must_use]
+    pub fn flat(mut self) -> Self {
+        // As sine and cosine, so that what is turned by them stays in the plane to the last bit.
+        const HERE: (f32, f32) = (0.0, 1.0);
+        const OPPOSITE: (f32, f32) = (0.0, -1.0);
+        self.is_flat = true;
+        self.values.buds_per_node = self.values.buds_per_node.min(2);
+        self.phyllotaxis =
+            if self.values.phyllotactic_angle < LEAST_ALTERNATE_ANGLE { HERE } else { OPPOSITE };
+        self.whorl = [HERE, OPPOSITE, HERE, OPPOSITE];
+        self
     }
 
     /// The plain values.

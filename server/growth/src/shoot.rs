@@ -95,7 +95,7 @@ impl Simulation {
         }
         // Who is led goes where the finger went, through others' zones as well.
         let is_led = waypoint.is_some();
-        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis)));
+        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
         let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
         let Some(heading) = free.filter(is_free) else { return false };
         let end = base + heading;
@@ -149,6 +149,11 @@ impl Simulation {
         if self.plant.has_grown(axis) {
             let carried = transport(self.plant.metamers().normal(node), before, heading);
             return turn(across(carried, heading), heading, self.parameters.of(axis).phyllotaxis);
+        }
+        if self.parameters.of(axis).is_flat {
+            let chance = Draw::new(self.seed, Purpose::Phyllotaxis, axis.raw(), 0);
+            let side = if chance.unit(0) < 0.5 { Vec3::Z } else { Vec3::NEG_Z };
+            return across(heading.cross(side), heading);
         }
         if self.plant.axes().order(axis) == 0 {
             let angle = TAU * Draw::new(self.seed, Purpose::Phyllotaxis, axis.raw(), 0).unit(0);

@@ -206,13 +206,13 @@ impl Simulation {
 
     /// E, turned towards the light as far as phototropism has it.
     pub(crate) fn lit_side(&self, axis: AxisId, space: Vec3) -> Vec3 {
-        let weight = self.parameters.of(axis).phototropism;
+        let (weight, is_flat) = (self.parameters.of(axis).phototropism, self.parameters.of(axis).is_flat);
         if weight == 0.0 {
             return space;
         }
         let Some(light) = self.towards_light(self.plant.bud_position(axis)) else { return space };
         // A canopy's shadow ends some way below it, so it is lighter farther down; but no light comes from there.
-        let light = Vec3::new(light.x, light.y.max(0.0), light.z);
+        let light = Vec3::new(light.x, light.y.max(0.0), if is_flat { 0.0 } else { light.z });
         (space * (1.0 - weight) + light * weight).try_normalize().unwrap_or(space)
     }
 

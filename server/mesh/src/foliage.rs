@@ -8,7 +8,7 @@ use crate::style::Style;
 ///
 /// Leaves sit on the youngest wood. Counting tips instead of comparing diameters keeps the rule exact and the
 /// same for every girth exponent: the limit is where a twig has forked once.
-const MOST_TIPS_WITH_LEAVES: u32 = 2;
+pub const MOST_TIPS_WITH_LEAVES: u32 = 2;
 
 /// Leaves at the node of a metamer: none on seeds, dead wood and old wood.
 pub fn leaves(plant: &Plant, id: MetamerId, style: &Style) -> u8 {

@@ -50,6 +50,8 @@ pub struct RingTable {
     looks: Vec<Appearance>,
     /// Codes of radii as they were told, if width constraints held; empty otherwise.
     radii: Vec<u16>,
+    /// For each number of steps of growth, how many rows had been born by then.
+    births: Vec<u32>,
     /// What tips look like.
     style: Style,
     generations: Vec<u32>,
@@ -112,6 +114,11 @@ impl RingTable {
         self.looks[row as usize].light
     }
 
+    /// Steps of growth up to the birth of a row's metamer, that step included.
+    pub fn born(&self, row: u32) -> u32 {
+        self.births.partition_point(|&rows| rows <= row) as u32
+    }
+
     /// Makes the table show the present of `plant`; chunks that change get `generation`.
     ///
     /// Light and vigor that differ little from what the table shows stay as they are.
@@ -136,10 +143,11 @@ impl RingTable {
                 self.radii = self.tips.iter().map(|&tips| radius(tips, told_style)).collect();
             }
         }
-        let count = plant.metamer_count();
+        let (count, births) = (plant.metamer_count(), plant.births());
+        let known = self.same_births(&births, self.rows().min(count));
         let mut kept = 0;
-        while kept < self.rows().min(count) {
-            let chunk = kept..(kept + CHUNK_ROWS).min(self.rows()).min(count);
+        while kept < known {
+            let chunk = kept..(kept + CHUNK_ROWS).min(known);
             let same = self.match_links(&mut pass, chunk.clone());
             if self.update(&mut pass, chunk.start..same) {
                 self.generations[chunk.start / CHUNK_ROWS] = generation;
@@ -155,10 +163,24 @@ impl RingTable {
             pass.changes.truncated = Some(kept as u32);
         }
         self.append(&pass, kept..count, generation);
+        self.births = births;
         pass.changes.appended = kept as u32..count as u32;
         // By now all rows are those of the plant.
         self.radii = if is_constrained { pass.radii } else { Vec::new() };
         pass.changes
+    }
+
+    /// The first row, up to `known`, that was born elsewhere in another line of time.
+    fn same_births(&self, births: &[u32], known: usize) -> usize {
+        let by_then =
+            |births: &[u32], step: usize| births.get(step).map_or(known, |&rows| known.min(rows as usize));
+        let steps = 0..births.len().max(self.births.len());
+        let differing = steps.map(|step| (by_then(&self.births, step), by_then(births, step)));
+        differing
+            .filter(|(held, told)| held != told)
+            .map(|(held, told)| held.min(told))
+            .next()
+            .unwrap_or(known)
     }
 
     /// The first row of a chunk that has another link in the plant, or the chunk's end.

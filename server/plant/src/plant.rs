@@ -136,6 +136,19 @@ impl Plant {
         self.timeline.growths_at(self.timeline.now) - self.timeline.growths_at(self.birth(id))
     }
 
+    /// For each number of steps of growth from 0 up, how many metamers had been born when so many had been taken; edits
+    /// belong to the step of growth before them.
+    pub fn births(&self) -> Vec<u32> {
+        let mut births = Vec::new();
+        for end in self.timeline.ends.iter().take(self.timeline.now as usize + 1) {
+            births.resize(end.growths as usize + 1, end.metamers);
+            if let Some(last) = births.last_mut() {
+                *last = end.metamers;
+            }
+        }
+        births
+    }
+
     /// Whether the bud of an axis of the present is alive. Of an axis that was cut, wood without a bud remains.
     pub fn is_axis_alive(&self, id: AxisId) -> bool {
         self.axes.death[id.index()] > self.timeline.now

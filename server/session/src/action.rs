@@ -12,6 +12,7 @@ use glam::{Quat, Vec3};
 pub use self::outline::Lasso;
 pub(crate) use self::shaping::{Prediction, parse_rotation};
 use crate::{
+    appearance::AppearanceChange,
     malformed,
     obstacle::{Obstacle, Pose},
 };
@@ -85,7 +86,19 @@ pub enum Action {
     /// Do again what was taken back.
     Redo,
     /// Change parameters; all values are finite, their ranges are for the document to check.
-    SetParameters(Box<ParametersPatch>),
+    SetParameters {
+        /// What to change.
+        patch: Box<ParametersPatch>,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// Change looks.
+    SetAppearance {
+        /// What to change.
+        change: Box<AppearanceChange>,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
     /// Another plant.
     PlantSeed {
         /// Where.
@@ -205,9 +218,13 @@ impl Action {
             &Command::Ungrow { steps } => Self::Ungrow { steps: parse_steps(steps)? },
             Command::Undo {} => Self::Undo,
             Command::Redo {} => Self::Redo,
-            Command::SetParameters { parameters } => {
+            Command::SetParameters { parameters, gesture } => {
                 check_finite(parameters)?;
-                Self::SetParameters(Box::new(parameters.clone()))
+                Self::SetParameters { patch: Box::new(parameters.clone()), gesture: *gesture }
+            }
+            Command::SetAppearance { appearance, gesture } => {
+                let change = Box::new(AppearanceChange::parse(appearance)?);
+                Self::SetAppearance { change, gesture: *gesture }
             }
             Command::PlantSeed { position } => Self::PlantSeed { position: parse_position(position)? },
             Command::PlaceObstacle { obstacle } => {

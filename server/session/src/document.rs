@@ -1,5 +1,6 @@
 //! One shared document: the plants, their simulation, and the timeline of what was done to them.
 
+mod appearance;
 mod bending;
 mod branches;
 mod bytes;
@@ -18,9 +19,9 @@ mod widths;
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_growth::{Parameters, Simulation};
+use espalier_growth::{Parameters, Simulation, appearance::Appearance};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
-use espalier_proto::{ParametersPatch, Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode};
 use glam::Vec3;
 
 pub use self::bytes::DocumentError;
@@ -33,7 +34,9 @@ use self::{
     strokes::OpenStrokes,
 };
 pub(crate) use self::{
-    obstacles::ObstaclesMark, parameters::to_proto as wire_parameters, pruning::prune as prune_simulation,
+    obstacles::ObstaclesMark,
+    parameters::{parse as parse_parameters, to_proto as wire_parameters},
+    pruning::prune as prune_simulation,
 };
 use crate::action::Action;
 
@@ -48,6 +51,7 @@ pub struct Document {
     strokes: OpenStrokes,
     bends: OpenBends,
     obstacles: Obstacles,
+    appearance: Arc<Appearance>,
     pending: VecDeque<Pending>,
     steps_begun: u32,
     /// Where growth ends, as counted by `steps_begun`.
@@ -90,8 +94,12 @@ impl Document {
 
     fn of(seed: u32, parameters: Parameters) -> Self {
         let obstacles = Obstacles::default();
-        let initial =
-            Setting { parameters: Arc::new(parameters.clone()), obstacles: Arc::clone(&obstacles.standing) };
+        let appearance = Arc::new(Appearance::default());
+        let initial = Setting {
+            parameters: Arc::new(parameters.clone()),
+            obstacles: Arc::clone(&obstacles.standing),
+            appearance: Arc::clone(&appearance),
+        };
         Self {
             simulation: Simulation::new(seed, parameters),
             history: History::new(initial),
@@ -99,6 +107,7 @@ impl Document {
             strokes: OpenStrokes::default(),
             bends: OpenBends::default(),
             obstacles,
+            appearance,
             pending: VecDeque::new(),
             steps_begun: 0,
             stop_at: None,
@@ -135,7 +144,8 @@ impl Document {
             Action::Ungrow { steps } => self.ungrow(*steps),
             Action::Undo => self.undo(),
             Action::Redo => self.redo(),
-            Action::SetParameters(patch) => self.set_parameters(author, patch),
+            Action::SetParameters { patch, gesture } => self.set_parameters(author, patch, *gesture),
+            Action::SetAppearance { change, gesture } => self.set_appearance(author, change, *gesture),
             Action::PlantSeed { position } => self.plant_seed(author, *position),
             Action::PlaceObstacle(obstacle) => self.place_obstacle(author, obstacle),
             Action::MoveObstacle { id, pose } => self.move_obstacle(author, *id, *pose),
@@ -229,6 +239,9 @@ impl Document {
         for value in parameters::to_words(self.simulation.parameters().values()) {
             hash.word(value);
         }
+        for value in appearance::to_words(&self.appearance) {
+            hash.word(value);
+        }
         self.history.hash(&mut hash);
         self.futures.hash(&mut hash);
         self.strokes.hash(&mut hash);
@@ -236,19 +249,6 @@ impl Document {
         self.obstacles.hash(&mut hash);
         hash.word(u64::from(self.steps_begun));
         hash.finish()
-    }
-
-    fn set_parameters(&mut self, author: &str, patch: &ParametersPatch) -> Result<(), Problem> {
-        let wanted =
-            parameters::parse(&self.parameters().patched(patch)).map_err(|p| p.within("parameters"))?;
-        if wanted == *self.simulation.parameters() {
-            return Ok(());
-        }
-        self.record(Kind::Parameters, author, None);
-        let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
-        self.set(&setting);
-        self.history.settle(setting);
-        Ok(())
     }
 
     fn plant_seed(&mut self, author: &str, position: Vec3) -> Result<(), Problem> {

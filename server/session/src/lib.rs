@@ -4,7 +4,9 @@
 //! [`Output`] are the whole boundary. There is no clock, thread or socket in here: the caller hands in the
 //! time. The rules kept are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
 
+mod across;
 mod action;
+mod appearance;
 mod author;
 mod clients;
 mod document;
@@ -14,6 +16,7 @@ mod journal;
 mod malformed;
 mod nursery;
 mod obstacle;
+mod schematic;
 mod session;
 mod snapshot;
 mod stops;
@@ -22,11 +25,13 @@ mod window;
 mod work;
 
 pub use action::{Action, Lasso, Sample};
+pub use appearance::AppearanceChange;
 pub use document::{Document, DocumentError, Figures};
 pub use foresight::Foresight;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadId};
 pub use nursery::{script, wire_species};
 pub use obstacle::{Mesh, Obstacle, Pose};
+pub use schematic::schematic;
 pub use session::Session;
 pub use snapshot::RestoreError;
 pub use to_proto::{delta, style_options};

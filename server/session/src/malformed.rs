@@ -1,7 +1,13 @@
 //! Sentences for messages that cannot be read, naming the field at fault where it can be found.
 
+use espalier_growth::appearance::{
+    Background as BackgroundRanges, BarkLook as BarkRanges, FlowerLook as FlowerRanges,
+    FruitLook as FruitRanges, LeafLook as LeafRanges,
+};
 use espalier_proto::{
-    DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape, StrokeSample,
+    AppearancePatch, DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape,
+    StrokeSample,
+    appearance::{Background, BarkLook, FlowerLook, FruitLook, LeafLook},
     version::{MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PRUNED_ROWS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER},
 };
 use serde::de::DeserializeOwned;
@@ -79,6 +85,7 @@ fn locate(command: &Value) -> Option<Problem> {
                 samples.into_iter().find_map(|(index, sample)| locate_in_sample(index, sample))
             }),
             "parameters" => locate_in_parameters(value),
+            "appearance" => locate_in_appearance(value),
             "outline" => locate_in_list::<[f32; 2]>(name, value),
             "plane" => locate_in_plane(value),
             "depth" => wrong::<f32>(name, value),
@@ -154,6 +161,34 @@ fn locate_in_parameters(parameters: &Value) -> Option<Problem> {
     })
 }
 
+fn locate_in_appearance(appearance: &Value) -> Option<Problem> {
+    let sections = appearance.as_object().into_iter().flatten();
+    let part = sections.filter_map(|(section, value)| {
+        let whole = format!("appearance.{section}");
+        let fields = value.as_object().into_iter().flatten();
+        let field =
+            fields.filter_map(|(name, value)| locate_in_section(&format!("{whole}.{name}"), name, value));
+        field.into_iter().next().or_else(|| match section.as_str() {
+            "leaves" => wrong::<LeafLook>(&whole, value),
+            "flowers" => wrong::<FlowerLook>(&whole, value),
+            "fruits" => wrong::<FruitLook>(&whole, value),
+            "bark" => wrong::<BarkLook>(&whole, value),
+            "background" => wrong::<Background>(&whole, value),
+            _ => None,
+        })
+    });
+    part.into_iter().next().or_else(|| wrong::<AppearancePatch>("appearance", appearance))
+}
+
+fn locate_in_section(field: &str, name: &str, value: &Value) -> Option<Problem> {
+    match name {
+        "tint" | "backdrop" => wrong::<[u8; 3]>(field, value),
+        // Choices are told by serde, which lists them.
+        "shape" | "kind" | "place" | "sky" | "ground" => None,
+        _ => wrong::<f32>(field, value),
+    }
+}
+
 fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
     let error = T::deserialize(value).err()?;
     let text = without_place(&error.to_string());
@@ -167,7 +202,7 @@ fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
 /// Every kind of command.
 const KINDS: &str = "stroke_begin, stroke_move, stroke_end, grow, lasso, stop, ungrow, undo, redo, \
      set_parameters, plant_seed, place_obstacle, move_obstacle, remove_obstacle, bend_begin, bend_move, \
-     bend_end, bend_cancel, set_width, prune, prune_dim, turn_branch, graft, go_to, take_future";
+     bend_end, bend_cancel, set_width, prune, prune_dim, turn_branch, graft, go_to, take_future, set_appearance";
 
 fn wrong_kind(kind: &Value) -> Option<Problem> {
     let known = kind.as_str().is_some_and(|kind| KINDS.split(", ").any(|known| known == kind));
@@ -187,6 +222,21 @@ fn allowed(field: &str) -> Option<String> {
             return Some("borchert_honda, priority".into());
         }
         let range = espalier_growth::RANGES.iter().find(|(range, ..)| *range == name);
+        return range.map(|(_, low, high)| format!("{low} to {high}"));
+    }
+    if let Some(section) = outer.strip_prefix("appearance.") {
+        let ranges = match section {
+            "leaves" => LeafRanges::RANGES,
+            "flowers" => FlowerRanges::RANGES,
+            "fruits" => FruitRanges::RANGES,
+            "bark" => BarkRanges::RANGES,
+            "background" => BackgroundRanges::RANGES,
+            _ => return None,
+        };
+        if matches!(name, "tint" | "backdrop") {
+            return Some("three whole numbers, 0 to 255".into());
+        }
+        let range = ranges.iter().find(|(range, ..)| *range == name);
         return range.map(|(_, low, high)| format!("{low} to {high}"));
     }
     Some(match name {

@@ -2,22 +2,24 @@
 
 use espalier_growth::{
     BrushSample, ParameterValues,
-    species::{BarkKind, Fruit, LeafKind, Species, Stage},
+    appearance::Appearance,
+    species::{Species, Stage},
 };
-use espalier_proto::{ParametersPatch, species as wire};
+use espalier_proto::species as wire;
 use glam::Vec3;
 
 use crate::{
     action::{Action, Sample},
+    appearance::{self, AppearanceChange},
     document::wire_parameters,
 };
 
 /// The number of a stroke of a schedule; each ends before the next begins.
 const STROKE: u32 = 1;
 
-/// What makes a seedling a tree of this species: its parameters, then its schedule.
+/// What makes a seedling a tree of this species: its parameters and looks, then its schedule.
 pub fn script(species: &Species) -> Vec<Action> {
-    let mut actions = vec![choose(&species.parameters)];
+    let mut actions = vec![choose(&species.parameters), dress(&species.appearance)];
     for stage in &species.schedule {
         match stage {
             &Stage::Grow(steps) => actions.push(Action::Grow { steps, gesture: None, bud: None }),
@@ -39,7 +41,20 @@ pub fn script(species: &Species) -> Vec<Action> {
 
 /// What a picker does: sets all parameters at once.
 fn choose(values: &ParameterValues) -> Action {
-    Action::SetParameters(Box::new(ParametersPatch::from(wire_parameters(values))))
+    Action::SetParameters { patch: Box::new(wire_parameters(values).into()), gesture: None }
+}
+
+/// The looks of a species; what surrounds it stays.
+fn dress(looks: &Appearance) -> Action {
+    let &Appearance { leaves, flowers, fruits, bark, .. } = looks;
+    let change = AppearanceChange {
+        leaves: Some(leaves),
+        flowers: Some(flowers),
+        fruits: Some(fruits),
+        bark: Some(bark),
+        background: None,
+    };
+    Action::SetAppearance { change: Box::new(change), gesture: None }
 }
 
 /// A species as it travels.
@@ -49,30 +64,7 @@ pub fn wire_species(species: &Species) -> wire::Species {
         name: species.name.to_owned(),
         botanical: species.botanical.to_owned(),
         sentence: species.sentence.to_owned(),
-        leaf: match species.leaf {
-            LeafKind::Ovate => wire::LeafKind::Ovate,
-            LeafKind::Round => wire::LeafKind::Round,
-            LeafKind::Lanceolate => wire::LeafKind::Lanceolate,
-            LeafKind::Lobed => wire::LeafKind::Lobed,
-            LeafKind::Palmate => wire::LeafKind::Palmate,
-            LeafKind::Fan => wire::LeafKind::Fan,
-            LeafKind::Compound => wire::LeafKind::Compound,
-            LeafKind::Needle => wire::LeafKind::Needle,
-            LeafKind::Scale => wire::LeafKind::Scale,
-            LeafKind::Blossom => wire::LeafKind::Blossom,
-        },
-        leaf_tint: species.leaf_tint,
-        fruit: species.fruit.map(|Fruit { tint, size, share }| wire::Fruit { tint, size, share }),
-        bark: match species.bark {
-            BarkKind::Smooth => wire::BarkKind::Smooth,
-            BarkKind::Furrowed => wire::BarkKind::Furrowed,
-            BarkKind::Plated => wire::BarkKind::Plated,
-            BarkKind::Papery => wire::BarkKind::Papery,
-            BarkKind::Flaking => wire::BarkKind::Flaking,
-            BarkKind::Banded => wire::BarkKind::Banded,
-            BarkKind::Stringy => wire::BarkKind::Stringy,
-        },
-        bark_tint: species.bark_tint,
         parameters: wire_parameters(&species.parameters),
+        appearance: appearance::to_proto(&species.appearance),
     }
 }

@@ -14,13 +14,14 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline,
-    WidthConstraint,
+    Appearance, ClientMessage, FrameKind, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage,
+    Timeline, WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 
 use crate::{
     action::Action,
+    appearance::to_proto,
     author::{Authors, LastCommand, note_last},
     clients::{Client, Clients},
     document::{Document, Figures, ObstaclesMark},
@@ -56,6 +57,7 @@ pub struct Session {
     figures: Figures,
     leaves: u32,
     parameters: Parameters,
+    appearance: Appearance,
     scenery: Scenery,
     timeline: Timeline,
     widths: Vec<WidthConstraint>,
@@ -168,6 +170,7 @@ impl Session {
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
+            appearance: to_proto(work.document.appearance()),
             scenery: Scenery::of(&work.document),
             timeline: work.document.timeline(),
             widths: work.document.widths(),

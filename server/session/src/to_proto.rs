@@ -149,7 +149,8 @@ fn rows(table: &RingTable, range: Range<u32>) -> Rows {
         position: range.clone().map(|row| relative_position(table, row)).collect(),
         radius: range.clone().map(|row| table.radius(row)).collect(),
         foliage: range.clone().map(|row| table.foliage(row)).collect(),
-        light: range.map(|row| table.light(row)).collect(),
+        light: range.clone().map(|row| table.light(row)).collect(),
+        born: range.map(|row| table.born(row)).collect(),
     }
 }
 

@@ -68,12 +68,16 @@ impl Database {
         Ok(self.writer.write(Write::Tree(TreeWrite::Delete { id })).await? > 0)
     }
 
-    /// All trees, newest first.
-    pub async fn trees(&self) -> Result<Vec<StoredTree>, DatabaseError> {
+    /// So many trees, newest first; behind the one named, if one is.
+    pub async fn trees(&self, limit: u32, behind: Option<&str>) -> Result<Vec<StoredTree>, DatabaseError> {
         Ok(sqlx::query_as(
             "SELECT id, name, metamers, saved_at, thumbnail IS NOT NULL AS has_thumbnail
-             FROM trees ORDER BY saved_at DESC, rowid DESC",
+             FROM trees
+             WHERE ?1 IS NULL OR (saved_at, rowid) < (SELECT saved_at, rowid FROM trees WHERE id = ?1)
+             ORDER BY saved_at DESC, rowid DESC LIMIT ?2",
         )
+        .bind(behind)
+        .bind(limit)
         .fetch_all(&self.readers)
         .await?)
     }
@@ -155,13 +159,23 @@ mod tests {
     async fn trees_are_listed_newest_first() {
         let folder = Folder::new();
         let database = Database::open(&folder.database()).await.unwrap();
-        assert!(database.trees().await.unwrap().is_empty());
+        assert!(database.trees(9, None).await.unwrap().is_empty());
         for id in ["ash", "birch", "cedar"] {
             database.save_tree(tree(id, None)).await.unwrap();
         }
-        let trees = database.trees().await.unwrap();
+        let trees = database.trees(9, None).await.unwrap();
         let ids: Vec<&str> = trees.iter().map(|tree| tree.id.as_str()).collect();
         assert_eq!(ids, ["cedar", "birch", "ash"]);
+        for (limit, behind, page) in [
+            (2, None, ["cedar", "birch"].as_slice()),
+            (2, Some("birch"), &["ash"]),
+            (1, Some("cedar"), &["birch"]),
+            (2, Some("ash"), &[]),
+            (2, Some("felled"), &[]),
+        ] {
+            let trees = database.trees(limit, behind).await.unwrap();
+            assert_eq!(trees.iter().map(|tree| tree.id.as_str()).collect::<Vec<_>>(), page, "{behind:?}");
+        }
         assert_eq!(trees[0].metamers, 4_000_000_000);
         assert!(trees[0].saved_at.ends_with('Z') && trees[0].saved_at.contains('T'), "{}", trees[0].saved_at);
     }

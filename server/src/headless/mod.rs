@@ -11,8 +11,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use espalier_export::{ExportError, picture::Look};
-use espalier_growth::DEFAULT_METAMER_BUDGET;
+use espalier_export::ExportError;
+use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Stand};
 use espalier_proto::Problem;
 use espalier_session::{Action, Document};
 
@@ -90,7 +90,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         }
         Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, &Look::default(), &options.results)
+    finish(bench, Stand::Ground, &options.results)
 }
 
 /// `espalier grow`.
@@ -120,8 +120,8 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         }
         Ok(bench)
     })?;
-    let look = options.species.map(Look::from).unwrap_or_default();
-    finish(bench, &look, &options.results)
+    let stand = options.species.map(|species| species.stand).unwrap_or_default();
+    finish(bench, stand, &options.results)
 }
 
 /// A seedling as the options want it.
@@ -142,10 +142,10 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-fn finish(mut bench: Bench, look: &Look, results: &Results) -> Result<(), HeadlessError> {
+fn finish(mut bench: Bench, stand: Stand, results: &Results) -> Result<(), HeadlessError> {
     let stats = bench.stats();
     if let Some(export) = &results.export {
-        let bytes = document::file(bench.document_mut(), look, export.format)?;
+        let bytes = document::file(bench.document_mut(), stand, export.format)?;
         fs::write(&export.path, bytes)
             .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
     }

@@ -2,15 +2,14 @@
 
 use std::{fs, io::Write, path::Path};
 
-use espalier_export::picture::{self, Cell, Look};
+use espalier_export::picture::{self, Cell};
 use espalier_growth::species::{self, Species};
-use espalier_mesh::Style;
 use espalier_proto::ParametersPatch;
-use espalier_session::{Action, Document, script, style_options};
+use espalier_session::{Action, script};
 use rayon::prelude::*;
 
 use super::{AUTHOR, HeadlessError, bench::Bench};
-use crate::{cli, pool::SimulationPool};
+use crate::{cli, pool::SimulationPool, portrait::portrait};
 
 /// Pixels of one picture of the sheet, and pictures in a row.
 const CELL: (usize, usize) = (300, 310);
@@ -42,13 +41,13 @@ pub(super) fn raise(
     patches: &[ParametersPatch],
 ) -> Result<(), HeadlessError> {
     for action in script(species) {
-        let is_choice = matches!(action, Action::SetParameters(_));
+        let is_choice = matches!(action, Action::SetParameters { .. });
         bench.act(AUTHOR, &action).map_err(HeadlessError::Parameters)?;
         if is_choice && !patches.is_empty() {
             // All at once: weights that are changed one by one do not sum to 1 in between.
             let chosen = bench.document().parameters();
             let wanted = patches.iter().fold(chosen, |all, patch| all.patched(patch));
-            let choice = Action::SetParameters(Box::new(wanted.into()));
+            let choice = Action::SetParameters { patch: Box::new(wanted.into()), gesture: None };
             bench.act(AUTHOR, &choice).map_err(HeadlessError::Parameters)?;
         }
     }
@@ -63,13 +62,8 @@ fn sheet(seed: u32) -> Result<Vec<u8>, HeadlessError> {
 }
 
 fn cell(species: &Species, seed: u32) -> Result<Cell, HeadlessError> {
-    let mut document = Document::new(seed);
-    for action in script(species) {
-        document.apply(AUTHOR, &action).map_err(HeadlessError::Parameters)?;
-    }
-    let style = Style::new(style_options(&document.parameters()));
     Ok(Cell {
-        picture: picture::draw(document.portrait(), &style, &Look::from(species), CELL.0, CELL.1),
+        picture: portrait(species, seed, CELL).map_err(HeadlessError::Parameters)?,
         title: species.name.to_owned(),
         subtitle: species.botanical.to_owned(),
     })

@@ -111,6 +111,20 @@ mod tests {
     }
 
     #[test]
+    fn what_installs_the_page_is_checked_each_time() {
+        for (path, media_type) in [
+            ("/manifest.webmanifest", "application/manifest+json"),
+            ("/sw.js", "text/javascript; charset=utf-8"),
+            ("/icon-512.png", "image/png"),
+        ] {
+            let file = get(path, None);
+            assert_eq!(file.status(), StatusCode::OK, "{path}");
+            assert_eq!(file.headers()[header::CONTENT_TYPE], media_type, "{path}");
+            assert_eq!(file.headers()[header::CACHE_CONTROL], "no-cache", "{path}");
+        }
+    }
+
+    #[test]
     fn gzip_goes_only_to_who_accepts_it() {
         let accepts = |value| {
             let mut headers = HeaderMap::new();

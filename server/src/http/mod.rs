@@ -4,6 +4,7 @@ mod client;
 mod failure;
 mod guard;
 mod obstacles;
+mod schematic;
 mod sessions;
 mod species;
 mod thumbnail;
@@ -20,7 +21,7 @@ use axum::{
 use espalier_proto::version::MAX_GLB_BYTES;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
-use crate::{database::Database, live::Sessions, pool::SimulationPool};
+use crate::{database::Database, live::Sessions, pool::SimulationPool, portrait::Portraits};
 
 /// A request for a session or a name is tiny.
 const MAX_SMALL_BODY: usize = 4 * 1024;
@@ -30,6 +31,11 @@ const MAX_TREE_BODY: usize = 264 * 1024;
 const MAX_UPLOADS: usize = 2;
 /// Exports at once: each holds the triangles of a whole scene, hundreds of megabytes at worst.
 const MAX_EXPORTS: usize = 1;
+
+/// Pictures of species made at once: sessions grow on the same threads.
+const MAX_PICTURES: usize = 1;
+/// Schematics grown at once; each takes some milliseconds.
+const MAX_SCHEMATICS: usize = 4;
 
 /// What the handlers work with.
 #[derive(Clone, Debug)]
@@ -42,6 +48,8 @@ pub struct Shared {
     pub pool: SimulationPool,
     /// Metamers that each session begun here may hold.
     pub metamer_budget: u32,
+    /// Pictures of the species.
+    pub portraits: Portraits,
 }
 
 /// Everything the server answers.
@@ -55,6 +63,14 @@ pub fn router(shared: Shared) -> Router {
         )
         .route("/api/sessions/{name}/obstacles/{id}", get(obstacles::mesh))
         .route("/api/species", get(species::list))
+        .route(
+            "/api/species/{slug}/picture",
+            get(species::picture).layer(GlobalConcurrencyLimitLayer::new(MAX_PICTURES)),
+        )
+        .route(
+            "/api/schematic",
+            post(schematic::draw).layer(GlobalConcurrencyLimitLayer::new(MAX_SCHEMATICS)),
+        )
         .route("/api/trees/{id}", patch(trees::rename).delete(trees::delete))
         .route("/api/trees/{id}/thumbnail", get(trees::thumbnail))
         .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))

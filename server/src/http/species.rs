@@ -1,11 +1,41 @@
-//! The species a picker offers.
+//! The species a picker offers, with their pictures.
 
-use axum::{Json, response::IntoResponse};
+use axum::{
+    Json,
+    extract::{Path, State},
+    http::{HeaderMap, StatusCode, header},
+    response::{IntoResponse, Response},
+};
 use espalier_growth::species;
 use espalier_proto::species::Species;
 use espalier_session::wire_species;
 
+use super::{Shared, failure::Failure};
+
+/// A picture changes only as the program does, and whoever asks again is told at once that it has not.
+const CACHE: &str = "public, max-age=3600";
+
 pub(super) async fn list() -> impl IntoResponse {
     let all: Vec<Species> = species::all().iter().map(wire_species).collect();
     Json(all)
+}
+
+pub(super) async fn picture(
+    State(shared): State<Shared>,
+    Path(slug): Path<String>,
+    asked: HeaderMap,
+) -> Result<Response, Failure> {
+    let print = shared.portraits.of(&slug, &shared.pool).await.map_err(|error| {
+        tracing::error!(slug, %error, "a species cannot be drawn");
+        Failure::unavailable("The picture cannot be drawn.")
+    })?;
+    let print = print.ok_or_else(|| Failure::not_found("species"))?;
+    let headers = [(header::ETAG, print.tag.clone()), (header::CACHE_CONTROL, CACHE.to_owned())];
+    let known = asked.get(header::IF_NONE_MATCH).and_then(|tags| tags.to_str().ok());
+    let is_known = known.is_some_and(|tags| tags.split(',').any(|tag| tag.trim() == print.tag));
+    if is_known {
+        return Ok((StatusCode::NOT_MODIFIED, headers).into_response());
+    }
+    let content_type = [(header::CONTENT_TYPE, "image/png")];
+    Ok((headers, content_type, print.png.to_vec()).into_response())
 }

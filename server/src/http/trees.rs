@@ -2,14 +2,15 @@
 
 use axum::{
     Json,
-    extract::{Path, State},
+    extract::{Path, Query, State, rejection::QueryRejection},
     http::{StatusCode, header},
     response::IntoResponse,
 };
 use espalier_proto::{
-    Problem,
+    Problem, ProblemCode,
     library::{RenameTree, SaveTree, SavedTree},
 };
+use serde::Deserialize;
 
 use super::{
     Shared,
@@ -23,10 +24,35 @@ use crate::{
 };
 
 const MAX_NAME_CHARACTERS: usize = 80;
+/// Trees in one answer.
+const MAX_TREES: u32 = 500;
 
-pub(super) async fn list(State(shared): State<Shared>) -> Result<impl IntoResponse, Failure> {
-    let trees: Vec<SavedTree> = shared.database.trees().await?.into_iter().map(to_proto).collect();
-    Ok(Json(trees))
+/// Which trees of the library to list.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Page {
+    /// How many at most.
+    limit: Option<u32>,
+    /// The last tree of the page before.
+    behind: Option<String>,
+}
+
+pub(super) async fn list(
+    State(shared): State<Shared>,
+    page: Result<Query<Page>, QueryRejection>,
+) -> Result<impl IntoResponse, Failure> {
+    let Query(page) = page.map_err(|rejection| {
+        Problem::new(
+            ProblemCode::Malformed,
+            format!("The request cannot be read: {}.", rejection.body_text()),
+        )
+    })?;
+    let limit = page.limit.unwrap_or(MAX_TREES);
+    if !(1..=MAX_TREES).contains(&limit) {
+        return Err(Problem::out_of_range("limit", limit, format!("1 to {MAX_TREES}")).into());
+    }
+    let trees = shared.database.trees(limit, page.behind.as_deref()).await?;
+    Ok(Json(trees.into_iter().map(to_proto).collect::<Vec<SavedTree>>()))
 }
 
 pub(super) async fn save(

@@ -3,7 +3,8 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
-const program = process.env.ESPALIER_PROGRAM ?? join(import.meta.dirname, "../../../target/debug/espalier");
+/** The program under test. */
+export const program = process.env.ESPALIER_PROGRAM ?? join(import.meta.dirname, "../../../target/debug/espalier");
 /** Only keeps a test from hanging. */
 const GUARD = 60_000;
 

@@ -132,7 +132,7 @@ async fn parameters_reach_everyone_and_change_growth() {
     let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     let patch = ParametersPatch { max_shoot_length: Some(1), leaves_per_node: Some(0), ..Default::default() };
-    first.send(Command::SetParameters { parameters: patch }).await;
+    first.send(Command::SetParameters { parameters: patch, gesture: None }).await;
     second.until("the parameters arrive", |client| client.parameters.max_shoot_length == 1).await;
     first.send(grow(6)).await;
     first.until_settled().await;

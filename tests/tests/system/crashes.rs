@@ -29,6 +29,7 @@ fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
                 0 => commands.push(Command::Undo {}),
                 1 => commands.push(Command::SetParameters {
                     parameters: ParametersPatch { apical_control: Some(0.48), ..Default::default() },
+                    gesture: None,
                 }),
                 2 => commands.push(Command::Grow { steps: 1, gesture: Some(number), bud: None }),
                 _ => {}

@@ -1,5 +1,6 @@
 //! The system from outside: the real program, a real socket, a real database.
 
+mod appearance;
 mod bad_input;
 mod command_line;
 mod commands;

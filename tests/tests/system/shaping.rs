@@ -186,11 +186,19 @@ async fn what_another_has_cut_cannot_be_edited() {
         bob.send(command.clone()).await;
         bob.until("it is answered", |bob| !bob.refused.is_empty()).await;
         let problem = &bob.refused[0].1;
-        assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some(field)), "{command:?}");
+        assert_eq!(
+            (problem.code, problem.field.as_deref()),
+            (ProblemCode::NotFound, Some(field)),
+            "{command:?}"
+        );
         assert!(problem.allowed.is_some(), "it says what is allowed: {problem:?}");
     }
     bob.until_form(&left).await;
     until_equal(&mut ann, &mut bob).await;
-    assert_eq!((bob.timeline.operations.len(), bob.timeline.done), (2, 2), "growth and the cut, nothing else");
+    assert_eq!(
+        (bob.timeline.operations.len(), bob.timeline.done),
+        (2, 2),
+        "growth and the cut, nothing else"
+    );
     assert!(bob.poses.last().is_some_and(|pose| pose.motions.is_empty()), "BE4: his bend is over");
 }

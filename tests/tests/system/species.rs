@@ -66,7 +66,7 @@ async fn a_picked_species_becomes_the_parameters() {
     let willow = all.iter().find(|species| species.slug == "weeping-willow").expect("there is a willow");
     let session = server.new_session(7);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
-    client.send(Command::SetParameters { parameters: willow.parameters.clone().into() }).await;
+    client.send(Command::SetParameters { parameters: willow.parameters.clone().into(), gesture: None }).await;
     client.until_settled().await;
     assert_eq!(client.parameters, willow.parameters);
 }

@@ -6,6 +6,7 @@ import { radiusOf } from "../../scene/tree-table";
 import { type Command, MAX_BEND_TOUCHES } from "../../wire/generated";
 import type { Grip } from "../gestures";
 import type { Point } from "../ports";
+import type { Key } from "../words";
 import { type Hold, holdAt, naturalBase, related } from "./bend-hold";
 import type { ShapingView } from "./shaping-view";
 import { type GripTool, PICK_TOLERANCE, withinReach } from "./tool";
@@ -34,7 +35,7 @@ export interface BendOptions {
   readonly stretch: () => number;
   /** `nodes` are where the base begins and the end of each internode of the path. */
   readonly solver: (nodes: Point[], radii: number[], stretch: number) => BendSolver;
-  readonly say: (sentence: string) => void;
+  readonly say: (text: Key) => void;
 }
 
 interface Finger {
@@ -267,7 +268,7 @@ export class BendTool implements GripTool {
       }
     }
     if (this.#bending?.guise.over(table)) {
-      this.#options.say("The branch you were bending has changed; your bend ended there.");
+      this.#options.say("tools.bend-ended");
       this.abandon();
     }
     const gone = (row: number) => row >= table.rows || table.radiusCode[row] === 0;
@@ -320,7 +321,7 @@ export class BendTool implements GripTool {
     const hold = holdAt(table, grips.base, [...grips.fingers.map(([, finger]) => finger.row), ...handles]);
     const dragged = hold && grips.fingers.filter(([, finger]) => hold.touches.includes(finger.row));
     if (!hold || !dragged || dragged.length === 0) {
-      say("Take the branch a little further up: its base stays where it is.");
+      say("tools.bend-base");
       this.gripDrop();
       return;
     }

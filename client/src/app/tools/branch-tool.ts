@@ -1,5 +1,6 @@
 import type { Grip } from "../gestures";
 import type { Point } from "../ports";
+import type { Key } from "../words";
 import type { BranchHand } from "./branch-hand";
 import { about, after, Ball, cross, dot, minus, type Rotation, type ScreenAxes, UNTURNED } from "./branch-turn";
 import { type GripTool, PICK_TOLERANCE } from "./tool";
@@ -25,11 +26,8 @@ export interface BranchToolOptions {
   readonly view: BranchView;
   readonly hand: BranchHand;
   /** Something a person should know. */
-  readonly say: (sentence: string) => void;
+  readonly say: (text: Key) => void;
 }
-
-const NO_LIMB = "Tap the limb that shall bear the branch.";
-const TRUNK = "This is where the whole tree stands; take hold of it further up.";
 
 interface Spot {
   readonly x: number;
@@ -110,7 +108,7 @@ export class BranchTool implements GripTool {
     const picked = view.pick(x, y, PICK_TOLERANCE);
     const held = this.#onRing(finger.now) || (picked !== null && hand.holds(picked.row));
     if (!held && picked && !hand.take(picked.row)) {
-      this.#options.say(TRUNK);
+      this.#options.say("tools.trunk-held");
       this.#hold = { kind: "nothing", finger: { ...finger, moved: true } };
       return;
     }
@@ -203,7 +201,7 @@ export class BranchTool implements GripTool {
     if (hold?.kind === "place") {
       if (!hand.graft()) {
         hand.hide();
-        say(NO_LIMB);
+        say("tools.no-limb");
       }
     } else if (hold?.kind === "turn" && hand.turning.peek()) {
       hand.endTurn();

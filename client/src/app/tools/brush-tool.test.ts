@@ -14,11 +14,17 @@ function setUp() {
     branch: null as Point | null,
     planes: true,
     bud: null as number | null,
+    /** How far the view is turned around the vertical through x = 50, in radians. */
+    turned: 0,
   };
   const shown: { point: Point; radius: number }[] = [];
   const tool = new BrushTool({
     view: {
-      pointOnPlane: (x, y, through) => (world.planes ? [x / 10, (1000 - y) / 10, through[2]] : null),
+      pointOnPlane: (x, y, through) => {
+        const [aside, out] = [x / 10 - 50, through[2]];
+        const [sin, cos] = [Math.sin(world.turned), Math.cos(world.turned)];
+        return world.planes ? [50 + aside * cos + out * sin, (1000 - y) / 10, out * cos - aside * sin] : null;
+      },
       pick: () => (world.branch ? { row: 1, point: world.branch } : null),
       showBrush: (point, radius) => shown.push({ point, radius }),
       hideBrush: () => shown.splice(0),
@@ -48,6 +54,27 @@ describe("brush tool", () => {
     tool.end();
     expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_move", "stroke_end"]);
     expect(new Set(sent.map((command) => "stroke" in command && command.stroke))).toEqual(new Set([1]));
+  });
+
+  it("winds around the tree that turns under it", () => {
+    const { tool, world, samples, shown } = setUp();
+    tool.begin(at(600, 500));
+    for (let i = 0; i < 12; i++) {
+      world.turned = (i * 2 * Math.PI) / 12;
+      // The finger rises a little, and then rests.
+      tool.move([at(600, 500 - 10 * i)]);
+      tool.tick();
+    }
+    const rested = samples().length;
+    world.turned += 0.5;
+    tool.tick();
+    const places = samples().map(({ position }) => position);
+    const angles = places.map(([x, , z]) => Math.atan2(-z, x - 50));
+    const radii = places.map(([x, , z]) => Math.hypot(x - 50, z));
+    expect(places.length).toBe(rested + 1);
+    expect(Math.max(...radii) - Math.min(...radii)).toBeLessThan(1e-2);
+    expect(new Set(angles.map((angle) => Math.round((angle * 2) / Math.PI))).size).toBeGreaterThanOrEqual(4);
+    expect(shown.at(-1)?.point).toEqual(places.at(-1));
   });
 
   it("gathers all places since the last message", () => {

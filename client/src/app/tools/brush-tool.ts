@@ -33,6 +33,8 @@ interface Stroke {
   readonly through: Point;
   readonly samples: SampleQueue;
   readonly pressure: FeltPressure;
+  /** Where the finger is on the canvas. */
+  finger: { readonly x: number; readonly y: number };
 }
 
 /** Turns the strokes of a finger into commands. */
@@ -52,7 +54,7 @@ export class BrushTool implements Tool {
     this.end();
     const number = this.#options.newStroke();
     const through = this.#through(point.x, point.y);
-    this.#stroke = { number, through, samples: new SampleQueue(), pressure: new FeltPressure() };
+    this.#stroke = { number, through, samples: new SampleQueue(), pressure: new FeltPressure(), finger: point };
     const bud = this.#options.bud();
     this.#options.submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
     this.move([point]);
@@ -64,32 +66,28 @@ export class BrushTool implements Tool {
       return;
     }
     for (const point of points) {
-      const place = this.#options.view.pointOnPlane(point.x, point.y, stroke.through);
-      if (place) {
-        const radius = this.#radius(stroke.pressure.follow(point.pressure));
-        stroke.samples.add({ position: withinReach(place), radius });
-      }
+      stroke.finger = point;
+      stroke.pressure.follow(point.pressure);
+      this.#sample(stroke);
     }
-    const { latest } = stroke.samples;
-    if (latest) {
-      this.#options.view.showBrush(latest.position, latest.radius);
-    }
+    this.#show(stroke);
   }
 
   /** Sends what has gathered, or once more the place where the brush rests: it keeps sowing there. */
   tick(): void {
     const stroke = this.#stroke;
-    if (!stroke || this.#options.unsettledMoves() >= MAX_UNSETTLED) {
+    if (!stroke) {
       return;
     }
-    const { latest } = stroke.samples;
-    const radius = this.#radius(stroke.pressure.value);
-    if (latest && latest.radius !== radius) {
-      // The other hand has moved the slider while this one rests.
-      stroke.samples.add({ position: latest.position, radius });
-      this.#options.view.showBrush(latest.position, radius);
+    // Under a finger that rests the other hand may have turned the tree, or moved the slider.
+    const before = stroke.samples.latest;
+    this.#sample(stroke);
+    if (stroke.samples.latest !== before) {
+      this.#show(stroke);
     }
-    this.#send(stroke);
+    if (this.#options.unsettledMoves() < MAX_UNSETTLED) {
+      this.#send(stroke);
+    }
   }
 
   end(): void {
@@ -122,6 +120,26 @@ export class BrushTool implements Tool {
       this.#options.view.showBrush(withinReach(place), this.#options.radius());
     } else {
       this.#options.view.hideBrush();
+    }
+  }
+
+  /** Notes where the brush is under the finger, as the camera stands now, unless it is there already. */
+  #sample({ finger, through, samples, pressure }: Stroke): void {
+    const place = this.#options.view.pointOnPlane(finger.x, finger.y, through);
+    if (!place) {
+      return;
+    }
+    const position = withinReach(place);
+    const radius = this.#radius(pressure.value);
+    const { latest } = samples;
+    if (latest?.radius !== radius || position.some((value, axis) => value !== latest.position[axis])) {
+      samples.add({ position, radius });
+    }
+  }
+
+  #show({ samples: { latest } }: Stroke): void {
+    if (latest) {
+      this.#options.view.showBrush(latest.position, latest.radius);
     }
   }
 

@@ -7,7 +7,7 @@ import type { Point2 } from "./outline";
 /** A view turned a quarter: a pixel is a tenth of an internode, to the right is −z, up is y, from pixel 1000. */
 function setUp() {
   const sent: Command[] = [];
-  const world = { branch: null as Point | null, bud: null as number | null, slips: 0, places: [] as Point[] };
+  const world = { branch: null as Point | null, bud: null as number | null, depth: 1, slips: 0, places: [] as Point[] };
   const drawn: (readonly Point2[] | null)[] = [];
   const tool = new LassoTool({
     view: {
@@ -17,6 +17,7 @@ function setUp() {
     },
     submit: (command) => sent.push(command),
     bud: () => world.bud,
+    depth: () => world.depth,
     base: () => [2, 0, 0],
     draw: (outline) => drawn.push(outline && [...outline]),
     sent: (places) => {
@@ -59,6 +60,14 @@ describe("lasso tool", () => {
         plane: { origin: [2, 0, 0], right: [0, 0, -1], up: [0, 1, 0] },
       },
     ]);
+  });
+
+  it("says how deep the body is unless it is as deep as wide", () => {
+    const { tool, sent, world, draw } = setUp();
+    world.depth = 0.25;
+    draw(square);
+    tool.end();
+    expect(sent[0]).toMatchObject({ kind: "lasso", depth: 0.25 });
   });
 
   it("lies at the depth of the branch it began on", () => {

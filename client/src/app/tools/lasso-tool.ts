@@ -28,6 +28,8 @@ export interface LassoOptions {
   readonly bud: () => number | null;
   /** Where an outline lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Point;
+  /** How deep the body becomes: 1 is as deep as wide. */
+  readonly depth: () => number;
   /** The outline as far as it is drawn, in pixels; null for none. */
   readonly draw: (outline: readonly Point2[] | null) => void;
   /** An outline was sent; these are its points in the world. */
@@ -74,7 +76,7 @@ export class LassoTool implements Tool {
     if (!drawn) {
       return;
     }
-    const { view, bud, submit, sent, tooSmall } = this.#options;
+    const { view, bud, depth, submit, sent, tooSmall } = this.#options;
     const plane = view.drawingPlane(this.#through);
     const places = simplifiedTo(drawn, TOLERANCE, MAX_OUTLINE_POINTS).flatMap(([x, y]) => {
       const place = view.pointOnPlane(x, y, this.#through);
@@ -86,7 +88,8 @@ export class LassoTool implements Tool {
       return;
     }
     const row = bud();
-    submit({ kind: "lasso", outline, plane, ...(row === null ? {} : { bud: row }) });
+    const flat = depth() < 1 ? { depth: depth() } : {};
+    submit({ kind: "lasso", outline, plane, ...flat, ...(row === null ? {} : { bud: row }) });
     sent(places);
   }
 

@@ -1,5 +1,7 @@
+import type { Key } from "../words";
+
 /** What a person is told where nothing comes off (`PR1`). */
-export const TRUNK_STAYS = "The trunk cannot be cut off. Set a width on it, then cut above: a stub stays.";
+export const TRUNK_STAYS: Key = "tools.trunk-stays";
 
 /** What is asked of the rows. */
 export interface Wood {

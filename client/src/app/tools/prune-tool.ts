@@ -4,6 +4,7 @@ import type { TreeTable } from "../../scene/tree-table";
 import { type Command, MAX_PRUNED_ROWS } from "../../wire/generated";
 import type { StrokePoint } from "../gestures";
 import type { Point } from "../ports";
+import type { Key } from "../words";
 import { CutLine } from "./cut-line";
 import { PruneRule, TRUNK_STAYS } from "./prune-rule";
 import type { ShapingView } from "./shaping-view";
@@ -22,7 +23,7 @@ export interface PruneOptions {
   readonly unsettled: (kind: Command["kind"]) => number;
   /** The rows whose width is set. */
   readonly limits: () => ReadonlySet<number>;
-  readonly say: (sentence: string) => void;
+  readonly say: (text: Key) => void;
   /** Shows what would become of the tree without the branches at these rows. */
   readonly predict: (rows: readonly number[]) => void;
 }

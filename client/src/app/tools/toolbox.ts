@@ -14,6 +14,7 @@ import type { Point } from "../ports";
 import { nearestBase, scaleAt } from "../scene-link";
 import type { Settings } from "../settings";
 import type { Toasts } from "../toasts";
+import { type Key, say } from "../words";
 import { BendTool } from "./bend-tool";
 import type { BranchHand } from "./branch-hand";
 import { BranchTool } from "./branch-tool";
@@ -125,12 +126,13 @@ export class Toolbox {
         submit,
         bud: row,
         base,
+        depth: () => settings.lassoDepth.peek(),
         draw: (points) => this.outline.draw(points),
         sent: (places) => {
           settings.hasOutlined.value = true;
           this.outline.grow(places, next() - 1);
         },
-        tooSmall: () => toasts.show("Draw a larger outline: the tree grows to fill it."),
+        tooSmall: () => toasts.show(say("tools.outline-small")),
       }),
       seed: new SeedTool({
         groundAt: (x, y) => view.pointOnLevel(x, y, [0, 0, 0]),
@@ -139,12 +141,12 @@ export class Toolbox {
           this.seed.value = place;
         },
         planted: () => this.choose("brush"),
-        missed: () => toasts.show("Tap the ground, not too far away."),
+        missed: () => toasts.show(say("tools.ground-missed")),
       }),
       branch: new BranchTool({
         view,
         hand: branch,
-        say: (sentence) => toasts.show(sentence),
+        say: (text) => toasts.show(say(text)),
       }),
     };
     this.#mover = new ObstacleTool({
@@ -408,7 +410,7 @@ export class Toolbox {
 
   #shaping(view: Viewport): Shaping {
     const { table, settings, toasts, submit, next, unsettled, girth, predict } = this.#workshop;
-    const say = (sentence: string) => toasts.show(sentence);
+    const tell = (text: Key) => toasts.show(say(text));
     const bend = new BendTool({
       table,
       view,
@@ -418,7 +420,7 @@ export class Toolbox {
       unsettled,
       stretch: () => settings.stretch.peek(),
       solver: (nodes, radii, stretch) => new Bend(nodes, radii, stretch),
-      say,
+      say: tell,
     });
     const width = new WidthTool({
       table,
@@ -431,7 +433,7 @@ export class Toolbox {
       placeOnGlass: (row) => view.projector()(view.placeOf(row)),
     });
     const limits = () => width.limits.peek();
-    const prune = new PruneTool({ table, view, submit, unsettled, limits, say, predict });
+    const prune = new PruneTool({ table, view, submit, unsettled, limits, say: tell, predict });
     return { bend, width, prune, poses: new BendPoses(table, view, bend) };
   }
 

@@ -3,6 +3,7 @@ import { useMemo, useRef } from "preact/hooks";
 import { subtreeRows } from "../../scene/branch-rows";
 import type { Studio } from "../studio";
 import { RING } from "../tools/branch-tool";
+import { say } from "../words";
 import { Icon } from "./icons";
 import { GraftIcon, PruneIcon, TimeIcon } from "./timeline-icons";
 import { useFrames } from "./use-frames";
@@ -77,17 +78,33 @@ export function BranchHandle({ studio }: { studio: Studio }) {
         </g>
       </svg>
       {menuShown && (
-        <div class="panel branch-menu" ref={menu} role="toolbar" aria-label="This branch">
-          <MenuButton label="Move" title="Move it to another limb" act={() => studio.branches.place("move")}>
+        <div class="panel branch-menu" ref={menu} role="toolbar" aria-label={say("tools.branch")}>
+          <MenuButton
+            label={say("tools.branch.move")}
+            title={say("tools.branch.move.title")}
+            act={() => studio.branches.place("move")}
+          >
             <GraftIcon />
           </MenuButton>
-          <MenuButton label="Copy" title="Set a copy of it on another limb" act={() => studio.branches.place("copy")}>
+          <MenuButton
+            label={say("tools.branch.copy")}
+            title={say("tools.branch.copy.title")}
+            act={() => studio.branches.place("copy")}
+          >
             <CopyIcon />
           </MenuButton>
-          <MenuButton label="Cut" title="Cut it off" act={() => studio.branches.cut()}>
+          <MenuButton
+            label={say("tools.branch.cut")}
+            title={say("tools.branch.cut.title")}
+            act={() => studio.branches.cut()}
+          >
             <PruneIcon />
           </MenuButton>
-          <MenuButton label="What if?" title="What would cutting it do?" act={() => studio.branches.foresee()}>
+          <MenuButton
+            label={say("tools.what-if")}
+            title={say("tools.branch.foresee.title")}
+            act={() => studio.branches.foresee()}
+          >
             <TimeIcon />
           </MenuButton>
         </div>

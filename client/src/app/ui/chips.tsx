@@ -1,5 +1,7 @@
 import { useEffect, useState } from "preact/hooks";
 import type { Studio } from "../studio";
+import type { Transfer } from "../transfer";
+import { language, say } from "../words";
 import { CloseIcon, StopIcon } from "./icons";
 
 /** Growth that is done sooner is not worth a word. */
@@ -13,15 +15,15 @@ export function Chips({ studio }: { studio: Studio }) {
   return (
     <div class="chips" role="status">
       <GrowthChip studio={studio} />
+      <TransferChip transfer={studio.exports.transfer} name="export" />
+      <TransferChip transfer={studio.obstacles.transfer} name="import" />
       {placing !== null && (
         <p class="chip">
-          {placing === "copy"
-            ? "Tap the limb for the copy, drag to aim it"
-            : "Tap the limb to move it to, drag to aim it"}
+          {say(placing === "copy" ? "tools.placing.copy" : "tools.placing.move")}
           <button
             type="button"
-            aria-label="Leave the branch where it is"
-            title="Leave the branch where it is (Esc)"
+            aria-label={say("tools.placing.cancel")}
+            title={say("tools.placing.cancel.title")}
             onClick={() => studio.branches.hand.cancelPlacing()}
           >
             <CloseIcon />
@@ -31,11 +33,11 @@ export function Chips({ studio }: { studio: Studio }) {
       {studio.bud.row.value !== null && (
         <p class="chip">
           <i class="bud-sign" aria-hidden="true" />
-          Only this branch grows
+          {say("tools.bud")}
           <button
             type="button"
-            aria-label="Let every branch grow"
-            title="Let every branch grow (Esc)"
+            aria-label={say("tools.bud.release")}
+            title={say("tools.bud.release.title")}
             onClick={() => studio.bud.release()}
           >
             <CloseIcon />
@@ -58,10 +60,44 @@ function GrowthChip({ studio }: { studio: Studio }) {
   return (
     <p class="chip">
       <i class="spinner" aria-hidden="true" />
-      {outline ? "Growing into the outline…" : pending > 1 ? `Growing… ${pending} steps to go` : "Growing…"}
+      {say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {
+        count: pending,
+      })}
       <button type="button" class="chip-stop" onClick={() => studio.stop()}>
         <StopIcon />
-        Stop
+        {say("tools.growing.stop")}
+      </button>
+    </p>
+  );
+}
+
+/** A file on its way, how far it has come, and a way to give it up. */
+function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" | "import" }) {
+  const progress = transfer.progress.value;
+  const shown = useLasting(progress !== null);
+  if (!shown || progress === null) {
+    return null;
+  }
+  const { bytes, total } = progress;
+  const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
+  const megabytes = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  const text =
+    bytes === 0
+      ? say(`sheets.${name}`)
+      : percent === 100
+        ? say(`sheets.${name}.read`)
+        : say(`sheets.${name}.moving`, { megabytes: megabytes.format(bytes / 1e6) });
+  return (
+    <p class="chip">
+      {percent === null ? (
+        <i class="spinner" aria-hidden="true" />
+      ) : (
+        <progress aria-label={text} max={100} value={percent} />
+      )}
+      {text}
+      <button type="button" class="chip-stop" onClick={() => transfer.cancel()}>
+        <StopIcon />
+        {say("sheets.cancel")}
       </button>
     </p>
   );

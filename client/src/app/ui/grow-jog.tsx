@@ -1,6 +1,7 @@
 import { useRef } from "preact/hooks";
 import { deflectionFor, FASTEST, growthRate, KEY_RATE } from "../grow-pacer";
 import type { Studio } from "../studio";
+import { say } from "../words";
 
 const KEY_PUSH = deflectionFor(KEY_RATE);
 
@@ -27,9 +28,7 @@ export function GrowJog({ studio }: { studio: Studio }) {
   };
   const pushed = (key: string) => ({ ArrowUp: KEY_PUSH, PageUp: 1, ArrowDown: -KEY_PUSH, PageDown: -1 })[key];
   const speech =
-    rate === 0
-      ? "at rest"
-      : `${rate > 0 ? "growing" : "growing backwards"}, ${Math.abs(rate)} ${Math.abs(rate) === 1 ? "step" : "steps"} a second`;
+    rate === 0 ? say("bars.grow.rest") : say(rate > 0 ? "bars.grow.forth" : "bars.grow.back", { rate: Math.abs(rate) });
 
   return (
     <div
@@ -37,7 +36,7 @@ export function GrowJog({ studio }: { studio: Studio }) {
       ref={lever}
       role="slider"
       tabIndex={0}
-      aria-label="Grow"
+      aria-label={say("bars.grow")}
       aria-orientation="vertical"
       aria-valuemin={-FASTEST}
       aria-valuemax={FASTEST}
@@ -45,7 +44,7 @@ export function GrowJog({ studio }: { studio: Studio }) {
       aria-valuetext={speech}
       data-moving={deflection !== 0}
       style={{ "--deflection": deflection }}
-      title="Push up to grow, pull down to grow backwards"
+      title={say("bars.grow.title")}
       onPointerDown={(event) => {
         if (held.current === null) {
           held.current = event.pointerId;

@@ -194,3 +194,72 @@ export const TreeIcon = () => (
     <path d="M12 3.5c4.5 0 7 2.7 7 6s-2 5.5-4 5.5M12 3.5c-4.5 0-7 2.7-7 6s2 5.5 4 5.5" />
   </Icon>
 );
+
+/** A tree of lines: how it is built. */
+export const ArchitectureIcon = () => (
+  <Icon>
+    <path d="M12 21V10M12 17l-5.500-4.500V8M12 14.500l5-4V6.500M12 10l-2.500-3V3.500M12 10l2-2.500V3.500M6.500 12.500 3.500 11M17 10.500l3.500-.5" />
+  </Icon>
+);
+
+/** A brush with its tip down. */
+export const BrushIcon = () => (
+  <Icon>
+    <path d="M19.500 3.500 11 12.200l1.900 1.900 7.600-9.500a.8.8 0 0 0-1-1.100Z" />
+    <path d="M10.300 12.900c-2.200-.1-3.600 1.300-3.900 3.400-.2 1.600-1 2.600-2.400 3.100 3.900 1.300 8.200-.3 8.200-4.500" />
+  </Icon>
+);
+
+export const LeafIcon = () => (
+  <Icon>
+    <path d="M6.500 17.500c-3-7 2-13 13.500-13.500.5 11.500-6 16.500-13.500 13.500Z" />
+    <path d="M4 20.500c2.500-4.500 6-8 10.500-10.500M9.300 13.800l-.4-3.600M12.200 11.600l3.600.2" />
+  </Icon>
+);
+
+/** A limb with its bark and the stub of a branch. */
+export const BarkIcon = () => (
+  <Icon>
+    <path d="M8 21c.6-6 .6-12 0-18M16 21c-.5-3-.7-5.500-.7-8L20 9.500M15.400 9.600 16 3" />
+    <path d="M11 7.500v3.500M12.800 13.500V17M10.500 16.500V19" />
+  </Icon>
+);
+
+/** Hills under the sun. */
+export const BackgroundIcon = () => (
+  <Icon>
+    <path d="M2.500 18.500c3.500-6 6.500-6 9.500-1.500 2-3.500 5-4.500 9.500.5" />
+    <circle cx="16.500" cy="7.500" r="3" />
+    <path d="M2.500 21h19" />
+  </Icon>
+);
+
+/** An eye crossed out. */
+export const HideIcon = () => (
+  <Icon>
+    <path d="M10 6.200c.6-.1 1.300-.2 2-.2 4.500 0 7.800 3 9.500 6-.6 1-1.400 2.100-2.400 3M6.600 7.600C4.700 8.800 3.300 10.500 2.500 12c1.700 3 5 6 9.500 6 1.700 0 3.200-.4 4.500-1.100" />
+    <path d="M9.900 9.900a3 3 0 0 0 4.200 4.200M4 4l16 16" />
+  </Icon>
+);
+
+export const ShowIcon = () => (
+  <Icon>
+    <path d="M2.500 12c1.700-3 5-6 9.500-6s7.800 3 9.500 6c-1.700 3-5 6-9.500 6s-7.800-3-9.500-6Z" />
+    <circle cx="12" cy="12" r="3" />
+  </Icon>
+);
+
+export const MoreIcon = () => (
+  <Icon>
+    <path d="M5.500 12v.01M12 12v.01M18.500 12v.01" stroke-width="3" />
+  </Icon>
+);
+
+/** A wheel with teeth. */
+export const SettingsIcon = () => (
+  <Icon>
+    <circle cx="12" cy="12" r="3" />
+    <path d="M12 3.500v2.300M12 18.200v2.300M20.500 12h-2.300M5.800 12H3.500M18 6l-1.600 1.600M7.600 16.400 6 18M18 18l-1.600-1.600M7.600 7.600 6 6" />
+    <circle cx="12" cy="12" r="6.200" />
+  </Icon>
+);

@@ -1,31 +1,13 @@
-import type { LeafKind, Species } from "../../wire/generated";
-
-/** One leaf of each form, upright, its stalk beginning at (12, 23). */
-const BLADES: Record<LeafKind, string> = {
-  ovate: "M12 2.5c4.6 3.4 5.8 7.2 5 11C16.4 16.4 14.4 18 12 18s-4.4-1.6-5-4.5c-.8-3.8.4-7.6 5-11Z",
-  round: "M12 4c4.6 0 7.8 3 7.8 6.8S16.3 18 12 18s-7.8-3.4-7.8-7.2S7.4 4 12 4Z",
-  lanceolate: "M12 1.5c2.4 4 3.2 7.6 2.9 11.2C14.7 15.8 13.6 18 12 18s-2.7-2.2-2.9-5.3C8.8 9.1 9.6 5.5 12 1.5Z",
-  lobed:
-    "M12 2c1.9.2 2.9 1.5 2.6 3.4 1.9-.6 3.5.4 3.3 2.1-.1 1.2-.9 1.9-1.9 2.2 1.6.2 2.7 1.3 2.4 2.9-.4 1.8-2.1 2.2-3.6 1.7.9 1.9-.6 3.7-2.8 3.7s-3.7-1.8-2.8-3.7c-1.5.5-3.2.1-3.6-1.7-.3-1.6.8-2.7 2.4-2.9-1-.3-1.8-1-1.9-2.2-.2-1.7 1.4-2.7 3.3-2.1C9.1 3.5 10.1 2.2 12 2Z",
-  palmate:
-    "m12 1.5 2.2 4.8 3.3-2.1-.6 4.3 5-.3-2.8 4 1.9 2.3-4.8 1.3.2 2.2H7.6l.2-2.2L3 14.5l1.9-2.3-2.8-4 5 .3-.6-4.3 3.3 2.1L12 1.5Z",
-  fan: "M12 18.5C9 15.2 5.5 12.7 2.5 11c1-4.5 4.5-7.3 8.8-7.7L12 8l.7-4.7c4.3.4 7.8 3.2 8.8 7.7-3 1.7-6.5 4.2-9.5 7.5Z",
-  compound:
-    "M12 1.5c1.7 1.6 1.7 3.7 0 5.3-1.7-1.6-1.7-3.7 0-5.3ZM12.3 9.2c.6-2.3 2.4-3.5 5-3.4-.4 2.5-2.3 3.8-5 3.4ZM11.7 9.2c-.6-2.3-2.4-3.5-5-3.4.4 2.5 2.3 3.8 5 3.4ZM12.3 13.8c.6-2.3 2.6-3.6 5.6-3.5-.5 2.7-2.5 4-5.6 3.5ZM11.7 13.8c-.6-2.3-2.6-3.6-5.6-3.5.5 2.7 2.5 4 5.6 3.5ZM12.3 18.4c.6-2.3 2.4-3.5 5-3.4-.4 2.5-2.3 3.8-5 3.4ZM11.7 18.4c-.6-2.3-2.4-3.5-5-3.4.4 2.5 2.3 3.8 5 3.4Z",
-  needle:
-    "M11.5 18 10.8 2h2.4l-.7 16ZM11.3 18 5 4.5l2.2-.9L12 18ZM12.7 18 19 4.5l-2.2-.9L12 18ZM11.2 18.2 2 10.5l1.5-1.8 8.6 9ZM12.8 18.2l9.2-7.7-1.5-1.8-8.6 9Z",
-  scale:
-    "M12 1.5c2 2.2 2 4.3 0 6.3-2-2-2-4.1 0-6.3ZM12 12.5c.1-3.2 1.8-5.1 4.7-5.8.6 3.2-1 5.3-4.7 5.8ZM12 12.5c-.1-3.2-1.8-5.1-4.7-5.8-.6 3.2 1 5.3 4.7 5.8ZM12 18.5c.1-3.5 2.1-5.6 5.5-6.3.5 3.6-1.4 5.9-5.5 6.3ZM12 18.5c-.1-3.5-2.1-5.6-5.5-6.3-.5 3.6 1.4 5.9 5.5 6.3Z",
-  blossom:
-    "M12 10.5c-2.6-2.8-2.6-5.8 0-8 2.6 2.2 2.6 5.2 0 8ZM12 10.5c1.9-3.3 4.7-4.3 7.6-2.5-1.3 3.2-4.1 4.1-7.6 2.5ZM12 10.5c3.7.7 5.5 3.1 4.7 6.4-3.4-.2-5.1-2.6-4.7-6.4ZM12 10.5c.4 3.8-1.3 6.2-4.7 6.4-.8-3.3 1-5.7 4.7-6.4ZM12 10.5C8.5 12.1 5.7 11.2 4.4 8c2.9-1.8 5.7-.8 7.6 2.5Z",
-};
+import { laminaPath } from "../../scene/lamina";
+import type { Species } from "../../wire/generated";
 
 /** A leaf of a species, in its own colours. */
-export function LeafSketch({ species: { leaf, leaf_tint, bark_tint } }: { species: Species }) {
+export function LeafSketch({ species: { appearance } }: { species: Species }) {
+  const { leaves, bark } = appearance;
   return (
     <svg class="leaf-sketch" viewBox="0 0 24 24" aria-hidden="true">
-      <path d="M12 23V9" fill="none" stroke={`rgb(${bark_tint.join(" ")})`} stroke-width="1.6" stroke-linecap="round" />
-      <path d={BLADES[leaf]} fill={`rgb(${leaf_tint.join(" ")})`} />
+      <path d="M12 23V9" fill="none" stroke={`rgb(${bark.tint.join(" ")})`} stroke-width="1.6" stroke-linecap="round" />
+      <path d={laminaPath(leaves.shape, 24)} fill={`rgb(${leaves.tint.join(" ")})`} />
     </svg>
   );
 }

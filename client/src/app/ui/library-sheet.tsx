@@ -2,6 +2,7 @@ import { useEffect, useState } from "preact/hooks";
 import type { SavedTree } from "../../wire/generated";
 import { deleteTree, listTrees, renameTree } from "../library-api";
 import { type Studio, sentence } from "../studio";
+import { language, say } from "../words";
 import { DeleteIcon, RenameIcon, TreeIcon } from "./icons";
 import { Sheet } from "./sheet";
 
@@ -17,10 +18,10 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
     setTrees((all) => (all ?? []).flatMap((other) => (other.id !== id ? other : (tree ?? []))));
 
   return (
-    <Sheet studio={studio} title="Library" wide>
+    <Sheet studio={studio} title={say("sheets.library")} wide>
       {failure !== null && <p class="quiet empty">{failure}</p>}
-      {trees === null && failure === null && <p class="quiet empty">Looking…</p>}
-      {trees?.length === 0 && <p class="quiet empty">Nothing saved yet. Trees you save appear here.</p>}
+      {trees === null && failure === null && <p class="quiet empty">{say("notices.looking")}</p>}
+      {trees?.length === 0 && <p class="quiet empty">{say("sheets.library.empty")}</p>}
       <ul class="library">
         {trees?.map((tree) => (
           <TreeCard key={tree.id} studio={studio} tree={tree} onChange={(changed) => replace(tree.id, changed)} />
@@ -58,7 +59,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
       <button
         type="button"
         class="card-open"
-        aria-label={`Open ${tree.name}`}
+        aria-label={say("sheets.library.open", { name: tree.name })}
         onClick={() => studio.newSession(tree.id)}
       >
         {tree.thumbnail === undefined ? <TreeIcon /> : <img src={tree.thumbnail} alt="" loading="lazy" />}
@@ -67,7 +68,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
         <form class="card-rename" onSubmit={rename}>
           <input
             name="name"
-            aria-label="New name"
+            aria-label={say("sheets.library.new-name")}
             maxLength={80}
             autocomplete="off"
             defaultValue={tree.name}
@@ -80,22 +81,22 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
             }}
           />
           <button type="submit" class="small">
-            Rename
+            {say("sheets.library.rename")}
           </button>
         </form>
       )}
       {mode === "delete" && (
         <div class="card-confirm">
-          <span>Delete for good?</span>
+          <span>{say("sheets.library.delete.sure")}</span>
           <button
             type="button"
             class="small danger"
             onClick={() => attempt(deleteTree(tree.id).then(() => onChange(null)))}
           >
-            Delete
+            {say("sheets.library.delete")}
           </button>
           <button type="button" class="small" onClick={() => setMode("show")}>
-            Keep
+            {say("sheets.library.keep")}
           </button>
         </div>
       )}
@@ -103,15 +104,15 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
         <div class="card-foot">
           <strong class="card-name">{tree.name}</strong>
           <span class="quiet card-facts">
-            {tree.metamers.toLocaleString()} metamers
+            {say("notices.metamers", { count: tree.metamers.toLocaleString(language.value) })}
             <br />
             {dateOf(tree.saved_at)}
           </span>
           <button
             type="button"
             class="tool"
-            aria-label={`Rename ${tree.name}`}
-            title="Rename"
+            aria-label={say("sheets.library.rename.which", { name: tree.name })}
+            title={say("sheets.library.rename")}
             onClick={() => setMode("rename")}
           >
             <RenameIcon />
@@ -119,8 +120,8 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
           <button
             type="button"
             class="tool"
-            aria-label={`Delete ${tree.name}`}
-            title="Delete"
+            aria-label={say("sheets.library.delete.which", { name: tree.name })}
+            title={say("sheets.library.delete")}
             onClick={() => setMode("delete")}
           >
             <DeleteIcon />
@@ -133,5 +134,5 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
 
 function dateOf(time: string): string {
   const date = new Date(time);
-  return Number.isNaN(date.valueOf()) ? time : date.toLocaleDateString(undefined, { dateStyle: "medium" });
+  return Number.isNaN(date.valueOf()) ? time : date.toLocaleDateString(language.value, { dateStyle: "medium" });
 }

@@ -1,24 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { Hindrance, Studio } from "../studio";
-
-const HINDRANCES: Record<Hindrance, { title: string; text: string }> = {
-  "unknown-session": {
-    title: "This tree is not here",
-    text: "The link names a tree this server does not know. It may have been started on another machine.",
-  },
-  version: {
-    title: "This page is of another version",
-    text: "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",
-  },
-  "no-server": {
-    title: "The server does not answer",
-    text: "Is it running, and is this device in the same network? This page keeps trying.",
-  },
-  "no-webgl": {
-    title: "This browser cannot draw in 3D",
-    text: "Espalier needs WebGL 2. Try a current Safari, Chrome, Edge or Firefox with graphics acceleration on.",
-  },
-};
+import type { Studio } from "../studio";
+import { say } from "../words";
 
 /** What keeps the workspace from being used, and the way on. */
 export function HindranceCard({ studio }: { studio: Studio }) {
@@ -26,19 +8,18 @@ export function HindranceCard({ studio }: { studio: Studio }) {
   if (hindrance === null) {
     return null;
   }
-  const { title, text } = HINDRANCES[hindrance];
   return (
     <section class="panel hindrance" role="alert">
-      <h2>{title}</h2>
-      <p>{text}</p>
+      <h2>{say(`notices.${hindrance}`)}</h2>
+      <p>{say(`notices.${hindrance}.text`)}</p>
       {hindrance === "unknown-session" && (
         <button type="button" class="primary" onClick={() => studio.newSession()}>
-          Plant a new tree
+          {say("notices.unknown-session.way")}
         </button>
       )}
       {hindrance === "version" && (
         <button type="button" class="primary" onClick={() => location.reload()}>
-          Reload
+          {say("notices.version.way")}
         </button>
       )}
     </section>
@@ -88,16 +69,20 @@ export function Hint({ studio }: { studio: Studio }) {
 
 function hint(studio: Studio): string | null {
   const { tools, settings } = studio;
-  const usable = studio.hindrance.value === null && studio.phase.value === "connected" && !tools.drawing.value;
+  const usable =
+    studio.hindrance.value === null &&
+    studio.phase.value === "connected" &&
+    !tools.drawing.value &&
+    studio.tour.step.value === null;
   if (!usable) {
     return null;
   }
   if (tools.chosen.value === "seed") {
-    return "Tap the ground to plant a seed";
+    return say("notices.hint.seed");
   }
   if (tools.chosen.value === "lasso" && tools.outline.shown.value === null && !settings.hasOutlined.value) {
-    return "Draw the outline of a crown";
+    return say("notices.hint.lasso");
   }
   const untouched = !settings.hasDrawn.value && studio.document.value?.metamers === 0;
-  return tools.chosen.value === "brush" && untouched ? "Draw upward from the seedling" : null;
+  return tools.chosen.value === "brush" && untouched ? say("notices.hint.brush") : null;
 }

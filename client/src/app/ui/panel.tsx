@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import type { Studio } from "../studio";
+import { say } from "../words";
 import { CloseIcon } from "./icons";
 
 interface PanelProps {
@@ -8,7 +9,7 @@ interface PanelProps {
   readonly children: ComponentChildren;
 }
 
-/** A card pulled down beside the workspace, which stays in use. */
+/** A card pulled down beside the workspace, which shrinks and stays in use. */
 export function Panel({ studio, title, children }: PanelProps) {
   return (
     <section class="panel drawer" aria-label={title}>
@@ -17,8 +18,8 @@ export function Panel({ studio, title, children }: PanelProps) {
         <button
           type="button"
           class="tool"
-          aria-label={`Close ${title}`}
-          title="Close (Esc)"
+          aria-label={say("bars.close-panel", { panel: title })}
+          title={say("bars.close-panel.title")}
           onClick={() => {
             studio.panel.value = null;
           }}

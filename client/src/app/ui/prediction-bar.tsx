@@ -2,6 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import type { Point } from "../ports";
 import { MOST_STEPS } from "../prediction";
 import type { Studio } from "../studio";
+import { say } from "../words";
 import { stepsOf } from "./timeline-strip";
 import { useFrames } from "./use-frames";
 
@@ -21,17 +22,20 @@ export function PredictionBar({ studio }: { studio: Studio }) {
   const grown = prediction.grown.value;
   const waiting = grown !== steps;
   return (
-    <section class="panel prediction" aria-label="Prediction">
+    <section class="panel prediction" aria-label={say("tools.prediction")}>
       <label class="prediction-steps">
         <span class="number-head">
           <span>
-            {rows.length === 1 ? "Without this branch" : `Without these ${rows.length} branches`}, {stepsOf(steps)} on
+            {say(rows.length === 1 ? "tools.prediction.one" : "tools.prediction.many", {
+              count: rows.length,
+              steps: stepsOf(steps),
+            })}
           </span>
-          {waiting && <i class="spinner" role="status" aria-label="Growing the prediction" />}
+          {waiting && <i class="spinner" role="status" aria-label={say("tools.prediction.growing")} />}
         </span>
         <input
           type="range"
-          aria-label="Steps to look ahead"
+          aria-label={say("tools.prediction.steps")}
           min={1}
           max={MOST_STEPS}
           step={1}
@@ -41,11 +45,16 @@ export function PredictionBar({ studio }: { studio: Studio }) {
         />
       </label>
       <div class="prediction-choice">
-        <button type="button" class="small" title="Discard (Esc)" onClick={() => prediction.discard()}>
-          Discard
+        <button
+          type="button"
+          class="small"
+          title={say("tools.prediction.discard.title")}
+          onClick={() => prediction.discard()}
+        >
+          {say("tools.prediction.discard")}
         </button>
         <button type="button" class="primary" disabled={grown === null} onClick={() => prediction.keep()}>
-          Keep this
+          {say("tools.prediction.keep")}
         </button>
       </div>
     </section>

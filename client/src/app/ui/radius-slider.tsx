@@ -1,6 +1,7 @@
 import { useRef } from "preact/hooks";
 import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../brush-radius";
 import type { Studio } from "../studio";
+import { say } from "../words";
 
 /** The brush itself, in small. */
 export function BrushSample({ studio }: { studio: Studio }) {
@@ -45,13 +46,13 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
         class="radius-slider"
         role="slider"
         tabIndex={0}
-        aria-label="Brush radius"
+        aria-label={say("bars.radius")}
         aria-orientation="vertical"
         aria-valuemin={0}
         aria-valuemax={MAX_RADIUS}
         aria-valuenow={Math.round(radius * 10) / 10}
         aria-valuetext={
-          radius === 0 ? "Sketch: one limb, exactly along the stroke" : `${radiusLabel(radius)} internodes`
+          radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })
         }
         style={{ "--place": place }}
         onPointerDown={(event) => {

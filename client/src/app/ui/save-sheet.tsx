@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { saveTree } from "../library-api";
 import { type Studio, sentence } from "../studio";
+import { language, say } from "../words";
 import { Sheet } from "./sheet";
 
 /** A picture larger than this would be refused; the limit is 192 KiB. */
@@ -8,7 +9,9 @@ const MAX_PICTURE = 190 * 1024;
 
 /** Asks for a name and saves the tree with its picture. */
 export function SaveSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => `Tree ${new Date().toLocaleDateString(undefined, { dateStyle: "medium" })}`);
+  const [name, setName] = useState(() =>
+    say("sheets.save.default", { date: new Date().toLocaleDateString(language.value, { dateStyle: "medium" }) }),
+  );
   const [saving, setSaving] = useState(false);
   const trimmed = name.trim();
 
@@ -22,7 +25,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
     try {
       const thumbnail = await picture(studio);
       await saveTree({ session, name: trimmed, ...(thumbnail === undefined ? {} : { thumbnail }) });
-      studio.toasts.show(`Saved “${trimmed}”`);
+      studio.toasts.show(say("sheets.save.done", { name: trimmed }));
       studio.sheet.value = null;
     } catch (error) {
       studio.toasts.show(sentence(error));
@@ -31,10 +34,10 @@ export function SaveSheet({ studio }: { studio: Studio }) {
   };
 
   return (
-    <Sheet studio={studio} title="Save this tree">
+    <Sheet studio={studio} title={say("sheets.save")}>
       <form class="stack" onSubmit={save}>
         <label class="field">
-          <span>Name</span>
+          <span>{say("sheets.save.name")}</span>
           <input
             type="text"
             value={name}
@@ -45,10 +48,10 @@ export function SaveSheet({ studio }: { studio: Studio }) {
             onInput={(event) => setName(event.currentTarget.value)}
           />
         </label>
-        <p class="quiet">The tree goes into the library as it stands now. Drawing on does not change what is saved.</p>
+        <p class="quiet">{say("sheets.save.advice")}</p>
         <div class="actions">
           <button type="submit" class="primary" disabled={trimmed === "" || saving}>
-            {saving ? "Saving…" : "Save tree"}
+            {say(saving ? "sheets.save.saving" : "sheets.save.act")}
           </button>
         </div>
       </form>

@@ -3,40 +3,41 @@ import { useRef } from "preact/hooks";
 import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../../wire/generated";
 import type { Studio } from "../studio";
 import { rotationOf, turningOf } from "../turning";
+import { say } from "../words";
 import { BoxIcon, DeleteIcon, ModelIcon, NewIcon, PlaneIcon, SphereIcon, WallIcon } from "./icons";
 import { Panel } from "./panel";
 
 type Kind = "box" | "sphere" | "wall" | "plane";
 
-const KINDS: readonly (readonly [Kind, string, () => ComponentChildren])[] = [
-  ["box", "Box", BoxIcon],
-  ["sphere", "Sphere", SphereIcon],
-  ["wall", "Wall", WallIcon],
-  ["plane", "Plane", PlaneIcon],
+const KINDS: readonly (readonly [Kind, () => ComponentChildren])[] = [
+  ["box", BoxIcon],
+  ["sphere", SphereIcon],
+  ["wall", WallIcon],
+  ["plane", PlaneIcon],
 ];
 
 /** What stands in the scene beside the trees: added, moved, taken away; and where new seeds come from. */
 export function ScenePanel({ studio }: { studio: Studio }) {
-  const { list, chosen, importing } = studio.obstacles;
+  const { list, chosen, transfer } = studio.obstacles;
   const obstacles = studio.obstacles.drawn.value;
   const full = list.value.length >= MAX_OBSTACLES;
   return (
-    <Panel studio={studio} title="Scene">
+    <Panel studio={studio} title={say("panels.scene")}>
       <div class="kinds">
-        {KINDS.map(([kind, label, Icon]) => (
+        {KINDS.map(([kind, Icon]) => (
           <button type="button" key={kind} disabled={full} onClick={() => add(studio, kind)}>
             <Icon />
-            {label}
+            {say(`scene.${kind}`)}
           </button>
         ))}
-        <ModelButton studio={studio} disabled={full || importing.value} />
+        <ModelButton studio={studio} disabled={full || transfer.progress.value !== null} />
         <button type="button" onClick={() => studio.tools.choose("seed")}>
           <NewIcon />
-          Seed
+          {say("scene.seed")}
         </button>
       </div>
       {obstacles.length === 0 ? (
-        <p class="quiet advice">Trees grow around what stands here, and in its shade. Drag it where it should stand.</p>
+        <p class="quiet advice">{say("scene.advice")}</p>
       ) : (
         <ul class="obstacles">
           {obstacles.map((obstacle) => (
@@ -51,13 +52,13 @@ export function ScenePanel({ studio }: { studio: Studio }) {
                   }}
                 >
                   <ShapeIcon obstacle={obstacle} />
-                  {nameOf(obstacle)} {obstacle.id}
+                  {nameOf(obstacle)}
                 </button>
                 <button
                   type="button"
                   class="tool"
-                  aria-label={`Remove ${nameOf(obstacle)} ${obstacle.id}`}
-                  title="Remove"
+                  aria-label={say("scene.remove.which", { name: nameOf(obstacle) })}
+                  title={say("scene.remove")}
                   onClick={() => studio.obstacles.remove(obstacle.id)}
                 >
                   <DeleteIcon />
@@ -89,21 +90,20 @@ function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }
     }
   };
   return (
-    <button type="button" disabled={disabled} onClick={() => input.current?.click()} title="A .glb or .gltf file">
-      <ModelIcon />
-      {studio.obstacles.importing.value ? "Loading…" : "Model"}
+    <>
+      <button type="button" disabled={disabled} onClick={() => input.current?.click()} title={say("scene.model.title")}>
+        <ModelIcon />
+        {say("scene.model")}
+      </button>
       <input
         ref={input}
-        class="unseen"
+        hidden
         type="file"
         multiple
-        tabIndex={-1}
-        aria-hidden="true"
         accept=".glb,.gltf,.bin,model/gltf-binary,model/gltf+json"
-        onClick={(event) => event.stopPropagation()}
         onChange={(event) => void take(event.currentTarget.files)}
       />
-    </button>
+    </>
   );
 }
 
@@ -116,13 +116,31 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
   const turn = (to: Partial<typeof turning>) => move({ rotation: rotationOf({ ...turning, ...to }) });
   return (
     <div class="measures">
-      <Measure label="Across" value={x} low={-1000} high={1000} set={(value) => move({ position: [value, y, z] })} />
-      <Measure label="Up" value={y} low={-10} high={1000} set={(value) => move({ position: [x, value, z] })} />
-      <Measure label="Deep" value={z} low={-1000} high={1000} set={(value) => move({ position: [x, y, value] })} />
+      <Measure
+        label={say("scene.across")}
+        value={x}
+        low={-1000}
+        high={1000}
+        set={(value) => move({ position: [value, y, z] })}
+      />
+      <Measure
+        label={say("scene.up")}
+        value={y}
+        low={-10}
+        high={1000}
+        set={(value) => move({ position: [x, value, z] })}
+      />
+      <Measure
+        label={say("scene.deep")}
+        value={z}
+        low={-1000}
+        high={1000}
+        set={(value) => move({ position: [x, y, value] })}
+      />
       {shape.kind !== "sphere" && (
         <>
           <Measure
-            label="Turn"
+            label={say("scene.turn")}
             unit="°"
             value={turning.turn}
             low={-360}
@@ -131,7 +149,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
             set={(value) => turn({ turn: value })}
           />
           <Measure
-            label="Tilt"
+            label={say("scene.tilt")}
             unit="°"
             value={turning.tilt}
             low={-90}
@@ -143,7 +161,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
       )}
       {shape.kind === "sphere" && (
         <Measure
-          label="Radius"
+          label={say("scene.radius")}
           value={shape.radius}
           low={0.1}
           high={500}
@@ -151,10 +169,10 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
         />
       )}
       {shape.kind === "box" &&
-        (["Width", "Height", "Depth"] as const).map((label, axis) => (
+        (["scene.width", "scene.height", "scene.depth"] as const).map((label, axis) => (
           <Measure
             key={label}
-            label={label}
+            label={say(label)}
             value={shape.size[axis] ?? 1}
             low={0.1}
             high={1000}
@@ -216,8 +234,9 @@ function ShapeIcon({ obstacle: { shape } }: { obstacle: PlacedObstacle }) {
   }
 }
 
-function nameOf({ shape }: PlacedObstacle): string {
-  return { box: isWall(shape) ? "Wall" : "Box", sphere: "Sphere", plane: "Plane", mesh: "Model" }[shape.kind];
+function nameOf({ shape, id }: PlacedObstacle): string {
+  const kind = shape.kind === "mesh" ? "model" : isWall(shape) ? "wall" : shape.kind;
+  return `${say(`scene.${kind}`)} ${id}`;
 }
 
 /** A box that is much taller and wider than it is thick. */

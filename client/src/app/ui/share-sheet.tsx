@@ -1,5 +1,6 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../studio";
+import { say } from "../words";
 import { Sheet } from "./sheet";
 
 /** Gives the link under which others see and draw the same tree. */
@@ -9,32 +10,27 @@ export function ShareSheet({ studio }: { studio: Studio }) {
   const onlyHere = /^(localhost|127\.|\[::1\])/.test(location.host);
 
   const copy = async () => {
-    studio.toasts.show((await copyText(link, field.current)) ? "Link copied" : "Copy the marked link");
+    studio.toasts.show(say((await copyText(link, field.current)) ? "sheets.share.copied" : "sheets.share.marked"));
   };
 
   return (
-    <Sheet studio={studio} title="Draw together">
+    <Sheet studio={studio} title={say("sheets.share")}>
       <div class="stack">
-        <p>Whoever opens this link sees the same tree grow, and may draw on it.</p>
+        <p>{say("sheets.share.advice")}</p>
         <div class="link">
           <input
             ref={field}
             type="text"
             readOnly
-            aria-label="Link to this tree"
+            aria-label={say("sheets.share.link")}
             value={link}
             onFocus={(event) => event.currentTarget.select()}
           />
           <button type="button" class="primary" onClick={copy}>
-            Copy link
+            {say("sheets.share.copy")}
           </button>
         </div>
-        {onlyHere && (
-          <p class="quiet">
-            This link works on this machine only. For a tablet, open the network address the server printed when it
-            started, and share from there.
-          </p>
-        )}
+        {onlyHere && <p class="quiet">{say("sheets.share.only-here")}</p>}
       </div>
     </Sheet>
   );

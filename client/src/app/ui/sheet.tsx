@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../studio";
+import { say } from "../words";
 import { CloseIcon } from "./icons";
 
 interface SheetProps {
@@ -32,7 +33,7 @@ export function Sheet({ studio, title, wide = false, children }: SheetProps) {
       <div class="sheet-body">
         <header>
           <h2>{title}</h2>
-          <button type="button" class="tool" aria-label="Close" onClick={close}>
+          <button type="button" class="tool" aria-label={say("bars.close")} onClick={close}>
             <CloseIcon />
           </button>
         </header>

@@ -1,48 +1,39 @@
 import type { ComponentType } from "preact";
+import { useRef, useState } from "preact/hooks";
 import type { Studio } from "../studio";
 import type { ToolName } from "../tools/toolbox";
+import { type Key, say } from "../words";
 import { GrowJog } from "./grow-jog";
 import { FrameIcon, LassoIcon, RedoIcon, SeedIcon, UndoIcon } from "./icons";
 import { BrushSample, RadiusSlider } from "./radius-slider";
+import { isSmall } from "./room";
 import { BendIcon, PruneIcon, TurnIcon, WidthIcon } from "./timeline-icons";
+import { useDismissal } from "./use-dismissal";
 
 interface ToolButton {
   readonly tool: ToolName;
-  readonly label: string;
-  readonly title: string;
+  readonly label: Key;
+  readonly title: Key;
   readonly Icon: ComponentType<{ readonly studio: Studio }>;
 }
 
 const TOOLS: readonly ToolButton[] = [
-  { tool: "brush", label: "Brush", title: "Brush: the tree grows into the stroke (B)", Icon: BrushSample },
-  { tool: "lasso", label: "Lasso", title: "Lasso: draw the outline the tree grows to fill (L)", Icon: LassoIcon },
-  { tool: "bend", label: "Bend", title: "Bend: hold a branch's base and drag its end (N)", Icon: BendIcon },
-  { tool: "width", label: "Width", title: "Width: pinch around a limb, or tap it (W)", Icon: WidthIcon },
-  { tool: "prune", label: "Prune", title: "Prune: tap branches, or draw a line through them (X)", Icon: PruneIcon },
-  { tool: "branch", label: "Branch", title: "Branch: turn, move and copy whole branches (T)", Icon: TurnIcon },
-  { tool: "seed", label: "Plant a seed", title: "Plant a seed: tap the ground (P)", Icon: SeedIcon },
+  { tool: "brush", label: "bars.brush", title: "bars.brush.title", Icon: BrushSample },
+  { tool: "lasso", label: "bars.lasso", title: "bars.lasso.title", Icon: LassoIcon },
+  { tool: "bend", label: "bars.bend", title: "bars.bend.title", Icon: BendIcon },
+  { tool: "width", label: "bars.width", title: "bars.width.title", Icon: WidthIcon },
+  { tool: "prune", label: "bars.prune", title: "bars.prune.title", Icon: PruneIcon },
+  { tool: "branch", label: "bars.branch", title: "bars.branch.title", Icon: TurnIcon },
+  { tool: "seed", label: "bars.seed", title: "bars.seed.title", Icon: SeedIcon },
 ];
 
 /** The tools, at the side of the hand that does not draw. */
 export function SideBar({ studio }: { studio: Studio }) {
   const document = studio.document.value;
+  const small = isSmall();
   return (
-    <nav class="panel side-bar" aria-label="Tools">
-      <div class="side-tools">
-        {TOOLS.map(({ tool, label, title, Icon }) => (
-          <button
-            type="button"
-            class="tool"
-            key={tool}
-            aria-label={label}
-            title={title}
-            aria-pressed={studio.tools.chosen.value === tool}
-            onClick={() => studio.tools.choose(tool)}
-          >
-            <Icon studio={studio} />
-          </button>
-        ))}
-      </div>
+    <nav class="panel side-bar" aria-label={say("bars.tools")} data-small={small}>
+      {small ? <ToolMenu studio={studio} /> : <Tools studio={studio} />}
       <hr />
       <div class="side-levers">
         <RadiusSlider studio={studio} />
@@ -53,8 +44,8 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
-          aria-label="Undo"
-          title="Undo (Ctrl Z)"
+          aria-label={say("bars.undo")}
+          title={say("bars.undo.title")}
           aria-disabled={document?.can_undo !== true}
           onClick={() => studio.undo()}
         >
@@ -63,8 +54,8 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
-          aria-label="Redo"
-          title="Redo (Shift Ctrl Z)"
+          aria-label={say("bars.redo")}
+          title={say("bars.redo.title")}
           aria-disabled={document?.can_redo !== true}
           onClick={() => studio.redo()}
         >
@@ -73,13 +64,63 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
-          aria-label="Show the whole tree"
-          title="Show the whole tree (F)"
+          aria-label={say("bars.frame")}
+          title={say("bars.frame.title")}
           onClick={() => studio.stage.frameTree()}
         >
           <FrameIcon />
         </button>
       </div>
     </nav>
+  );
+}
+
+function Tools({ studio, chosen }: { studio: Studio; chosen?: () => void }) {
+  return (
+    <div class="side-tools">
+      {TOOLS.map(({ tool, label, title, Icon }) => (
+        <button
+          type="button"
+          class="tool"
+          key={tool}
+          aria-label={say(label)}
+          title={say(title)}
+          aria-pressed={studio.tools.chosen.value === tool}
+          onClick={() => {
+            studio.tools.choose(tool);
+            chosen?.();
+          }}
+        >
+          <Icon studio={studio} />
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** Where there is no room for all tools: the one at hand, and the others a tap away. */
+function ToolMenu({ studio }: { studio: Studio }) {
+  const host = useRef<HTMLDivElement>(null);
+  const [open, setOpen] = useState(false);
+  useDismissal(host, open, () => setOpen(false));
+  const { Icon, label } = TOOLS.find(({ tool }) => tool === studio.tools.chosen.value) ?? TOOLS[0]!;
+  return (
+    <div class="tool-menu" ref={host}>
+      <button
+        type="button"
+        class="tool folded"
+        aria-label={`${say("bars.all-tools")}: ${say(label)}`}
+        title={say("bars.all-tools")}
+        aria-expanded={open}
+        onClick={() => setOpen(!open)}
+      >
+        <Icon studio={studio} />
+      </button>
+      {open && (
+        <div class="panel flyout">
+          <Tools studio={studio} chosen={() => setOpen(false)} />
+        </div>
+      )}
+    </div>
   );
 }

@@ -1,4 +1,5 @@
 import type { Studio } from "../studio";
+import { language, say } from "../words";
 import { PeopleIcon } from "./icons";
 
 /** How things stand, in as few words as possible. */
@@ -15,21 +16,23 @@ export function Status({ studio }: { studio: Studio }) {
       {away && (
         <p class="note away" key={attempts === 0 ? "first" : "again"}>
           <i class="pulse" />
-          {attempts === 0 ? "Connecting…" : `Reconnecting… (try ${attempts})`}
-          {attempts > 0 && unsent > 0 && <span class="quiet">your strokes are kept</span>}
+          {attempts === 0 ? say("notices.connecting") : say("notices.reconnecting", { attempt: attempts })}
+          {attempts > 0 && unsent > 0 && <span class="quiet">{say("notices.kept")}</span>}
         </p>
       )}
-      {full && <p class="note full">The tree has all the growth this document holds. Undo or ungrow to draw on.</p>}
+      {full && <p class="note full">{say("notices.full")}</p>}
       {document && (
         <p class="figures">
           {people > 1 && (
-            <span title={`${people} people have this tree open`}>
+            <span title={say("notices.people", { count: people })}>
               <PeopleIcon />
               {people}
             </span>
           )}
-          <span title="Living metamers: internodes with their buds and leaves">
-            {document.metamers.toLocaleString()} {document.metamers === 1 ? "metamer" : "metamers"}
+          <span title={say("notices.metamers.title")}>
+            {say(document.metamers === 1 ? "notices.metamer" : "notices.metamers", {
+              count: document.metamers.toLocaleString(language.value),
+            })}
           </span>
         </p>
       )}

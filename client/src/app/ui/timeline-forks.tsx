@@ -1,13 +1,14 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useRef, useState } from "preact/hooks";
 import { authorColour, authorName } from "../authors";
 import type { Studio } from "../studio";
 import { type Branching, forks, peopleOf } from "../timeline";
+import { language, say } from "../words";
 import { ForkIcon, sortOf } from "./timeline-icons";
 import { stepsOf } from "./timeline-strip";
+import { useDismissal } from "./use-dismissal";
 
 /** Forks nearer to each other than a finger is wide become one. */
 const ROOM = 44;
-const PEOPLE = new Intl.ListFormat("en");
 /** So many of a future's operations are shown as signs. */
 const MOST_SIGNS = 6;
 
@@ -19,23 +20,7 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
   const found = forks(timeline?.futures ?? [], studio.time.scale.value, width, ROOM);
   const shown = found.find(({ futures }) => futures[0]?.future.future === open);
   const people = timeline ? peopleOf(timeline) : 0;
-  useEffect(() => {
-    if (open === null) {
-      return undefined;
-    }
-    const close = (event: Event) => {
-      if (event instanceof KeyboardEvent ? event.key === "Escape" : !host.current?.contains(event.target as Node)) {
-        event.stopPropagation();
-        setOpen(null);
-      }
-    };
-    addEventListener("pointerdown", close, true);
-    addEventListener("keydown", close, true);
-    return () => {
-      removeEventListener("pointerdown", close, true);
-      removeEventListener("keydown", close, true);
-    };
-  }, [open]);
+  useDismissal(host, open !== null, () => setOpen(null));
   return (
     <div class="timeline-forks" ref={host}>
       {found.map(({ x, futures }) => {
@@ -48,8 +33,10 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
               class="timeline-fork"
               key={number}
               style={{ left: `${x}px` }}
-              aria-label={futures.length === 1 ? "Another future" : `${futures.length} other futures`}
-              title={`From step ${first.leaves}`}
+              aria-label={say(futures.length === 1 ? "timeline.future" : "timeline.futures.count", {
+                count: futures.length,
+              })}
+              title={say("timeline.from-step", { step: first.leaves })}
               aria-expanded={open === number}
               onClick={() => setOpen(open === number ? null : (number ?? null))}
             >
@@ -60,7 +47,7 @@ export function Forks({ studio, width }: { studio: Studio; width: number }) {
         );
       })}
       {shown && (
-        <ul class="panel timeline-futures" style={{ "--place": shown.x / width }} aria-label="Other futures">
+        <ul class="panel timeline-futures" style={{ "--place": shown.x / width }} aria-label={say("timeline.futures")}>
           {shown.futures.map((branching) => (
             <li key={branching.future.future} style={{ "--depth": branching.depth }}>
               <FutureButton
@@ -105,10 +92,17 @@ function FutureButton({ branching: { future }, people, take }: FutureProps) {
         {left > 0 && <b>+{left}</b>}
       </span>
       <span class="timeline-told">
-        {operations.length === 1 ? "1 operation" : `${operations.length} operations`}, {stepsOf(future.steps)}
+        {say(operations.length === 1 ? "timeline.told.one" : "timeline.told.many", {
+          count: operations.length,
+          steps: stepsOf(future.steps),
+        })}
         <em>
-          from step {future.from}
-          {people > 1 && authors.length > 0 && `, by ${PEOPLE.format(authors.map(authorName))}`}
+          {people > 1 && authors.length > 0
+            ? say("timeline.told.by", {
+                step: future.from,
+                people: new Intl.ListFormat(language.value).format(authors.map(authorName)),
+              })
+            : say("timeline.told.from", { step: future.from })}
         </em>
       </span>
     </button>

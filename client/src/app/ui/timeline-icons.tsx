@@ -1,5 +1,6 @@
 import type { ComponentType } from "preact";
 import type { OperationKind } from "../../wire/generated";
+import type { Key } from "../words";
 import { BoxIcon, GrowthIcon, Icon, LassoIcon, NewIcon, SeedIcon } from "./icons";
 
 /** A stroke with the brush at its end. */
@@ -53,23 +54,32 @@ export const GraftIcon = () => (
   </Icon>
 );
 
+/** A leaf in its own colour. */
+const LookIcon = () => (
+  <Icon>
+    <path d="M5.5 19c-1.5-7.5 3-13 13.5-14 .5 10-5 15-13.5 14Z" />
+    <path d="M4 20.5 13 11" />
+  </Icon>
+);
+
 interface Sort {
-  readonly name: string;
+  readonly name: Key;
   readonly Icon: ComponentType;
 }
 
 const SORTS: Record<OperationKind, Sort> = {
-  stroke: { name: "Stroke", Icon: StrokeIcon },
-  growth: { name: "Growth", Icon: NewIcon },
-  lasso: { name: "Lasso", Icon: LassoIcon },
-  parameters: { name: "Parameters", Icon: GrowthIcon },
-  seed: { name: "Seed", Icon: SeedIcon },
-  obstacle: { name: "Obstacle", Icon: BoxIcon },
-  bend: { name: "Bend", Icon: BendIcon },
-  width: { name: "Width", Icon: WidthIcon },
-  prune: { name: "Pruning", Icon: PruneIcon },
-  turn: { name: "Turn", Icon: TurnIcon },
-  graft: { name: "Graft", Icon: GraftIcon },
+  stroke: { name: "timeline.kind.stroke", Icon: StrokeIcon },
+  growth: { name: "timeline.kind.growth", Icon: NewIcon },
+  lasso: { name: "timeline.kind.lasso", Icon: LassoIcon },
+  parameters: { name: "timeline.kind.parameters", Icon: GrowthIcon },
+  appearance: { name: "timeline.kind.appearance", Icon: LookIcon },
+  seed: { name: "timeline.kind.seed", Icon: SeedIcon },
+  obstacle: { name: "timeline.kind.obstacle", Icon: BoxIcon },
+  bend: { name: "timeline.kind.bend", Icon: BendIcon },
+  width: { name: "timeline.kind.width", Icon: WidthIcon },
+  prune: { name: "timeline.kind.prune", Icon: PruneIcon },
+  turn: { name: "timeline.kind.turn", Icon: TurnIcon },
+  graft: { name: "timeline.kind.graft", Icon: GraftIcon },
 };
 
 /** What an operation is called and looks like. */

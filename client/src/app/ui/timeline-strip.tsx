@@ -3,6 +3,7 @@ import type { Timeline } from "../../wire/generated";
 import { authorColour, authorName } from "../authors";
 import type { Studio } from "../studio";
 import { clusters, peopleOf } from "../timeline";
+import { say } from "../words";
 import { Forks } from "./timeline-forks";
 import { BackIcon, FoldIcon, ForthIcon, sortOf, TimeIcon } from "./timeline-icons";
 import { useScrubbing } from "./use-scrubbing";
@@ -22,8 +23,8 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       <button
         type="button"
         class="panel tool timeline-tab"
-        aria-label="Show the timeline"
-        title="Timeline: travel through what was done"
+        aria-label={say("timeline.show")}
+        title={say("timeline.show.title")}
         aria-expanded={false}
         onClick={() => {
           timelineOpen.value = true;
@@ -35,12 +36,12 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
   }
   const step = studio.time.step;
   return (
-    <section class="panel timeline" aria-label="Timeline">
+    <section class="panel timeline" aria-label={say("timeline.label")}>
       <button
         type="button"
         class="tool"
-        aria-label="Hide the timeline"
-        title="Hide the timeline"
+        aria-label={say("timeline.hide")}
+        title={say("timeline.hide")}
         aria-expanded={true}
         onClick={() => {
           timelineOpen.value = false;
@@ -51,8 +52,8 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       <button
         type="button"
         class="tool"
-        aria-label="One step back"
-        title="One step back (,)"
+        aria-label={say("timeline.back")}
+        title={say("timeline.back.title")}
         aria-disabled={step <= 0}
         onClick={() => studio.time.by(-1)}
       >
@@ -62,8 +63,8 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       <button
         type="button"
         class="tool"
-        aria-label="One step forth"
-        title="One step forth (.)"
+        aria-label={say("timeline.forth")}
+        title={say("timeline.forth.title")}
         aria-disabled={step >= timeline.last_step}
         onClick={() => studio.time.by(1)}
       >
@@ -100,7 +101,7 @@ function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
         ref={track}
         role="slider"
         tabIndex={0}
-        aria-label="Time"
+        aria-label={say("timeline.time")}
         aria-valuemin={0}
         aria-valuemax={timeline.last_step}
         aria-valuenow={step}
@@ -196,12 +197,14 @@ function Bubble({ timeline, operation, place, step }: BubbleProps) {
       {done && sort && (
         <span class="timeline-what" style={{ "--author": authorColour(done.author, people) }}>
           <sort.Icon />
-          {sort.name}
+          {say(sort.name)}
           {people > 1 && <em>{authorName(done.author)}</em>}
         </span>
       )}
       <span class="timeline-when">
-        {step === null && done ? stepsOf(done.last - done.first) : `step ${step ?? timeline.step}`}
+        {step === null && done
+          ? stepsOf(done.last - done.first)
+          : say("timeline.step", { step: step ?? timeline.step })}
       </span>
     </div>
   );
@@ -223,12 +226,14 @@ function useWidth(element: { readonly current: HTMLElement | null }): number {
 function speech(timeline: Timeline, step: number): string {
   const at = operationAtStep(timeline, step);
   const operation = at === null ? undefined : timeline.operations[at];
-  const where = `Step ${step} of ${timeline.last_step}`;
+  const where = { step, last: timeline.last_step };
   if (!operation) {
-    return where;
+    return say("timeline.step-of", where);
   }
-  const { name } = sortOf(operation.kind);
-  return peopleOf(timeline) > 1 ? `${where}, ${name} by ${authorName(operation.author)}` : `${where}, ${name}`;
+  const what = say(sortOf(operation.kind).name);
+  return peopleOf(timeline) > 1
+    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author) })
+    : say("timeline.step-of.what", { ...where, what });
 }
 
 /** The operation that led to a step. */
@@ -247,5 +252,7 @@ function middle(edges: readonly number[], operation: number): number {
 }
 
 export function stepsOf(steps: number): string {
-  return steps === 0 ? "no step" : steps === 1 ? "1 step" : `${steps} steps`;
+  return say(steps === 0 ? "timeline.steps.none" : steps === 1 ? "timeline.steps.one" : "timeline.steps.many", {
+    count: steps,
+  });
 }

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Studio } from "../studio";
+import { say } from "../words";
 import { CloseIcon } from "./icons";
 
 /** What the tool at hand can be told, in one line at the bottom. */
@@ -35,18 +36,14 @@ function BendOptions({ studio }: { studio: Studio }) {
   const marked = bend?.base.value != null;
   const percent = Math.round(100 * stretch.value);
   return (
-    <Options label="Bending">
-      <p class="tool-hint">
-        {marked
-          ? "Drag any place above the ring. Tap a place to have it stay put."
-          : "Drag a branch. Hold or tap its base first to say where it bends from."}
-      </p>
+    <Options label={say("tools.bending")}>
+      <p class="tool-hint">{say(marked ? "tools.bending.marked" : "tools.bending.unmarked")}</p>
       <label class="tool-slider ends">
-        <span>stiff</span>
+        <span>{say("tools.stretch.stiff")}</span>
         <input
           type="range"
-          aria-label="Stretch"
-          aria-valuetext={percent === 0 ? "stiff: it keeps its length" : `${percent} in 100`}
+          aria-label={say("tools.stretch")}
+          aria-valuetext={percent === 0 ? say("tools.stretch.none") : say("tools.stretch.value", { percent })}
           min={0}
           max={100}
           value={percent}
@@ -55,14 +52,14 @@ function BendOptions({ studio }: { studio: Studio }) {
             stretch.value = Number(event.currentTarget.value) / 100;
           }}
         />
-        <span>stretchy</span>
+        <span>{say("tools.stretch.stretchy")}</span>
       </label>
       {marked && (
         <button
           type="button"
           class="tool"
-          aria-label="Let go of the base"
-          title="Let go of the base (Esc)"
+          aria-label={say("tools.base-release")}
+          title={say("tools.base-release.title")}
           onClick={() => bend?.release()}
         >
           <CloseIcon />
@@ -76,14 +73,12 @@ function WidthOptions({ studio }: { studio: Studio }) {
   const width = studio.tools.shaping.value?.width;
   const set = width?.widths.value.length ?? 0;
   return (
-    <Options label="Widths">
+    <Options label={say("tools.widths")}>
       <p class="tool-hint">
-        {width?.chosen.value != null
-          ? "Pull a knob to make the limb thicker. Drag the dot to move the ring along it."
-          : "Pinch around a limb with two fingers, or tap it."}
+        {width?.chosen.value != null ? say("tools.widths.chosen") : say("tools.widths.none-chosen")}
       </p>
       <span class="quiet">
-        {set === 0 ? "No width is set" : set === 1 ? "One width is set" : `${set} widths are set`}
+        {say(set === 0 ? "tools.widths.none" : set === 1 ? "tools.widths.one" : "tools.widths.many", { count: set })}
       </span>
     </Options>
   );
@@ -103,11 +98,10 @@ function PruneOptions({ studio }: { studio: Studio }) {
   }, [prune, exposure, revision]);
   useEffect(() => () => void prune?.markDim(null), [prune]);
   const percent = Math.round(100 * exposure);
-  const branches = count === 1 ? "1 branch" : `${count} branches`;
   return (
-    <Options label="Pruning">
-      <p class="tool-hint">Tap a branch, or draw a line through branches.</p>
-      <label class="switch" title="Show how the tree would grow on, before anything is cut">
+    <Options label={say("tools.pruning")}>
+      <p class="tool-hint">{say("tools.pruning.hint")}</p>
+      <label class="switch" title={say("tools.what-if.title")}>
         <input
           type="checkbox"
           checked={prune?.foresees.value === true}
@@ -117,14 +111,18 @@ function PruneOptions({ studio }: { studio: Studio }) {
             }
           }}
         />
-        <span>What if?</span>
+        <span>{say("tools.what-if")}</span>
       </label>
       <label class="tool-slider">
-        <span>In the dark</span>
+        <span>{say("tools.dim")}</span>
         <input
           type="range"
-          aria-label="Mark branches that get less light than"
-          aria-valuetext={exposure === 0 ? "none" : `${percent} in 100: ${branches}`}
+          aria-label={say("tools.dim.label")}
+          aria-valuetext={
+            exposure === 0
+              ? say("tools.dim.none")
+              : say(count === 1 ? "tools.dim.one" : "tools.dim.many", { percent, count })
+          }
           min={0}
           max={100 * BRIGHTEST}
           value={percent}
@@ -142,7 +140,7 @@ function PruneOptions({ studio }: { studio: Studio }) {
             setExposure(0);
           }}
         >
-          {count === 0 ? "None" : `Cut ${branches}`}
+          {say(count === 0 ? "tools.cut.none" : count === 1 ? "tools.cut.one" : "tools.cut.many", { count })}
         </button>
       )}
     </Options>

@@ -2,6 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
 import type { Studio } from "../studio";
 import { LEAST_DIAMETER, type WidthTool } from "../tools/width-tool";
+import { say } from "../words";
 import { CloseIcon } from "./icons";
 import { type Ring, ringAt } from "./ring";
 import { useFrames } from "./use-frames";
@@ -67,7 +68,7 @@ export function WidthRings({ studio }: { studio: Studio }) {
               <button
                 type="button"
                 class="width-label"
-                aria-label={`Width ${figure(constraint.diameter)}: choose it`}
+                aria-label={say("tools.width.choose", { width: figure(constraint.diameter) })}
                 onClick={() => width.choose(constraint.row)}
               >
                 <Figure constraint={constraint} />
@@ -115,11 +116,11 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
         class="width-knob right"
         role="slider"
         tabIndex={0}
-        aria-label="Diameter"
+        aria-label={say("tools.width.diameter")}
         aria-valuemin={LEAST_DIAMETER}
         aria-valuemax={MAX_DIAMETER}
         aria-valuenow={diameter}
-        aria-valuetext={`${figure(diameter)} internodes`}
+        aria-valuetext={say("tools.width.value", { width: figure(diameter) })}
         onKeyDown={(event) => {
           const way = WAYS[event.key];
           if (way !== undefined) {
@@ -135,7 +136,7 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
         class="width-dot"
         role="slider"
         tabIndex={0}
-        aria-label="Place along the limb"
+        aria-label={say("tools.width.along")}
         aria-valuemin={1}
         aria-valuemax={place?.of ?? 1}
         aria-valuenow={place?.along ?? 1}
@@ -146,7 +147,7 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
             width.step(way);
           }
         }}
-        title="Drag to move the ring along the limb"
+        title={say("tools.width.along.title")}
         onPointerDown={(event) => {
           event.currentTarget.setPointerCapture(event.pointerId);
           to.current = null;
@@ -183,8 +184,8 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
         <Entry key={row} width={width} diameter={diameter} />
         <button
           type="button"
-          aria-label={set ? "Remove this width" : "Leave this limb as it is"}
-          title={set ? "Remove this width (Delete)" : "Leave this limb as it is"}
+          aria-label={say(set ? "tools.width.remove" : "tools.width.leave")}
+          title={say(set ? "tools.width.remove.title" : "tools.width.leave")}
           onClick={() => width.remove()}
         >
           <CloseIcon />
@@ -205,12 +206,12 @@ function Entry({ width, diameter }: { width: WidthTool; diameter: number }) {
     [width],
   );
   return (
-    <label title="Diameter, in internodes">
+    <label title={say("tools.width.typed")}>
       <span aria-hidden="true">⌀</span>
       <input
         type="text"
         inputMode="decimal"
-        aria-label="Diameter in internodes"
+        aria-label={say("tools.width.typed")}
         value={typed ?? figure(diameter)}
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => setTyped(event.currentTarget.value)}

@@ -1,18 +1,90 @@
+import { BARK } from "./bark";
 import { HEAD, LIGHT, NODES, NOISE } from "./common";
+import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 
+/** Where a trunk meets the ground. */
+const ROOTS = /* glsl */ `
+/** How much wider than its wood a trunk is: roots spread at its foot and fade into it as ribs. */
+float rootFlare(float turn, float along, float foot) {
+  float angle = 6.2831853 * turn;
+  float rib = 0.5 + 0.5 * sin(angle * 5.0 + 1.3 * sin(angle * 2.0) + 0.9 * cos(angle));
+  float height = max(along, 0.0) / (foot + 0.05);
+  return 1.0 + uBarkShape.y * (0.22 * exp(-0.7 * height) + exp(-1.6 * height) * (0.08 + 0.66 * rib * sqrt(rib)));
+}
+`;
+
+/** Where a limb leaves the axis that bears it. */
+const JUNCTION = /* glsl */ `
+struct Junction {
+  vec3 outward; // of the bearing axis' surface
+  float weight; // 1 where the limb comes out of it, 0 where it is wholly its own
+  vec3 swelling; // how far its surface lies from where it would without the other
+  vec2 place; // turn around and length along the bearing axis
+  float radius; // of the bearing axis there
+};
+/**
+ * A fillet between two tubes. The limb widens towards the bearing axis, more along it than across, and takes over its
+ * normal and its bark: where one surface ends in the other, both look the same.
+ */
+Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node bearing) {
+  vec3 axis = turned(bearing.turn, vec3(0, 1, 0));
+  vec3 normal = turned(bearing.turn, vec3(1, 0, 0));
+  vec3 binormal = cross(normal, axis);
+  vec3 from = place - bearing.position;
+  float height = dot(from, axis);
+  vec3 across = from - axis * height;
+  float reach = max(length(across), 1e-4);
+  // What goes on above is as thick as the pipe model leaves it.
+  float share = min(radius / max(bearing.radius, 1e-4), 1.0);
+  float above = bearing.radius * pow(max(1.0 - pow(share, 2.4), 0.04), 0.42);
+  float wood = mix(bearing.radius, above, smoothstep(0.0, 1.0, height));
+  float gap = reach - wood;
+  float width = uBarkShape.z * min(1.3 * radius, 0.9 * bearing.radius) + 0.15 * radius;
+  float close = clamp(1.0 - gap / max(width, 1e-4), 0.0, 1.0);
+  float lengthwise = dot(outward, axis);
+  // Across, a limb as thick as what bears it must not stick out of it.
+  float room = clamp((0.97 * wood - radius) / max(width, 1e-4), 0.0, 0.4);
+  float amount = mix(room, 1.0, lengthwise * lengthwise) * 0.7 * uBarkShape.z;
+  float sunk = smoothstep(-0.7 * wood, 0.0, gap);
+  float swelling = min(width, 1.3 * radius) * close * close * close * amount * sunk;
+  // It spreads over the bearing axis rather than off it.
+  vec3 side = across / reach;
+  vec3 spread = outward - side * (dot(outward, side) * close);
+  // Bark is that of the place where the swollen surface lies.
+  vec3 moved = spread * swelling;
+  height += dot(moved, axis);
+  across += moved - axis * dot(moved, axis);
+  vec2 turn = vec2(dot(across, normal), dot(across, binormal));
+  float middle = atan(dot(heading, binormal), dot(heading, normal)) / 6.2831853;
+  float aside = atan(turn.y, turn.x) / 6.2831853 - middle;
+  return Junction(normalize(across), close * close * (3.0 - 2.0 * close), moved,
+    vec2(middle + aside - round(aside), bearing.arc + height), wood);
+}
+`;
+
 /** Sweeps a ring along one metamer, from its parent's frame to its own. */
-export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${GHOST_PLACE}
-in vec3 ring; // cosine, place along the metamer 0 to 1, sine
+export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}
+in vec4 ring; // cosine, place along the metamer 0 to 1 and on to 2 over a cut end, sine, turn; of a strip, its side first
 in uvec4 metamer; // row, parent's row, row where the axis begins, flags
+uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
 const uint BEGINS_AXIS = 1u;
 const uint FROM_SEED = 2u;
 const uint TRUNK = 4u;
+const uint CUT = 8u;
+const uint OVERLAPS = 16u;
 out vec3 vWorld;
-out vec3 vNormal;
+out vec3 vNormal; // of a strip, where its side points
 out vec3 vTangent;
-out vec4 vBark; // around (cosine, sine), along, radius
+out vec4 vBark; // turn, length along the axis, radius, how far towards the middle of a cut end or below 0
+out vec4 vBearing; // the same of the axis that bears this one, and how much of its bark shows
 out float vLight; // below 0 for what is marked
+out float vTrait;
+${ROOTS}${JUNCTION}
+/** How thick the wood is at a node: a tip is slim until its axis goes on, unless it has been cut. */
+float woodAt(Node node, bool cut) {
+  return node.radius * mix(cut ? 1.0 : 0.42, 1.0, eased(uTime - node.extended, TIP_SECONDS));
+}
 
 void main() {
   Node end = nodeAt(int(metamer.x));
@@ -22,6 +94,8 @@ void main() {
   }
   Node start = nodeAt(int(metamer.y));
   bool begins = (metamer.w & BEGINS_AXIS) != 0u;
+  bool cut = (metamer.w & CUT) != 0u;
+  Node bearing = nodeAt(int(metamer.z));
   float grown = eased(uTime - end.birth, end.growing);
   vec3 chord = end.position - start.position;
   float len = length(chord);
@@ -36,47 +110,100 @@ void main() {
     t0 = (metamer.w & FROM_SEED) != 0u ? normalize(heading + vec3(0, 0.6, 0)) : normalize(heading + 0.55 * t0);
     n0 = n1;
   }
-  float u = ring.y;
+  float smoothing = clamp(uBarkShape.w, 0.0, 1.0);
+  vec3 leaves = normalize(mix(heading, t0, smoothing));
+  vec3 arrives = normalize(mix(heading, t1, smoothing));
+  float u = min(ring.y, 1.0);
   float u2 = u * u;
   float u3 = u2 * u;
   // Cubic Hermite curve through both nodes along their tangents.
   vec3 centre = start.position + grown * (
-    (u3 - 2.0 * u2 + u) * len * t0 + (3.0 * u2 - 2.0 * u3) * chord + (u3 - u2) * len * t1);
-  vec3 tangent = normalize((3.0 * u2 - 4.0 * u + 1.0) * t0 + (6.0 * u - 6.0 * u2) * heading + (3.0 * u2 - 2.0 * u) * t1);
+    (u3 - 2.0 * u2 + u) * len * leaves + (3.0 * u2 - 2.0 * u3) * chord + (u3 - u2) * len * arrives);
+  vec3 tangent = normalize(
+    (3.0 * u2 - 4.0 * u + 1.0) * leaves + (6.0 * u - 6.0 * u2) * heading + (3.0 * u2 - 2.0 * u) * arrives);
+  // Rings at a joint lie across it for both its metamers, also where the axis has a corner there.
+  float joint = pow(abs(2.0 * u - 1.0), 6.0) * (1.0 - smoothing);
+  tangent = normalize(mix(tangent, u < 0.5 ? t0 : t1, joint));
   vec3 normal = mix(n0, n1, u);
   normal = normalize(normal - tangent * dot(tangent, normal));
   vec3 binormal = cross(normal, tangent);
 
-  float r1 = radiusNow(end) * mix(0.25, 1.0, grown);
-  float r0 = begins ? radiusNow(end) : radiusNow(start);
-  float radius = mix(r0, r1, u) * smoothstep(0.0, 0.02, grown);
-  float slope = (r1 - r0) / max(len, 1e-3);
-  // Tubes overlap a little: where their numbers of sides differ, a joint would otherwise show gaps.
-  float overlap = u == 0.0 ? 0.35 * r0 : 0.0;
-  centre -= tangent * overlap;
-  float along = end.arc - len * (1.0 - u) - overlap;
-  if ((metamer.w & TRUNK) != 0u) {
-    // Roots spread where the trunk meets the ground.
-    float foot = end.radius > start.radius && begins ? end.radius : max(end.radius, start.radius);
-    float flare = exp(-max(along, 0.0) / (0.85 * foot + 0.05));
-    float lobes = 0.5 + 0.5 * sin(atan(ring.z, ring.x) * 5.0 + 1.3 * sin(atan(ring.z, ring.x) * 2.0));
-    radius *= 1.0 + flare * (0.35 + 0.65 * lobes);
-    slope -= flare * 0.55;
-    if (begins) centre.y -= (1.0 - u) * (1.0 - u) * 0.5 * foot;
-  } else {
-    // A collar swells where a lateral leaves the axis that bears it.
-    float bearing = texelFetch(uNodes, ivec2((int(metamer.z) & 255) * 3, int(metamer.z) >> 8), 0).w;
-    float collar = (min(bearing, 1.8 * end.radius) - end.radius)
-      * exp(-max(0.0, along - 0.5 * bearing) / (0.8 * min(bearing, 2.5 * end.radius) + 1e-3));
-    radius += max(0.0, collar) * grown;
-  }
-  vec3 outward = normal * ring.x + binormal * ring.z;
-  vec3 world = centre + outward * radius;
-  vWorld = world;
-  vNormal = normalize(outward - tangent * slope);
-  vTangent = tangent;
-  vBark = vec4(ring.x, ring.z, along, max(radius, 0.02));
+  float r1 = woodAt(end, cut) * mix(0.25, 1.0, grown);
+  float r0 = begins ? end.radius : woodAt(start, false);
+  // Widths meet without a corner at the joints; the last metamer is a cone.
+  bool last = end.extended > 1e8 && !cut;
+  float taper = last ? u2 : 3.0 * u2 - 2.0 * u3;
+  float steepness = last ? 2.0 * u : 6.0 * u - 6.0 * u2;
+  // Where a limb goes on as a mere twig it ends in a knob that bears it.
+  float knob = smoothstep(0.6, 0.35, r1 / max(r0, 1e-4));
+  float reach = 0.9 * min(r0, len) / max(len, 1e-3);
+  float within = min(u / max(reach, 1e-3), 1.0);
+  taper = mix(taper, within * within, knob);
+  steepness = mix(steepness, within < 1.0 ? 2.0 * within / max(reach, 1e-3) : 0.0, knob);
+  float radius = mix(r0, r1, taper) * smoothstep(0.0, 0.02, grown);
+  float slope = (r1 - r0) * steepness / max(len, 1e-3);
+  float along = end.arc - len * (1.0 - u);
+  // Where its sides are not those of the tube below, a joint would show gaps.
+  if (u == 0.0 && (metamer.w & OVERLAPS) != 0u) centre -= tangent * 0.12 * r0;
   vLight = end.look == MARKED ? -1.0 : mix(start.light, end.light, u);
+  vTrait = traitOf(int(metamer.x));
+  vTangent = tangent;
+  vBearing = vec4(0.0, 0.0, 1.0, 0.0);
+  vec3 world;
+#ifdef RIBBON
+  vec3 eye = cameraPosition - centre;
+  vec3 side = cross(tangent, eye);
+  side = dot(side, side) > 1e-8 ? normalize(side) : binormal;
+  float drawn = radius;
+  float cover = 1.0;
+  if ((metamer.w & TRUNK) != 0u) drawn *= 1.0 + 0.6 * (rootFlare(0.0, along, bearing.radius) - 1.0);
+#ifndef CASTER
+  // Thinner than a pixel it would flicker; it is drawn a pixel wide and lets so much more through.
+  float least = 0.55 * length(eye) / max(uView.w, 1.0);
+  cover = clamp(drawn / max(least, 1e-6), 0.0, 1.0);
+  drawn = max(drawn, least * smoothstep(0.0, 0.02, grown));
+#endif
+  world = centre + side * (ring.x * drawn);
+  vNormal = side;
+  vBark = vec4(ring.x, along, radius, cover);
+#else
+  float wide = length(ring.xz);
+  vec3 outward = (normal * ring.x + binormal * ring.z) / wide;
+  float plain = radius;
+  vNormal = outward - tangent * slope;
+  if ((metamer.w & TRUNK) != 0u) {
+    // A seed is as thick as its trunk.
+    float foot = bearing.radius;
+    float flare = rootFlare(ring.w, along, foot);
+    const float STEP = 0.01;
+    float around = (rootFlare(ring.w + STEP, along, foot) - flare) / (6.2831853 * STEP);
+    float upwards = (rootFlare(ring.w, along + STEP, foot) - flare) / STEP;
+    vNormal = outward - cross(outward, tangent) * (around / flare) - tangent * (slope * flare + radius * upwards);
+    radius *= flare;
+    // The foot goes on into the ground, however it slopes.
+    if (begins) centre.y -= (1.0 - u) * (1.0 - u) * 0.5 * foot;
+    world = centre + outward * radius * wide;
+  } else {
+    world = centre + outward * radius * wide;
+    if (along < 5.0 * (bearing.radius + end.radius)) {
+      Junction junction = junctionAt(world, outward, max(radius, 1e-4), heading, bearing);
+      world += junction.swelling * grown;
+      vNormal = mix(normalize(vNormal), junction.outward, junction.weight * 0.92) + 0.02 * heading;
+      vBearing = vec4(junction.place, junction.radius, junction.weight);
+    }
+  }
+  vNormal = normalize(vNormal);
+  vBark = vec4(ring.w, along, max(plain, 0.005), -1.0);
+  if (ring.y >= 1.0 && cut) {
+    // A cut heals from its rim: the face bulges a little, and its edge is round.
+    float inward = ring.y - 1.0;
+    vec3 bulge = tangent * radius * 0.1 * sqrt(max(0.0, 1.0 - (1.0 - inward) * (1.0 - inward)));
+    world = centre + outward * radius * (1.0 - inward) + bulge;
+    vNormal = normalize(mix(outward, tangent, smoothstep(0.0, 0.1, inward)));
+    vBark.w = inward;
+  }
+#endif
+  vWorld = world;
 #ifdef GHOST
   vWorld = world = ghostPlace(world);
   vNormal = turned(uGhostTurn, vNormal);
@@ -86,77 +213,55 @@ void main() {
 }
 `;
 
-/** Bark: furrowed plates on thick limbs, smooth and greenish on twigs. */
-export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${GHOST_COLOUR}
+/** Bark in the light of sun and sky. */
+export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${MODES}${GHOST_COLOUR}
 in vec3 vWorld;
 in vec3 vNormal;
 in vec3 vTangent;
 in vec4 vBark;
+in vec4 vBearing;
 in float vLight;
+in float vTrait;
 out vec4 colour;
-
-#ifdef FURROWED
-/** Height of the bark, 0 in a furrow to 1 on a plate. */
-float bark(vec3 p) {
-  float warp = (noise(p * vec3(1.1, 0.45, 1.1)) - 0.5) * 1.6;
-  vec3 q = vec3(p.x + 0.25 * warp, p.y * 0.2, p.z - 0.25 * warp) * 4.6;
-  float ridge = abs(noise(q) * 2.0 - 1.0);
-  float finer = abs(noise(q * 2.2 + 7.1) * 2.0 - 1.0);
-  float cracks = smoothstep(0.0, 0.22, abs(noise(vec3(p.x * 3.0, p.y * 2.2 + warp, p.z * 3.0) + 3.7) - 0.5));
-  return smoothstep(0.02, 0.42, ridge) * 0.62 + smoothstep(0.0, 0.5, finer) * 0.23 + cracks * 0.15;
-}
-#endif
-
+${BARK}
 void main() {
-  vec3 smoothed = normalize(vNormal);
-  vec3 normal = smoothed;
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
-  float age = smoothstep(0.09, 0.55, vBark.w);
-  vec3 albedo = mix(vec3(0.100, 0.078, 0.047), vec3(0.140, 0.108, 0.082), age);
-  float cavity = 1.0;
-#ifdef FURROWED
-  // Young bark is finer; the pattern is laid around a cylinder, so that it has no seam.
-  float scale = mix(2.6, 1.55, age);
-  vec3 p = vec3(vBark.x * vBark.w, vBark.z, vBark.y * vBark.w) * scale;
-  float height = bark(p);
-  // Far away the furrows are finer than a pixel and would only flicker.
-  float near = exp(-away * 0.010);
-  const float STEP = 0.03;
-  vec3 around = vec3(-vBark.y, 0.0, vBark.x);
-  float aroundSlope = bark(p + around * STEP) - height;
-  float alongSlope = bark(p + vec3(0.0, STEP, 0.0)) - height;
+  vec3 sight = eye / max(away, 1e-4);
   vec3 lengthwise = normalize(vTangent);
-  vec3 crosswise = normalize(cross(smoothed, lengthwise));
-  float relief = mix(0.35, 1.0, age) * near * 0.15 / STEP;
-  normal = normalize(smoothed + relief * (crosswise * aroundSlope - lengthwise * alongSlope));
-  float tone = noise(p * vec3(0.8, 0.35, 0.8) + 11.0);
-  float depth = mix(0.35, 1.0, age);
-  albedo *= mix(1.0, mix(0.24, 1.2, smoothstep(0.08, 0.92, height)), depth) * (0.82 + 0.36 * tone);
-  float lichen = smoothstep(0.6, 0.8, noise(p * 1.7 + 20.0)) * age * smoothstep(0.3, 0.8, height);
-  albedo = mix(albedo, vec3(0.150, 0.170, 0.105), lichen * 0.5);
-  cavity = mix(1.0, mix(0.5, 1.0, height), depth);
+  float cover = 1.0;
+#ifdef RIBBON
+  // The strip stands for a round twig: its normal turns from one side over the eye to the other.
+  vec3 front = normalize(sight - lengthwise * dot(sight, lengthwise));
+  float across = clamp(vBark.x, -1.0, 1.0);
+  vec3 smoothed = normalize(vNormal * across + front * sqrt(1.0 - across * across));
+  Bark bark = distantBark(vBark.z);
+  vec3 normal = smoothed;
+  cover = vBark.w;
+#else
+  vec3 smoothed = normalize(vNormal);
+  Bark bark = barkAt(vBark, vBearing);
+  vec3 crosswise = cross(smoothed, lengthwise);
+  crosswise /= max(length(crosswise), 1e-3);
+  vec3 normal = normalize(smoothed - crosswise * bark.slope.x - cross(crosswise, smoothed) * bark.slope.y);
 #endif
+  vec3 albedo = bark.albedo;
   if (vLight < 0.0) albedo = condemned(albedo);
-  float exposure = mix(0.6, 1.3, abs(vLight));
+  float exposure = mix(0.85, 1.35, abs(vLight));
   float facing = dot(normal, uSun);
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
   // Soil and moss climb the foot of the trunk, and the ground keeps the sky from it.
-  float soil = smoothstep(0.55, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
-  albedo = mix(albedo, vec3(0.062, 0.066, 0.026), soil * 0.8);
+  if (vWorld.y < 0.65) {
+    float soil = smoothstep(0.4, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
+    albedo = mix(albedo, vec3(0.062, 0.066, 0.026), soil * 0.7);
+  }
   float grounded = mix(0.45, 1.0, smoothstep(0.0, 1.4, vWorld.y));
-  vec3 lit = albedo * (ambient(normal) * exposure * cavity * grounded + SUN_COLOUR * max(facing, 0.0) * sun);
-  vec3 sight = eye / max(away, 1e-4);
-  lit += SKY_COLOUR * 0.05 * pow(1.0 - max(dot(sight, normal), 0.0), 4.0) * exposure * cavity;
-  colour = vec4(finished(hazed(lit, away)), 1.0);
+  float open = mix(1.0, bark.cavity, 0.55);
+  vec3 lit = albedo * (ambient(normal) * exposure * bark.cavity * grounded + SUN_COLOUR * max(facing, 0.0) * sun * open);
+  lit += SKY_COLOUR * 0.04 * pow(1.0 - max(dot(sight, smoothed), 0.0), 4.0) * exposure * bark.cavity;
+  colour = vec4(shownAs(finished(hazed(lit, away)), albedo, vTrait, dot(normal, sight)), cover);
 #ifdef GHOST
   colour = ghostly(colour);
 #endif
 }
-`;
-
-/** Writes nothing but depth. */
-export const DEPTH_FRAGMENT = /* glsl */ `precision highp float;
-out vec4 colour;
-void main() { colour = vec4(1.0); }
 `;

@@ -1,4 +1,5 @@
 import { FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
+import { EASE_SECONDS } from "../radius-ease";
 
 /** Start of every shader: precision, and the uniforms that all of them share. */
 export const HEAD = /* glsl */ `
@@ -10,6 +11,7 @@ precision highp sampler3D;
 uniform mat4 projectionMatrix;
 uniform mat4 viewMatrix;
 uniform vec3 cameraPosition;
+uniform vec4 uView; // eye of the camera, also while the sun draws; pixels of an internode at distance one
 uniform float uTime;
 `;
 
@@ -47,6 +49,10 @@ void wear(inout Node node, int slot, bool own) {
   if (swelling.x != 1.0) node.radius = swelling.y * pow(max(node.radius, 1e-4), swelling.x);
   if (own && mine.w > 0.0) node.radius = mine.w;
 }
+float eased(float since, float seconds) {
+  float t = clamp(since / max(seconds, 1e-4), 0.0, 1.0);
+  return t * (2.0 - t);
+}
 Node nodeAt(int row) {
   ivec2 at = ivec2((row & 255) * 3, row >> 8);
   vec4 a = texelFetch(uNodes, at, 0);
@@ -56,11 +62,13 @@ Node nodeAt(int row) {
   float light = (abs(b.w) - slot) * (256.0 / 255.0);
   Node node = Node(a.xyz, a.w, whole(b.xyz), light, c.x, c.y, c.z, c.w, 0.0);
   if (slot > 0.0) wear(node, int(slot), b.w < 0.0);
+  if (node.growing < 0.0) {
+    // It has grown long ago, and its radius glides to what it is.
+    node.radius = mix(-node.growing, node.radius, eased(uTime - node.birth, ${EASE_SECONDS.toFixed(2)}));
+    node.birth = -1000.0;
+    node.growing = 0.0;
+  }
   return node;
-}
-float eased(float since, float seconds) {
-  float t = clamp(since / max(seconds, 1e-4), 0.0, 1.0);
-  return t * (2.0 - t);
 }
 /** A node's radius now: a tip is slim until its axis goes on. */
 float radiusNow(Node node) {
@@ -92,17 +100,23 @@ uniform vec3 uSun;
 uniform mat4 uSunFromWorld;
 uniform sampler2DShadow uShadow;
 uniform float uShadowTexel;
+uniform float uShadowBias;
 uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges
-const vec3 SUN_COLOUR = vec3(1.0, 0.88, 0.70) * 3.3;
-const vec3 SKY_COLOUR = vec3(0.42, 0.58, 0.82);
-const vec3 BOUNCE_COLOUR = vec3(0.42, 0.40, 0.26);
-const vec3 HORIZON_COLOUR = vec3(1.02, 1.00, 0.90);
+uniform vec3 uSunColour;
+uniform vec3 uSkyColour;
+uniform vec3 uBounceColour;
+uniform vec3 uHorizonColour;
+uniform float uExposure;
+#define SUN_COLOUR uSunColour
+#define SKY_COLOUR uSkyColour
+#define BOUNCE_COLOUR uBounceColour
+#define HORIZON_COLOUR uHorizonColour
 
 float sunlit(vec3 world, vec3 normal, float softness) {
   vec4 at = uSunFromWorld * vec4(world + normal * 0.03, 1.0);
   vec3 p = at.xyz * 0.5 + 0.5;
   if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
-  p.z = min(p.z, 1.0) - 0.0012;
+  p.z = min(p.z, 1.0) - uShadowBias;
   if (uShadowTaps == 1) return texture(uShadow, p);
   float sum = 0.0;
   for (int i = 0; i < 9; i++) {
@@ -118,15 +132,30 @@ vec3 ambient(vec3 normal) {
 vec3 condemned(vec3 albedo) {
   return mix(vec3(0.62, 0.05, 0.03), albedo, 0.15);
 }
+uniform vec2 uAir; // distance up to which it is clear, and how much it takes of a colour beyond
 /** Air between the eye and what it sees: what is far behind the trees fades into the horizon. */
 vec3 hazed(vec3 colour, float distance) {
-  return mix(HORIZON_COLOUR, colour, exp(-max(0.0, distance - 160.0) * 0.0011));
+  return mix(HORIZON_COLOUR, colour, exp(-max(0.0, distance - uAir.x) * uAir.y));
 }
-/** Filmic shoulder, then sRGB. */
+/** Light as a film takes it, after AgX (T. Sobotka) in the polynomial form of B. Wrensch: bright greens stay green, and nothing burns out. */
 vec3 finished(vec3 colour) {
-  colour *= 0.72;
-  vec3 c = (colour * (2.51 * colour + 0.03)) / (colour * (2.43 * colour + 0.59) + 0.14);
-  c = clamp(c, 0.0, 1.0);
-  return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
+  const mat3 INSET = mat3(0.842479, 0.042328, 0.042376, 0.078434, 0.878469, 0.078434, 0.079224, 0.079166, 0.879143);
+  const mat3 OUTSET = mat3(1.196879, -0.052897, -0.052972, -0.098021, 1.151903, -0.098043, -0.099030, -0.098961, 1.151074);
+  vec3 x = clamp((log2(max(INSET * (colour * uExposure), 1e-6)) + 12.47393) / 16.5, 0.0, 1.0);
+  vec3 x2 = x * x;
+  vec3 x4 = x2 * x2;
+  x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+  // The film's own look is flat; a little more contrast and colour brings it back to what the eye remembers.
+  x = pow(max(x, 0.0), vec3(1.2));
+  x = mix(vec3(dot(x, vec3(0.2126, 0.7152, 0.0722))), x, 1.3);
+  return clamp(OUTSET * x, 0.0, 1.0);
+}
+`;
+
+/** Spreads what lies between two of the screen's colours, so that a soft gradient shows no bands. */
+export const DITHER = /* glsl */ `
+vec3 dithered(vec3 colour) {
+  float grain = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+  return colour + (grain - 0.5) / 255.0;
 }
 `;

@@ -1,4 +1,5 @@
-import { HEAD, LIGHT, NOISE } from "./common";
+import { DITHER, HEAD, LIGHT, NOISE } from "./common";
+import { GROUND_SUN } from "./shadow";
 
 /** A triangle over the whole picture, as far away as can be. */
 export const SKY_VERTEX = /* glsl */ `${HEAD}
@@ -12,85 +13,174 @@ void main() {
 }
 `;
 
-/** A clear morning: pale at the horizon, deeper above, a few thin clouds. */
-export const SKY_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
+/** The studio's backdrop as the screen shows it: a sheet of paper that curves from the floor up to the wall. */
+const PAPER = /* glsl */ `
+uniform vec3 uPaper;
+uniform vec4 uSkyParts; // clouds, stars, hills, studio
+vec3 paper(float up) { return uPaper * (1.0 - 0.10 * smoothstep(0.05, 0.9, up)); }
+`;
+
+/** Land too far off for more than its colour to be seen, and the mist at its feet. */
+const DISTANCE = /* glsl */ `
+uniform vec3 uMiddleColour;
+vec3 farLand() { return mix(uMiddleColour, HORIZON_COLOUR, 0.35) * 0.84; }
+vec3 nearLand() { return mix(farLand(), BOUNCE_COLOUR, 0.5) * 0.8; }
+vec3 mist() { return mix(HORIZON_COLOUR, nearLand(), 0.62 * uSkyParts.z); }
+`;
+
+/** Pale at the horizon, deeper above; clouds, hills and stars as the sky has them. */
+export const SKY_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${DITHER}
+uniform vec3 uZenithColour;
+uniform vec3 uGlowColour;
+uniform vec3 uCloudColour;
 in vec3 vSight;
 out vec4 colour;
+${PAPER}${DISTANCE}
 /** Colour of a range of hills where its crest is above the line of sight, else what is behind it. */
 vec3 hills(vec3 behind, vec3 sight, float seed, float low, float high, vec3 hue) {
   vec2 towards = normalize(sight.xz);
   float crest = noise(towards * 2.3, seed) * 0.6 + noise(towards * 6.0, seed + 5.0) * 0.28
     + noise(towards * 17.0, seed + 9.0) * 0.12;
   float top = mix(low, high, crest);
-  float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y);
+  float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y) * uSkyParts.z;
   // Mist gathers at the feet of the hills.
-  return mix(behind, mix(HORIZON_COLOUR, hue, smoothstep(-0.01, top, sight.y) * 0.9), inside);
+  return mix(behind, mix(mist(), hue, smoothstep(-0.02, top, sight.y)), inside);
+}
+float star(vec3 sight) {
+  vec3 cell = floor(sight * 90.0);
+  vec3 within = fract(sight * 90.0) - 0.5;
+  float chance = fract(sin(dot(cell, vec3(12.9898, 78.233, 37.719))) * 43758.5453);
+  return chance > 0.985 ? smoothstep(0.22, 0.0, length(within)) * fract(chance * 913.0) : 0.0;
 }
 
 void main() {
   vec3 sight = normalize(vSight);
   float up = max(sight.y, 0.0);
-  vec3 zenith = vec3(0.15, 0.34, 0.68);
-  vec3 middle = vec3(0.42, 0.66, 0.92);
-  vec3 sky = mix(HORIZON_COLOUR, middle, smoothstep(-0.02, 0.24, up));
-  sky = mix(sky, zenith, smoothstep(0.15, 0.9, up));
-  float glow = max(dot(sight, uSun), 0.0);
-  sky += vec3(1.0, 0.82, 0.55) * (0.10 * pow(glow, 6.0) + 0.25 * pow(glow, 60.0));
-  vec2 plane = sight.xz / (up + 0.22);
-  float cloud = noise(plane * 1.2, 1.0) * 0.52 + noise(plane * 2.9, 4.0) * 0.28
-    + noise(plane * 6.1, 9.0) * 0.13 + noise(plane * 13.0, 2.0) * 0.07;
-  sky = mix(sky, vec3(1.45, 1.38, 1.28), smoothstep(0.46, 0.82, cloud) * smoothstep(0.02, 0.22, up) * 0.62);
-  sky = hills(sky, sight, 3.0, 0.030, 0.085, vec3(0.50, 0.63, 0.70));
-  sky = hills(sky, sight, 8.0, 0.006, 0.050, vec3(0.36, 0.49, 0.42));
-  colour = vec4(finished(sky), 1.0);
+  vec3 sky = mix(HORIZON_COLOUR, uMiddleColour, smoothstep(-0.02, 0.26, up));
+  sky = mix(sky, uZenithColour, smoothstep(0.12, 0.9, up));
+  if (uSkyParts.w > 0.5) {
+    colour = vec4(dithered(paper(sight.y)), 1.0);
+    return;
+  }
+  float towards = max(dot(sight, uSun), 0.0);
+  sky += uGlowColour * (0.5 * pow(towards, 5.0) + 1.2 * pow(towards, 60.0));
+  if (uSkyParts.y > 0.0) sky += star(sight) * uSkyParts.y * smoothstep(0.02, 0.2, up);
+  if (uSkyParts.x > 0.0) {
+    vec2 plane = sight.xz / (up + 0.22);
+    float cloud = noise(plane * 1.2, 1.0) * 0.52 + noise(plane * 2.9, 4.0) * 0.28
+      + noise(plane * 6.1, 9.0) * 0.13 + noise(plane * 13.0, 2.0) * 0.07;
+    float cover = smoothstep(0.62 - 0.45 * uSkyParts.x, 1.02 - 0.42 * uSkyParts.x, cloud);
+    vec3 lit = uCloudColour * mix(1.0, 0.55 + 0.9 * cloud, smoothstep(0.6, 1.0, uSkyParts.x));
+    sky = mix(sky, lit + uGlowColour * 0.6 * pow(towards, 8.0), cover * smoothstep(0.02, 0.22, up) * 0.7);
+  }
+  if (uSkyParts.z > 0.0) {
+    sky = hills(sky, sight, 3.0, 0.030, 0.085, farLand());
+    sky = hills(sky, sight, 8.0, 0.006, 0.050, nearLand());
+  }
+  colour = vec4(dithered(finished(sky)), 1.0);
 }
 `;
 
 /** The ground, a disc around the trees. */
 export const GROUND_VERTEX = /* glsl */ `${HEAD}
 in vec3 position;
+uniform float uGroundReach;
 out vec3 vWorld;
 void main() {
-  vWorld = position;
-  gl_Position = projectionMatrix * viewMatrix * vec4(position, 1.0);
+  vWorld = position * uGroundReach;
+  gl_Position = projectionMatrix * viewMatrix * vec4(vWorld, 1.0);
 }
 `;
 
-/** A meadow seen from some way off, in the tree's shade, fading into the horizon. */
-export const GROUND_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
+/** What trees stand on, in their shade, fading into the horizon. */
+export const GROUND_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${GROUND_SUN}${DITHER}
 uniform vec4 uFeet[8]; // where trunks stand, and how thick they are
 uniform vec4 uCrown; // centre x z, radius, how dense
+uniform int uGround;
+uniform float uGroundReach;
 in vec3 vWorld;
 out vec4 colour;
+${PAPER}${DISTANCE}
+const int GRASS = 0;
+const int EARTH = 1;
+const int SAND = 2;
+const int SNOW = 3;
+const int PLAIN = 4;
+/** What light comes back from, and which way it faces. */
+struct Surface {
+  vec3 albedo;
+  vec3 normal;
+};
+Surface surfaceAt(vec2 at, float near, float bare) {
+  float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
+  float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
+  float fine = noise(at * vec2(4.1, 2.6), 8.0) * 0.5 + noise(at.yx * vec2(7.0, 11.0), 5.0) * 0.5;
+  vec3 soil = vec3(0.128, 0.094, 0.066) * (0.72 + 0.56 * fine);
+  if (uGround == EARTH) {
+    float clods = noise(at * 1.3, 6.0) * 0.6 + noise(at * 2.9, 7.0) * 0.4;
+    vec3 albedo = mix(vec3(0.150, 0.108, 0.076), vec3(0.235, 0.178, 0.130), broad * 0.6 + patches * 0.4);
+    albedo *= 1.0 + near * ((clods - 0.5) * 0.35 + (fine - 0.5) * 0.4);
+    return Surface(albedo, normalize(vec3((clods - 0.5) * 0.5 * near, 1.0, (fine - 0.5) * 0.4 * near)));
+  }
+  if (uGround == SAND) {
+    float bend = noise(at * 0.07, 4.0) * 9.0;
+    float ripple = sin(at.x * 1.9 + at.y * 0.8 + bend + 1.5 * noise(at * 0.45, 9.0));
+    vec3 albedo = mix(vec3(0.430, 0.330, 0.225), vec3(0.530, 0.430, 0.310), broad * 0.5 + patches * 0.5);
+    albedo *= 1.0 + near * ((fine - 0.5) * 0.14 + ripple * 0.035);
+    return Surface(albedo, normalize(vec3(ripple * 0.10 * near, 1.0, (broad - 0.5) * 0.25)));
+  }
+  if (uGround == SNOW) {
+    float drift = noise(at * 0.16, 4.0) + 0.5 * noise(at * 0.42, 9.0);
+    vec3 albedo = vec3(0.88, 0.90, 0.93) * (0.95 + 0.05 * fine * near);
+    return Surface(albedo, normalize(vec3((drift - 0.75) * 0.10, 1.0, (broad - 0.5) * 0.14)));
+  }
+  float tufts = noise(at * vec2(1.1, 0.8), 8.0);
+  vec3 albedo = mix(vec3(0.066, 0.086, 0.034), vec3(0.104, 0.118, 0.050), smoothstep(0.2, 0.8, broad));
+  // Here and there it is dry.
+  albedo = mix(albedo, vec3(0.150, 0.138, 0.072), 0.5 * smoothstep(0.35, 0.95, patches));
+  albedo *= 1.0 + near * ((fine - 0.5) * 0.75 + (tufts - 0.5) * 0.4);
+  albedo = mix(albedo, soil, bare);
+  return Surface(albedo, normalize(vec3((fine - 0.5) * 0.35 * near, 1.0, (tufts - 0.5) * 0.25 * near)));
+}
 void main() {
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
-  float near = exp(-away * 0.012);
-  float patches = noise(vWorld.xz * 0.05, 0.5) * 0.55 + noise(vWorld.xz * 0.23, 3.0) * 0.45;
-  float tufts = noise(vWorld.xz * vec2(1.1, 0.8), 8.0);
-  float blades = noise(vWorld.xz * vec2(4.1, 2.6), 8.0) * 0.5 + noise(vWorld.zx * vec2(7.0, 11.0), 5.0) * 0.5;
-  vec3 albedo = mix(vec3(0.075, 0.120, 0.030), vec3(0.150, 0.175, 0.055), patches);
-  albedo *= 1.0 + near * ((blades - 0.5) * 0.7 + (tufts - 0.5) * 0.45);
-  vec3 normal = normalize(vec3((blades - 0.5) * 0.3 * near, 1.0, (patches - 0.5) * 0.2));
+  float near = exp(-away * 0.010);
   float open = 1.0;
   float bare = 0.0;
   for (int i = 0; i < 8; i++) {
     float thick = uFeet[i].w;
     if (thick <= 0.0) break;
     float from = distance(vWorld.xz, uFeet[i].xz);
-    open *= 1.0 - 0.75 * exp(-max(0.0, from - thick * 0.8) / (thick * 1.1 + 0.12));
-    bare = max(bare, exp(-from / (thick * 2.2 + 0.3)) * (0.6 + 0.6 * blades));
+    // What is near a trunk sees half of the sky at most.
+    open *= 1.0 - 0.7 * exp(-max(0.0, from - thick) / (thick * 1.3 + 0.12));
+    bare = max(bare, smoothstep(thick * 4.5 + 1.2, thick, from + (noise(vWorld.xz * 1.7, 12.0) - 0.5) * (thick * 2.5 + 0.6)));
   }
-  albedo = mix(albedo, vec3(0.135, 0.098, 0.060) * (0.7 + 0.6 * blades), clamp(bare, 0.0, 0.85));
   float under = distance(vWorld.xz, uCrown.xy) / max(uCrown.z, 0.1);
-  open *= 1.0 - uCrown.w * 0.45 * exp(-under * under * 1.4);
-  float sun = sunlit(vWorld, vec3(0, 1, 0), 2.6);
-  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * max(dot(normal, uSun), 0.0) * sun * mix(0.6, 1.0, open));
+  open *= 1.0 - uCrown.w * 0.42 * exp(-under * under * 1.4);
+  float sun = groundSun(vWorld);
+  Surface surface = surfaceAt(vWorld.xz, near, 0.8 * bare);
+  float rim = smoothstep(0.25, 0.97, length(vWorld.xz) / uGroundReach);
+  bool studio = uSkyParts.w > 0.5;
+  vec3 lit;
+  if (uGround == PLAIN) {
+    // Paper that goes on into the backdrop: nothing shows but what keeps light from it.
+    vec3 most = SUN_COLOUR * uSun.y + SKY_COLOUR;
+    lit = (SUN_COLOUR * uSun.y * sun + SKY_COLOUR * open) / max(most, 1e-3);
+    if (studio) {
+      colour = vec4(dithered(paper(0.0) * mix(pow(lit, vec3(0.6)), vec3(1.0), rim)), 1.0);
+      return;
+    }
+    lit *= HORIZON_COLOUR * 0.9;
+  } else {
+    // Blades stand up and catch a sun that grazes the ground.
+    float upright = uGround == GRASS ? 0.22 : 0.06;
+    float facing = max((dot(surface.normal, uSun) + upright) / (1.0 + upright), 0.0);
+    lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facing * sun * mix(0.7, 1.0, open));
+  }
   // The ground pales behind the trees, not before them, and its own edge is never seen.
-  float behind = away - length(cameraPosition);
-  float rim = max(smoothstep(10.0, 420.0, behind), smoothstep(350.0, 590.0, length(vWorld.xz)));
-  lit = mix(hazed(lit, away), HORIZON_COLOUR, rim);
-  colour = vec4(finished(lit), 1.0);
+  vec3 seen = finished(mix(hazed(lit, away), mist(), studio ? 0.0 : rim));
+  colour = vec4(dithered(studio ? mix(seen, paper(0.0), rim) : seen), 1.0);
 }
 `;
 

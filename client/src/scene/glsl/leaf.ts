@@ -1,5 +1,8 @@
+import { TILE_MARGIN } from "../leaf-tile";
 import { HEAD, LIGHT, NODES } from "./common";
+import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
+import { DEPTH_COLOUR } from "./shadow";
 
 /** Where rules LF1–LF4 put a leaf, from where its metamer is drawn. */
 export const LEAF_PLACE = /* glsl */ `
@@ -19,96 +22,244 @@ Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
 }
 `;
 
-/** Puts one blade in its place, folded along its midrib and bent towards its tip. */
-export const LEAF_VERTEX = /* glsl */ `${HEAD}${NODES}${GHOST_PLACE}${LEAF_PLACE}
-in vec3 blade; // across −1 to 1, along 0 to 1, half width there
+/** Cards that wear a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
+export const CARD = /* glsl */ `
+const float MARGIN = ${TILE_MARGIN.toFixed(4)};
+/** Towards whoever looks: the eye, or the sun while it draws. */
+vec3 towardsEye(vec3 place) {
+#ifdef CASTER
+  return uSun;
+#else
+  return normalize(cameraPosition - place);
+#endif
+}
+/** One of four pictures, as it is or mirrored. */
+vec2 tileAt(vec2 at, float random, float hand) {
+  float tile = floor(random * 4.0);
+  return (vec2(mod(tile, 2.0), floor(tile * 0.5)) + vec2(0.5 + 0.5 * hand * at.x, at.y)) * 0.5;
+}
+`;
+
+/** The colour of a leaf, in its middle and along its margin. */
+const LEAF_COLOUR = /* glsl */ `
+uniform vec3 uLeafTint;
+uniform vec3 uLeafAutumn[3]; // first, at last, dead
+const vec3 BRIGHTNESS = vec3(0.30, 0.59, 0.11);
+struct Hues { vec3 middle; vec3 margin; };
+Hues leafHues(float vigor, float light, vec3 random) {
+  // No two leaves are quite alike: lighter or darker, warmer or cooler; in the shade darker and bluer.
+  // Sprays, which are many small leaves each, differ less.
+  random = mix(random, vec3(0.5), 0.55 * uLeafForm.y);
+  vec3 summer = uLeafTint * (0.80 + 0.40 * random.x) * mix(vec3(0.80, 0.88, 1.0), vec3(1.04, 1.02, 0.96), light);
+  summer *= vec3(1.0 + 0.34 * (random.y - 0.5), 1.0, 1.0 - 0.40 * (random.y - 0.5));
+  // Vigor is a share of the greatest there is, and most shoots have little of it.
+  float weak = clamp(1.0 - smoothstep(0.0, 0.42, vigor) + 0.36 * (random.z - 0.5), 0.0, 1.0);
+  float shift = uLeafTraits.x * weak * (1.0 - 0.5 * uLeafForm.y);
+  float bright = dot(summer, BRIGHTNESS);
+  vec3 warm = mix(vec3(1.36, 1.08, 0.24), vec3(1.95, 0.55, 0.14), smoothstep(0.35, 0.95, shift)) * bright;
+  summer = mix(summer, warm, 0.9 * shift);
+  summer = mix(summer, summer * vec3(1.55, 1.42, 0.85) + vec3(0.02, 0.03, 0.0), uLeafSeason.z);
+  // Weak shoots turn first, and leaves in the sun turn reddest.
+  float late = 0.55 * random.z + 0.30 * vigor + 0.15 * (1.0 - light);
+  float turned = uLeafSeason.w * 1.5 - 0.25;
+  float middle = smoothstep(late - 0.25, late + 0.25, turned - 0.12);
+  float margin = smoothstep(late - 0.25, late + 0.25, turned + 0.16);
+  float depth = clamp(0.75 * random.x + 0.5 * light - 0.3 + 0.3 * (1.0 - vigor), 0.0, 1.0);
+  vec3 autumn = mix(uLeafAutumn[0], uLeafAutumn[1], smoothstep(0.2, 0.9, depth)) * (0.82 + 0.36 * random.y);
+  vec3 dead = uLeafAutumn[2] * (0.7 + 0.5 * random.y);
+  float died = clamp(uLeafTraits.z * 1.3 - 0.3 * random.z, 0.0, 1.0);
+  Hues hues = Hues(mix(summer, autumn, middle), mix(summer, mix(autumn, uLeafAutumn[1], 0.3), margin));
+  return Hues(mix(hues.middle, dead, died), mix(hues.margin, dead, min(1.0, died * 1.4)));
+}
+`;
+
+/** Puts one leaf, or one spray of small ones, in its place. */
+export const LEAF_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
+uniform vec3 uSun;
+uniform float uLeafSize;
+uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies along its twig, how much it bends
+uniform vec4 uLeafSeason; // size, presence, fresh, turned
+uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
+uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
+in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones
 in vec4 leaf; // row, parent's row, azimuth, share of the way along the metamer
 in float tint; // a random number with the vigor above the point; below 0 where there is no leaf
-uniform float uLeafSize;
-const float SECONDS = 0.35;
 out vec3 vWorld;
 out vec3 vNormal;
-out vec2 vBlade;
-out vec3 vTint; // random, vigor, light or, below 0, that it is marked
+out vec4 vSide; // across the blade, and ±1 where the picture is mirrored
+out vec2 vPicture;
+out vec3 vMiddle;
+out vec3 vMargin;
+out vec2 vLight; // below 0 for what is marked; how open to the sky it is
+out float vTrait;
+const float SECONDS = 0.35;
+${CARD}${LEAF_COLOUR}
+/** A leaf is there while its number lies below a share; where that nears it, it shrinks away. */
+float presence(float share, float number) { return clamp((share * 1.08 - number) / 0.08, 0.0, 1.0); }
 
 void main() {
   Node node = nodeAt(int(leaf.x + 0.5));
   Node from = nodeAt(int(leaf.y + 0.5));
-  if (tint < 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
+  float random = fract(tint);
+  vec4 more = fract(random * vec4(57.31, 131.7, 313.3, 709.9));
+  float there = presence(uLeafSeason.y, more.z) * presence(uLeafLevel.y, more.w);
+  if (tint < 0.0 || there <= 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }
+  float vigor = floor(tint) / 15.0;
   float grown = eased(uTime - node.birth - node.growing * 0.6, SECONDS);
-  float random = fract(tint);
-  float size = (0.75 + 0.5 * random) * uLeafSize * grown;
+  float unfolded = mix(uLeafSeason.x, 1.0, 0.35 * more.y * (1.0 - uLeafSeason.x));
+  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolded * there * inversesqrt(max(uLeafLevel.y, 0.2));
   Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
-  vec3 d = place.direction;
-  vec3 n = place.normal;
-  vec3 side = cross(d, n);
-  float along = blade.y;
-  // The tip bows, each leaf by its own measure, and the halves rise from the midrib.
-  float bow = mix(0.12, 0.42, random);
-  float fold = mix(0.18, 0.45, fract(random * 7.0));
-  float across = blade.x * blade.z;
-  vec3 world = place.base + size * (
-    d * (along - 0.12 * bow * along * along) + side * across * 1.05
-    + n * (abs(across) * fold - bow * along * along));
+  vec3 h = normalize(node.position - from.position);
+  vec3 side = cross(place.direction, place.normal);
+  vec3 d = mix(place.direction, h, uLeafForm.z);
+  float turn = uLeafTraits.y;
+  d = normalize(mix(d, vec3(0.0, sign(turn), 0.0), 0.92 * abs(turn)) + 1e-4 * side);
+  side = normalize(side - dot(side, d) * d);
+  vec3 n = cross(side, d);
+  float hand = more.x > 0.5 ? 1.0 : -1.0;
+  float across = card.x * uLeafForm.x * (1.0 + 2.0 * MARGIN);
+  float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
+  float pixels = size * uView.w / max(0.1, distance(uView.xyz, place.base));
+  vec3 world = place.base;
+  vec3 lengthwise = d;
+  if (uLeafForm.y > 0.5) {
+    vec3 eye = towardsEye(place.base);
+    vec3 facing = normalize(cross(d, eye) + 1e-4 * side);
+    float far = max(step(1.5, uLeafLevel.x), 1.0 - smoothstep(12.0, 30.0, pixels));
+#ifdef CASTER
+    far = 1.0;
+#endif
+    float angle = 1.0472 * card.z + 6.2832 * more.y;
+    vec3 fixed_ = cos(angle) * side + sin(angle) * n;
+    facing *= dot(facing, fixed_) < 0.0 ? -1.0 : 1.0;
+    side = card.z < 0.5 ? normalize(mix(fixed_, facing, far)) : fixed_;
+    across *= card.z < 0.5 ? 1.0 : 1.0 - far;
+    // Needles stand all around: the further out, the more they look to the side.
+    n = cross(side, d);
+    n = normalize((dot(n, eye) < 0.0 ? -n : n) + side * card.x * 0.9);
+    world += size * (d * along + side * across - vec3(0.0, 0.10 * uLeafForm.w * along * along, 0.0));
+  } else {
+    float roll = (more.y - 0.5) * 0.9;
+    vec3 level = n;
+    n = cos(roll) * n + sin(roll) * side;
+    side = cos(roll) * side - sin(roll) * level;
+    // The tip bows, each leaf by its own measure, and the halves rise from the midrib; far off nobody sees it.
+    float near = smoothstep(7.0, 22.0, pixels) * uLeafForm.w;
+#ifdef CASTER
+    near = 0.0;
+#endif
+    float bow = mix(0.10, 0.38, random) * near;
+    float fold = mix(0.12, 0.45, more.w) * near;
+    world += size * (d * (along - 0.12 * bow * along * along) + side * across
+      + n * (abs(across) * fold - bow * along * along));
+    lengthwise = normalize(d - n * 2.0 * bow * along);
+    n = normalize(cross(normalize(side + n * fold * card.x), lengthwise));
+  }
   vWorld = world;
-  vec3 lengthwise = normalize(d - n * 2.0 * bow * along);
-  vec3 crosswise = normalize(side + n * fold * sign(blade.x) * min(1.0, abs(blade.x) * 4.0));
-  vNormal = normalize(cross(crosswise, lengthwise));
-  vBlade = vec2(blade.x, along);
-  vTint = vec3(random, floor(tint) / 15.0, node.look == MARKED ? -1.0 : node.light);
+  vNormal = n;
+  vSide = vec4(side, hand);
+  vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), hand);
+  Hues hues = leafHues(vigor, node.light, vec3(random, more.y, more.w));
+  vMiddle = hues.middle;
+  vMargin = hues.margin;
+  // The outer half of a leaf sees more of the sky than where it is hidden by its twig.
+  vLight = vec2(node.look == MARKED ? -1.0 : node.light, 0.72 + 0.28 * card.y);
+  vTrait = traitOf(int(leaf.x + 0.5));
 #ifdef GHOST
   vWorld = world = ghostPlace(world);
   vNormal = turned(uGhostTurn, vNormal);
+  vSide.xyz = turned(uGhostTurn, vSide.xyz);
 #endif
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
 }
 `;
 
-/** A blade lit from both sides; what the sun does not reflect from one shines through to the other. */
-export const LEAF_FRAGMENT = /* glsl */ `${HEAD}${LIGHT}${GHOST_COLOUR}
+/** Whether there is anything at a place of a picture, with an edge one pixel wide however large it is drawn. */
+export const CUT = /* glsl */ `
+float cut(float covered) {
+  float inside = covered - 0.5;
+  float width = 0.7 * length(vec2(dFdx(covered), dFdy(covered)));
+  // What is mostly covered is solid, or leaves seen at a slant would let through what is behind them.
+  return clamp(max(inside / max(width, 1e-4) + 0.5, 4.0 * inside), 0.0, 1.0);
+}
+`;
+
+/** For shadows: what the picture leaves out lets the sun through. */
+export const LEAF_DEPTH_FRAGMENT = /* glsl */ `${HEAD}${DEPTH_COLOUR}
+uniform sampler2D uLeafColour;
+in vec2 vPicture;
+out vec4 colour;
+void main() {
+  if (texture(uLeafColour, vPicture).a < 0.5) discard;
+  colour = depthColour();
+}
+`;
+
+/** Light on something thin, seen from both sides: what the sun does not reflect from one shines through to the other. */
+export const THIN_LIGHT = /* glsl */ `
+vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, float gloss, float exposure, float open) {
+  float facing = dot(normal, uSun);
+  // Some sun always finds its way through a crown, from leaf to leaf.
+  float sun = mix(0.10, 1.0, sunlit(world, uSun * 4.0, 1.4));
+  float reflected = max(0.0, (facing + 0.25) / 1.25);
+  float through = sheer * (max(0.0, 0.15 - facing) * 0.85 + 0.5 * pow(max(0.0, -dot(sight, uSun)), 4.0));
+  vec3 sieved = albedo * (0.35 + 2.4 * albedo / max(max(albedo.r, albedo.g), 0.02)) * vec3(0.62, 0.60, 0.36);
+  float shade = mix(0.42, 1.0, exposure) * open;
+  vec3 lit = albedo * (ambient(normal) * 1.45 * shade + SUN_COLOUR * reflected * sun) + sieved * SUN_COLOUR * through * sun;
+  float shine = pow(max(0.0, dot(normal, normalize(sight + uSun))), 24.0) * sun;
+  return lit + (SUN_COLOUR * shine * 0.06 + SKY_COLOUR * 0.03 * shade * pow(1.0 - abs(dot(normal, sight)), 3.0)) * gloss;
+}
+`;
+
+/** A leaf as its picture shows it. */
+export const LEAF_FRAGMENT = /* glsl */ `${HEAD}${LIGHT}${MODES}${GHOST_COLOUR}${CUT}${THIN_LIGHT}
+uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
+uniform sampler2D uLeafRelief; // normal across and along, wood, margin
+uniform vec4 uLeafForm;
 in vec3 vWorld;
 in vec3 vNormal;
-in vec2 vBlade;
-in vec3 vTint;
+in vec4 vSide;
+in vec2 vPicture;
+in vec3 vMiddle;
+in vec3 vMargin;
+in vec2 vLight;
+in float vTrait;
 out vec4 colour;
+const vec3 TWIG = vec3(0.150, 0.095, 0.055);
 
 void main() {
+  vec4 painted = texture(uLeafColour, vPicture, -0.35 * uLeafForm.y);
+  float there = cut(painted.a);
+#ifdef GHOST
+  if (painted.a < 0.5) discard;
+#else
+  if (there < 0.12) discard;
+#endif
+  vec4 relief = texture(uLeafRelief, vPicture);
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   vec3 sight = eye / max(away, 1e-4);
-  vec3 normal = normalize(vNormal);
-  if (dot(normal, sight) < 0.0) normal = -normal;
-  float random = vTint.x;
-  float vigor = vTint.y;
-  float exposure = abs(vTint.z);
+  vec3 up = normalize(vNormal);
+  vec3 side = normalize(vSide.xyz - dot(vSide.xyz, up) * up);
+  vec2 slope = (relief.xy * 255.0 - 128.0) / 127.0;
+  vec3 normal = normalize(up + slope.x * vSide.w * side + slope.y * cross(up, side));
+  if (dot(up, sight) < 0.0) normal = -normal;
 
-  vec3 deep = vec3(0.052, 0.115, 0.030);
-  vec3 fresh = vec3(0.115, 0.190, 0.032);
-  float freshness = clamp(0.1 + 0.4 * vigor + 0.7 * (random - 0.5) + 0.3 * exposure, 0.0, 1.0);
-  vec3 albedo = mix(deep, fresh, freshness);
-  albedo = mix(albedo, vec3(0.20, 0.18, 0.035), smoothstep(0.90, 1.0, random) * 0.45);
-  if (vTint.z < 0.0) albedo = condemned(albedo);
-  float detail = 1.0 - smoothstep(14.0, 45.0, away);
-  float rib = 1.0 - smoothstep(0.0, 0.09, abs(vBlade.x));
-  float veins = abs(fract(vBlade.y * 6.5 - abs(vBlade.x) * 1.5) - 0.5) * 2.0;
-  albedo *= 1.0 + detail * (0.32 * rib + 0.10 * (smoothstep(0.7, 1.0, veins) - 0.2) + 0.12 * (0.5 - abs(vBlade.x)));
-
-  float facing = dot(normal, uSun);
-  // Some sun always finds its way through a crown, from leaf to leaf.
-  float sun = mix(0.14, 1.0, sunlit(vWorld, uSun * 3.0, 1.4));
-  float reflected = max(0.0, (facing + 0.2) / 1.2);
-  float through = max(0.0, -facing + 0.1) * 0.62 + 0.35 * pow(max(0.0, -dot(sight, uSun)), 4.0);
-  vec3 transmitted = albedo * vec3(1.35, 1.25, 0.5);
-  float open = mix(0.55, 1.0, exposure);
-  vec3 lit = albedo * (ambient(normal) * 1.5 * open + SUN_COLOUR * reflected * sun) + transmitted * SUN_COLOUR * through * sun;
-  float gloss = pow(max(0.0, dot(normal, normalize(sight + uSun))), 20.0);
-  lit += SUN_COLOUR * gloss * sun * 0.035;
-  colour = vec4(finished(hazed(lit, away)), 1.0);
+  vec3 albedo = mix(vMiddle, vMargin, relief.a);
+  vec3 second = mix(albedo * 1.15 + vec3(0.035, 0.035, 0.006), albedo * vec3(1.30, 1.35, 0.95), uLeafForm.y);
+  albedo = mix(albedo, second, painted.g) * painted.r * 2.0;
+  albedo = mix(albedo, TWIG * painted.r * 2.0, relief.b);
+  // The lower side is paler and duller.
+  float below = gl_FrontFacing ? 0.0 : 1.0 - uLeafForm.y;
+  albedo = mix(albedo, vec3(dot(albedo, vec3(0.33))) * 1.1 + 0.012, 0.28 * below);
+  if (vLight.x < 0.0) albedo = condemned(albedo);
+  vec3 lit = thinLit(albedo, normal, sight, vWorld, painted.b, 1.0 - 0.7 * below, abs(vLight.x), vLight.y);
+  colour = vec4(shownAs(finished(hazed(lit, away)), albedo, vTrait, dot(normal, sight)), there);
 #ifdef GHOST
-  colour = ghostly(colour);
+  colour = ghostly(vec4(colour.rgb, 1.0));
 #endif
 }
 `;

@@ -1,6 +1,6 @@
 //! What bark looks like: a colour for each place of its texture.
 
-use espalier_growth::species::BarkKind;
+use espalier_growth::appearance::BarkKind;
 use espalier_mesh::leaves::hash;
 use glam::{Vec2, Vec3};
 

@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use espalier_growth::species::{Fruit, LeafKind};
+use espalier_growth::appearance::{Appearance, LeafKind, Place};
 use espalier_mesh::{
     Style, TriangleMesh, foliage,
     leaves::{self, Leaf},
@@ -11,12 +11,13 @@ use espalier_plant::{MetamerId, Plant};
 use glam::{Vec2, Vec3};
 
 use super::{
-    canvas::linear,
-    scene::{Look, Painted},
+    ornaments::{self, Spot},
+    scene::Painted,
+    season::dressed,
 };
 
 /// Half an outline: how far along the blade, and how far out, in lengths of the leaf.
-type Outline = &'static [(f32, f32)];
+pub(super) type Outline = &'static [(f32, f32)];
 
 const OVATE: Outline = &[(0.25, 0.24), (0.6, 0.22), (1.0, 0.0)];
 const LANCEOLATE: Outline = &[(0.3, 0.1), (0.65, 0.085), (1.0, 0.0)];
@@ -25,32 +26,62 @@ const LOBED: Outline =
 const ROUND: Outline = &[(0.15, 0.26), (0.45, 0.42), (0.8, 0.3), (1.0, 0.0)];
 const LEAFLET: Outline = &[(0.5, 0.22), (1.0, 0.0)];
 
-/// All leaves of the present, and the fruit among them.
-pub(crate) fn foliage(plant: &Plant, style: &Style, look: &Look) -> Painted {
-    let tint = linear(look.leaf_tint);
-    let mut painter = Painter { painted: Painted::default(), colour: tint };
+/// All leaves of the present, with the flowers and fruits among them and on the wood.
+pub(crate) fn foliage(plant: &Plant, style: &Style, appearance: &Appearance) -> Painted {
+    let Appearance { leaves: look, flowers, fruits, .. } = appearance;
+    let mut painter = Painter { painted: Painted::default(), colour: Vec3::ONE };
+    let goes_on = goes_on(plant);
     for id in (0..plant.metamer_count()).map(MetamerId::new) {
-        let count = foliage::leaves(plant, id, style);
-        if count == 0 {
+        if plant.is_seed(id) || !plant.is_alive(id) {
             continue;
         }
+        let count = foliage::leaves(plant, id, style);
         let to = plant.metamers().end(id);
         let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
+        let heading = (to - from).normalize_or(Vec3::Y);
+        let seen = plant.metamers().appearance(id);
         // The shadows of the simulation are soft; within them leaves are darker and bluer.
-        let light = f32::from(plant.metamers().appearance(id).light) / 255.0;
+        let light = 0.62 + 0.38 * f32::from(seen.light) / 255.0;
+        let vigor = f32::from(seen.vigor) / 255.0;
+        let bear = |painter: &mut Painter, place: Place, at: Vec3, out: Vec3, random: f32| {
+            let spot = Spot { place, at, out, vigor, random: share(random) };
+            ornaments::flower(painter, &spot, flowers);
+            ornaments::fruit(painter, &spot, fruits);
+        };
         for leaf in leaves::on_metamer(id.raw(), from, to, count, style.options().leaf_size) {
-            painter.colour = varied(tint, leaf.random) * (0.62 + 0.38 * light);
-            painter.leaf(&leaf, look.leaf, (to - from).normalize_or(Vec3::Y));
-            if let Some(fruit) = look.fruit.filter(|fruit| share(leaf.random) < fruit.share) {
-                painter.fruit(leaf.base, &fruit);
+            if let Some((leaf, tint)) = dressed(&leaf, look, vigor) {
+                painter.colour = varied(tint, leaf.random) * light;
+                painter.leaf(&leaf, look.shape, heading);
             }
+            bear(&mut painter, Place::Twigs, leaf.base, leaf.direction, leaf.random);
+        }
+        let number = share(leaves::hash(id.raw()) as f32 / u32::MAX as f32);
+        if count == 0 {
+            let radius = style.girth().radius(plant.metamers().tips(id));
+            for leaf in leaves::on_metamer(id.raw(), from, to, 1, 1.0) {
+                let out = leaf.direction.reject_from_normalized(heading).normalize_or(leaf.direction);
+                bear(&mut painter, Place::Wood, 0.5 * (from + to) + out * radius, out, number);
+            }
+        } else if !goes_on[id.index()] {
+            bear(&mut painter, Place::Tips, to, heading, number);
         }
     }
     painter.painted
 }
 
+/// Which metamers bear living wood.
+fn goes_on(plant: &Plant) -> Vec<bool> {
+    let mut goes_on = vec![false; plant.metamer_count()];
+    for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
+        if let Some(parent) = plant.metamers().parent(id) {
+            goes_on[parent.index()] = true;
+        }
+    }
+    goes_on
+}
+
 /// Another number from 0 to 1 that belongs to a leaf.
-fn share(random: f32) -> f32 {
+pub(super) fn share(random: f32) -> f32 {
     leaves::hash(1 + (random * 1e6) as u32) as f32 / u32::MAX as f32
 }
 
@@ -60,9 +91,10 @@ fn varied(tint: Vec3, random: f32) -> Vec3 {
     tint * Vec3::new(1.0 + 1.6 * warmth, 1.0 + 0.4 * warmth, 1.0 - warmth) * (0.84 + 0.32 * share(random))
 }
 
-struct Painter {
-    painted: Painted,
-    colour: Vec3,
+/// Collects triangles in the colour of the moment.
+pub(super) struct Painter {
+    pub(super) painted: Painted,
+    pub(super) colour: Vec3,
 }
 
 impl Painter {
@@ -121,45 +153,11 @@ impl Painter {
                     }
                 }
             }
-            LeafKind::Blossom => {
-                let facing = (direction + 0.3 * normal).normalize_or(direction);
-                let (u, w) = facing.any_orthonormal_pair();
-                let centre = base + direction * (0.3 * size);
-                for petal in 0..5 {
-                    let (sin, cos) = libm::sincosf(TAU * (petal as f32 / 5.0 + random));
-                    let along = (u * cos + w * sin + 0.3 * facing).normalize_or(u);
-                    self.blade(centre, along, along.cross(facing), 0.42 * size, &[(0.6, 0.36), (1.0, 0.0)]);
-                }
-            }
-        }
-    }
-
-    /// A ball that hangs from a place.
-    fn fruit(&mut self, from: Vec3, fruit: &Fruit) {
-        const RINGS: u32 = 6;
-        const SIDES: u32 = 8;
-        self.colour = linear(fruit.tint);
-        let centre = from - Vec3::Y * (0.7 * fruit.size);
-        let first = self.painted.mesh.positions.len() as u32;
-        for ring in 0..=RINGS {
-            let (out, up) = libm::sincosf(0.5 * TAU * ring as f32 / RINGS as f32);
-            for side in 0..=SIDES {
-                let (sin, cos) = libm::sincosf(TAU * side as f32 / SIDES as f32);
-                let normal = Vec3::new(out * cos, up, out * sin);
-                self.vertex(centre + normal * (0.5 * fruit.size), normal);
-            }
-        }
-        for ring in 0..RINGS {
-            for side in 0..SIDES {
-                let corner = first + ring * (SIDES + 1) + side;
-                self.painted.mesh.triangle(corner, corner + 1, corner + SIDES + 2);
-                self.painted.mesh.triangle(corner, corner + SIDES + 2, corner + SIDES + 1);
-            }
         }
     }
 
     /// A flat blade with a slight fold along its middle.
-    fn blade(&mut self, base: Vec3, along: Vec3, across: Vec3, size: f32, outline: Outline) {
+    pub(super) fn blade(&mut self, base: Vec3, along: Vec3, across: Vec3, size: f32, outline: Outline) {
         let normal = along.cross(across).normalize_or(Vec3::Y);
         let mut below = [self.vertex(base, normal); 2];
         for &(far, out) in outline {
@@ -175,7 +173,7 @@ impl Painter {
         }
     }
 
-    fn vertex(&mut self, place: Vec3, normal: Vec3) -> u32 {
+    pub(super) fn vertex(&mut self, place: Vec3, normal: Vec3) -> u32 {
         self.painted.colours.push(self.colour);
         TriangleMesh::vertex(&mut self.painted.mesh, place, normal, Vec2::ZERO)
     }

@@ -4,12 +4,15 @@ mod bark;
 mod blades;
 mod canvas;
 mod lettering;
+mod ornaments;
 mod palette;
 mod png;
 mod raster;
 mod scene;
+pub(crate) mod season;
 mod sheet;
 
 pub use canvas::Canvas;
+pub(crate) use canvas::linear;
 pub use scene::{Look, draw};
 pub use sheet::{Cell, sheet};

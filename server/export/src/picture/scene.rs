@@ -1,6 +1,9 @@
 //! A plant in the sun: how large it is drawn, what it stands on, and the colour of every pixel.
 
-use espalier_growth::species::{BarkKind, Fruit, LeafKind, Species, Stand};
+use espalier_growth::{
+    appearance::Appearance,
+    species::{Species, Stand},
+};
 use espalier_mesh::{Style, TriangleMesh, bark_mesh};
 use espalier_plant::Plant;
 use glam::{Vec2, Vec3};
@@ -11,41 +14,18 @@ use super::{
     raster::{NOTHING, Seen, View, weights},
 };
 
-/// What a plant looks like beyond its form; colours in sRGB.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a plant looks like beyond its form, and what it stands on.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Look {
-    /// Form of the leaves.
-    pub leaf: LeafKind,
-    /// Colour of the leaves.
-    pub leaf_tint: [u8; 3],
-    /// Fruit among the leaves.
-    pub fruit: Option<Fruit>,
-    /// Pattern of the bark.
-    pub bark: BarkKind,
-    /// Colour of the bark.
-    pub bark_tint: [u8; 3],
+    /// Leaves, flowers, fruits and bark; pictures have a background of their own.
+    pub appearance: Appearance,
     /// What the plant stands on.
     pub stand: Stand,
 }
 
 impl From<&Species> for Look {
     fn from(species: &Species) -> Self {
-        let &Species { leaf, leaf_tint, fruit, bark, bark_tint, stand, .. } = species;
-        Self { leaf, leaf_tint, fruit, bark, bark_tint, stand }
-    }
-}
-
-impl Default for Look {
-    /// A tree of no species.
-    fn default() -> Self {
-        Self {
-            leaf: LeafKind::Ovate,
-            leaf_tint: [88, 124, 52],
-            fruit: None,
-            bark: BarkKind::Furrowed,
-            bark_tint: [121, 110, 97],
-            stand: Stand::Ground,
-        }
+        Self { appearance: species.appearance, stand: species.stand }
     }
 }
 
@@ -81,8 +61,10 @@ const LAWN: [u8; 3] = [196, 202, 172];
 
 /// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
 pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
-    let mut meshes =
-        vec![(Skin::Bark, bare(bark_mesh(plant, style))), (Skin::Leaf, blades::foliage(plant, style, look))];
+    let mut meshes = vec![
+        (Skin::Bark, bare(bark_mesh(plant, style))),
+        (Skin::Leaf, blades::foliage(plant, style, &look.appearance)),
+    ];
     let (points, reach) = extent(&meshes);
     let base = stand(&mut meshes, look.stand, reach);
     // What it stands on is to be seen as well.
@@ -94,7 +76,8 @@ pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usi
     let lawn = Vec2::new(0.5 * size.x, FOOT * size.y / eye.y) / view.scale();
     let middle = (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale();
     let sun = Sun::new(&meshes, &points);
-    let scene = Scene { sun, meshes, look, bark_tint: linear(look.bark_tint), reach, lawn, middle };
+    let scene =
+        Scene { sun, meshes, look, bark_tint: linear(look.appearance.bark.tint), reach, lawn, middle };
     scene.paint(&view, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
 }
 
@@ -310,7 +293,7 @@ impl Scene<'_> {
                 let tile = mesh.positions[a].distance(mesh.positions[b])
                     / mesh.uvs[a].distance(mesh.uvs[b]).max(1e-6);
                 let sun = self.sun.reaches(place, bias, 2.0) * facing.max(0.0);
-                bark::colour(self.look.bark, self.bark_tint, uv, tile, place.y)
+                bark::colour(self.look.appearance.bark.kind, self.bark_tint, uv, tile, place.y)
                     * lit(sun, 0.5 + 0.2 * normal.y)
             }
             Skin::Glaze => {
@@ -330,6 +313,7 @@ impl Scene<'_> {
 
 #[cfg(test)]
 mod tests {
+    use espalier_growth::appearance::LeafKind;
     use espalier_mesh::StyleOptions;
     use espalier_plant::{AxisId, Internode};
 
@@ -347,6 +331,14 @@ mod tests {
         plant
     }
 
+    /// Looks of one colour each for leaves and bark.
+    fn tinted(leaves: [u8; 3], bark: [u8; 3]) -> Look {
+        let mut look = Look::default();
+        (look.appearance.leaves.tint, look.appearance.bark.tint) = (leaves, bark);
+        look.appearance.leaves.vigor_shift = 0.0;
+        look
+    }
+
     /// Pixels that are far from the sky's colour and from the lawn's.
     fn inked(canvas: &Canvas) -> Vec<(usize, usize)> {
         let places = (0..canvas.height()).flat_map(|y| (0..canvas.width()).map(move |x| (x, y)));
@@ -356,7 +348,7 @@ mod tests {
     #[test]
     fn plants_fill_the_picture_from_its_foot_up() {
         let thick = StyleOptions { twig_diameter: 0.3, ..StyleOptions::default() };
-        let look = Look { leaf_tint: [0; 3], bark_tint: [0; 3], ..Look::default() };
+        let look = tinted([0; 3], [0; 3]);
         for internodes in [6, 20] {
             let inked = inked(&draw(&pole(internodes), &Style::new(thick), &look, 100, 120));
             let (top, bottom) = (inked[0].1, inked[inked.len() - 1].1);
@@ -367,7 +359,7 @@ mod tests {
     #[test]
     fn every_kind_of_leaf_has_a_form_of_its_own() {
         let bare = Style::new(StyleOptions { leaves_per_node: 0, ..Default::default() });
-        let look = Look { leaf_tint: [30, 60, 20], ..Look::default() };
+        let mut look = tinted([30, 60, 20], [121, 110, 97]);
         let mut seen = vec![draw(&pole(6), &bare, &look, 100, 100)];
         for leaf in [
             LeafKind::Ovate,
@@ -379,9 +371,9 @@ mod tests {
             LeafKind::Compound,
             LeafKind::Needle,
             LeafKind::Scale,
-            LeafKind::Blossom,
         ] {
-            let picture = draw(&pole(6), &Style::default(), &Look { leaf, ..look }, 100, 100);
+            look.appearance.leaves.shape = leaf;
+            let picture = draw(&pole(6), &Style::default(), &look, 100, 100);
             assert!(!seen.contains(&picture), "{leaf:?} looks like another");
             seen.push(picture);
         }
@@ -390,7 +382,7 @@ mod tests {
     #[test]
     fn a_pot_lifts_the_plant_off_the_ground() {
         let lowest_wood = |stand| {
-            let look = Look { stand, bark_tint: [0, 0, 0], leaf_tint: [0, 0, 0], ..Look::default() };
+            let look = Look { stand, ..tinted([0; 3], [0; 3]) };
             let canvas = draw(&pole(6), &Style::default(), &look, 100, 100);
             (0..100).rev().find(|&y| (0..100).any(|x| canvas.get(x, y).max_element() < 0.02))
         };

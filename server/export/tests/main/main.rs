@@ -4,6 +4,7 @@ mod reader;
 mod saplings;
 
 use espalier_export::{ExportError, glb, skeleton_json};
+use espalier_growth::appearance::{Appearance, LeafKind};
 use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh};
 use espalier_plant::{MetamerId, Plant, Widths};
 use glam::Vec3;
@@ -16,11 +17,15 @@ fn style() -> Style {
     Style::new(StyleOptions { girth_exponent: 2.0, twig_diameter: 0.1, leaves_per_node: 2, leaf_size: 0.5 })
 }
 
+fn looks() -> Appearance {
+    Appearance::default()
+}
+
 proptest! {
     #[test]
     fn any_plant_is_a_valid_glb(growth in saplings::growth(), metres in 0.005f32..1.0) {
         let (plant, style) = (saplings::grown(&growth), style());
-        let file = glb(&plant, &style, metres).expect("it exports");
+        let file = glb(&plant, &style, &looks(), metres).expect("it exports");
         let meshes = reader::read(&file);
         let sources = [("Bark", bark_mesh(&plant, &style)), ("Leaves", leaf_mesh(&plant, &style))];
         let sources: Vec<_> = sources.into_iter().filter(|(_, mesh)| !mesh.is_empty()).collect();
@@ -33,7 +38,7 @@ proptest! {
             prop_assert_eq!(&read.positions, &scaled);
             prop_assert!(read.uvs.iter().zip(&source.uvs).all(|(read, uv)| read.x == uv.x && read.y == 1.0 - uv.y));
         }
-        prop_assert_eq!(file, glb(&plant, &style, metres).expect("it exports again"));
+        prop_assert_eq!(file, glb(&plant, &style, &looks(), metres).expect("it exports again"));
     }
 
     #[test]
@@ -59,27 +64,27 @@ proptest! {
 
 #[test]
 fn seed_alone_gives_a_valid_file_without_meshes() {
-    let file = glb(&Plant::new(Vec3::ZERO), &style(), METRES).expect("it exports");
+    let file = glb(&Plant::new(Vec3::ZERO), &style(), &looks(), METRES).expect("it exports");
     assert!(reader::read(&file).is_empty());
 }
 
 #[test]
 fn bare_tree_has_no_leaf_mesh() {
     let bare = Style::new(StyleOptions { leaves_per_node: 0, ..*style().options() });
-    let meshes = reader::read(&glb(&saplings::fork(), &bare, METRES).expect("it exports"));
+    let meshes = reader::read(&glb(&saplings::fork(), &bare, &looks(), METRES).expect("it exports"));
     assert_eq!(meshes.iter().map(|mesh| mesh.name.as_str()).collect::<Vec<_>>(), ["Bark"]);
 }
 
 #[test]
 fn many_vertices_get_wide_indices() {
     // The reader checks the width; this is about six vertices an internode and eight a leaf.
-    let meshes = reader::read(&glb(&saplings::pole(12_000), &style(), METRES).expect("it exports"));
+    let meshes = reader::read(&glb(&saplings::pole(12_000), &style(), &looks(), METRES).expect("it exports"));
     assert!(meshes.iter().all(|mesh| mesh.positions.len() > 65_535));
 }
 
 #[test]
 fn internode_is_as_long_as_told() {
-    let meshes = reader::read(&glb(&saplings::fork(), &style(), 0.25).expect("it exports"));
+    let meshes = reader::read(&glb(&saplings::fork(), &style(), &looks(), 0.25).expect("it exports"));
     let top = meshes[0].positions.iter().map(|position| position.y).fold(0.0, f32::max);
     // Two internodes and the cone at the tip: 0.45 of a twig's radius of 0.05.
     assert!((top - 0.25 * (2.0 + 0.45 * 0.05)).abs() < 1e-6, "{top}");
@@ -98,7 +103,7 @@ fn a_stub_is_as_wide_as_its_constraint() {
         text.ends_with(r#"{"parent":0,"position":[0.0,1.0,0.0],"radius":0.25,"order":0,"birth":1}]}"#),
         "{text}"
     );
-    let meshes = reader::read(&glb(&plant, &style(), METRES).expect("it exports"));
+    let meshes = reader::read(&glb(&plant, &style(), &looks(), METRES).expect("it exports"));
     let top = meshes[0].positions.iter().filter(|position| (position.y - METRES).abs() < 1e-6);
     let widest = top.map(|position| position.with_y(0.0).length()).fold(0.0, f32::max);
     // The flare of the roots is gone but for two hundredths.
@@ -106,12 +111,34 @@ fn a_stub_is_as_wide_as_its_constraint() {
 }
 
 #[test]
+fn materials_have_the_colours_of_the_looks() {
+    let materials = |looks: &Appearance| -> Vec<(String, Vec<f64>)> {
+        let file = glb(&saplings::fork(), &style(), looks, METRES).expect("it exports");
+        let length = u32::from_le_bytes([file[12], file[13], file[14], file[15]]) as usize;
+        let root: Value = serde_json::from_slice(&file[20..20 + length]).expect("it is JSON");
+        let material = |material: &Value| {
+            let factor = material["pbrMetallicRoughness"]["baseColorFactor"].as_array().expect("a colour");
+            let colour = factor.iter().map(|c| c.as_f64().expect("a number")).collect();
+            (material["name"].as_str().expect("a name").to_owned(), colour)
+        };
+        root["materials"].as_array().expect("materials").iter().map(material).collect()
+    };
+    let mut looks = looks().leafy(LeafKind::Round, [0, 0, 255]).turned(0.0, 1.0, 0.0);
+    looks.bark.tint = [255, 0, 0];
+    let [(_, bark), (_, leaves)] = &materials(&looks)[..] else { panic!("two materials") };
+    assert_eq!(bark[..], [1.0, 0.0, 0.0, 1.0]);
+    assert!(leaves[2] > 0.99 && leaves[0] < 0.01, "{leaves:?}");
+    looks.leaves.season = 3.0;
+    assert_eq!(materials(&looks).len(), 1, "leaves have fallen");
+}
+
+#[test]
 fn impossible_scales_are_refused() {
     for metres in [0.0, -1.0, f32::INFINITY] {
-        assert_eq!(glb(&saplings::fork(), &style(), metres), Err(ExportError::Scale(metres)));
+        assert_eq!(glb(&saplings::fork(), &style(), &looks(), metres), Err(ExportError::Scale(metres)));
     }
-    assert!(matches!(glb(&saplings::fork(), &style(), f32::NAN), Err(ExportError::Scale(_))));
-    assert_eq!(glb(&saplings::fork(), &style(), f32::MAX), Err(ExportError::NotFinite));
+    assert!(matches!(glb(&saplings::fork(), &style(), &looks(), f32::NAN), Err(ExportError::Scale(_))));
+    assert_eq!(glb(&saplings::fork(), &style(), &looks(), f32::MAX), Err(ExportError::NotFinite));
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Broadleaved trees, and ginkgo, which looks like one.
 
-use super::{
-    BarkKind, Fruit, LeafKind, Species, Stage::Grow, Stand, canopy, changed, life, pole, turn, weigh, with,
-};
+use super::{Species, Stage::Grow, Stand, canopy, changed, flower, fruit, life, pole, turn, weigh, with};
+use crate::appearance::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![
@@ -41,11 +40,12 @@ fn oak() -> Species {
         name: "Oak",
         botanical: "Quercus robur",
         sentence: "A short trunk that dissolves early into crooked, far-reaching limbs under a broad dome.",
-        leaf: LeafKind::Lobed,
-        leaf_tint: [88, 116, 48],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [118, 104, 88],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Lobed, [88, 116, 48])
+            .turned(0.45, 1.0, 0.0)
+            .barked(BarkKind::Furrowed, [118, 104, 88])
+            .carved(1.4, 1.3, 1.2)
+            .fruiting(fruit(FruitKind::Nut, [142, 116, 62], 0.3, 0.06, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 5), [Grow(16)]),
         parameters,
@@ -70,11 +70,12 @@ fn beech() -> Species {
         name: "Beech",
         botanical: "Fagus sylvatica",
         sentence: "A smooth grey trunk that forks into steep limbs below a tall, dense, rounded crown.",
-        leaf: LeafKind::Ovate,
-        leaf_tint: [84, 130, 52],
-        fruit: None,
-        bark: BarkKind::Smooth,
-        bark_tint: [150, 148, 142],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Ovate, [84, 130, 52])
+            .turned(0.35, 1.0, 0.1)
+            .barked(BarkKind::Smooth, [150, 148, 142])
+            .carved(0.7, 1.2, 0.9)
+            .fruiting(fruit(FruitKind::Nut, [128, 92, 58], 0.22, 0.03, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 7), [Grow(15)]),
         parameters,
@@ -106,11 +107,12 @@ fn birch() -> Species {
         name: "Silver birch",
         botanical: "Betula pendula",
         sentence: "A slender white stem with ascending branches whose fine tips hang.",
-        leaf: LeafKind::Round,
-        leaf_tint: [126, 152, 62],
-        fruit: None,
-        bark: BarkKind::Papery,
-        bark_tint: [232, 230, 224],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Round, [126, 152, 62])
+            .turned(0.5, 1.0, -0.4)
+            .barked(BarkKind::Papery, [232, 230, 224])
+            .carved(0.8, 0.8, 0.8)
+            .flowering(flower(FlowerKind::Catkin, [190, 170, 92], 0.5, 0.12, Place::Tips)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 7), [Grow(13), pendulous, Grow(3)]),
         parameters,
@@ -136,11 +138,11 @@ fn lombardy_poplar() -> Species {
         name: "Lombardy poplar",
         botanical: "Populus nigra 'Italica'",
         sentence: "A tall narrow column: all branches rise steeply along the trunk from the ground up.",
-        leaf: LeafKind::Round,
-        leaf_tint: [92, 128, 50],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [120, 112, 98],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Round, [92, 128, 50])
+            .turned(0.3, 1.0, 0.2)
+            .barked(BarkKind::Furrowed, [120, 112, 98])
+            .carved(1.1, 1.1, 0.8),
         stand: Stand::Ground,
         schedule: vec![Grow(25)],
         parameters,
@@ -177,11 +179,11 @@ fn weeping_willow() -> Species {
         name: "Weeping willow",
         botanical: "Salix × sepulcralis",
         sentence: "A stout trunk and arching limbs, from which a curtain of long shoots hangs to the ground.",
-        leaf: LeafKind::Lanceolate,
-        leaf_tint: [142, 164, 70],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [122, 108, 86],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Lanceolate, [142, 164, 70])
+            .turned(0.3, 1.0, -0.6)
+            .barked(BarkKind::Furrowed, [122, 108, 86])
+            .carved(1.3, 1.3, 1.1),
         stand: Stand::Ground,
         schedule: life(pole(&limbs, 8), [Grow(10), curtain, Grow(4)]),
         parameters,
@@ -207,11 +209,12 @@ fn maple() -> Species {
         name: "Sugar maple",
         botanical: "Acer saccharum",
         sentence: "Paired buds build a dense oval crown, here in its autumn colours.",
-        leaf: LeafKind::Palmate,
-        leaf_tint: [206, 96, 32],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [112, 104, 94],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Palmate, [104, 136, 50])
+            .turned(0.9, 2.0, -0.2)
+            .barked(BarkKind::Furrowed, [112, 104, 94])
+            .carved(1.1, 1.1, 1.0)
+            .fruiting(fruit(FruitKind::Winged, [186, 128, 66], 0.5, 0.05, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 6), [Grow(14)]),
         parameters,
@@ -238,11 +241,12 @@ fn plane() -> Species {
         name: "London plane",
         botanical: "Platanus × hispanica",
         sentence: "A high camouflage-patterned trunk under a few great limbs and an open, airy dome.",
-        leaf: LeafKind::Palmate,
-        leaf_tint: [116, 144, 62],
-        fruit: None,
-        bark: BarkKind::Flaking,
-        bark_tint: [138, 132, 96],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Palmate, [116, 144, 62])
+            .turned(0.35, 1.0, -0.1)
+            .barked(BarkKind::Flaking, [138, 132, 96])
+            .carved(0.7, 1.1, 1.1)
+            .fruiting(fruit(FruitKind::Round, [150, 128, 72], 0.3, 0.02, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 7), [Grow(14)]),
         parameters,
@@ -267,11 +271,12 @@ fn cherry() -> Species {
         name: "Flowering cherry",
         botanical: "Prunus × yedoensis",
         sentence: "Wide-spread limbs on a short trunk, covered with blossom before the leaves come.",
-        leaf: LeafKind::Blossom,
-        leaf_tint: [244, 196, 208],
-        fruit: None,
-        bark: BarkKind::Banded,
-        bark_tint: [92, 68, 62],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Ovate, [138, 134, 72])
+            .turned(0.4, 0.2, 0.0)
+            .barked(BarkKind::Banded, [92, 68, 62])
+            .carved(0.9, 1.0, 1.0)
+            .flowering(flower(FlowerKind::Rosette, [244, 196, 208], 0.75, 0.95, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 5), [Grow(13)]),
         parameters,
@@ -297,11 +302,12 @@ fn apple() -> Species {
         name: "Apple",
         botanical: "Malus domestica",
         sentence: "A low round crown, as wide as high, on a short crooked trunk.",
-        leaf: LeafKind::Ovate,
-        leaf_tint: [104, 140, 66],
-        fruit: Some(Fruit { tint: [200, 42, 34], size: 0.75, share: 0.05 }),
-        bark: BarkKind::Furrowed,
-        bark_tint: [110, 98, 84],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Ovate, [104, 140, 66])
+            .turned(0.35, 1.0, 0.1)
+            .barked(BarkKind::Furrowed, [110, 98, 84])
+            .carved(1.1, 1.1, 1.3)
+            .fruiting(fruit(FruitKind::Round, [200, 42, 34], 0.75, 0.05, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 4), [Grow(15)]),
         parameters,
@@ -331,11 +337,12 @@ fn olive() -> Species {
         name: "Olive",
         botanical: "Olea europaea",
         sentence: "An old, thick, twisted trunk that carries a loose grey-green crown.",
-        leaf: LeafKind::Lanceolate,
-        leaf_tint: [138, 150, 112],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [128, 120, 106],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Lanceolate, [138, 150, 112])
+            .turned(0.15, 1.0, 0.3)
+            .barked(BarkKind::Furrowed, [128, 120, 106])
+            .carved(1.7, 1.7, 1.5)
+            .fruiting(fruit(FruitKind::Round, [62, 54, 64], 0.24, 0.06, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 2), [Grow(16)]),
         parameters,
@@ -373,11 +380,11 @@ fn umbrella_acacia() -> Species {
         name: "Umbrella acacia",
         botanical: "Vachellia tortilis",
         sentence: "A wide, flat-topped canopy on limbs that fork low and spread like an umbrella's ribs.",
-        leaf: LeafKind::Compound,
-        leaf_tint: [112, 132, 62],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [116, 96, 76],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Compound, [112, 132, 62])
+            .turned(0.3, 1.0, 0.3)
+            .barked(BarkKind::Furrowed, [116, 96, 76])
+            .carved(1.1, 0.9, 1.0),
         stand: Stand::Ground,
         schedule: life(
             pole(&parameters, 4),
@@ -408,11 +415,12 @@ fn baobab() -> Species {
         name: "Baobab",
         botanical: "Adansonia digitata",
         sentence: "A barrel of a trunk, out of all proportion to the short, sparse crown on top.",
-        leaf: LeafKind::Palmate,
-        leaf_tint: [110, 134, 64],
-        fruit: None,
-        bark: BarkKind::Smooth,
-        bark_tint: [158, 138, 122],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Palmate, [110, 134, 64])
+            .turned(0.25, 1.0, -0.2)
+            .barked(BarkKind::Smooth, [158, 138, 122])
+            .carved(1.1, 1.6, 1.5)
+            .fruiting(fruit(FruitKind::Nut, [132, 118, 82], 0.7, 0.05, Place::Tips)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 7), [Grow(7)]),
         parameters,
@@ -438,11 +446,11 @@ fn ginkgo() -> Species {
         name: "Ginkgo",
         botanical: "Ginkgo biloba",
         sentence: "Few stiff ascending limbs on a straight stem, clad in small fans that turn butter-yellow.",
-        leaf: LeafKind::Fan,
-        leaf_tint: [238, 196, 50],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [116, 104, 90],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Fan, [122, 152, 62])
+            .turned(0.1, 2.0, 0.0)
+            .barked(BarkKind::Furrowed, [116, 104, 90])
+            .carved(1.2, 1.0, 0.9),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 3), [Grow(13)]),
         parameters,

@@ -1,6 +1,7 @@
 //! Conifers.
 
-use super::{BarkKind, LeafKind, Species, Stage::Grow, Stand, canopy, life, pole, turn, weigh, with};
+use super::{Species, Stage::Grow, Stand, canopy, fruit, life, pole, turn, weigh, with};
+use crate::appearance::{Appearance, BarkKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![spruce(), scots_pine(), stone_pine(), larch(), cedar_of_lebanon(), cypress(), juniper()]
@@ -25,11 +26,11 @@ fn spruce() -> Species {
         name: "Norway spruce",
         botanical: "Picea abies",
         sentence: "A dark cone to the ground, its limbs drooping and rising again at their ends.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [58, 92, 58],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [112, 86, 68],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [58, 92, 58])
+            .barked(BarkKind::Furrowed, [112, 86, 68])
+            .carved(0.8, 1.0, 0.7)
+            .fruiting(fruit(FruitKind::Cone, [146, 98, 60], 0.6, 0.12, Place::Tips)),
         stand: Stand::Ground,
         schedule: vec![Grow(22)],
         parameters,
@@ -58,11 +59,11 @@ fn scots_pine() -> Species {
         name: "Scots pine",
         botanical: "Pinus sylvestris",
         sentence: "A long bare trunk, fox-red above, with flat clouds of needles on a few crooked limbs.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [92, 124, 92],
-        fruit: None,
-        bark: BarkKind::Plated,
-        bark_tint: [128, 102, 84],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [92, 124, 92])
+            .barked(BarkKind::Plated, [128, 102, 84])
+            .carved(1.2, 0.9, 1.0)
+            .fruiting(fruit(FruitKind::Cone, [124, 96, 66], 0.4, 0.1, Place::Tips)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 10), [Grow(13)]),
         parameters,
@@ -98,11 +99,11 @@ fn stone_pine() -> Species {
         name: "Stone pine",
         botanical: "Pinus pinea",
         sentence: "A parasol: limbs that fan out from the top of a bare trunk into one smooth dome.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [84, 122, 58],
-        fruit: None,
-        bark: BarkKind::Plated,
-        bark_tint: [136, 106, 84],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [84, 122, 58])
+            .barked(BarkKind::Plated, [136, 106, 84])
+            .carved(1.4, 0.9, 1.0)
+            .fruiting(fruit(FruitKind::Cone, [132, 98, 62], 0.6, 0.08, Place::Tips)),
         stand: Stand::Ground,
         schedule: life(
             pole(&parameters, 15),
@@ -135,11 +136,11 @@ fn larch() -> Species {
         name: "European larch",
         botanical: "Larix decidua",
         sentence: "A light open cone with level limbs, thin hanging twigs, and needles that turn gold.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [206, 164, 62],
-        fruit: None,
-        bark: BarkKind::Plated,
-        bark_tint: [120, 98, 82],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [206, 164, 62])
+            .barked(BarkKind::Plated, [120, 98, 82])
+            .carved(1.0, 0.9, 0.8)
+            .fruiting(fruit(FruitKind::Cone, [128, 96, 66], 0.35, 0.02, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 3), [Grow(15), hanging, Grow(2)]),
         parameters,
@@ -172,11 +173,11 @@ fn cedar_of_lebanon() -> Species {
         name: "Cedar of Lebanon",
         botanical: "Cedrus libani",
         sentence: "Broad level tiers of foliage, plate above plate, up to a flat top.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [74, 108, 84],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [104, 90, 78],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [74, 108, 84])
+            .barked(BarkKind::Furrowed, [104, 90, 78])
+            .carved(1.2, 1.3, 1.1)
+            .fruiting(fruit(FruitKind::Cone, [146, 122, 90], 0.5, 0.01, Place::Twigs)),
         stand: Stand::Ground,
         schedule: life(pole(&parameters, 7), [Grow(11), old, Grow(8)]),
         parameters,
@@ -202,11 +203,11 @@ fn cypress() -> Species {
         name: "Italian cypress",
         botanical: "Cupressus sempervirens",
         sentence: "A dense dark flame, closed from the ground to the pointed tip.",
-        leaf: LeafKind::Scale,
-        leaf_tint: [52, 82, 48],
-        fruit: None,
-        bark: BarkKind::Stringy,
-        bark_tint: [120, 104, 90],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Scale, [52, 82, 48])
+            .barked(BarkKind::Stringy, [120, 104, 90])
+            .carved(0.9, 1.0, 0.8)
+            .fruiting(fruit(FruitKind::Cone, [126, 110, 90], 0.3, 0.01, Place::Twigs)),
         stand: Stand::Ground,
         schedule: vec![Grow(21)],
         parameters,
@@ -233,11 +234,11 @@ fn juniper() -> Species {
         name: "Juniper",
         botanical: "Juniperus communis",
         sentence: "Many steep stems from one foot in an uneven, blue-green, pointed bush.",
-        leaf: LeafKind::Scale,
-        leaf_tint: [96, 128, 112],
-        fruit: None,
-        bark: BarkKind::Stringy,
-        bark_tint: [122, 96, 78],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Scale, [96, 128, 112])
+            .barked(BarkKind::Stringy, [122, 96, 78])
+            .carved(1.2, 0.8, 1.0)
+            .fruiting(fruit(FruitKind::Round, [70, 82, 112], 0.2, 0.05, Place::Twigs)),
         stand: Stand::Ground,
         schedule: vec![Grow(16)],
         parameters,

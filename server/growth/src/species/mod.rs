@@ -12,7 +12,11 @@ use std::sync::LazyLock;
 
 use glam::Vec3;
 
-use crate::{brush::BrushSample, parameters::ParameterValues};
+use crate::{
+    appearance::{Appearance, FlowerKind, FlowerLook, FruitKind, FruitLook, Place, Tint},
+    brush::BrushSample,
+    parameters::ParameterValues,
+};
 
 /// A form of growth with a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,16 +29,8 @@ pub struct Species {
     pub botanical: &'static str,
     /// What tells it from others, in one sentence.
     pub sentence: &'static str,
-    /// What its leaves look like.
-    pub leaf: LeafKind,
-    /// Colour of the leaves in sRGB.
-    pub leaf_tint: [u8; 3],
-    /// The fruit it bears, if any is to be seen.
-    pub fruit: Option<Fruit>,
-    /// What its bark looks like.
-    pub bark: BarkKind,
-    /// Colour of the bark in sRGB.
-    pub bark_tint: [u8; 3],
+    /// What it looks like; its background is nobody's.
+    pub appearance: Appearance,
     /// What it stands on in a picture.
     pub stand: Stand,
     /// The parameters it begins with.
@@ -54,61 +50,6 @@ pub enum Stage {
     Sow(f32, f32),
     /// One stroke of the brush, which moves from each place to the next, or rests where a place is repeated.
     Brush(Vec<BrushSample>),
-}
-
-/// Forms of leaves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LeafKind {
-    /// Egg-shaped, as of beech and apple.
-    Ovate,
-    /// Nearly as broad as long, on a long stalk, as of poplars and birches.
-    Round,
-    /// Long and narrow, as of willow and olive.
-    Lanceolate,
-    /// With round lobes, as of oaks.
-    Lobed,
-    /// Like a hand, as of maples and planes.
-    Palmate,
-    /// A fan, as of ginkgo.
-    Fan,
-    /// Many leaflets on one stalk, as of acacias.
-    Compound,
-    /// Tufts of needles, as of pines and spruces.
-    Needle,
-    /// Scales that hide the twig, as of cypresses.
-    Scale,
-    /// Flowers before the leaves, as of cherries.
-    Blossom,
-}
-
-/// Round fruit among the leaves.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Fruit {
-    /// Colour in sRGB.
-    pub tint: [u8; 3],
-    /// Diameter in internodes.
-    pub size: f32,
-    /// Fruits to a leaf.
-    pub share: f32,
-}
-
-/// Patterns of bark.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum BarkKind {
-    /// Plain, as of beech.
-    Smooth,
-    /// With furrows along the stem, as of oak.
-    Furrowed,
-    /// In plates, and red where it peels above, as of Scots pine.
-    Plated,
-    /// White with black marks, as of birch.
-    Papery,
-    /// In patches of many colours, as of plane.
-    Flaking,
-    /// With bands around the stem, as of cherry.
-    Banded,
-    /// In fine strips, as of cypress and juniper.
-    Stringy,
 }
 
 /// What a plant stands on.
@@ -152,6 +93,16 @@ fn changed(values: &ParameterValues, change: impl FnOnce(&mut ParameterValues)) 
 /// From here on these values, some of them changed.
 fn turn(values: &ParameterValues, change: impl FnOnce(&mut ParameterValues)) -> Stage {
     Stage::Change(Box::new(changed(values, change)))
+}
+
+/// Flowers on all shoots alike.
+fn flower(kind: FlowerKind, tint: Tint, size: f32, share: f32, place: Place) -> FlowerLook {
+    FlowerLook { kind, tint, size, share, place, vigor: 0.0 }
+}
+
+/// Fruits, rather on the more vigorous shoots.
+fn fruit(kind: FruitKind, tint: Tint, size: f32, share: f32, place: Place) -> FruitLook {
+    FruitLook { kind, tint, size, share, place, vigor: 0.25 }
 }
 
 /// A bare pole first, then the rest of its life.
@@ -224,6 +175,13 @@ mod tests {
         for species in all() {
             assert!(!species.name.is_empty() && !species.botanical.is_empty(), "{}", species.slug);
             assert!(species.sentence.len() > 40 && species.sentence.ends_with('.'), "{}", species.slug);
+        }
+    }
+
+    #[test]
+    fn appearances_of_all_species_are_in_range() {
+        for species in all() {
+            assert_eq!(species.appearance.check(), Ok(()), "{}", species.slug);
         }
     }
 

@@ -1,10 +1,11 @@
 //! Forms that someone, or the wind, has made: strokes of the brush guide them.
 
 use super::{
-    BarkKind, Fruit, LeafKind, Species,
+    Species,
     Stage::{self, Grow, Sow},
-    Stand, changed, stroke, weigh, with,
+    Stand, changed, flower, fruit, stroke, weigh, with,
 };
+use crate::appearance::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![
@@ -54,11 +55,12 @@ fn windswept_hawthorn() -> Species {
         name: "Windswept hawthorn",
         botanical: "Crataegus monogyna",
         sentence: "Bent by years of wind from one side: the trunk leans and the whole crown streams to lee.",
-        leaf: LeafKind::Lobed,
-        leaf_tint: [92, 118, 58],
-        fruit: Some(Fruit { tint: [170, 30, 30], size: 0.3, share: 0.12 }),
-        bark: BarkKind::Furrowed,
-        bark_tint: [118, 106, 94],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Lobed, [92, 118, 58])
+            .turned(0.4, 0.9, 0.0)
+            .barked(BarkKind::Furrowed, [118, 106, 94])
+            .carved(1.3, 1.1, 1.1)
+            .flowering(flower(FlowerKind::Rosette, [248, 244, 238], 0.55, 0.5, Place::Twigs)),
         stand: Stand::Ground,
         schedule,
         parameters,
@@ -134,11 +136,10 @@ fn bonsai_formal() -> Species {
         name: "Bonsai, formal upright",
         botanical: "Chokkan",
         sentence: "A straight tapering trunk with level pads of foliage in turn to the left and to the right.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [70, 112, 66],
-        fruit: None,
-        bark: BarkKind::Furrowed,
-        bark_tint: [122, 98, 80],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [70, 112, 66])
+            .barked(BarkKind::Furrowed, [122, 98, 80])
+            .carved(1.3, 1.6, 1.0),
         stand: Stand::Tray,
         schedule,
         parameters,
@@ -173,11 +174,10 @@ fn bonsai_cascade() -> Species {
         name: "Bonsai, semi-cascade",
         botanical: "Han-kengai",
         sentence: "The trunk rises from a tall pot, turns over its rim and falls to the side.",
-        leaf: LeafKind::Scale,
-        leaf_tint: [84, 124, 78],
-        fruit: None,
-        bark: BarkKind::Stringy,
-        bark_tint: [130, 100, 80],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Scale, [84, 124, 78])
+            .barked(BarkKind::Stringy, [130, 100, 80])
+            .carved(1.3, 1.2, 1.0),
         stand: Stand::Pot,
         schedule,
         parameters,
@@ -208,11 +208,10 @@ fn bonsai_windswept() -> Species {
         name: "Bonsai, windswept",
         botanical: "Fukinagashi",
         sentence: "Trunk and every branch lean one way, as on a cliff above the sea.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [78, 116, 84],
-        fruit: None,
-        bark: BarkKind::Plated,
-        bark_tint: [124, 98, 80],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [78, 116, 84])
+            .barked(BarkKind::Plated, [124, 98, 80])
+            .carved(1.4, 1.4, 1.1),
         stand: Stand::Tray,
         schedule,
         parameters,
@@ -244,11 +243,10 @@ fn bonsai_literati() -> Species {
         name: "Bonsai, literati",
         botanical: "Bunjin-gi",
         sentence: "A long thin trunk in free curves, bare but for a few small pads near the top.",
-        leaf: LeafKind::Needle,
-        leaf_tint: [74, 116, 72],
-        fruit: None,
-        bark: BarkKind::Plated,
-        bark_tint: [130, 100, 80],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Needle, [74, 116, 72])
+            .barked(BarkKind::Plated, [130, 100, 80])
+            .carved(1.3, 1.2, 1.0),
         stand: Stand::Tray,
         schedule,
         parameters,
@@ -275,11 +273,12 @@ fn shrub() -> Species {
         name: "Shrub",
         botanical: "Viburnum opulus",
         sentence: "Many stems from one root, arching outwards, none of them a trunk.",
-        leaf: LeafKind::Ovate,
-        leaf_tint: [112, 146, 66],
-        fruit: None,
-        bark: BarkKind::Smooth,
-        bark_tint: [128, 112, 94],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Lobed, [112, 146, 66])
+            .turned(0.5, 1.0, 0.1)
+            .barked(BarkKind::Smooth, [128, 112, 94])
+            .carved(0.8, 0.5, 0.8)
+            .fruiting(fruit(FruitKind::Round, [196, 40, 36], 0.36, 0.12, Place::Twigs)),
         stand: Stand::Ground,
         schedule: vec![Grow(9)],
         parameters,
@@ -314,11 +313,11 @@ fn hedge() -> Species {
         name: "Hedge",
         botanical: "Carpinus betulus",
         sentence: "A row of plants brushed into one clipped block with straight faces.",
-        leaf: LeafKind::Ovate,
-        leaf_tint: [90, 130, 54],
-        fruit: None,
-        bark: BarkKind::Smooth,
-        bark_tint: [130, 120, 108],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Ovate, [90, 130, 54])
+            .turned(0.3, 1.0, 0.2)
+            .barked(BarkKind::Smooth, [130, 120, 108])
+            .carved(0.8, 0.5, 0.8),
         stand: Stand::Ground,
         schedule,
         parameters,
@@ -361,11 +360,12 @@ fn espalier() -> Species {
         name: "Espalier",
         botanical: "Pyrus communis",
         sentence: "A pear trained flat against a wall: level arms in pairs on one straight stem.",
-        leaf: LeafKind::Ovate,
-        leaf_tint: [108, 144, 62],
-        fruit: Some(Fruit { tint: [214, 190, 84], size: 0.7, share: 0.05 }),
-        bark: BarkKind::Furrowed,
-        bark_tint: [116, 102, 88],
+        appearance: Appearance::default()
+            .leafy(LeafKind::Ovate, [108, 144, 62])
+            .turned(0.3, 1.0, 0.1)
+            .barked(BarkKind::Furrowed, [116, 102, 88])
+            .carved(1.1, 0.9, 1.1)
+            .fruiting(fruit(FruitKind::Round, [214, 190, 84], 0.7, 0.05, Place::Twigs)),
         stand: Stand::Ground,
         schedule,
         parameters,

@@ -21,10 +21,15 @@ pub(super) fn check(table: &RingTable, plant: &Plant, style: &Style) -> Result<(
         format!("{} chunks for {rows} rows", table.generations().len())
     })?;
     let widths = Widths::of(plant, style.girth());
+    // The seed has lived through all steps of growth.
+    let grown = plant.age(MetamerId::new(0));
     let mut leaves = 0;
     for index in 0..rows {
         let id = MetamerId::new(index);
         check_row(table, &widths, plant, style, id)?;
+        require(CHECK, table.born(index as u32) + plant.age(id) == grown, || {
+            format!("row {index} was born at another time")
+        })?;
         leaves += u32::from(foliage::leaves(plant, id, style));
     }
     require(CHECK, leaves == table.leaves(), || {

@@ -10,6 +10,7 @@ pub struct Row {
     pub radius: u16,
     pub foliage: u8,
     pub light: u8,
+    pub born: u32,
 }
 
 fn row(table: &RingTable, row: u32) -> Row {
@@ -20,6 +21,7 @@ fn row(table: &RingTable, row: u32) -> Row {
         radius: table.radius(row),
         foliage: table.foliage(row),
         light: table.light(row),
+        born: table.born(row),
     }
 }
 

@@ -25,7 +25,8 @@ impl PlainTable {
         for index in 0..count {
             let held = told.get(index).copied();
             let row = make(MetamerId::new(index), held);
-            let same = held.filter(|held| (held.parent, held.starts_axis) == (row.parent, row.starts_axis));
+            let stays = |row: &Row| (row.parent, row.starts_axis, row.born);
+            let same = held.filter(|held| stays(held) == stays(&row));
             if let Some(held) = same {
                 let columns = [
                     (held.position != row.position, &mut changes.position),
@@ -95,5 +96,6 @@ fn row(plant: &Plant, id: MetamerId, style: &Style, widths: &Widths<'_>, held: O
         },
         foliage: vigor << 4 | foliage::leaves(plant, id, style),
         light,
+        born: plant.age(MetamerId::new(0)) - plant.age(id),
     }
 }

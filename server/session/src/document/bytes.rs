@@ -16,10 +16,10 @@ use std::{
 
 use espalier_growth::{
     Guide, Marker, MarkerSource, Parameters, SIMULATION_VERSION, Simulation, SimulationState, StrokeId,
-    Waypoint,
+    Waypoint, appearance::Appearance,
 };
 use espalier_plant::{AxisId, MetamerId, Plant, hash::StableHash};
-use espalier_proto::ParametersPatch;
+use espalier_proto::{AppearancePatch, ParametersPatch};
 use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
 use glam::Vec3;
 
@@ -28,9 +28,10 @@ use self::{
     wood::{read_plant, write_plant},
 };
 use super::{Document, futures::Futures, obstacles::Obstacles, parameters};
+use crate::appearance::{self, AppearanceChange};
 
 const MAGIC: &[u8; 8] = b"ESPALIER";
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 const HEADER: usize = 24;
 /// No document is larger than this: the budget's metamers with all their columns fit many times over.
 const MAX_BODY: u64 = 4 << 30;
@@ -42,7 +43,7 @@ pub enum DocumentError {
     #[error("this is not an Espalier document")]
     NotADocument,
     /// Written by a later program.
-    #[error("the document has format {0}; this program reads format 3")]
+    #[error("the document has format {0}; this program reads format 4")]
     Format(u32),
     /// Cut short or changed since it was written.
     #[error("the document is damaged: {0}")]
@@ -65,10 +66,11 @@ impl Document {
         let mut body = Writer::default();
         write_plant(&mut body, &self.simulation.plant().to_parts());
         write_state(&mut body, &self.simulation.state());
-        let shelf = Shelf::of(&self.history, futures, &self.obstacles.standing);
+        let shelf = Shelf::of(&self.history, futures, &self.setting());
         shelf.write(&mut body);
         body.u32(shelf.set_number(&self.obstacles.standing));
         body.u32(self.obstacles.placed);
+        body.u32(shelf.looks_number(&self.appearance));
         times::write_history(&mut body, &self.history, &shelf);
         times::write_futures(&mut body, futures, &shelf);
         hands::write_strokes(&mut body, &self.strokes);
@@ -108,6 +110,7 @@ impl Document {
             return Err(damaged("an obstacle was never placed"));
         }
         state.obstacles = Obstacles::solids(&obstacles.standing);
+        let appearance = shelf.read_looks(&mut reader)?;
         let history = times::read_history(&mut reader, &plant, &shelf)?;
         let futures = times::read_futures(&mut reader, &plant, &history, &shelf)?;
         let strokes = hands::read_strokes(&mut reader, &plant)?;
@@ -123,6 +126,7 @@ impl Document {
             strokes,
             bends,
             obstacles,
+            appearance,
             pending: Default::default(),
             steps_begun,
             stop_at: None,
@@ -258,6 +262,10 @@ impl Writer {
         self.text(&serde_json::to_string(&parameters::to_proto(set.values())).unwrap_or_default());
     }
 
+    fn appearance(&mut self, looks: &Appearance) {
+        self.text(&serde_json::to_string(&appearance::to_proto(looks)).unwrap_or_default());
+    }
+
     fn list<T>(&mut self, items: &[T], mut write: impl FnMut(&mut Self, &T)) {
         self.u32(items.len() as u32);
         for item in items {
@@ -337,6 +345,14 @@ impl Reader<'_> {
             serde_json::from_str(&text).map_err(|error| damaged(format!("its parameters: {error}")))?;
         let defaults = parameters::to_proto(Parameters::default().values());
         parameters::parse(&defaults.patched(&patch)).map_err(|problem| damaged(problem.message))
+    }
+
+    fn appearance(&mut self) -> Result<Appearance, DocumentError> {
+        let text = self.text()?;
+        let patch: AppearancePatch =
+            serde_json::from_str(&text).map_err(|error| damaged(format!("its looks: {error}")))?;
+        let change = AppearanceChange::parse(&patch).map_err(|problem| damaged(problem.message))?;
+        Ok(change.applied_to(&Appearance::default()))
     }
 
     fn list<T>(

@@ -135,9 +135,11 @@ impl Document {
         let now = self.plant().step();
         let present = self.setting();
         let line = self.history.setting().clone();
-        if present.parameters != line.parameters {
+        let is_same = present.parameters == line.parameters;
+        if !is_same || present.appearance != line.appearance {
+            let kind = if is_same { Kind::Appearance } else { Kind::Parameters };
             let after = Setting { obstacles: line.obstacles.clone(), ..present.clone() };
-            self.history.push(Kind::Parameters, author, None, now, after);
+            self.history.push(kind, author, None, now, after);
         }
         if !Arc::ptr_eq(&present.obstacles, &line.obstacles) {
             self.history.push(Kind::Obstacle, author, None, now, present.clone());
@@ -154,7 +156,7 @@ impl Document {
     }
 
     /// Takes back that the last operation was recorded: it came to nothing, and what lay ahead lies ahead again.
-    fn unrecord(&mut self) {
+    pub(super) fn unrecord(&mut self) {
         let Some(before) = self.history.before.take() else {
             self.history.pop();
             return;

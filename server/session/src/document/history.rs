@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use espalier_growth::Parameters;
+use espalier_growth::{Parameters, appearance::Appearance};
 use espalier_plant::hash::StableHash;
 use glam::Quat;
 
@@ -34,10 +34,12 @@ pub(super) enum Kind {
     Turn = 9,
     /// A branch copied or moved.
     Graft = 10,
+    /// A change of looks.
+    Appearance = 11,
 }
 
 impl Kind {
-    const ALL: [Self; 11] = [
+    const ALL: [Self; 12] = [
         Self::Stroke,
         Self::Growth,
         Self::Parameters,
@@ -49,6 +51,7 @@ impl Kind {
         Self::Prune,
         Self::Turn,
         Self::Graft,
+        Self::Appearance,
     ];
 
     pub fn from_code(code: u8) -> Option<Self> {
@@ -56,11 +59,12 @@ impl Kind {
     }
 }
 
-/// What growth works with and an operation may change.
+/// What growth works with, and what is seen of it, as far as an operation may change that.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setting {
     pub parameters: Arc<Parameters>,
     pub obstacles: Standings,
+    pub appearance: Arc<Appearance>,
 }
 
 /// One operation.
@@ -151,6 +155,9 @@ impl History {
         if self.setting().parameters == after.parameters {
             after.parameters = Arc::clone(&self.setting().parameters);
         }
+        if self.setting().appearance == after.appearance {
+            after.appearance = Arc::clone(&self.setting().appearance);
+        }
         self.operations.push(Operation {
             kind,
             author: author.to_owned(),
@@ -176,7 +183,8 @@ impl History {
     /// Whether the last operation neither grew nor changed anything: undoing it would show nothing.
     pub fn is_idle(&self) -> bool {
         let idle = |last: &Operation| {
-            last.first == last.last && !matches!(last.kind, Kind::Parameters | Kind::Obstacle)
+            last.first == last.last
+                && !matches!(last.kind, Kind::Parameters | Kind::Appearance | Kind::Obstacle)
         };
         self.done == self.operations.len() && self.current().is_some_and(idle)
     }
@@ -192,6 +200,23 @@ impl History {
         if let Some(last) = self.operations.last_mut() {
             last.after = setting;
         }
+    }
+
+    /// The operation in progress is of this kind as well: what changes how things grow says more than looks do.
+    pub fn widen(&mut self, kind: Kind) {
+        if let Some(last) = self.operations.last_mut().filter(|_| kind == Kind::Parameters) {
+            last.kind = kind;
+        }
+    }
+
+    /// Whether the last operation has left the setting as it was before.
+    pub fn changes_nothing(&self) -> bool {
+        let Some((last, before)) = self.operations.split_last() else { return false };
+        let Setting { parameters, obstacles, appearance } = &last.after;
+        let former = before.last().map_or(&self.initial, |operation| &operation.after);
+        Arc::ptr_eq(obstacles, &former.obstacles)
+            && *parameters == former.parameters
+            && *appearance == former.appearance
     }
 
     /// The operation in progress keeps so many places of wood more.

@@ -119,7 +119,7 @@ impl Document {
         Ok(())
     }
 
-    /// Puts the scene's parameters and obstacles in force; what is the same stays untouched.
+    /// Puts a setting in force; what is the same stays untouched.
     pub(super) fn set(&mut self, setting: &Setting) {
         if *setting.parameters != *self.simulation.parameters() {
             self.simulation.set_parameters((*setting.parameters).clone());
@@ -128,12 +128,14 @@ impl Document {
             self.obstacles.standing = Arc::clone(&setting.obstacles);
             self.simulation.set_obstacles(Obstacles::solids(&setting.obstacles));
         }
+        self.appearance = Arc::clone(&setting.appearance);
     }
 
     pub(super) fn setting(&self) -> Setting {
         Setting {
             parameters: Arc::new(self.simulation.parameters().clone()),
             obstacles: Arc::clone(&self.obstacles.standing),
+            appearance: Arc::clone(&self.appearance),
         }
     }
 

@@ -3,27 +3,8 @@
 use espalier_growth::{ParameterValues, Parameters, VigorModel};
 use espalier_proto::{Problem, ProblemCode, VigorModel as WireVigorModel};
 
-/// A value as the other side has it.
-trait Across<To> {
-    fn across(self) -> To;
-}
+use crate::across::{Across, enums};
 
-macro_rules! same_on_both_sides {
-    ($($type:ty),+) => { $(impl Across<$type> for $type { fn across(self) -> $type { self } })+ };
-}
-
-macro_rules! enums {
-    ($($one:ident = $other:ident { $($variant:ident),+ })+) => { $(
-        impl Across<$one> for $other {
-            fn across(self) -> $one { match self { $($other::$variant => $one::$variant),+ } }
-        }
-        impl Across<$other> for $one {
-            fn across(self) -> $other { match self { $($one::$variant => $other::$variant),+ } }
-        }
-    )+ };
-}
-
-same_on_both_sides!(f32, u32, bool);
 enums! { VigorModel = WireVigorModel { BorchertHonda, Priority } }
 
 /// Copies every field by name, so that a field on one side alone does not compile.
@@ -52,7 +33,7 @@ macro_rules! fields {
 type WireParameters = espalier_proto::Parameters;
 
 /// Checks every range.
-pub(super) fn parse(wire: &WireParameters) -> Result<Parameters, Problem> {
+pub(crate) fn parse(wire: &WireParameters) -> Result<Parameters, Problem> {
     let values = fields!(wire => ParameterValues);
     Parameters::new(values).map_err(|error| Problem {
         code: ProblemCode::OutOfRange,

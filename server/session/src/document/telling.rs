@@ -95,6 +95,7 @@ impl<'a> People<'a> {
             Kind::Prune => OperationKind::Prune,
             Kind::Turn => OperationKind::Turn,
             Kind::Graft => OperationKind::Graft,
+            Kind::Appearance => OperationKind::Appearance,
         };
         TimelineOperation { kind, author, first: operation.first, last: operation.last }
     }

@@ -1,9 +1,10 @@
 //! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
 
 mod histories;
+mod looks;
 mod shaping;
 
-use espalier_proto::Shape;
+use espalier_proto::{ParametersPatch, Shape};
 use glam::{Quat, Vec2};
 
 use super::*;
@@ -33,10 +34,12 @@ fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
 }
 
 fn patch(apical_control: f32) -> Action {
-    Action::SetParameters(Box::new(ParametersPatch {
-        apical_control: Some(apical_control),
-        ..ParametersPatch::default()
-    }))
+    patch_in(None, apical_control)
+}
+
+fn patch_in(gesture: Option<u32>, apical_control: f32) -> Action {
+    let patch = ParametersPatch { apical_control: Some(apical_control), ..ParametersPatch::default() };
+    Action::SetParameters { patch: Box::new(patch), gesture }
 }
 
 #[test]
@@ -160,7 +163,9 @@ fn parameters_as_they_are_keep_redo() {
     grow(&mut document, 3, None);
     document.apply("ann", &Action::Ungrow { steps: 1 }).expect("there are steps");
     document.apply("ann", &patch(document.parameters().apical_control)).expect("no change");
-    document.apply("ann", &Action::SetParameters(Box::default())).expect("no change");
+    document
+        .apply("ann", &Action::SetParameters { patch: Box::default(), gesture: None })
+        .expect("no change");
     document.apply("ann", &Action::Redo).expect("nothing was done since");
 }
 
@@ -233,7 +238,9 @@ fn every_parameter_refuses_beyond_its_ends() {
             let patch: ParametersPatch = serde_json::from_str(&json).expect("a patch");
             let mut document = Document::new(1);
             let before = document.hash();
-            let problem = document.apply("ann", &Action::SetParameters(Box::new(patch))).expect_err(&json);
+            let problem = document
+                .apply("ann", &Action::SetParameters { patch: Box::new(patch), gesture: None })
+                .expect_err(&json);
             assert_eq!(problem.field, Some(format!("parameters.{name}")));
             assert!(problem.allowed.is_some());
             assert_eq!(document.hash(), before, "{name} changed something");

@@ -7,7 +7,7 @@ use espalier_proto::Problem;
 use super::{Document, refused};
 
 impl Document {
-    /// So many steps back, with parameters and obstacles as they are (`CM7`).
+    /// So many steps back, with parameters, looks and obstacles as they are (`CM7`).
     pub(super) fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
         let now = self.plant().step();
         if now == 0 {
@@ -38,7 +38,7 @@ impl Document {
         Ok(())
     }
 
-    /// To a step of the line, with the parameters and obstacles it had there (`TT2`).
+    /// To a step of the line, with the parameters, looks and obstacles it had there (`TT2`).
     pub(super) fn go_to(&mut self, step: u32) -> Result<(), Problem> {
         let last = self.plant().last_step();
         if step > last {
@@ -50,14 +50,16 @@ impl Document {
         Ok(())
     }
 
-    /// Whether parameters or obstacles are not those of the line: ungrowing leaves them as they are.
+    /// Whether parameters, looks or obstacles are not those of the line: ungrowing leaves them as they are.
     pub(super) fn strays(&self) -> bool {
         let line = self.history.setting();
         let is_placed = Arc::ptr_eq(&line.obstacles, &self.obstacles.standing);
-        !is_placed || *line.parameters != *self.simulation.parameters()
+        !is_placed
+            || *line.parameters != *self.simulation.parameters()
+            || *line.appearance != *self.appearance
     }
 
-    /// Puts the line's parameters and obstacles in force.
+    /// Puts the line's setting in force.
     pub(super) fn keep_to_line(&mut self) {
         let setting = self.history.setting().clone();
         self.set(&setting);

@@ -6,6 +6,7 @@ use espalier_proto::{DocumentState, Problem, ServerMessage};
 
 use super::{Scenery, Session};
 use crate::{
+    appearance,
     clients::{Guest, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
@@ -63,6 +64,11 @@ impl Session {
         if parameters != self.parameters {
             self.parameters = parameters.clone();
             self.broadcast(&ServerMessage::Parameters { parameters: Box::new(parameters) });
+        }
+        let appearance = appearance::to_proto(work.document.appearance());
+        if appearance != self.appearance {
+            self.appearance = appearance;
+            self.broadcast(&self.appearance_message());
         }
         if !work.document.has_obstacles_of(&self.scenery.mark) {
             self.scenery = Scenery::of(&work.document);
@@ -126,6 +132,11 @@ impl Session {
         } else {
             self.home = Some(work);
         }
+    }
+
+    /// How the tree looks, as clients are told (`AP3`).
+    pub(super) fn appearance_message(&self) -> ServerMessage {
+        ServerMessage::Appearance { appearance: Box::new(self.appearance) }
     }
 
     /// All obstacles as clients are told them (`OB3`).

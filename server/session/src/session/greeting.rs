@@ -79,6 +79,7 @@ impl Session {
             state: self.state(),
         };
         self.send(client, &welcome);
+        self.send(client, &self.appearance_message());
         if !self.scenery.obstacles.is_empty() {
             self.send(client, &self.obstacles_message());
         }

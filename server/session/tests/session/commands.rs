@@ -283,7 +283,7 @@ fn changed_parameters_are_told_to_all() {
     let birch = world.join("birch-01");
     let maple = world.join("maple-01");
     let patch = ParametersPatch { apical_control: Some(0.56), ..ParametersPatch::default() };
-    world.command(birch, 1, Command::SetParameters { parameters: patch });
+    world.command(birch, 1, Command::SetParameters { parameters: patch, gesture: None });
     world.settle();
     for client in [birch, maple] {
         let told = world.peer(client).texts.iter().find_map(|text| match text {
@@ -309,7 +309,7 @@ fn choices_and_maturity_survive_journal_snapshot_and_undo() {
         ..ParametersPatch::default()
     };
     world.command(client, 1, grow(2));
-    world.command(client, 2, Command::SetParameters { parameters: patch.clone() });
+    world.command(client, 2, Command::SetParameters { parameters: patch.clone(), gesture: None });
     world.command(client, 3, grow(9));
     world.settle();
     let wanted = World::new().document().parameters().patched(&patch);

@@ -2,7 +2,10 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::{ClientMessage, Command, Obstacle, ParametersPatch, Pose, Shape, StrokeSample};
+use espalier_proto::{
+    Appearance, AppearancePatch, ClientMessage, Command, Obstacle, ParametersPatch, Pose, Shape,
+    StrokeSample, appearance::LeafLook,
+};
 use espalier_session::{Action, ClientId, Document, Input, ReadId, Session};
 use proptest::prelude::*;
 
@@ -41,11 +44,18 @@ fn command() -> impl Strategy<Value = Command> {
         4 => (0u32..3, prop::collection::vec(sample, 0..4))
             .prop_map(|(stroke, samples)| Command::StrokeMove { stroke, samples }),
         2 => (0u32..3).prop_map(|stroke| Command::StrokeEnd { stroke }),
-        1 => (0.3f32..0.8).prop_map(|control| Command::SetParameters {
-            parameters: ParametersPatch { apical_control: Some(control), ..ParametersPatch::default() }
+        2 => (0.3f32..0.8, prop::option::of(0u32..2)).prop_map(|(control, gesture)| Command::SetParameters {
+            parameters: ParametersPatch { apical_control: Some(control), ..ParametersPatch::default() },
+            gesture,
+        }),
+        2 => (-0.5f32..3.5, prop::option::of(0u32..2)).prop_map(|(season, gesture)| {
+            let leaves = LeafLook { season: season.round(), ..Appearance::default().leaves };
+            let appearance = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
+            Command::SetAppearance { appearance, gesture }
         }),
         1 => (0u32..20).prop_map(|leaves| Command::SetParameters {
-            parameters: ParametersPatch { leaves_per_node: Some(leaves), ..ParametersPatch::default() }
+            parameters: ParametersPatch { leaves_per_node: Some(leaves), ..ParametersPatch::default() },
+            gesture: None,
         }),
         1 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| Command::PlantSeed { position: [x, 0.0, z] }),
         2 => Just(Command::Stop { tick: None }),

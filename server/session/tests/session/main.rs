@@ -9,6 +9,7 @@ mod fuzz;
 mod guiding;
 mod handshake;
 mod limits;
+mod looks;
 mod mirror;
 mod obstacles;
 mod shaping;

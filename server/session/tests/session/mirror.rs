@@ -12,6 +12,7 @@ pub struct Row {
     pub radius: u16,
     pub foliage: u8,
     pub light: u8,
+    pub born: u32,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -88,6 +89,7 @@ impl Mirror {
                 radius: rows.radius[at],
                 foliage: rows.foliage[at],
                 light: rows.light[at],
+                born: rows.born[at],
             });
         }
     }
@@ -103,6 +105,7 @@ impl Mirror {
             Values::Radius(values) => self.rows[row].radius = values[at],
             Values::Foliage(values) => self.rows[row].foliage = values[at],
             Values::Light(values) => self.rows[row].light = values[at],
+            Values::Born(_) => panic!("a metamer never changes its birth"),
         }
     }
 
@@ -135,6 +138,7 @@ pub fn rows_of(document: &Document) -> Vec<Row> {
         radius: table.radius(row),
         foliage: table.foliage(row),
         light: table.light(row),
+        born: table.born(row),
     };
     (0..table.rows() as u32).map(row).collect()
 }
@@ -143,7 +147,8 @@ impl Row {
     /// Equal but for the looks of what is dead, and for changes of light and vigor too small to be told.
     pub fn shows(&self, plant: &Self) -> bool {
         let drawn = self.radius > 0;
-        let exact = |row: &Self| (row.parent, row.begins_axis, row.position, row.radius, row.foliage & 0xf);
+        let exact =
+            |row: &Self| (row.parent, row.begins_axis, row.position, row.radius, row.foliage & 0xf, row.born);
         let light = self.light.abs_diff(plant.light) < 8;
         let vigor = (self.foliage >> 4).abs_diff(plant.foliage >> 4) < 2;
         exact(self) == exact(plant) && (!drawn || light && vigor)

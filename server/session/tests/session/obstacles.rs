@@ -63,8 +63,8 @@ fn ob3_everybody_is_told_and_newcomers_too() {
     let aspen = world.join("aspen-01");
     assert_eq!(told(&world, aspen), Some(list));
     assert!(matches!(
-        world.peer(aspen).texts[..2],
-        [ServerMessage::Welcome { .. }, ServerMessage::Obstacles { .. }]
+        world.peer(aspen).texts[..3],
+        [ServerMessage::Welcome { .. }, ServerMessage::Appearance { .. }, ServerMessage::Obstacles { .. }]
     ));
     assert_eq!(*world.session.mesh(3).unwrap(), tetrahedron());
     assert!(world.session.mesh(1).is_none() && world.session.mesh(9).is_none());

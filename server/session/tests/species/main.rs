@@ -36,7 +36,9 @@ fn picking_sets_what_the_wire_says() {
     for species in species::all() {
         let mut document = Document::new(1);
         let patch = wire_species(species).parameters.into();
-        document.apply("gardener", &Action::SetParameters(Box::new(patch))).expect("in range");
+        document
+            .apply("gardener", &Action::SetParameters { patch: Box::new(patch), gesture: None })
+            .expect("in range");
         assert_eq!(document.parameters(), wire_species(species).parameters, "{}", species.slug);
     }
 }

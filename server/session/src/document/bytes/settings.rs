@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use espalier_growth::Parameters;
+use espalier_growth::{Parameters, appearance::Appearance};
 use glam::Quat;
 
 use super::{DocumentError, Reader, Writer, damaged};
@@ -15,25 +15,28 @@ use crate::{
     obstacle::{Form, Mesh, Obstacle, Pose, Standing},
 };
 
-/// All sets of parameters, meshes and sets of obstacles of a document, by number.
+/// All sets of parameters, looks, meshes and sets of obstacles of a document, by number.
 #[derive(Debug, Default)]
 pub(super) struct Shelf {
     parameters: Vec<Arc<Parameters>>,
+    looks: Vec<Arc<Appearance>>,
     meshes: Vec<Arc<Mesh>>,
     sets: Vec<Standings>,
 }
 
 impl Shelf {
     /// Everything the history and the present hold.
-    pub(super) fn of(history: &History, futures: &Futures, present: &Standings) -> Self {
+    pub(super) fn of(history: &History, futures: &Futures, present: &Setting) -> Self {
         let mut shelf = Self::default();
         let ahead = futures.all.iter().flat_map(|future| &future.operations);
         let settings = history.operations.iter().chain(ahead).map(|operation| &operation.after);
         for setting in std::iter::once(&history.initial).chain(settings) {
             shelve(&mut shelf.parameters, &setting.parameters);
+            shelve(&mut shelf.looks, &setting.appearance);
             shelf.shelve_set(&setting.obstacles);
         }
-        shelf.shelve_set(present);
+        shelve(&mut shelf.looks, &present.appearance);
+        shelf.shelve_set(&present.obstacles);
         shelf
     }
 
@@ -47,17 +50,19 @@ impl Shelf {
 
     pub(super) fn write(&self, out: &mut Writer) {
         out.list(&self.parameters, |out, set| out.parameters(set));
+        out.list(&self.looks, |out, looks| out.appearance(looks));
         out.list(&self.meshes, |out, mesh| out.list(&mesh.to_bytes(), |out, &byte| out.0.push(byte)));
         out.list(&self.sets, |out, set| out.list(set, |out, standing| self.write_standing(out, standing)));
     }
 
     pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, DocumentError> {
         let parameters = reader.list(|r| Ok(Arc::new(r.parameters()?)))?;
+        let looks = reader.list(|r| Ok(Arc::new(r.appearance()?)))?;
         let meshes = reader.list(|r| {
             let bytes = r.list(Reader::u8)?;
             Mesh::from_bytes(&bytes).map(Arc::new).map_err(|problem| damaged(problem.message))
         })?;
-        let mut shelf = Self { parameters, meshes, sets: Vec::new() };
+        let mut shelf = Self { parameters, looks, meshes, sets: Vec::new() };
         // An obstacle that was moved stands in many sets, but its mesh is made once.
         let mut forms = BTreeMap::new();
         shelf.sets = reader.list(|r| {
@@ -73,12 +78,21 @@ impl Shelf {
     pub(super) fn write_setting(&self, out: &mut Writer, setting: &Setting) {
         out.u32(number(&self.parameters, &setting.parameters));
         out.u32(self.set_number(&setting.obstacles));
+        out.u32(self.looks_number(&setting.appearance));
     }
 
     pub(super) fn read_setting(&self, reader: &mut Reader<'_>) -> Result<Setting, DocumentError> {
         let parameters = self.parameters.get(reader.u32()? as usize).cloned();
         let parameters = parameters.ok_or_else(|| damaged("parameters are missing"))?;
-        Ok(Setting { parameters, obstacles: self.read_set(reader)? })
+        Ok(Setting { parameters, obstacles: self.read_set(reader)?, appearance: self.read_looks(reader)? })
+    }
+
+    pub(super) fn looks_number(&self, looks: &Arc<Appearance>) -> u32 {
+        number(&self.looks, looks)
+    }
+
+    pub(super) fn read_looks(&self, reader: &mut Reader<'_>) -> Result<Arc<Appearance>, DocumentError> {
+        self.looks.get(reader.u32()? as usize).cloned().ok_or_else(|| damaged("looks are missing"))
     }
 
     pub(super) fn set_number(&self, set: &Standings) -> u32 {

@@ -13,7 +13,8 @@ enum Event {
     Ungrow(u32),
     Undo,
     Redo,
-    Apical(f32),
+    Apical(f32, Option<u32>),
+    Season(u32, Option<u32>),
     Shedding(f32),
     Seed(f32),
     Begin(u32),
@@ -63,7 +64,8 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         2 => (1u32..9).prop_map(Event::Ungrow),
         3 => Just(Event::Undo),
         2 => Just(Event::Redo),
-        1 => (0.4f32..0.7).prop_map(Event::Apical),
+        2 => (0.4f32..0.7, gesture()).prop_map(|(apical, gesture)| Event::Apical(apical, gesture)),
+        3 => (0u32..4, gesture()).prop_map(|(season, gesture)| Event::Season(season, gesture)),
         1 => (0f32..0.5).prop_map(Event::Shedding),
         1 => (-20f32..20.0).prop_map(Event::Seed),
         1 => (90u32..92).prop_map(Event::Begin),
@@ -150,11 +152,12 @@ fn happen(document: &mut Document, number: usize, event: &Event) {
         Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
         Event::Undo => Action::Undo,
         Event::Redo => Action::Redo,
-        Event::Apical(value) => patch(*value),
+        Event::Apical(value, gesture) => patch_in(*gesture, *value),
+        Event::Season(season, gesture) => looks::season(*gesture, *season as f32),
         Event::Shedding(threshold) => {
             let patch =
                 ParametersPatch { shedding_threshold: Some(*threshold), ..ParametersPatch::default() };
-            Action::SetParameters(Box::new(patch))
+            Action::SetParameters { patch: Box::new(patch), gesture: None }
         }
         Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
         Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
@@ -203,8 +206,10 @@ fn happen(document: &mut Document, number: usize, event: &Event) {
 }
 
 /// What undoing and redoing leads to.
-fn form(document: &Document) -> (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>) {
-    (document.plant().hash(), document.parameters(), document.obstacles())
+fn form(
+    document: &Document,
+) -> (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>, Appearance) {
+    (document.plant().hash(), document.parameters(), document.obstacles(), *document.appearance())
 }
 
 fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {

@@ -1,0 +1,222 @@
+import { type ReadonlySignal, signal } from "@preact/signals";
+import type { Clock } from "./connection";
+
+/** A hand that moves is told about ten times a second. */
+const SEND_EVERY = 100;
+/** Commands that may be under way before a moving hand has to wait. */
+const MAX_UNSETTLED = 2;
+/** How long the hand's own value stands after the server has answered without having said what it made of it. */
+const GRACE = 600;
+
+export interface DraftOptions<Whole extends object, None extends Whole | null> {
+  /** What is shown before the server has said anything. */
+  readonly none: None;
+  /** Sends a change and gives the number of the command; 0 where there is nobody to send it to. */
+  readonly submit: (patch: Partial<Whole>, gesture: number | undefined) => number;
+  /** A number that no other gesture of this client has. */
+  readonly newGesture: () => number;
+  /** Whether the server still works, so that what it has taken on may be done later. */
+  readonly busy: () => boolean;
+  readonly clock: Clock;
+}
+
+/** A value of the hand's own, and the last command that tells it; 0 while it has not been sent. */
+interface Own<Value> {
+  readonly value: Value;
+  readonly command: number;
+}
+
+/**
+ * Something shared that is set field by field: at once here, a little later for everybody. A field is as the hand has
+ * it until the server has answered; from then on the server's value counts, whoever set it.
+ */
+export class Draft<Whole extends object, None extends Whole | null = Whole> {
+  readonly value: ReadonlySignal<Whole | None>;
+  #value;
+  #options: DraftOptions<Whole, None>;
+  #told: Whole | None;
+  #own = new Map<keyof Whole, Own<Whole[keyof Whole]>>();
+  #queued: Partial<Whole> | null = null;
+  /** That of the drag under way, once something of it was sent. */
+  #gesture: number | undefined;
+  #sentAt = Number.NEGATIVE_INFINITY;
+  #settled = 0;
+  /** The commands that are not yet answered. */
+  #underWay: number[] = [];
+  #cancelSending: (() => void) | null = null;
+  #cancelGrace: (() => void) | null = null;
+
+  constructor(options: DraftOptions<Whole, None>) {
+    this.#options = options;
+    this.#told = options.none;
+    this.#value = signal<Whole | None>(options.none);
+    this.value = this.#value;
+  }
+
+  /** A control moves: shown at once, sent when it is time, and all of one drag is one operation for undo. */
+  drag(patch: Partial<Whole>): void {
+    this.#take(patch);
+    this.#flush();
+  }
+
+  /** A control is let go, or something is picked: sent at once. With a gesture it joins what else has that gesture. */
+  commit(patch: Partial<Whole> = {}, gesture?: number): void {
+    // A hand that has not waited for the first of its drag to be sent needs no gesture: it is sent as one.
+    this.#take(patch);
+    this.#send(gesture ?? this.#gesture);
+    this.#gesture = undefined;
+  }
+
+  /** The server tells how it is. */
+  receive(told: Whole): void {
+    this.#told = told;
+    this.#reconcile();
+  }
+
+  /** The server has answered all commands up to this one. */
+  settle(settled: number): void {
+    this.#settled = settled;
+    this.#underWay = this.#underWay.filter((command) => command > settled);
+    if (this.#own.size > 0) {
+      this.#reconcile();
+      this.#flush();
+    }
+  }
+
+  /** Another session: nothing is known of it. */
+  clear(): void {
+    this.#told = this.#options.none;
+    this.letGo();
+  }
+
+  /** The hand's own values no longer count: what was sent goes by other numbers now. */
+  letGo(): void {
+    this.#cancelSending?.();
+    this.#cancelGrace?.();
+    this.#cancelSending = null;
+    this.#cancelGrace = null;
+    this.#own.clear();
+    this.#queued = null;
+    this.#gesture = undefined;
+    this.#settled = 0;
+    this.#underWay = [];
+    this.#show();
+  }
+
+  #take(patch: Partial<Whole>): void {
+    if (namesOf(patch).length === 0) {
+      return;
+    }
+    for (const name of namesOf(patch)) {
+      this.#own.set(name, { value: patch[name] as Whole[keyof Whole], command: 0 });
+    }
+    this.#queued = { ...this.#queued, ...patch };
+    this.#show();
+  }
+
+  /** Sends what a moving hand has set if it is time to, else later. */
+  #flush(): void {
+    if (this.#queued === null || this.#cancelSending !== null) {
+      return;
+    }
+    const wait = this.#sentAt + SEND_EVERY - this.#options.clock.now();
+    if (wait > 0) {
+      this.#cancelSending = this.#options.clock.after(wait, () => {
+        this.#cancelSending = null;
+        this.#flush();
+      });
+    } else if (this.#underWay.length < MAX_UNSETTLED) {
+      this.#gesture ??= this.#options.newGesture();
+      this.#send(this.#gesture);
+    }
+  }
+
+  #send(gesture: number | undefined): void {
+    this.#cancelSending?.();
+    this.#cancelSending = null;
+    const patch = this.#queued;
+    if (patch === null) {
+      return;
+    }
+    this.#queued = null;
+    this.#sentAt = this.#options.clock.now();
+    const command = this.#options.submit(patch, gesture);
+    for (const name of namesOf(patch)) {
+      const own = this.#own.get(name);
+      if (own) {
+        this.#own.set(name, { ...own, command });
+      }
+    }
+    if (command > this.#settled) {
+      this.#underWay.push(command);
+    } else {
+      // There was nobody to send it to: after a while it is as it was.
+      this.#reconcile();
+    }
+  }
+
+  /** Lets go of the hand's own values that the server has made its own, or has had time to. */
+  #reconcile(): void {
+    let waiting = false;
+    for (const [name, { value, command }] of this.#own) {
+      if (!this.#answered(name, command)) {
+        continue;
+      }
+      if (this.#told !== null && alike((this.#told as Whole)[name], value)) {
+        this.#own.delete(name);
+      } else {
+        waiting = true;
+      }
+    }
+    this.#cancelGrace?.();
+    this.#cancelGrace = waiting ? this.#options.clock.after(GRACE, () => this.#giveWay()) : null;
+    this.#show();
+  }
+
+  #giveWay(): void {
+    this.#cancelGrace = null;
+    if (this.#options.busy()) {
+      this.#reconcile();
+      return;
+    }
+    for (const [name, { command }] of this.#own) {
+      if (this.#answered(name, command)) {
+        this.#own.delete(name);
+      }
+    }
+    this.#show();
+  }
+
+  #answered(name: keyof Whole, command: number): boolean {
+    return command <= this.#settled && !(this.#queued !== null && name in this.#queued);
+  }
+
+  #show(): void {
+    const told = this.#told;
+    if (told === null || this.#own.size === 0) {
+      this.#value.value = told;
+      return;
+    }
+    const shown: Whole = { ...(told as Whole) };
+    for (const [name, { value }] of this.#own) {
+      shown[name] = value;
+    }
+    this.#value.value = shown;
+  }
+}
+
+function namesOf<Whole extends object>(patch: Partial<Whole>): (keyof Whole)[] {
+  return Object.keys(patch) as (keyof Whole)[];
+}
+
+/** Whether two values are the same but for what 32-bit floats lose on the way. */
+export function alike(a: unknown, b: unknown): boolean {
+  if (typeof a === "number" && typeof b === "number") {
+    return Math.abs(a - b) <= 1e-5 * Math.max(1, Math.abs(a));
+  }
+  if (typeof a === "object" && typeof b === "object" && a !== null && b !== null) {
+    const [ofA, ofB] = [new Map<string, unknown>(Object.entries(a)), new Map<string, unknown>(Object.entries(b))];
+    return ofA.size === ofB.size && [...ofA].every(([name, value]) => ofB.has(name) && alike(value, ofB.get(name)));
+  }
+  return a === b;
+}

@@ -1,0 +1,47 @@
+import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import type { Parameters, Species } from "../../../wire/generated";
+import { DEFAULTS } from "../../growth-parameters";
+import { listSpecies } from "../../species-api";
+import { type Kin, kinOf } from "../../species-choice";
+import { type Studio, sentence } from "../../studio";
+
+/** The species of the server, asked for once; null before it has answered. */
+const known = signal<readonly Species[] | null>(null);
+
+/** The species there are. */
+export function useSpecies(studio: Studio): readonly Species[] | null {
+  useEffect(() => {
+    if (known.peek() === null) {
+      listSpecies().then(
+        (all) => {
+          known.value = all;
+        },
+        (error: unknown) => studio.toasts.show(sentence(error)),
+      );
+    }
+  }, [studio]);
+  return known.value;
+}
+
+/** The species picked last on this page, by its slug: some differ only in how they are raised. */
+export const lastPicked = signal<string | undefined>(undefined);
+
+/** The last answer, since many controls ask for the same in one frame. */
+let last: { readonly about: readonly unknown[]; readonly kin: Kin | null } = { about: [], kin: null };
+
+/** The species that what is set now comes from, if it is near enough to one. */
+export function kinNow(studio: Studio): Kin | null {
+  const [species, parameters, looks] = [known.value, studio.parameters.value, studio.appearance.value];
+  const picked = lastPicked.value;
+  const about = [species, parameters, looks, picked];
+  if (about.some((one, i) => one !== last.about[i])) {
+    last = { about, kin: species === null || parameters === null ? null : kinOf(species, parameters, looks, picked) };
+  }
+  return last.kin;
+}
+
+/** What a reset goes back to: the species' own values, else those a session begins with. */
+export function standardOf(studio: Studio): Parameters {
+  return kinNow(studio)?.species.parameters ?? DEFAULTS;
+}

@@ -1,0 +1,69 @@
+import type { ComponentChildren } from "preact";
+import { useId, useState } from "preact/hooks";
+import { say } from "../../words";
+import { ResetIcon } from "./icons";
+
+interface FieldProps {
+  readonly label: string;
+  /** The letter it has in formulas. */
+  readonly symbol?: string | undefined;
+  /** What it does, in one sentence; it unfolds when the name is touched. */
+  readonly help?: string | undefined;
+  /** Puts the value back to what it was before anyone changed it; absent where it is that already. */
+  readonly onReset?: (() => void) | undefined;
+  /** What stands at the end of the name's line. */
+  readonly end?: ComponentChildren;
+  /** The control itself; it is given what describes it. */
+  readonly children: (descriptionId: string | undefined) => ComponentChildren;
+}
+
+/** A control's name with its help and reset, and the control under it. */
+export function Field({ label, symbol, help, onReset, end, children }: FieldProps) {
+  const helpId = useId();
+  const [open, setOpen] = useState(false);
+  const name = (
+    <span>
+      {label}
+      {symbol && <i> {symbol}</i>}
+    </span>
+  );
+  return (
+    <div class="control">
+      <div class="field-head">
+        {help === undefined ? (
+          <span class="field-name">{name}</span>
+        ) : (
+          <button
+            type="button"
+            class="field-name"
+            aria-expanded={open}
+            aria-controls={helpId}
+            title={help}
+            onClick={() => setOpen(!open)}
+          >
+            {name}
+            <b aria-hidden="true">?</b>
+          </button>
+        )}
+        {onReset && (
+          <button
+            type="button"
+            class="field-reset"
+            aria-label={say("controls.reset", { name: label })}
+            title={say("controls.reset", { name: label })}
+            onClick={onReset}
+          >
+            <ResetIcon />
+          </button>
+        )}
+        {end}
+      </div>
+      {help !== undefined && (
+        <p class="field-help" id={helpId} hidden={!open}>
+          {help}
+        </p>
+      )}
+      {children(help === undefined ? undefined : helpId)}
+    </div>
+  );
+}

@@ -1,0 +1,129 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { Field } from "./field";
+import { numberText, unitText } from "./number-text";
+import { type Notation, TypedNumber } from "./typed-number";
+
+export interface SliderProps {
+  readonly label: string;
+  readonly symbol?: string | undefined;
+  readonly unit?: string | undefined;
+  readonly least: number;
+  readonly most: number;
+  readonly step: number;
+  readonly value: number;
+  /** What reset puts it back to; without it there is no reset. */
+  readonly standard?: number | undefined;
+  /** What it does, in one sentence. */
+  readonly help?: string | undefined;
+  readonly disabled?: boolean;
+  /** The value in words, where a number alone says little. */
+  readonly inWords?: (value: number) => string;
+  /** Another way to write the value down, and to read what was typed. */
+  readonly notation?: Notation | undefined;
+  /** Pictures under the track, from its least end to its most. */
+  readonly marks?: ComponentChildren;
+  /** Another colouring of the track. */
+  readonly track?: string;
+  /** The value as the hand moves it. */
+  readonly onDrag?: (value: number) => void;
+  /** The value when the hand lets go, or one that was typed or reset. */
+  readonly onCommit: (value: number) => void;
+}
+
+/** A slider for one number, which can also be typed. */
+export function Slider(props: SliderProps) {
+  const { label, symbol, unit = "", least, most, step, value, standard, help, disabled = false, marks, track } = props;
+  /** Where the hand has it; null while it rests. */
+  const [held, setHeld] = useState<number | null>(null);
+  const open = useRef<number | null>(null);
+  /** A key is down: its repeats are one drag. */
+  const keyed = useRef(false);
+  const latest = useRef(props);
+  latest.current = props;
+  const shown = held ?? value;
+
+  const drag = (to: number) => {
+    open.current = to;
+    setHeld(to);
+    latest.current.onDrag?.(to);
+  };
+  const commit = () => {
+    const to = open.current;
+    if (to !== null) {
+      open.current = null;
+      setHeld(null);
+      latest.current.onCommit(to);
+    }
+  };
+  // What is taken away under the hand is let go.
+  useEffect(
+    () => () => {
+      if (open.current !== null) {
+        latest.current.onCommit(open.current);
+      }
+    },
+    [],
+  );
+
+  const place = most > least ? Math.min(1, Math.max(0, (shown - least) / (most - least))) : 0;
+  const isStandard = standard === undefined || Math.abs(value - standard) < step / 2;
+  return (
+    <Field
+      label={label}
+      symbol={symbol}
+      help={help}
+      onReset={isStandard || disabled ? undefined : () => props.onCommit(standard)}
+      end={
+        <TypedNumber
+          {...{ label, unit, least, most, step, disabled, notation: props.notation }}
+          value={shown}
+          onCommit={(to) => props.onCommit(to)}
+        />
+      }
+    >
+      {(description) => (
+        <div class="slider">
+          <input
+            type="range"
+            aria-label={label}
+            aria-describedby={description}
+            aria-valuetext={
+              props.inWords?.(shown) ?? props.notation?.write(shown) ?? `${numberText(shown, step)}${unitText(unit)}`
+            }
+            min={least}
+            max={most}
+            step={step}
+            value={shown}
+            disabled={disabled}
+            data-track={track}
+            style={{ "--place": place }}
+            onInput={(event) => drag(Number(event.currentTarget.value))}
+            onChange={() => {
+              if (!keyed.current) {
+                commit();
+              }
+            }}
+            onKeyDown={() => {
+              keyed.current = true;
+            }}
+            onKeyUp={() => {
+              keyed.current = false;
+              commit();
+            }}
+            onBlur={() => {
+              keyed.current = false;
+              commit();
+            }}
+            onPointerCancel={commit}
+          />
+          {marks && (
+            <div class="slider-marks" aria-hidden="true">
+              {marks}
+            </div>
+          )}
+        </div>
+      )}
+    </Field>
+  );
+}

@@ -1,0 +1,44 @@
+import { DEFAULT_APPEARANCE } from "../../../wire/generated";
+import type { Part } from "../../appearance";
+import { alike } from "../../draft";
+import { DEFAULTS } from "../../growth-parameters";
+import type { Studio } from "../../studio";
+import { say } from "../../words";
+import { ResetIcon } from "../controls/icons";
+
+type ParameterName = keyof typeof DEFAULTS;
+
+interface ResetAllProps {
+  readonly studio: Studio;
+  /** The sections of the appearance that a panel sets. */
+  readonly parts: readonly Part[];
+  /** The parameters of growth that it sets. */
+  readonly parameters?: readonly ParameterName[];
+}
+
+/** Puts all that a panel sets back to what it was before anyone changed it; one undo brings it back. */
+export function ResetAll({ studio, parts, parameters = [] }: ResetAllProps) {
+  const now = studio.appearance.value;
+  const growing = studio.parameters.value;
+  const looks = parts.filter((part) => !alike(now[part], DEFAULT_APPEARANCE[part]));
+  const grown = growing === null ? [] : parameters.filter((name) => !alike(growing[name], DEFAULTS[name]));
+  return (
+    <button
+      type="button"
+      class="reset-all"
+      disabled={looks.length + grown.length === 0}
+      onClick={() => {
+        const gesture = studio.newGesture();
+        if (looks.length > 0) {
+          studio.dress(Object.fromEntries(looks.map((part) => [part, DEFAULT_APPEARANCE[part]])), gesture);
+        }
+        if (grown.length > 0) {
+          studio.setParameters(Object.fromEntries(grown.map((name) => [name, DEFAULTS[name]])), gesture);
+        }
+      }}
+    >
+      <ResetIcon />
+      {say("controls.reset-all")}
+    </button>
+  );
+}

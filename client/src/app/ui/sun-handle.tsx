@@ -1,0 +1,243 @@
+import { useRef, useState } from "preact/hooks";
+import { withFields } from "../appearance";
+import type { Studio } from "../studio";
+import {
+  around,
+  azimuthOfEye,
+  type DomePlace,
+  HIGHEST_SUN,
+  LOWEST_SUN,
+  type ScreenAxes,
+  SunDrag,
+  type SunPlace,
+  shownAt,
+  standingAt,
+} from "../sun-orbit";
+import { say } from "../words";
+import { Icon } from "./icons";
+import { useFrames } from "./use-frames";
+
+/** The dome's radius, as a share of the workspace's smaller side, and how far the sun stays from the edges, in pixels. */
+const DOME = 0.4;
+const EDGE = 34;
+const TOP_EDGE = 84;
+/** How far an arrow key moves the sun, and with shift, in degrees. */
+const KEY_STEP = 3;
+const BIG_STEP = 15;
+/** A view that turned less than this since the last frame stands still, in degrees. */
+const STILL = 0.01;
+/** A view that has stood still for so many frames has come to rest. */
+const REST_FRAMES = 12;
+const RING_POINTS = 64;
+
+const PinIcon = () => (
+  <Icon>
+    <path d="M9 4.500h6l-.8 6 3 3.500H6.800l3-3.500zM12 14v6" />
+  </Icon>
+);
+
+/** The sun as a little sphere around the tree: to be dragged, and pinned while the tree turns under it. */
+export function SunHandle({ studio }: { studio: Studio }) {
+  const pinned = studio.sunPinned.value;
+  const setPinned = (to: boolean) => {
+    studio.sunPinned.value = to;
+  };
+  const shown = studio.panel.value === "background" || pinned;
+  return shown ? <Sphere studio={studio} pinned={pinned} setPinned={setPinned} /> : null;
+}
+
+type Beside = readonly [right: number, up: number];
+
+interface SphereProps {
+  readonly studio: Studio;
+  readonly pinned: boolean;
+  readonly setPinned: (pinned: boolean) => void;
+}
+
+function Sphere({ studio, pinned, setPinned }: SphereProps) {
+  const host = useRef<HTMLDivElement>(null);
+  const [front, back] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
+  /** The finger on the sun, and how far beside its middle it took hold, in dome radii. */
+  const hand = useRef<{ readonly id: number; readonly drag: SunDrag; readonly beside: Beside } | null>(null);
+  const [held, setHeld] = useState(false);
+  /** Where the eye was when it was last looked, and for how many frames it has stood still since it turned. */
+  const eye = useRef<{ azimuth: number; still: number } | null>(null);
+  const { sun_azimuth: azimuth, sun_elevation: elevation } = studio.appearance.value.background;
+  const place: SunPlace = { azimuth, elevation };
+
+  const patched = ({ azimuth, elevation }: SunPlace) =>
+    withFields(studio.appearance.peek(), "background", {
+      // Tenths are finer than any eye and spare the wire.
+      sun_azimuth: around(Math.round(azimuth * 10) / 10),
+      sun_elevation: Math.min(HIGHEST_SUN, Math.max(LOWEST_SUN, Math.round(elevation * 10) / 10)),
+    });
+  const drag = (to: SunPlace) => studio.looks.drag(patched(to));
+  const commit = (to: SunPlace) => studio.looks.commit(patched(to));
+  const now = (): SunPlace => {
+    const { sun_azimuth, sun_elevation } = studio.appearance.peek().background;
+    return { azimuth: sun_azimuth, elevation: sun_elevation };
+  };
+
+  useFrames(true, () => {
+    const axes = studio.stage.screenAxes();
+    const dome = host.current && domeOf(host.current);
+    if (!axes || !dome) {
+      return;
+    }
+    follow(axes);
+    const at = shownAt(now(), axes);
+    const [x, y] = dome.pixels(at);
+    host.current?.style.setProperty("--x", `${x.toFixed(1)}px`);
+    host.current?.style.setProperty("--y", `${y.toFixed(1)}px`);
+    host.current?.setAttribute("data-behind", String(!at.before));
+    if (held) {
+      const [before, behind] = ring(now().elevation, axes, dome);
+      front.current?.setAttribute("d", before);
+      back.current?.setAttribute("d", behind);
+    }
+  });
+
+  /** A sun that is pinned or held goes round with the eye, so that it keeps its place on the glass. */
+  function follow(axes: ScreenAxes): void {
+    const looksFrom = azimuthOfEye(axes);
+    const last = eye.current;
+    if (last === null || !(pinned || held)) {
+      eye.current = { azimuth: looksFrom, still: REST_FRAMES };
+      return;
+    }
+    const turned = ((looksFrom - last.azimuth + 540) % 360) - 180;
+    if (Math.abs(turned) > STILL) {
+      eye.current = { azimuth: looksFrom, still: 0 };
+      const { azimuth, elevation } = now();
+      drag({ azimuth: azimuth + turned, elevation });
+    } else if (last.still < REST_FRAMES) {
+      last.still += 1;
+      if (last.still === REST_FRAMES && !held) {
+        commit(now());
+      }
+    }
+  }
+
+  const release = (event: PointerEvent) => {
+    if (hand.current?.id !== event.pointerId) {
+      return;
+    }
+    hand.current = null;
+    setHeld(false);
+    commit(now());
+    studio.stage.hold(studio.tools.drawing.peek());
+  };
+  const step = (event: KeyboardEvent) => {
+    const by = event.shiftKey ? BIG_STEP : KEY_STEP;
+    const moves: Record<string, readonly [number, number]> = {
+      ArrowLeft: [-by, 0],
+      ArrowRight: [by, 0],
+      ArrowUp: [0, by],
+      ArrowDown: [0, -by],
+    };
+    const move = moves[event.key];
+    if (move) {
+      event.preventDefault();
+      event.stopPropagation();
+      const { azimuth, elevation } = now();
+      commit({ azimuth: azimuth + move[0], elevation: elevation + move[1] });
+    }
+  };
+  return (
+    <div class="sun" ref={host} data-held={held} data-night={elevation < 0}>
+      <svg class="overlay sun-ring" aria-hidden="true">
+        <path class="sun-ring-behind" ref={back} />
+        <path class="sun-ring-before" ref={front} />
+      </svg>
+      <div
+        class="sun-sphere"
+        role="slider"
+        tabIndex={0}
+        aria-label={say("sun.label")}
+        aria-valuemin={0}
+        aria-valuemax={360}
+        aria-valuenow={Math.round(place.azimuth)}
+        aria-valuetext={say("sun.value", {
+          azimuth: Math.round(place.azimuth),
+          elevation: Math.round(place.elevation),
+        })}
+        title={say("sun.title")}
+        onPointerDown={(event) => {
+          const axes = studio.stage.screenAxes();
+          const dome = host.current && domeOf(host.current);
+          if (hand.current === null && event.button === 0 && axes && dome) {
+            const shown = shownAt(now(), axes);
+            const [right, up] = dome.place(event.clientX, event.clientY);
+            const beside: Beside = [shown.right - right, shown.up - up];
+            hand.current = { id: event.pointerId, drag: new SunDrag(shown.before), beside };
+            event.currentTarget.setPointerCapture(event.pointerId);
+            setHeld(true);
+            studio.stage.hold(true);
+          }
+        }}
+        onPointerMove={(event) => {
+          const axes = studio.stage.screenAxes();
+          const dome = host.current && domeOf(host.current);
+          if (
+            hand.current?.id === event.pointerId &&
+            axes &&
+            dome &&
+            (event.movementX !== 0 || event.movementY !== 0)
+          ) {
+            const [right, up] = dome.place(event.clientX, event.clientY);
+            const { beside } = hand.current;
+            drag(standingAt(hand.current.drag.to(right + beside[0], up + beside[1]), axes));
+          }
+        }}
+        onPointerUp={release}
+        onPointerCancel={release}
+        onLostPointerCapture={release}
+        onKeyDown={step}
+      />
+      <button
+        class="sun-pin"
+        type="button"
+        aria-label={say("sun.pin")}
+        title={say("sun.pin")}
+        aria-pressed={pinned}
+        onClick={() => setPinned(!pinned)}
+      >
+        <PinIcon />
+      </button>
+    </div>
+  );
+}
+
+/** The dome on the glass: around the middle of the workspace. */
+interface Dome {
+  pixels(place: DomePlace): readonly [x: number, y: number];
+  place(clientX: number, clientY: number): readonly [right: number, up: number];
+}
+
+function domeOf(host: HTMLElement): Dome {
+  const { left, top, width, height } = host.getBoundingClientRect();
+  const radius = DOME * Math.min(width, height);
+  const [middleX, middleY] = [width / 2, height / 2 + 0.06 * height];
+  const within = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
+  return {
+    pixels: ({ right, up }) => [
+      within(middleX + radius * right, EDGE, width - EDGE),
+      within(middleY - radius * up, TOP_EDGE, height - EDGE),
+    ],
+    place: (x, y) => [(x - left - middleX) / radius, (middleY - (y - top)) / radius],
+  };
+}
+
+/** The way the sun takes around the tree at an elevation: what of it is before the tree, and what behind. */
+function ring(elevation: number, axes: ScreenAxes, dome: Dome): readonly [before: string, behind: string] {
+  const paths = ["", ""];
+  let last = -1;
+  for (let i = 0; i <= RING_POINTS; i += 1) {
+    const place = shownAt({ azimuth: (360 * i) / RING_POINTS, elevation }, axes);
+    const [x, y] = dome.pixels(place);
+    const side = place.before ? 0 : 1;
+    paths[side] += `${side === last ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`;
+    last = side;
+  }
+  return [paths[0] ?? "", paths[1] ?? ""];
+}

@@ -1,0 +1,84 @@
+/** The panel in which a tree's architecture is shaped: its parts, and what its widgets are for. */
+export const ARCHITECTURE = {
+  "architecture.tab.species": ["Species", "Arten"],
+  "architecture.tab.form": ["Form", "Form"],
+  "architecture.tab.growth": ["Growth", "Wuchs"],
+  "architecture.tabs": ["What to shape", "Was geformt wird"],
+
+  "architecture.sketch": [
+    "A small flat tree that grows as the settings below say",
+    "Ein kleiner flacher Baum, der wächst, wie es die Einstellungen darunter sagen",
+  ],
+  "architecture.sketch.failed": ["No sketch just now", "Gerade keine Skizze"],
+  "architecture.own": ["Your own", "Eigene Art"],
+  "architecture.changed": ["{name}, changed", "{name}, verändert"],
+  "architecture.badge": ["changed", "verändert"],
+  "architecture.choose-species": ["Species: {name}. Choose another one", "Art: {name}. Eine andere wählen"],
+
+  "architecture.species.note": [
+    "What grows from now on follows the species you pick; what has grown stays.",
+    "Was von nun an wächst, folgt der gewählten Art; was gewachsen ist, bleibt.",
+  ],
+  "architecture.species.search": ["Find a species", "Art suchen"],
+  "architecture.species.none": ["No species is called “{words}”.", "Keine Art heißt „{words}“."],
+  "architecture.species.unknown": ["This server knows no species.", "Dieser Server kennt keine Arten."],
+  "architecture.species.looking": ["Looking…", "Suche…"],
+  "architecture.species.label": ["{name} ({botanical}): {sentence}", "{name} ({botanical}): {sentence}"],
+
+  "architecture.tropism": ["Tropism", "Tropismus"],
+  "architecture.tropism.help": [
+    "Turn the arrow on the sketch: branches tend to point along it, on every side of the tree.",
+    "Drehen Sie den Pfeil in der Skizze: Äste streben in seine Richtung, auf jeder Seite des Baums.",
+  ],
+  "architecture.sides": ["Favoured side", "Begünstigte Seite"],
+  "architecture.sides.help": [
+    "A slanted branch seen end-on: pull the ellipse to where its buds should grow best.",
+    "Ein schräger Ast, von vorn gesehen: Ziehen Sie die Ellipse dorthin, wo seine Knospen am besten wachsen sollen.",
+  ],
+  "architecture.sides.above": ["Upper side", "Oberseite"],
+  "architecture.sides.below": ["Underside", "Unterseite"],
+  "architecture.sides.aside": ["Flanks", "Flanken"],
+  "architecture.sides.whole": ["Whole ellipse, up or down", "Ganze Ellipse, hinauf oder hinab"],
+  "architecture.sides.even": ["No side is favoured", "Keine Seite ist im Vorteil"],
+  "architecture.sides.epitony": ["Epitony: buds on top thrive", "Epitonie: Knospen oben gedeihen"],
+  "architecture.sides.hypotony": ["Hypotony: buds underneath thrive", "Hypotonie: Knospen unten gedeihen"],
+  "architecture.sides.amphitony": [
+    "Amphitony: buds on the flanks thrive",
+    "Amphitonie: Knospen an den Flanken gedeihen",
+  ],
+  "architecture.sides.vertical": ["Buds above and below thrive", "Knospen oben und unten gedeihen"],
+  "architecture.fork": ["Branching", "Verzweigung"],
+  "architecture.fork.help": [
+    "Bend the fork: the side shoot leaves at ψ, and the axis turns away from it by δ.",
+    "Biegen Sie die Gabel: Der Seitentrieb geht im Winkel ψ ab, und die Achse weicht ihm um δ aus.",
+  ],
+  "architecture.fork.several": [
+    "Several buds at a node push the axis to no side, so δ rests.",
+    "Mehrere Knospen am Knoten drängen die Achse nach keiner Seite; δ ruht.",
+  ],
+  "architecture.weights": ["Direction", "Richtung"],
+  "architecture.weights.help": [
+    "Drag the dot towards what new shoots should obey: their own heading, tropism, or free space.",
+    "Ziehen Sie den Punkt zu dem, was neuen Trieben wichtig sein soll: ihre Richtung, Tropismus oder freier Raum.",
+  ],
+  "architecture.weights.point": [
+    "Balance of heading, tropism and free space",
+    "Gleichgewicht von Richtung, Tropismus und freiem Raum",
+  ],
+  "architecture.weights.text": [
+    "straight on {alpha}, tropism {beta}, free space {gamma}",
+    "geradeaus {alpha}, Tropismus {beta}, freier Raum {gamma}",
+  ],
+  "architecture.perception": ["Space of a bud", "Raum einer Knospe"],
+  "architecture.perception.help": [
+    "The inner circle is a bud’s own; in the cone it looks for room, shown as dots, and grows to where they are.",
+    "Der innere Kreis gehört der Knospe; im Kegel sucht sie Raum, die Punkte, und wächst dorthin.",
+  ],
+  "architecture.reset": ["Reset {name}", "{name} zurücksetzen"],
+
+  "architecture.section.vigor": ["Vigor", "Wuchskraft"],
+  "architecture.section.sharing": ["How vigor is shared", "Verteilung der Kraft"],
+  "architecture.section.buds": ["Buds", "Knospen"],
+  "architecture.section.shade": ["Shade", "Schatten"],
+  "architecture.section.wood": ["Wood", "Holz"],
+} as const;

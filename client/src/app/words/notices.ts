@@ -1,0 +1,52 @@
+/** What the page says of itself: how things stand, what has happened, what stands in the way. */
+export const NOTICES = {
+  "notices.workspace": ["The tree. Draw to make it grow.", "Der Baum. Zeichne, und er wächst."],
+  "notices.bud-lost": [
+    "The chosen branch is gone; every branch grows again.",
+    "Den gewählten Ast gibt es nicht mehr; alle Äste wachsen wieder.",
+  ],
+  "notices.stroke-ended": [
+    "The tree went back in time; your stroke ended there.",
+    "Der Baum ging in der Zeit zurück; dein Strich endete dort.",
+  ],
+  "notices.unknown-session": ["This tree is not here", "Diesen Baum gibt es hier nicht"],
+  "notices.unknown-session.text": [
+    "The link names a tree this server does not know. It may have been started on another machine.",
+    "Der Link nennt einen Baum, den dieser Server nicht kennt. Vielleicht wurde er auf einem anderen Rechner begonnen.",
+  ],
+  "notices.unknown-session.way": ["Plant a new tree", "Neuen Baum pflanzen"],
+  "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
+  "notices.version.text": [
+    "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",
+    "Server und Seite haben verschiedene Versionen, und neu zu laden hat nicht geholfen. Warte eine Minute und lade dann neu.",
+  ],
+  "notices.version.way": ["Reload", "Neu laden"],
+  "notices.no-server": ["The server does not answer", "Der Server antwortet nicht"],
+  "notices.no-server.text": [
+    "Is it running, and is this device in the same network? This page keeps trying.",
+    "Läuft er, und ist dieses Gerät im selben Netz? Die Seite versucht es weiter.",
+  ],
+  "notices.no-webgl": ["This browser cannot draw in 3D", "Dieser Browser kann nicht in 3D zeichnen"],
+  "notices.no-webgl.text": [
+    "Espalier needs WebGL 2. Try a current Safari, Chrome, Edge or Firefox with graphics acceleration on.",
+    "Espalier braucht WebGL 2. Versuche es mit einem aktuellen Safari, Chrome, Edge oder Firefox und eingeschalteter Grafikbeschleunigung.",
+  ],
+  "notices.hint.seed": ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
+  "notices.hint.lasso": ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],
+  "notices.hint.brush": ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"],
+  "notices.connecting": ["Connecting…", "Verbindet…"],
+  "notices.reconnecting": ["Reconnecting… (try {attempt})", "Verbindet wieder… (Versuch {attempt})"],
+  "notices.kept": ["your strokes are kept", "deine Striche bleiben erhalten"],
+  "notices.full": [
+    "The tree has all the growth this document holds. Undo or ungrow to draw on.",
+    "Der Baum ist so groß, wie dieses Dokument es erlaubt. Mach etwas rückgängig oder lass ihn zurückwachsen, um weiterzuzeichnen.",
+  ],
+  "notices.people": ["People who have this tree open: {count}", "Diesen Baum haben offen: {count}"],
+  "notices.metamer": ["1 metamer", "1 Metamer"],
+  "notices.metamers": ["{count} metamers", "{count} Metamere"],
+  "notices.metamers.title": [
+    "Living metamers: internodes with their buds and leaves",
+    "Lebende Metamere: Internodien mit ihren Knospen und Blättern",
+  ],
+  "notices.looking": ["Looking…", "Sucht…"],
+} as const;

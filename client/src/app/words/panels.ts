@@ -1,0 +1,9 @@
+/** Names of the panels. */
+export const PANELS = {
+  "panels.architecture": ["Architecture", "Architektur"],
+  "panels.brush": ["Brush", "Pinsel"],
+  "panels.leaves": ["Leaves", "Laub"],
+  "panels.branches": ["Branches", "Äste"],
+  "panels.background": ["Background", "Hintergrund"],
+  "panels.scene": ["Scene", "Szene"],
+} as const;

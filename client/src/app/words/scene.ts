@@ -1,0 +1,50 @@
+/** What stands in the scene beside the trees. */
+export const SCENE = {
+  "scene.box": ["Box", "Quader"],
+  "scene.sphere": ["Sphere", "Kugel"],
+  "scene.wall": ["Wall", "Mauer"],
+  "scene.plane": ["Plane", "Ebene"],
+  "scene.model": ["Model", "Modell"],
+  "scene.model.title": ["A .glb or .gltf file", "Eine .glb- oder .gltf-Datei"],
+  "scene.seed": ["Seed", "Samen"],
+  "scene.advice": [
+    "Trees grow around what stands here, and in its shade. Drag it where it should stand.",
+    "Bäume wachsen um das herum, was hier steht, und in seinem Schatten. Ziehe es dorthin, wo es stehen soll.",
+  ],
+  "scene.remove": ["Remove", "Entfernen"],
+  "scene.remove.which": ["Remove {name}", "{name} entfernen"],
+  "scene.across": ["Across", "Quer"],
+  "scene.up": ["Up", "Hoch"],
+  "scene.deep": ["Deep", "Tief"],
+  "scene.turn": ["Turn", "Drehung"],
+  "scene.tilt": ["Tilt", "Neigung"],
+  "scene.radius": ["Radius", "Radius"],
+  "scene.width": ["Width", "Breite"],
+  "scene.height": ["Height", "Höhe"],
+  "scene.depth": ["Depth", "Tiefe"],
+  "scene.no-file": [
+    "Choose a .glb, or a .gltf together with its .bin files.",
+    "Wähle eine .glb-Datei oder eine .gltf-Datei zusammen mit ihren .bin-Dateien.",
+  ],
+  "scene.no-gltf": ["{name} is no glTF file.", "{name} ist keine glTF-Datei."],
+  "scene.no-place": [
+    "This glTF file names no place for its data.",
+    "Diese glTF-Datei sagt nicht, wo ihre Daten liegen.",
+  ],
+  "scene.file-missing": [
+    "This model also needs the file {name}; choose both together.",
+    "Dieses Modell braucht auch die Datei {name}; wähle beide zusammen.",
+  ],
+  "scene.too-large": [
+    "This model is too large; {limit} MiB is the most.",
+    "Dieses Modell ist zu groß; höchstens {limit} MiB sind möglich.",
+  ],
+  "scene.mesh-short": [
+    "The server sent a mesh that is cut short.",
+    "Der Server hat ein unvollständiges Netz geschickt.",
+  ],
+  "scene.mesh-corner": [
+    "The server sent a mesh with a corner that is not there.",
+    "Der Server hat ein Netz mit einer fehlenden Ecke geschickt.",
+  ],
+} as const;

@@ -1,0 +1,14 @@
+/** What a person can choose for this device. */
+export const SETTINGS = {
+  "settings.title": ["Settings", "Einstellungen"],
+  "settings.language": ["Language", "Sprache"],
+  "settings.language.system": ["As the browser", "Wie der Browser"],
+  "settings.theme": ["Appearance", "Erscheinungsbild"],
+  "settings.theme.system": ["As the system", "Wie das System"],
+  "settings.theme.light": ["Light", "Hell"],
+  "settings.theme.dark": ["Dark", "Dunkel"],
+  "settings.side": ["Tools at the", "Werkzeuge"],
+  "settings.side.left": ["left", "links"],
+  "settings.side.right": ["right", "rechts"],
+  "settings.pressure": ["Pen pressure widens the brush", "Stiftdruck verbreitert den Pinsel"],
+} as const;

@@ -1,0 +1,111 @@
+import { effect } from "@preact/signals";
+import { nextDrawMode } from "../scene/draw-mode";
+import { Viewport } from "../scene/viewport";
+import { stepRadius } from "./brush-radius";
+import { deflectionFor, KEY_RATE } from "./grow-pacer";
+import { listenToKeys } from "./keyboard";
+import { publishFacts } from "./page-facts";
+import { listenToPointers } from "./pointer-source";
+import type { Studio } from "./studio";
+
+/** So many of the wheel's notches are one doubling of what it changes, roughly. */
+const NOTCHES = 8;
+/** How far an arrow key turns the tree, in radians. */
+const KEY_TURN = (5 * Math.PI) / 180;
+
+/** Takes the canvas into use: picture, hands and keys; returns what gives it back. */
+export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () => void {
+  let viewport: Viewport;
+  try {
+    viewport = new Viewport(canvas, studio.table);
+  } catch (error) {
+    console.error(error);
+    studio.hindrance.value = "no-webgl";
+    return () => {};
+  }
+  studio.stage.attach(viewport, canvas);
+  studio.branches.attach(viewport);
+  studio.tools.attach(viewport);
+  const keys = followKeys(studio);
+  const stopPointers = followPointers(studio, canvas, keys.handHeld);
+  const stopPublishing = effect(() => publishFacts(studio));
+  const stopLeaves = effect(() => {
+    const parameters = studio.parameters.value;
+    if (parameters !== null) {
+      viewport.setLeafSize(parameters.leaf_size);
+    }
+  });
+  const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
+  const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
+  const stopScene = effect(() => {
+    const chosen = studio.panel.value === "scene" ? studio.obstacles.chosen.value : null;
+    viewport.showObstacles(studio.obstacles.drawn.value, chosen);
+  });
+  const stopLife = studio.followPageLife();
+  return () => {
+    stopLife();
+    stopScene();
+    stopLeaves();
+    stopLooks();
+    stopDrawMode();
+    stopPublishing();
+    stopPointers();
+    keys.stop();
+    studio.leave();
+    studio.tools.detach();
+    studio.branches.detach();
+    studio.stage.detach();
+    viewport.dispose();
+  };
+}
+
+function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
+  return listenToKeys({
+    undo: () => studio.undo(),
+    redo: () => studio.redo(),
+    frame: () => studio.stage.frameTree(),
+    help: () => {
+      studio.sheet.value = "help";
+    },
+    drawMode: (direction) => {
+      studio.drawMode.value = nextDrawMode(studio.drawMode.peek(), direction);
+    },
+    bare: () => studio.setBare(!studio.bare.peek()),
+    tool: (tool) => studio.tools.choose(tool),
+    escape: () => studio.escape(),
+    widen: (notches) => studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches)),
+    turn: (right, up, twist) => studio.branches.step(right, up, twist) || turnTree(studio, right),
+    travel: (direction, edge) => (edge ? studio.time.toEdge(direction) : studio.time.by(direction)),
+    grow: (direction) =>
+      direction === 0 ? studio.growth.release() : studio.growth.to(direction * deflectionFor(KEY_RATE)),
+    busy: () => studio.sheet.peek() !== null,
+  });
+}
+
+/** Without a branch in hand the arrow keys turn the tree; false where they mean nothing. */
+function turnTree(studio: Studio, right: number): boolean {
+  if (right !== 0) {
+    studio.stage.turn(right * KEY_TURN);
+  }
+  return right !== 0;
+}
+
+function followPointers(studio: Studio, canvas: HTMLCanvasElement, handHeld: () => boolean): () => void {
+  return listenToPointers(canvas, {
+    gesture: (gesture) => {
+      studio.stage.radiusSeen();
+      studio.tools.gesture(gesture);
+    },
+    doubles: () => studio.tools.doubles(),
+    grip: (x, y) => studio.tools.grip(x, y),
+    hover: (place) => studio.tools.hover(place),
+    widen: (factor) => {
+      const notches = Math.log(factor) * NOTCHES;
+      if (!studio.branches.step(0, 0, notches)) {
+        studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches));
+      }
+    },
+    handHeld,
+    holdable: (x, y) => studio.tools.holdable(x, y),
+  });
+}

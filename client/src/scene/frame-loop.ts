@@ -1,0 +1,101 @@
+import { QualityControl } from "./quality";
+
+/** What the first frame after a pause counts as, in seconds: the pause itself is no part of any movement. */
+const FIRST_STEP = 1 / 60;
+
+/** One frame. */
+export interface FrameTime {
+  /** When it began, in milliseconds. */
+  readonly began: number;
+  /** How many seconds the movement under way goes on with it. */
+  readonly step: number;
+  /** Whether it was asked for, rather than that the one before it goes on by itself. */
+  readonly asked: boolean;
+}
+
+/** Draws frames only when needed, as well as the device can while something moves, and as well as can be at rest. */
+export class FrameLoop {
+  readonly control = new QualityControl();
+  private request = 0;
+  private asked = false;
+  /** When the movement under way was last drawn. */
+  private lastFrame: number | null = null;
+  /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
+  private requested = 0;
+  private began: number | null = null;
+  private restTimer = 0;
+  private held = false;
+
+  /** `draw` says whether more is to move by itself; `lacking` whether the last frame was less than the one at rest. */
+  constructor(
+    private readonly draw: (time: FrameTime) => boolean,
+    private readonly lacking: () => boolean,
+  ) {}
+
+  /** Has a frame drawn. */
+  invalidate(): void {
+    this.asked = true;
+    this.schedule();
+  }
+
+  /** Has one drawn that is part of a movement. */
+  stir(): void {
+    this.control.moved(performance.now());
+    this.invalidate();
+  }
+
+  /** While it is held the picture does not come to rest. */
+  hold(held: boolean): void {
+    this.held = held;
+    this.stir();
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.request);
+    clearTimeout(this.restTimer);
+  }
+
+  private schedule(): void {
+    if (this.request !== 0) return;
+    this.requested = performance.now();
+    this.request = requestAnimationFrame(this.frame);
+  }
+
+  private readonly frame = (milliseconds: number): void => {
+    const began = performance.now();
+    const { control } = this;
+    this.request = 0;
+    if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
+    const step = this.lastFrame === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastFrame) / 1000);
+    this.lastFrame = null;
+    const { asked } = this;
+    this.asked = false;
+    const goesOn = this.draw({ began, step, asked });
+    // A frame at rest is followed by a pause, which tells nothing.
+    this.began = control.resting ? null : began;
+    this.awaitRest();
+    if (!goesOn) return;
+    this.lastFrame = milliseconds;
+    this.schedule();
+    this.requested = began;
+  };
+
+  /** Has the picture at rest drawn once nothing has moved for a while. */
+  private awaitRest(): void {
+    clearTimeout(this.restTimer);
+    const wait = this.control.restIn(performance.now());
+    if (wait !== null && !this.held) this.restTimer = window.setTimeout(this.rest, wait);
+  }
+
+  private readonly rest = (): void => {
+    if (this.held) return;
+    if (this.request !== 0 || this.control.restIn(performance.now()) !== 0) {
+      this.awaitRest();
+      return;
+    }
+    const lacking = this.lacking();
+    this.control.rest();
+    this.began = null;
+    if (lacking) this.invalidate();
+  };
+}

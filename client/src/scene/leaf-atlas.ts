@@ -1,0 +1,184 @@
+import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RGBAFormat, type Texture, UnsignedByteType } from "three";
+import { slopeAt } from "./leaf-painter";
+import { type LeafTile, TILE_SIDE } from "./leaf-tile";
+
+/** Tiles along each side of an atlas: as many pictures of one thing as there are, so that it does not repeat. */
+export const ATLAS_TILES = 2;
+const SIDE = ATLAS_TILES * TILE_SIDE;
+/** Where the shaders draw the line between a leaf and none. */
+const THRESHOLD = 0.5;
+
+/** The levels of a mipmap, the finest first: four bytes a texel. */
+export interface Levels {
+  /** Half the brightness, second colour, sheerness, coverage. */
+  readonly colour: Uint8Array<ArrayBuffer>[];
+  /** Normal across and along, about 128; wood; margin. */
+  readonly relief: Uint8Array<ArrayBuffer>[];
+}
+
+/** A tile with so many texels along each side. */
+export type Painting = (side: number) => LeafTile;
+
+/**
+ * Four tiles as one picture, with coarser ones made of it that cover as much of each tile as the finest does; or painted
+ * anew, down to `coarsest` texels a side, for what would run together.
+ */
+export function atlasLevels(paintings: readonly Painting[], coarsest: number = TILE_SIDE): Levels {
+  const levels: Levels = { colour: [], relief: [] };
+  for (let side = SIDE; side >= 1; side /= 2) {
+    if (side >= ATLAS_TILES * coarsest) {
+      paint(
+        levels,
+        paintings.map((painting) => painting(side / ATLAS_TILES)),
+      );
+      continue;
+    }
+    const [above, beside] = [levels.colour.at(-1)!, levels.relief.at(-1)!];
+    levels.colour.push(halved(above, above, side));
+    levels.relief.push(halved(beside, above, side));
+  }
+  for (let tile = 0; tile < ATLAS_TILES * ATLAS_TILES; tile += 1) keepCoverage(levels.colour, tile);
+  return levels;
+}
+
+/** Adds a level with these tiles. */
+function paint(levels: Levels, tiles: readonly LeafTile[]): void {
+  const span = tiles[0]!.side;
+  const side = ATLAS_TILES * span;
+  const colour = new Uint8Array(4 * side * side);
+  const relief = new Uint8Array(4 * side * side);
+  tiles.forEach((tile, i) => {
+    const corner = (i % ATLAS_TILES) * span + Math.floor(i / ATLAS_TILES) * span * side;
+    for (let at = 0; at < span * span; at += 1) {
+      const to = 4 * (corner + Math.floor(at / span) * side + (at % span));
+      colour[to] = byte(tile.shade[at]! / 2);
+      colour[to + 1] = byte(tile.tone[at]!);
+      colour[to + 2] = byte(tile.sheer[at]!);
+      colour[to + 3] = byte(tile.alpha[at]!);
+      const [sx, sy] = tile.alpha[at]! > 0 ? slopeAt(tile, at) : [0, 0];
+      const steep = Math.hypot(sx, sy, 1);
+      relief[to] = 128 + Math.round((-127 * sx) / steep);
+      relief[to + 1] = 128 + Math.round((-127 * sy) / steep);
+      relief[to + 2] = byte(tile.wood[at]!);
+      relief[to + 3] = byte(tile.margin[at]!);
+    }
+  });
+  levels.colour.push(colour);
+  levels.relief.push(relief);
+}
+
+/** Textures of the levels, painted when they are first drawn with; a restored context gets them from memory again. */
+export class LeafAtlas {
+  /** For a shader's uniforms. */
+  readonly colour: { readonly value: Texture };
+  readonly relief: { readonly value: Texture };
+  private textures: { colour: Texture; relief: Texture } | null = null;
+
+  constructor(private readonly painting: () => Levels) {
+    const textures = () => this.painted();
+    this.colour = {
+      get value() {
+        return textures().colour;
+      },
+    };
+    this.relief = {
+      get value() {
+        return textures().relief;
+      },
+    };
+  }
+
+  /** Has both uploaded again. */
+  restored(): void {
+    if (!this.textures) return;
+    this.textures.colour.needsUpdate = true;
+    this.textures.relief.needsUpdate = true;
+  }
+
+  /** Lets go of them; what is drawn next is painted again. */
+  dispose(): void {
+    this.textures?.colour.dispose();
+    this.textures?.relief.dispose();
+    this.textures = null;
+  }
+
+  private painted() {
+    if (!this.textures) {
+      const { colour, relief } = this.painting();
+      this.textures = { colour: textureOf(colour), relief: textureOf(relief) };
+    }
+    return this.textures;
+  }
+}
+
+/** What share of a tile's texels is inside, if coverages count `factor` times. */
+export function coverageOf(level: Uint8Array, side: number, tile: number, factor = 1): number {
+  const span = Math.max(1, side / ATLAS_TILES);
+  const left = (tile % ATLAS_TILES) * span;
+  const low = Math.floor(tile / ATLAS_TILES) * span;
+  let inside = 0;
+  for (let y = low; y < low + span; y += 1) {
+    for (let x = left; x < left + span; x += 1) {
+      if (level[4 * (y * side + x) + 3]! * factor >= 255 * THRESHOLD) inside += 1;
+    }
+  }
+  return inside / (span * span);
+}
+
+/** Each texel from the four it stands for, as far as they are covered: what is outside has no colour. */
+function halved(above: Uint8Array, weights: Uint8Array, side: number): Uint8Array<ArrayBuffer> {
+  const out = new Uint8Array(4 * side * side);
+  const isColour = above === weights;
+  const channels = isColour ? 3 : 4;
+  for (let y = 0; y < side; y += 1) {
+    for (let x = 0; x < side; x += 1) {
+      const to = 4 * (y * side + x);
+      const a = 16 * y * side + 8 * x;
+      const [b, c, d] = [a + 4, a + 8 * side, a + 8 * side + 4];
+      const [wa, wb, wc, wd] = [weights[a + 3]!, weights[b + 3]!, weights[c + 3]!, weights[d + 3]!];
+      const weight = wa + wb + wc + wd;
+      for (let i = 0; i < channels; i += 1) {
+        out[to + i] =
+          weight > 0
+            ? (above[a + i]! * wa + above[b + i]! * wb + above[c + i]! * wc + above[d + i]! * wd) / weight
+            : (above[a + i]! + above[b + i]! + above[c + i]! + above[d + i]!) / 4;
+      }
+      if (isColour) out[to + 3] = weight / 4;
+    }
+  }
+  return out;
+}
+
+/** Scales the coverages of a tile's coarser levels until each has as much inside as the finest. */
+function keepCoverage(levels: Uint8Array[], tile: number): void {
+  const wanted = coverageOf(levels[0]!, SIDE, tile);
+  for (let level = 1, side = SIDE / 2; side >= ATLAS_TILES; level += 1, side /= 2) {
+    const texels = levels[level]!;
+    let [low, high] = [0, 8];
+    for (let i = 0; i < 12; i += 1) {
+      const middle = (low + high) / 2;
+      if (coverageOf(texels, side, tile, middle) < wanted) low = middle;
+      else high = middle;
+    }
+    const span = side / ATLAS_TILES;
+    const corner = (tile % ATLAS_TILES) * span + Math.floor(tile / ATLAS_TILES) * span * side;
+    for (let i = 0; i < span * span; i += 1) {
+      const at = 4 * (corner + Math.floor(i / span) * side + (i % span)) + 3;
+      texels[at] = Math.min(255, Math.ceil(texels[at]! * high));
+    }
+  }
+}
+
+function byte(share: number): number {
+  return Math.round(255 * Math.min(1, Math.max(0, share)));
+}
+
+function textureOf(levels: Uint8Array<ArrayBuffer>[]): DataTexture {
+  const texture = new DataTexture(levels[0]!, SIDE, SIDE, RGBAFormat, UnsignedByteType);
+  texture.mipmaps = levels.map((data, i) => ({ data, width: SIDE >> i, height: SIDE >> i }));
+  texture.magFilter = LinearFilter;
+  texture.minFilter = LinearMipmapLinearFilter;
+  texture.anisotropy = 4;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,188 @@
+import { Group, type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
+import type { Appearance } from "../wire/generated";
+import { Bark } from "./bark";
+import { Branches } from "./branches";
+import type { DrawMode, Legend } from "./draw-mode";
+import type { Fineness } from "./fineness";
+import { Foliage } from "./foliage";
+import { Guises } from "./guises";
+import type { Materials, Uniforms } from "./materials";
+import { NodeTexture } from "./node-texture";
+import { RadiusEase } from "./radius-ease";
+import { SkeletonLines } from "./skeleton-lines";
+import { TraitTexture } from "./trait-texture";
+import { Dirty, radiusOf, type TreeTable } from "./tree-table";
+
+/** The tree as it is drawn: its table on the graphics card, its bark and leaves, or what a draw mode has instead. */
+export class TreeView {
+  readonly guises = new Guises();
+  /** Seen by the camera. */
+  readonly group = new Group();
+  /** Seen by the sun. */
+  readonly casters = new Group();
+  private readonly solid = new Group();
+  private readonly nodes = new NodeTexture();
+  private readonly radii = new RadiusEase();
+  private readonly traits: TraitTexture;
+  private readonly branches: Branches;
+  private readonly foliage: Foliage;
+  private readonly skeleton: SkeletonLines;
+  private mode: DrawMode = "lit";
+  private tableChanged = true;
+  private guisesChanged = false;
+
+  constructor(
+    private readonly table: TreeTable,
+    materials: Materials,
+    uniforms: Uniforms,
+  ) {
+    uniforms.uNodes = this.nodes.uniform;
+    uniforms.uGuises = this.guises.uniform;
+    this.traits = new TraitTexture(uniforms);
+    this.branches = new Branches(materials, { bark: new Bark(uniforms) });
+    this.foliage = new Foliage(materials, uniforms);
+    this.skeleton = new SkeletonLines(materials);
+    this.solid.add(...this.branches.meshes, ...this.foliage.meshes);
+    this.group.add(this.solid, this.skeleton.mesh);
+    this.casters.add(...this.branches.casters, ...this.foliage.casters);
+  }
+
+  /** What the draw mode's colours mean. */
+  get legend(): Legend | null {
+    return this.traits.legend;
+  }
+
+  /** When the last radius that glides will have arrived, in the table's seconds. */
+  get glidesUntil(): number {
+    return this.radii.until;
+  }
+
+  /** The table has changed. */
+  changed(): void {
+    this.tableChanged = true;
+  }
+
+  /** What a guise shows has changed. */
+  guiseChanged(): void {
+    this.guisesChanged = true;
+  }
+
+  /** What bark, leaves, flowers and fruits look like. */
+  setAppearance({ bark, leaves, flowers, fruits }: Appearance): void {
+    this.branches.setBark(bark);
+    this.foliage.setLook(leaves, flowers, fruits);
+    this.foliage.upload(this.table);
+  }
+
+  setMode(mode: DrawMode): void {
+    this.mode = mode;
+    this.traits.show(mode);
+    for (const { material } of this.solids()) material.wireframe = mode === "wireframe";
+  }
+
+  /** Takes over what changed; says whether rows did. */
+  sync(): boolean {
+    const { table, tableChanged } = this;
+    if (tableChanged) this.syncTable();
+    this.traits.upload(table);
+    if (tableChanged || this.guisesChanged) this.syncGuises(tableChanged);
+    this.showMode();
+    return tableChanged;
+  }
+
+  /** Chooses how finely everything is drawn, for a picture that stays at once; says whether some is left to the next frame. */
+  detail(fineness: Fineness, stays: boolean): boolean {
+    const unsettled = this.branches.see(this.table, fineness, stays);
+    this.branches.detail(fineness.ease > 0.5);
+    this.foliage.detail(fineness, this.table.bounds());
+    this.showMode();
+    return unsettled;
+  }
+
+  /** A restored context has lost every texture. */
+  restored(): void {
+    this.nodes.uploadWhole();
+    this.branches.restored();
+    this.guises.uploadWhole();
+    this.traits.restored();
+    this.foliage.restored();
+  }
+
+  dispose(): void {
+    for (const part of [this.branches, this.foliage, this.skeleton, this.nodes, this.guises, this.traits])
+      part.dispose();
+  }
+
+  private syncTable(): void {
+    this.tableChanged = false;
+    const { table } = this;
+    this.nodes.reserve(table.rows);
+    table.drain(
+      (rows) => {
+        this.nodes.truncate(rows);
+        this.branches.truncate(rows);
+        this.foliage.truncate(rows);
+        this.traits.truncate(rows);
+      },
+      (row, bits) => {
+        const moved = (bits & Dirty.Shape) !== 0;
+        this.noteRadius(row, this.guises.wornBy(row));
+        this.nodes.write(table, row);
+        this.branches.update(table, row);
+        this.traits.update(row, moved);
+        this.foliage.update(table, row, bits);
+      },
+    );
+    this.branches.upload();
+    this.foliage.upload(table);
+    this.skeleton.changed();
+  }
+
+  private syncGuises(tableChanged: boolean): void {
+    const { table } = this;
+    this.guisesChanged = false;
+    if (tableChanged) this.guises.settle(table);
+    const dressed = this.guises.dress(
+      table,
+      (row, slot, before) => {
+        this.noteRadius(row, before);
+        this.nodes.dress(table, row, slot);
+      },
+      tableChanged,
+    );
+    if (!dressed) this.guises.write(table);
+    const now = table.now();
+    this.radii.begin(
+      now,
+      (row) => this.guises.radiusIn(this.guises.wornBy(row), radiusOf(table.radiusCode[row]!)),
+      (row, from) => this.nodes.ease(row, from, now),
+    );
+    this.nodes.upload();
+  }
+
+  /** A row is about to change; until now it was drawn with what this slot makes of its radius. */
+  private noteRadius(row: number, slot: number): void {
+    const worn = (radius: number) => this.guises.radiusIn(slot, radius);
+    this.radii.note(row, this.nodes.shownRadius(row, this.table.now(), worn));
+  }
+
+  /** Axes alone are lines, and cast no shadow as wide as the branches they stand for. */
+  private showMode(): void {
+    const bare = this.mode === "skeleton";
+    this.solid.visible = !bare;
+    this.casters.visible = !bare;
+    this.skeleton.show(this.table, bare);
+    if (this.mode !== "wireframe") return;
+    // three.js makes the lines of triangles only where there is an attribute of this name.
+    for (const { geometry } of this.solids()) {
+      const any = Object.values(geometry.attributes).find((attribute) => !("isInstancedBufferAttribute" in attribute));
+      if (any && !geometry.hasAttribute("position")) geometry.setAttribute("position", any);
+    }
+  }
+
+  private *solids(): Iterable<Mesh<InstancedBufferGeometry, RawShaderMaterial>> {
+    for (const mesh of this.solid.children) {
+      if (mesh instanceof Mesh) yield mesh;
+    }
+  }
+}

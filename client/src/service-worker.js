@@ -1,0 +1,42 @@
+// Keeps the page itself, so that it opens without the server and says so; never anything of the API.
+// The build puts the version and the list of files in; what is kept under another version is dropped.
+
+const KEPT = `espalier-${"VERSION"}`;
+const SHELL = ["SHELL"];
+
+self.addEventListener("install", (event) => {
+  event.waitUntil(
+    caches
+      .open(KEPT)
+      // What the browser holds already may be of another build.
+      .then((cache) => cache.addAll(SHELL.map((path) => new Request(path, { cache: "reload" }))))
+      .then(() => self.skipWaiting()),
+  );
+});
+
+self.addEventListener("activate", (event) => {
+  event.waitUntil(
+    caches
+      .keys()
+      .then((names) => Promise.all(names.filter((name) => name !== KEPT).map((name) => caches.delete(name))))
+      .then(() => self.clients.claim()),
+  );
+});
+
+self.addEventListener("fetch", (event) => {
+  const { request } = event;
+  const { origin, pathname } = new URL(request.url);
+  if (request.method !== "GET" || origin !== self.location.origin) {
+    return;
+  }
+  if (request.mode === "navigate") {
+    // The server's own page first: it is never older than what is kept.
+    event.respondWith(fetch(request).catch(() => kept("/")));
+  } else if (SHELL.includes(pathname)) {
+    event.respondWith(kept(pathname).then((answer) => answer ?? fetch(request)));
+  }
+});
+
+function kept(path) {
+  return caches.open(KEPT).then((cache) => cache.match(path));
+}

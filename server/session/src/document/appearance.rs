@@ -1,0 +1,74 @@
+//! Changes that make nothing grow at once: of parameters, and of looks (`AP`).
+
+use std::sync::Arc;
+
+use espalier_growth::appearance::Appearance;
+use espalier_proto::{ParametersPatch, Problem};
+
+use super::{
+    Document,
+    history::{Kind, Setting},
+    parameters,
+};
+use crate::appearance::{self, AppearanceChange};
+
+impl Document {
+    /// How the tree looks.
+    pub fn appearance(&self) -> &Appearance {
+        &self.appearance
+    }
+
+    pub(super) fn set_parameters(
+        &mut self,
+        author: &str,
+        patch: &ParametersPatch,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
+        let wanted =
+            parameters::parse(&self.parameters().patched(patch)).map_err(|p| p.within("parameters"))?;
+        if wanted != *self.simulation.parameters() {
+            let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
+            self.change_setting(Kind::Parameters, author, gesture, setting);
+        }
+        Ok(())
+    }
+
+    pub(super) fn set_appearance(
+        &mut self,
+        author: &str,
+        change: &AppearanceChange,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
+        let wanted = change.applied_to(&self.appearance);
+        if wanted != *self.appearance {
+            let setting = Setting { appearance: Arc::new(wanted), ..self.setting() };
+            self.change_setting(Kind::Appearance, author, gesture, setting);
+        }
+        Ok(())
+    }
+
+    /// Makes this setting that of an operation: of the last one if that is part of the same gesture (`AP2`).
+    fn change_setting(&mut self, kind: Kind, author: &str, gesture: Option<u32>, setting: Setting) {
+        let now = self.plant().step();
+        let continues = self.history.continues(&[Kind::Parameters, Kind::Appearance], author, gesture, now);
+        if !continues {
+            self.record(kind, author, gesture);
+        }
+        self.set(&setting);
+        self.history.settle(setting);
+        if continues {
+            self.history.widen(kind);
+            // Back where the gesture began, there is nothing to undo.
+            if self.history.changes_nothing() {
+                self.unrecord();
+            }
+        }
+    }
+}
+
+/// All values as words, for hashing.
+pub(super) fn to_words(looks: &Appearance) -> Vec<u64> {
+    // The JSON text of a float is its shortest exact form, so equal text means equal bits.
+    let text = serde_json::to_vec(&appearance::to_proto(looks)).unwrap_or_default();
+    text.chunks(8).map(|chunk| chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte))).collect()
+}

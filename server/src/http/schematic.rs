@@ -1,0 +1,26 @@
+//! Small flat trees that show what parameters do.
+
+use std::time::Duration;
+
+use axum::{Json, extract::State, response::IntoResponse};
+use espalier_proto::Parameters;
+use tokio::time::timeout;
+
+use super::{
+    Shared,
+    failure::{Body, Failure},
+};
+
+/// Whoever drags a widget has moved on by then.
+const TIME_LIMIT: Duration = Duration::from_secs(2);
+
+/// The tree that these parameters grow (`SC1`).
+pub(super) async fn draw(
+    State(shared): State<Shared>,
+    Body(parameters): Body<Parameters>,
+) -> Result<impl IntoResponse, Failure> {
+    let drawn = shared.pool.run(move || espalier_session::schematic(&parameters));
+    let late = |_| Failure::unavailable("The server is busy growing trees; the schematic took too long.");
+    let schematic = timeout(TIME_LIMIT, drawn).await.map_err(late)???;
+    Ok(Json(schematic))
+}

@@ -1,0 +1,56 @@
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+
+/** Where sketches lie and pictures go. */
+export const FOLDER = join(import.meta.dirname, "../../../docs/gallery");
+
+/** How a picture is taken: as the page reads it from its address, and the size in pixels. */
+export interface Shot {
+  /** Turn around the tree, in degrees. */
+  readonly yaw?: number;
+  /** Height of the eye above the horizontal, in degrees. */
+  readonly pitch?: number;
+  /** 1 shows the whole tree with some room around it. */
+  readonly zoom?: number;
+  /** How far the tree is moved, in halves of the picture's height. */
+  readonly right?: number;
+  readonly up?: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** A sketch of the gallery. */
+export interface Entry {
+  /** Of its script `sketches/NAME.jsonl` and of its picture `NAME.jpg`. */
+  readonly name: string;
+  readonly seed: number;
+  readonly shot: Shot;
+  /** So many operations are taken back for a second picture, which is put on the left of the first. */
+  readonly undone?: number;
+}
+
+/** All sketches, in the order of the gallery. */
+export async function readCatalogue(): Promise<Entry[]> {
+  return JSON.parse(await readFile(join(FOLDER, "gallery.json"), "utf8")) as Entry[];
+}
+
+/** The commands of a script, each as its line of JSON; empty lines are none. */
+export async function readScript(name: string): Promise<string[]> {
+  const text = await readFile(join(FOLDER, "sketches", `${name}.jsonl`), "utf8");
+  return text.split("\n").filter((line) => line.trim() !== "");
+}
+
+/** The entries with these names, or all if none are given; a name that is not there is an error. */
+export function chosen(entries: readonly Entry[], names: readonly string[]): readonly Entry[] {
+  const unknown = names.filter((name) => !entries.some((entry) => entry.name === name));
+  if (unknown.length > 0) {
+    const known = entries.map(({ name }) => name).join(", ");
+    throw new Error(`no such sketch: ${unknown.join(", ")}; there are ${known}`);
+  }
+  return names.length === 0 ? entries : entries.filter(({ name }) => names.includes(name));
+}
+
+/** What a page's address ends with to show a shot and nothing else. */
+export function query({ width: _, height: __, ...view }: Shot): string {
+  return `?${new URLSearchParams(Object.entries(view).map(([key, value]) => [key, String(value)]))}`;
+}

@@ -1,0 +1,43 @@
+import { randomUUID } from "node:crypto";
+import type { Page } from "playwright-core";
+import { PROTOCOL_VERSION } from "../../../client/src/wire/generated";
+
+/** Has a page do commands in a session, one after the other, over a WebSocket as the client's own. */
+export async function perform(page: Page, session: string, commands: readonly string[]): Promise<void> {
+  const problem = await page.evaluate(
+    ({ protocol, client, session, commands }) =>
+      new Promise<string | null>((resolve) => {
+        // So many commands may be on their way; the server reads on while it grows.
+        const ahead = 64;
+        let sent = 0;
+        let done = 0;
+        const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/sessions/${session}/socket`);
+        // Nothing is drawn here: frames that nobody answers are not sent again, and hold nothing up.
+        socket.binaryType = "arraybuffer";
+        const send = () => {
+          while (sent < commands.length && sent - done < ahead) {
+            sent += 1;
+            socket.send(`{"type":"command","id":${sent},"command":${commands[sent - 1]}}`);
+          }
+        };
+        const end = (sentence: string | null) => {
+          socket.onclose = null;
+          socket.close();
+          resolve(sentence);
+        };
+        socket.onopen = () => socket.send(JSON.stringify({ type: "hello", protocol, client }));
+        socket.onclose = ({ code }) => end(`the server closed the socket with ${code} after line ${done}`);
+        socket.onmessage = ({ data }) => {
+          if (typeof data !== "string") return;
+          const message = JSON.parse(data);
+          if (message.type === "refused") end(`line ${message.id}: ${JSON.stringify(message.problem)}`);
+          if (message.type === "problem") end(JSON.stringify(message.problem));
+          if (message.type === "acknowledged") done = message.id;
+          if (message.type === "welcome" || message.type === "acknowledged") send();
+          if (done === commands.length) end(null);
+        };
+      }),
+    { protocol: PROTOCOL_VERSION, client: randomUUID(), session, commands },
+  );
+  if (problem !== null) throw new Error(problem);
+}

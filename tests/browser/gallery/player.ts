@@ -1,0 +1,96 @@
+import type { Browser, Page } from "playwright-core";
+import { Darkroom } from "../src/picture";
+import type { Server } from "../src/server";
+import { Tablet } from "../src/tablet";
+import { type Entry, query } from "./catalogue";
+import { perform } from "./performance";
+import { print } from "./print";
+
+/** How much work goes into a picture. */
+export interface Care {
+  /** The share of its width and height that a picture has. */
+  readonly size: number;
+  /** Pixels drawn for each one of the picture, along each side. */
+  readonly oversampling: number;
+}
+
+/** Pictures to hang up, and those to judge a form by. */
+export const FINAL: Care = { size: 1, oversampling: 1.5 };
+export const DRAFT: Care = { size: 0.5, oversampling: 1 };
+
+/** Bars and marks around the tree belong to whoever draws, not into a picture of it. */
+const CANVAS_ALONE = `
+  #app * { visibility: hidden !important }
+  #app #workspace { visibility: visible !important }
+`;
+/** A processor that has other work as well may need long for a picture, in milliseconds. */
+const PATIENCE = 240_000;
+/** A picture that has not changed for so long, in milliseconds, is at rest. */
+const STILL = 700;
+
+/** Plays sketches on a real server and takes their pictures in a real browser. */
+export class Player {
+  readonly #server: Server;
+  readonly #browser: Browser;
+  readonly #darkroom: Darkroom;
+  /** A page of the server without the client, for its sockets and its canvas. */
+  readonly #blank: Page;
+  readonly #care: Care;
+
+  private constructor(server: Server, browser: Browser, darkroom: Darkroom, blank: Page, care: Care) {
+    this.#server = server;
+    this.#browser = browser;
+    this.#darkroom = darkroom;
+    this.#blank = blank;
+    this.#care = care;
+  }
+
+  static async open(server: Server, browser: Browser, care: Care): Promise<Player> {
+    const blank = await browser.newPage();
+    await blank.goto(`${server.address}/health`);
+    return new Player(server, browser, await Darkroom.open(browser), blank, care);
+  }
+
+  /** Plays the commands of a sketch and gives its picture as JPEG. */
+  async play(entry: Entry, commands: readonly string[]): Promise<Buffer> {
+    const address = await this.#server.newSession(entry.seed);
+    const session = address.slice(address.lastIndexOf("/") + 1);
+    await perform(this.#blank, session, commands);
+    return this.#photograph(address, session, entry);
+  }
+
+  async #photograph(address: string, session: string, { shot, undone = 0 }: Entry): Promise<Buffer> {
+    const { size, oversampling } = this.#care;
+    const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
+    const screen = { width, height, detail: oversampling };
+    const tablet = await Tablet.open(this.#browser, this.#darkroom, address + query(shot), screen);
+    try {
+      tablet.page.setDefaultTimeout(PATIENCE);
+      await tablet.untilQuiet();
+      await tablet.page.addStyleTag({ content: CANVAS_ALONE });
+      const pictures = [await atRest(tablet.page)];
+      if (undone > 0) {
+        // The camera stays where it is: the two can be compared.
+        await perform(this.#blank, session, Array(undone).fill('{"kind":"undo"}'));
+        await tablet.untilQuiet();
+        pictures.unshift(await atRest(tablet.page));
+      }
+      if (tablet.errors.length > 0) throw new Error(tablet.errors.join("; "));
+      return await print(this.#blank, pictures, width, height);
+    } finally {
+      await tablet.close();
+    }
+  }
+}
+
+/** What a page shows once it stays as it is. */
+async function atRest(page: Page): Promise<Buffer> {
+  const end = Date.now() + PATIENCE;
+  for (let last = await page.screenshot(); ; ) {
+    await page.waitForTimeout(STILL);
+    const next = await page.screenshot();
+    if (next.equals(last)) return next;
+    if (Date.now() > end) throw new Error(`the picture does not come to rest within ${PATIENCE / 1000} s`);
+    last = next;
+  }
+}

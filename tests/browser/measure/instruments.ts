@@ -1,0 +1,102 @@
+/** What one frame asked of the graphics card in one of its passes. */
+export interface Work {
+  calls: number;
+  triangles: number;
+}
+
+/** One frame of the page. */
+export interface FrameRecord {
+  /** Milliseconds of the page's own script in it. */
+  script: number;
+  camera: Work;
+  shadow: Work;
+  /** When it ended, in milliseconds since the navigation. */
+  at: number;
+}
+
+declare global {
+  interface Window {
+    /** Frames in which something was drawn. */
+    measured: FrameRecord[];
+    /** What is drawn is counted but not passed on, so that script never waits for the graphics card. */
+    blind: boolean;
+    /** When the first rows came, in milliseconds since the navigation. */
+    rowsAt: number;
+  }
+}
+
+/** Counts what a page draws and times its script; runs in the page before anything else. */
+export function instrument(): void {
+  const shadowMap = 2048;
+  window.measured = [];
+  window.blind = false;
+  window.rowsAt = Number.NaN;
+  window.WebSocket = class extends WebSocket {
+    constructor(...address: ConstructorParameters<typeof WebSocket>) {
+      super(...address);
+      this.addEventListener("message", ({ data }) => {
+        if (typeof data !== "string" && Number.isNaN(window.rowsAt)) window.rowsAt = performance.now();
+      });
+    }
+  };
+  let frame: FrameRecord | null = null;
+  let stamp = -1;
+  let width = 0;
+
+  const { prototype } = WebGL2RenderingContext;
+  const { viewport } = prototype;
+  prototype.viewport = function (x, y, w, h) {
+    width = w === h ? w : 0;
+    return viewport.call(this, x, y, w, h);
+  };
+  const count = (mode: number, vertices: number, instances: number) => {
+    if (!frame) return;
+    const work = width === shadowMap ? frame.shadow : frame.camera;
+    work.calls += 1;
+    if (mode === 4) work.triangles += (vertices / 3) * instances;
+    if (mode === 5) work.triangles += (vertices - 2) * instances;
+  };
+  const { drawArrays, drawElements, drawArraysInstanced, drawElementsInstanced } = prototype;
+  prototype.drawArrays = function (mode, first, n) {
+    count(mode, n, 1);
+    if (!window.blind) drawArrays.call(this, mode, first, n);
+  };
+  prototype.drawElements = function (mode, n, type, offset) {
+    count(mode, n, 1);
+    if (!window.blind) drawElements.call(this, mode, n, type, offset);
+  };
+  prototype.drawArraysInstanced = function (mode, first, n, instances) {
+    count(mode, n, instances);
+    if (!window.blind) drawArraysInstanced.call(this, mode, first, n, instances);
+  };
+  prototype.drawElementsInstanced = function (mode, n, type, offset, instances) {
+    count(mode, n, instances);
+    if (!window.blind) drawElementsInstanced.call(this, mode, n, type, offset, instances);
+  };
+
+  const { clear, blitFramebuffer } = prototype;
+  prototype.clear = function (mask) {
+    if (!window.blind) clear.call(this, mask);
+  };
+  prototype.blitFramebuffer = function (...blit) {
+    if (!window.blind) blitFramebuffer.apply(this, blit);
+  };
+
+  const request = window.requestAnimationFrame.bind(window);
+  window.requestAnimationFrame = (callback) =>
+    request((time) => {
+      // All callbacks of one frame get the same time.
+      if (time !== stamp) {
+        stamp = time;
+        if (frame && frame.camera.calls > 0) window.measured.push(frame);
+        frame = { script: 0, camera: { calls: 0, triangles: 0 }, shadow: { calls: 0, triangles: 0 }, at: 0 };
+      }
+      const began = performance.now();
+      callback(time);
+      const ended = performance.now();
+      if (frame) {
+        frame.script += ended - began;
+        frame.at = ended;
+      }
+    });
+}

@@ -1,0 +1,201 @@
+import { cpus } from "node:os";
+import { gzipSync } from "node:zlib";
+import type { Browser, Page } from "playwright-core";
+import { perform } from "../gallery/performance";
+import { launchBrowser } from "../src/browser";
+import { Server, until } from "../src/server";
+import { type FrameRecord, instrument } from "./instruments";
+
+/** Metamers of the tree that budgets are for; it has about twice as many leaves. */
+const METAMERS = 100_000;
+const SCREEN = { width: 1194, height: 834 };
+/** Frames whose script is timed, after some in which everything is used for the first time. */
+const FRAMES = 240;
+const WARMING = 40;
+/** A tree is seen once so many triangles of it are drawn. */
+const A_TREE = 50_000;
+
+const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, script99: 4, gzip: 300_000, first: 1000 };
+
+/** Measures the client with a large tree and prints what it costs; `--metamers N` for another size. Gives the exit code. */
+export async function main(words: readonly string[]): Promise<number> {
+  const at = words.indexOf("--metamers");
+  const metamers = at < 0 ? METAMERS : Number(words[at + 1]);
+  const server = new Server();
+  const browser = await launchBrowser();
+  try {
+    await server.start();
+    const address = await server.newSession(5);
+    const blank = await browser.newPage();
+    await blank.goto(`${server.address}/health`);
+    const session = address.slice(address.lastIndexOf("/") + 1);
+    // Two leaves at each node that bears any.
+    await perform(blank, session, ['{"kind":"set_parameters","parameters":{"leaves_per_node":4}}']);
+    const tree = await grow(blank, browser, address, session, metamers);
+    const page = await openMeasured(browser, address);
+    const first = await firstTree(page);
+    const rows = await page.evaluate(() => window.rowsAt);
+    const size = await scriptSize(page);
+    const still = await atRest(page);
+    const { frames: script, processor } = await turning(page);
+    const middle = quantile(script, 0.5);
+    const rare = quantile(script, 0.99);
+    const table: [string, string, string][] = [
+      ["metamers, leaves", `${tree.metamers}, ${tree.leaves}`, ""],
+      ["draw calls of the camera", `${still.camera.calls}`, `${BUDGET.calls}`],
+      ["draw calls of the shadow map", `${still.shadow.calls}`, ""],
+      ["triangles of the camera", thousands(still.camera.triangles), thousands(BUDGET.triangles)],
+      ["triangles of the shadow map", thousands(still.shadow.triangles), ""],
+      ["script a frame, median, ms", middle.toFixed(2), `${BUDGET.script}`],
+      ["script a frame, 99 %, ms", rare.toFixed(2), `${BUDGET.script99}`],
+      ["script a frame, processor time, mean, ms", processor.toFixed(2), `${BUDGET.script}`],
+      ["JavaScript, gzip, kB", (size / 1000).toFixed(1), `${BUDGET.gzip / 1000}`],
+      ["its rows received, ms", rows.toFixed(0), ""],
+      ["first tree handed to the graphics card, ms", first.toFixed(0), `${BUDGET.first}`],
+    ];
+    console.log(`${cpus()[0]?.model ?? "an unknown processor"}, ${cpus().length} cores`);
+    console.log(`${browser.browserType().name()} ${browser.version()}, ${SCREEN.width} × ${SCREEN.height}\n`);
+    for (const [what, value, budget] of table) console.log(`| ${what} | ${value} | ${budget} |`);
+    const kept =
+      still.camera.calls <= BUDGET.calls &&
+      still.camera.triangles <= BUDGET.triangles &&
+      middle <= BUDGET.script &&
+      size <= BUDGET.gzip;
+    return kept ? 0 : 1;
+  } finally {
+    await browser.close();
+    await server.stop();
+  }
+}
+
+interface Tree {
+  readonly metamers: number;
+  readonly leaves: number;
+}
+
+/** Grows step by step until the tree is large enough, as the server tells a page without the client. */
+async function grow(blank: Page, browser: Browser, address: string, session: string, metamers: number): Promise<Tree> {
+  let tree: Tree = { metamers: 0, leaves: 0 };
+  const watcher = await browser.newPage();
+  watcher.on("websocket", (socket) =>
+    socket.on("framereceived", ({ payload }) => {
+      const state = typeof payload === "string" ? /"metamers":(\d+).*?"leaves":(\d+)/s.exec(payload) : null;
+      if (state) tree = { metamers: Number(state[1]), leaves: Number(state[2]) };
+    }),
+  );
+  // The picture is of no use here.
+  await watcher.addInitScript(() => {
+    window.requestAnimationFrame = () => 0;
+  });
+  await watcher.goto(address);
+  for (let step = 0; tree.metamers < metamers; step += 1) {
+    if (step > 400) throw new Error(`the tree stopped at ${tree.metamers} metamers`);
+    const before = tree.metamers;
+    await perform(blank, session, ['{"kind":"grow","steps":1}']);
+    await until("the step is told", () => tree.metamers > before);
+  }
+  await watcher.close();
+  return tree;
+}
+
+async function openMeasured(browser: Browser, address: string): Promise<Page> {
+  const context = await browser.newContext({ viewport: SCREEN, hasTouch: true, deviceScaleFactor: 1 });
+  const page = await context.newPage();
+  await page.addInitScript(instrument);
+  await page.goto(address, { waitUntil: "commit" });
+  return page;
+}
+
+/** Milliseconds from the navigation to the first frame that drew a tree. */
+async function firstTree(page: Page): Promise<number> {
+  let first: FrameRecord | undefined;
+  await until("a tree is drawn", async () => {
+    const frames = await page.evaluate(() => window.measured ?? []).catch(() => []);
+    first = frames.find(({ camera }) => camera.triangles > A_TREE);
+    return first !== undefined;
+  });
+  return first?.at ?? Number.NaN;
+}
+
+/** Bytes of the scripts loaded so far, each compressed as a server would. */
+async function scriptSize(page: Page): Promise<number> {
+  const scripts = await page.evaluate(() =>
+    performance
+      .getEntriesByType("resource")
+      .map(({ name }) => name)
+      .filter((name) => new URL(name).pathname.endsWith(".js")),
+  );
+  let size = 0;
+  for (const script of new Set(scripts)) {
+    const answer = await page.request.get(script);
+    size += gzipSync(await answer.body(), { level: 9 }).length;
+  }
+  return size;
+}
+
+/** The last frame at rest, with the shadow pass that went before it. */
+async function atRest(page: Page): Promise<FrameRecord> {
+  let count = -1;
+  await until("the picture comes to rest", async () => {
+    const before = count;
+    await page.waitForTimeout(1500);
+    count = await page.evaluate(() => window.measured.length);
+    return count === before;
+  });
+  // A frame is only entered when the next one begins; the rest is the last but for what fades in over it.
+  const frames = await page.evaluate(() => window.measured);
+  const whole = frames.filter(({ camera }) => camera.triangles > A_TREE);
+  const shadow = frames.filter(({ shadow }) => shadow.calls > 0).at(-1)?.shadow;
+  const last = whole.at(-1);
+  if (!last || !shadow) throw new Error("no frame at rest was seen");
+  return { ...last, shadow };
+}
+
+/**
+ * Script of each frame while the tree is turned by its strip: by the clock, which a busy machine stretches, and the mean of
+ * the processor's time for all of the page's script, events and layout of the interface aside.
+ */
+async function turning(page: Page): Promise<{ frames: number[]; processor: number }> {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Performance.enable", { timeDomain: "threadTicks" });
+  const used = async () => {
+    const { metrics } = await session.send("Performance.getMetrics");
+    return 1000 * (metrics.find(({ name }) => name === "ScriptDuration")?.value ?? Number.NaN);
+  };
+  await page.evaluate(() => {
+    window.blind = true;
+  });
+  await turn(page, WARMING);
+  const before = await used();
+  const frames = await turn(page, FRAMES);
+  return { frames, processor: ((await used()) - before) / frames.length };
+}
+
+/** Turns a little in each frame until so many were drawn; gives the script of each. */
+async function turn(page: Page, enough: number): Promise<number[]> {
+  return page.getByRole("slider", { name: "Turn the tree" }).evaluate(
+    (strip, enough) =>
+      new Promise<number[]>((resolve) => {
+        window.measured.length = 0;
+        const step = () => {
+          if (window.measured.length >= enough) {
+            resolve(window.measured.map(({ script }) => script));
+            return;
+          }
+          strip.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true, cancelable: true }));
+          requestAnimationFrame(step);
+        };
+        step();
+      }),
+    enough,
+  );
+}
+
+function quantile(values: readonly number[], share: number): number {
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? Number.NaN;
+}
+
+function thousands(value: number): string {
+  return `${Math.round(value / 1000)} k`;
+}

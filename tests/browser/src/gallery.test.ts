@@ -1,0 +1,89 @@
+import { execFile } from "node:child_process";
+import { existsSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import type { Browser } from "playwright-core";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { chosen, type Entry, FOLDER, query, readCatalogue, readScript } from "../gallery/catalogue";
+import { DRAFT, Player } from "../gallery/player";
+import { launchBrowser } from "./browser";
+import { becameTree, changed, colours, Darkroom } from "./picture";
+import { program, Server } from "./server";
+
+const ENTRY: Entry = { name: "test", seed: 5, shot: { yaw: 20, width: 600, height: 600 } };
+const GROWN = ['{"kind":"grow","steps":9}'];
+
+describe("the gallery", () => {
+  it("has a script, a picture and a sentence for each sketch", async () => {
+    const page = await readFile(join(FOLDER, "README.md"), "utf8");
+    const entries = await readCatalogue();
+    expect(entries.length).toBeGreaterThanOrEqual(18);
+    expect(new Set(entries.map(({ name }) => name)).size).toBe(entries.length);
+    for (const { name } of entries) {
+      const commands = (await readScript(name)).map((line) => JSON.parse(line) as { kind?: string });
+      expect(commands.length, name).toBeGreaterThan(1);
+      expect(commands.every(({ kind }) => typeof kind === "string")).toBe(true);
+      expect(existsSync(join(FOLDER, `${name}.jpg`)), `${name}.jpg`).toBe(true);
+      expect(page, name).toContain(`](${name}.jpg)`);
+    }
+  });
+
+  it("has sketches that grow without a browser", async () => {
+    const run = promisify(execFile);
+    for (const { name, seed } of await readCatalogue()) {
+      const script = join(FOLDER, "sketches", `${name}.jsonl`);
+      const { stdout } = await run(program, ["replay", script, "--seed", String(seed), "--stats", "json"]);
+      expect((JSON.parse(stdout) as { metamers_alive: number }).metamers_alive, name).toBeGreaterThan(500);
+    }
+  });
+
+  it("plays what is asked for, and knows what there is", () => {
+    const entries = ["oak", "swan"].map((name) => ({ ...ENTRY, name }));
+    expect(chosen(entries, [])).toEqual(entries);
+    expect(chosen(entries, ["swan"]).map(({ name }) => name)).toEqual(["swan"]);
+    expect(() => chosen(entries, ["yew"])).toThrow("no such sketch: yew; there are oak, swan");
+    expect(query({ yaw: 20, zoom: 1.5, width: 600, height: 600 })).toBe("?yaw=20&zoom=1.5");
+  });
+});
+
+describe("the player", () => {
+  const server = new Server();
+  let browser: Browser;
+  let player: Player;
+  let darkroom: Darkroom;
+
+  beforeAll(async () => {
+    await server.start();
+    browser = await launchBrowser();
+    player = await Player.open(server, browser, DRAFT);
+    darkroom = await Darkroom.open(browser);
+  });
+
+  afterAll(async () => {
+    await browser?.close();
+    await server.stop();
+  });
+
+  it("shows the tree of a script and nothing else", async () => {
+    const bare = await darkroom.develop(await player.play(ENTRY, ['{"kind":"grow","steps":1}']));
+    const tree = await darkroom.develop(await player.play(ENTRY, GROWN));
+    expect([tree.width, tree.height]).toEqual([300, 300]);
+    expect(colours(tree)).toBeGreaterThan(20);
+    expect(becameTree(bare, tree, { x: 90, y: 60, width: 120, height: 120 })).toBeGreaterThan(0.2);
+    // Where the bars of the interface lie there is only sky.
+    expect(changed(bare, tree, { x: 0, y: 0, width: 300, height: 20 })).toBe(0);
+  });
+
+  it("puts the tree before its last operations beside it", async () => {
+    const entry = { ...ENTRY, undone: 1 };
+    const both = await darkroom.develop(await player.play(entry, ['{"kind":"grow","steps":4}', ...GROWN]));
+    expect(both.width).toBeGreaterThan(600);
+    expect(both.height).toBe(300);
+  });
+
+  it("names the line that could not be done", async () => {
+    const lines = [...GROWN, '{"kind":"prune","rows":[99999]}'];
+    await expect(player.play(ENTRY, lines)).rejects.toThrow(/^line 2: .*not_found/);
+  });
+});

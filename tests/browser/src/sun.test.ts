@@ -1,0 +1,74 @@
+import { expect, test } from "vitest";
+import { changed } from "./picture";
+import { COARSE, type Point, type Tablet, way } from "./tablet";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+const sun = (tablet: Tablet) => tablet.page.getByRole("slider", { name: "Sun", exact: true });
+
+/** Where the sun is on the glass. */
+async function placeOf(tablet: Tablet): Promise<Point> {
+  const box = await sun(tablet).boundingBox();
+  if (!box) throw new Error("there is no sun");
+  return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+const said = async (tablet: Tablet) => (await sun(tablet).getAttribute("aria-valuetext")) ?? "";
+
+async function withSun() {
+  const drawn = await workshop.drawn(COARSE);
+  await drawn.tablet.tap("Background");
+  await sun(drawn.tablet).waitFor();
+  return drawn;
+}
+
+test("a finger drags the sun around the tree, one operation", async () => {
+  const { tablet } = await withSun();
+  const before = await tablet.photograph("95-sun");
+  const [saidBefore, from] = [await said(tablet), await placeOf(tablet)];
+  const to = { x: from.x + 190, y: from.y + 60 };
+  await tablet.swipe([way(from, to, 20)]);
+  const { operations } = await tablet.untilQuiet();
+  const reached = await placeOf(tablet);
+  expect(Math.hypot(reached.x - to.x, reached.y - to.y), "it is under the finger").toBeLessThan(20);
+  expect(operations).toBe("stroke appearance");
+  expect(await said(tablet)).not.toBe(saidBefore);
+  expect(changed(before, await tablet.photograph("95-sun-dragged"))).toBeGreaterThan(0.05);
+
+  await tablet.tap("Undo");
+  await tablet.untilQuiet();
+  await expect.poll(() => said(tablet)).toBe(saidBefore);
+});
+
+test("the sun turns with the tree, or stays where it is pinned", async () => {
+  const { tablet } = await withSun();
+  const turn = async () => {
+    await tablet.page.getByRole("slider", { name: "Turn the tree" }).focus();
+    for (let i = 0; i < 4; i++) await tablet.page.keyboard.press("ArrowRight");
+    await tablet.page.waitForTimeout(1500);
+    await tablet.untilQuiet();
+  };
+  const [saidFirst, first] = [await said(tablet), await placeOf(tablet)];
+  await turn();
+  const turned = await placeOf(tablet);
+  expect(await said(tablet), "it stands where it stood").toBe(saidFirst);
+  expect(Math.abs(turned.x - first.x), "but elsewhere on the glass").toBeGreaterThan(10);
+
+  await tablet.tap("Keep the sun in place while the tree turns");
+  await turn();
+  const pinned = await placeOf(tablet);
+  expect(Math.hypot(pinned.x - turned.x, pinned.y - turned.y), "it keeps its place on the glass").toBeLessThan(6);
+  expect(await said(tablet)).not.toBe(saidFirst);
+  expect((await tablet.facts()).operations).toContain("appearance");
+});
+
+test("arrow keys move the sun, with its name and place told", async () => {
+  const { tablet } = await withSun();
+  expect(await said(tablet)).toBe("310° around, 48° high");
+  await sun(tablet).focus();
+  await tablet.page.keyboard.press("ArrowUp");
+  await tablet.page.keyboard.press("Shift+ArrowLeft");
+  await tablet.untilQuiet();
+  expect(await said(tablet)).toBe("295° around, 51° high");
+});
