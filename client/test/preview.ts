@@ -1,8 +1,9 @@
 // Shows a sample tree without a server: `npm run dev`, then open /test/preview.html?seed=3&height=26&orders=3&frame.
 // What it looks like may be given as JSON, section by section: &leaves={"shape":"needle"}&fruits={"kind":"cone"}; a view as in links:
 // &yaw=30&zoom=2.
-import { TreeTable } from "../src/scene/tree-table";
-import { viewIn } from "../src/scene/view";
+
+import { viewIn } from "../src/scene/camera/view";
+import { TreeTable } from "../src/scene/table/tree-table";
 import { Viewport } from "../src/scene/viewport";
 import { type Appearance, DEFAULT_APPEARANCE } from "../src/wire/generated";
 import { sampleTree } from "./sample-tree";

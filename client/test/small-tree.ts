@@ -1,5 +1,5 @@
-import type { Guise } from "../src/scene/guises";
-import { TreeTable } from "../src/scene/tree-table";
+import type { Guise } from "../src/scene/guise/guises";
+import { TreeTable } from "../src/scene/table/tree-table";
 import { MIN_RADIUS, RADIUS_LOG_STEP } from "../src/wire/generated";
 
 /** A metamer of a small tree: its parent's row, where it ends, and what else is not as usual. */

@@ -1,5 +1,5 @@
-import { Bent } from "../scene/bent";
-import type { TreeTable } from "../scene/tree-table";
+import { Bent } from "../scene/guise/bent";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { PoseFrame, RowMotion } from "../wire/pose";
 import type { ShapingView } from "./tools/shaping-view";
 

@@ -1,6 +1,6 @@
 import { effect } from "@preact/signals";
-import { subtreeRows } from "../scene/branch-rows";
-import type { TreeTable } from "../scene/tree-table";
+import { subtreeRows } from "../scene/table/branch-rows";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { Viewport } from "../scene/viewport";
 import type { Command } from "../wire/generated";
 import { GhostStage } from "./ghost-stage";

@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../test/sample-tree";
-import type { Bent } from "../scene/bent";
-import type { GhostPose } from "../scene/ghost";
-import type { Guise } from "../scene/guises";
-import { TreeTable } from "../scene/tree-table";
+import type { Bent } from "../scene/guise/bent";
+import type { GhostPose } from "../scene/guise/ghost";
+import type { Guise } from "../scene/guise/guises";
+import { TreeTable } from "../scene/table/tree-table";
 import type { Viewport } from "../scene/viewport";
 import { GhostStage } from "./ghost-stage";
 import { about } from "./tools/branch-turn";

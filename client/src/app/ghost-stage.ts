@@ -1,9 +1,9 @@
 import { signal } from "@preact/signals";
-import { Bent } from "../scene/bent";
-import { subtreeRows } from "../scene/branch-rows";
-import { Felled } from "../scene/felled";
-import type { GhostPose } from "../scene/ghost";
-import type { TreeTable } from "../scene/tree-table";
+import { Bent } from "../scene/guise/bent";
+import { Felled } from "../scene/guise/felled";
+import type { GhostPose } from "../scene/guise/ghost";
+import { subtreeRows } from "../scene/table/branch-rows";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { Viewport } from "../scene/viewport";
 import type { Point } from "./ports";
 import type { TurnPreview } from "./tools/branch-hand";

@@ -13,7 +13,7 @@ export interface BrushView {
   hideBrush(): void;
 }
 
-/** What the connection needs of the rows the server has sent; `scene/tree-table.ts` provides it. */
+/** What the connection needs of the rows the server has sent; `scene/table/tree-table.ts` provides it. */
 export interface RowStore<Frame> {
   /** What is held, if anything, for a resume (`RS1`). */
   held(): Resume | undefined;

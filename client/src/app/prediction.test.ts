@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../test/sample-tree";
-import type { TreeTable } from "../scene/tree-table";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { Command } from "../wire/generated";
 import type { GhostFrame } from "../wire/ghost";
 import { MOST_STEPS, Prediction } from "./prediction";

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { TreeTable } from "../scene/tree-table";
+import { TreeTable } from "../scene/table/tree-table";
 import type { Command } from "../wire/generated";
 import type { GhostFrame } from "../wire/ghost";
 import { TRUNK_STAYS } from "./tools/prune-rule";

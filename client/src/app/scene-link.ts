@@ -1,4 +1,4 @@
-import type { TreeTable } from "../scene/tree-table";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { FrameKind } from "../wire/envelope";
 import type { Frame } from "../wire/frame";
 import type { ServerFrame } from "../wire/server-frame";

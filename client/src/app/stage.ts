@@ -1,7 +1,7 @@
-import { RADIANS_PER_PIXEL } from "../scene/camera-rig";
-import type { DrawMode, Legend } from "../scene/draw-mode";
-import type { TreeTable } from "../scene/tree-table";
-import type { View } from "../scene/view";
+import { RADIANS_PER_PIXEL } from "../scene/camera/camera-rig";
+import type { View } from "../scene/camera/view";
+import type { DrawMode, Legend } from "../scene/mode/draw-mode";
+import type { TreeTable } from "../scene/table/tree-table";
 import type { Viewport } from "../scene/viewport";
 import type { Appearance } from "../wire/generated";
 import type { Point } from "./ports";

@@ -1,8 +1,8 @@
 import { batch, signal } from "@preact/signals";
-import { axisStart } from "../scene/branch-rows";
-import type { DrawMode } from "../scene/draw-mode";
-import { TreeTable } from "../scene/tree-table";
-import { viewIn } from "../scene/view";
+import { viewIn } from "../scene/camera/view";
+import type { DrawMode } from "../scene/mode/draw-mode";
+import { axisStart } from "../scene/table/branch-rows";
+import { TreeTable } from "../scene/table/tree-table";
 import { FrameKind } from "../wire/envelope";
 import type { Frame } from "../wire/frame";
 import {

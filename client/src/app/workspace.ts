@@ -1,5 +1,5 @@
 import { effect } from "@preact/signals";
-import { nextDrawMode } from "../scene/draw-mode";
+import { nextDrawMode } from "../scene/mode/draw-mode";
 import { Viewport } from "../scene/viewport";
 import { stepRadius } from "./brush-radius";
 import { deflectionFor, KEY_RATE } from "./grow-pacer";

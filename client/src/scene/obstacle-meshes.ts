@@ -12,7 +12,7 @@ import {
   Vector3,
 } from "three";
 import type { PlacedShape, Pose } from "../wire/generated";
-import type { Box } from "./camera-rig";
+import type { Box } from "./camera/camera-rig";
 import type { Materials } from "./materials";
 import type { Ray, Vec3 } from "./vector";
 

@@ -1,17 +1,17 @@
 import { Group, type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
 import type { Appearance } from "../wire/generated";
-import { Bark } from "./bark";
-import { Branches } from "./branches";
-import type { DrawMode, Legend } from "./draw-mode";
-import type { Fineness } from "./fineness";
-import { Foliage } from "./foliage";
-import { Guises } from "./guises";
+import { Foliage } from "./foliage/foliage";
+import type { Fineness } from "./frame/fineness";
+import { Guises } from "./guise/guises";
 import type { Materials, Uniforms } from "./materials";
-import { NodeTexture } from "./node-texture";
-import { RadiusEase } from "./radius-ease";
-import { SkeletonLines } from "./skeleton-lines";
-import { TraitTexture } from "./trait-texture";
-import { Dirty, radiusOf, type TreeTable } from "./tree-table";
+import type { DrawMode, Legend } from "./mode/draw-mode";
+import { SkeletonLines } from "./mode/skeleton-lines";
+import { TraitTexture } from "./mode/trait-texture";
+import { NodeTexture } from "./table/node-texture";
+import { RadiusEase } from "./table/radius-ease";
+import { Dirty, radiusOf, type TreeTable } from "./table/tree-table";
+import { Bark } from "./wood/bark";
+import { Branches } from "./wood/branches";
 
 /** The tree as it is drawn: its table on the graphics card, its bark and leaves, or what a draw mode has instead. */
 export class TreeView {

@@ -1,4 +1,4 @@
-import { axisStart, pathUp } from "../../scene/branch-rows";
+import { axisStart, pathUp } from "../../scene/table/branch-rows";
 
 /** What is asked of the rows. */
 export interface Limbs {

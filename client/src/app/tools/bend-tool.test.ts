@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../test/small-tree";
-import type { Bent } from "../../scene/bent";
+import type { Bent } from "../../scene/guise/bent";
 import type { Command } from "../../wire/generated";
 import type { Point } from "../ports";
 import { holdAt, naturalBase, related } from "./bend-hold";

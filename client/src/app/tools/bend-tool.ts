@@ -1,8 +1,8 @@
 import { signal } from "@preact/signals";
 import type { Bend } from "../../scene/bend/bend";
-import { Bent } from "../../scene/bent";
-import type { TreeTable } from "../../scene/tree-table";
-import { radiusOf } from "../../scene/tree-table";
+import { Bent } from "../../scene/guise/bent";
+import type { TreeTable } from "../../scene/table/tree-table";
+import { radiusOf } from "../../scene/table/tree-table";
 import { type Command, MAX_BEND_TOUCHES } from "../../wire/generated";
 import type { Grip } from "../gestures";
 import type { Point } from "../ports";

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
-import { axisStart } from "../../scene/branch-rows";
-import type { GhostPose } from "../../scene/ghost";
+import type { GhostPose } from "../../scene/guise/ghost";
+import { axisStart } from "../../scene/table/branch-rows";
 import type { Command } from "../../wire/generated";
 import type { Point } from "../ports";
 import {

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
-import { Felled } from "../../scene/felled";
-import type { TreeTable } from "../../scene/tree-table";
+import { Felled } from "../../scene/guise/felled";
+import type { TreeTable } from "../../scene/table/tree-table";
 import { type Command, MAX_PRUNED_ROWS } from "../../wire/generated";
 import type { StrokePoint } from "../gestures";
 import type { Point } from "../ports";

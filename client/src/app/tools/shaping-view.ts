@@ -1,4 +1,4 @@
-import type { Guise } from "../../scene/guises";
+import type { Guise } from "../../scene/guise/guises";
 import type { Point } from "../ports";
 
 /** What shaping a branch by hand needs of the view. */

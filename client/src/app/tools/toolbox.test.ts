@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { TreeTable } from "../../scene/tree-table";
+import { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command } from "../../wire/generated";
 import { ChosenBud } from "../chosen-bud";

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { Bend } from "../../scene/bend/bend";
-import type { Girth } from "../../scene/swollen";
-import type { TreeTable } from "../../scene/tree-table";
+import type { Girth } from "../../scene/guise/swollen";
+import type { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command } from "../../wire/generated";
 import { BendPoses } from "../bend-poses";

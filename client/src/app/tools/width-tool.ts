@@ -1,7 +1,7 @@
 import { computed, signal } from "@preact/signals";
-import { axisRows, pathUp } from "../../scene/branch-rows";
-import { type Girth, Swollen } from "../../scene/swollen";
-import { radiusOf, type TreeTable } from "../../scene/tree-table";
+import { type Girth, Swollen } from "../../scene/guise/swollen";
+import { axisRows, pathUp } from "../../scene/table/branch-rows";
+import { radiusOf, type TreeTable } from "../../scene/table/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
 import type { Grip } from "../gestures";
 import type { ShapingView } from "./shaping-view";

@@ -1,5 +1,5 @@
 import { useRef } from "preact/hooks";
-import { pathUp } from "../../scene/branch-rows";
+import { pathUp } from "../../scene/table/branch-rows";
 import type { Studio } from "../studio";
 import { useFrames } from "./use-frames";
 

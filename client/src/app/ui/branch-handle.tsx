@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useMemo, useRef } from "preact/hooks";
-import { subtreeRows } from "../../scene/branch-rows";
+import { subtreeRows } from "../../scene/table/branch-rows";
 import type { Studio } from "../studio";
 import { RING } from "../tools/branch-tool";
 import { say } from "../words";

@@ -1,5 +1,5 @@
 import { useMemo, useRef } from "preact/hooks";
-import { axisStart, branchRows } from "../../scene/branch-rows";
+import { axisStart, branchRows } from "../../scene/table/branch-rows";
 import type { Point } from "../ports";
 import type { Studio } from "../studio";
 import { useFrames } from "./use-frames";

@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it } from "vitest";
-import { DRAW_MODES, type DrawMode, legendOf, nextDrawMode } from "../../scene/draw-mode";
+import { DRAW_MODES, type DrawMode, legendOf, nextDrawMode } from "../../scene/mode/draw-mode";
 import { language, say } from "../words";
 import { endsOf } from "./draw-mode-legend";
 

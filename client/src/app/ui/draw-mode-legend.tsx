@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import type { Legend } from "../../scene/draw-mode";
+import type { Legend } from "../../scene/mode/draw-mode";
 import type { Studio } from "../studio";
 import { say } from "../words";
 import { CloseIcon } from "./icons";

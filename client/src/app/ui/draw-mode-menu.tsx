@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useRef, useState } from "preact/hooks";
-import { DRAW_MODES, type DrawMode, TRAITS } from "../../scene/draw-mode";
-import { css } from "../../scene/ramps";
+import { DRAW_MODES, type DrawMode, TRAITS } from "../../scene/mode/draw-mode";
+import { css } from "../../scene/mode/ramps";
 import type { Studio } from "../studio";
 import { say } from "../words";
 import { Icon } from "./icons";

@@ -1,4 +1,4 @@
-import { laminaPath } from "../../scene/lamina";
+import { laminaPath } from "../../scene/foliage/lamina";
 import { DEFAULT_APPEARANCE, type LeafKind } from "../../wire/generated";
 import { withFields, withNumber } from "../appearance";
 import { OF_THE_LEAVES } from "../growth-parameters";

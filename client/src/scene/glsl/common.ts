@@ -1,5 +1,5 @@
 import { FLAT_NOISE_SIDE, NOISE_SIDE } from "../noise-texture";
-import { EASE_SECONDS } from "../radius-ease";
+import { EASE_SECONDS } from "../table/radius-ease";
 
 /** Start of every shader: precision, and the uniforms that all of them share. */
 export const HEAD = /* glsl */ `

@@ -1,5 +1,5 @@
-import { DRAW_MODES } from "../draw-mode";
-import { RAMP_COLOURS } from "../ramps";
+import { DRAW_MODES } from "../mode/draw-mode";
+import { RAMP_COLOURS } from "../mode/ramps";
 
 const WIREFRAME = DRAW_MODES.indexOf("wireframe");
 

@@ -1,4 +1,4 @@
-import { TILE_MARGIN } from "../leaf-tile";
+import { TILE_MARGIN } from "../foliage/leaf-tile";
 import { HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";

@@ -43,7 +43,9 @@ pub(super) fn flower(painter: &mut Painter, spot: &Spot, look: &FlowerLook) {
     match look.kind {
         FlowerKind::None => {}
         FlowerKind::Rosette => {
-            rosette(painter, spot.at + spot.out * (0.2 * look.size), spot.out, look.size, turn)
+            // On a stalk, or the leaves would hide it.
+            let facing = (spot.out + 0.7 * Vec3::Y).normalize_or(Vec3::Y);
+            rosette(painter, spot.at + facing * (0.6 * look.size), facing, look.size, turn);
         }
         FlowerKind::Catkin => spindle(painter, spot.at, -Vec3::Y, look.size, 0.09 * look.size),
         FlowerKind::Panicle => {

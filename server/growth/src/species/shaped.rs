@@ -57,10 +57,10 @@ fn windswept_hawthorn() -> Species {
         sentence: "Bent by years of wind from one side: the trunk leans and the whole crown streams to lee.",
         appearance: Appearance::default()
             .leafy(LeafKind::Lobed, [92, 118, 58])
-            .turned(0.4, 0.9, 0.0)
+            .turned(0.4, 0.5, 0.0)
             .barked(BarkKind::Furrowed, [118, 106, 94])
             .carved(1.3, 1.1, 1.1)
-            .flowering(flower(FlowerKind::Rosette, [248, 244, 238], 0.55, 0.5, Place::Twigs)),
+            .flowering(flower(FlowerKind::Rosette, [248, 244, 238], 0.75, 0.55, Place::Twigs)),
         stand: Stand::Ground,
         schedule,
         parameters,

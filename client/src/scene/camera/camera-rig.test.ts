@@ -1,0 +1,114 @@
+import { describe, expect, it } from "vitest";
+import { randoms } from "../../../test/randoms";
+import { CameraRig, FIELD_OF_VIEW, fitted } from "./camera-rig";
+
+const tree = { min: [-10, 0, -8], max: [12, 30, 9] } as const;
+
+function settle(rig: CameraRig) {
+  for (let i = 0; i < 400 && rig.step(1 / 60); i += 1);
+}
+
+describe("the camera", () => {
+  it("shows 40 internodes of height at first", () => {
+    const { distance } = new CameraRig().pose;
+    expect(2 * distance * Math.tan(FIELD_OF_VIEW / 2)).toBeCloseTo(40);
+  });
+
+  it("never goes under the ground nor loses the tree", () => {
+    const random = randoms(4);
+    const rig = new CameraRig();
+    rig.keep(tree);
+    for (let i = 0; i < 2000; i += 1) {
+      const a = (random() - 0.5) * 900;
+      const b = (random() - 0.5) * 900;
+      const what = Math.floor(random() * 3);
+      if (what === 0) rig.orbit(a, b);
+      if (what === 1) rig.pan(a, b, 800);
+      if (what === 2) rig.zoom(0.5 + random(), a / 450, b / 450);
+      rig.step(1 / 60);
+      expect(rig.eye()[1]).toBeGreaterThan(0);
+      expect(Math.abs(rig.pose.target[0])).toBeLessThan(60);
+      expect(rig.pose.distance).toBeLessThan(250);
+    }
+    settle(rig);
+    expect(rig.step(1 / 60)).toBe(false);
+  });
+
+  it("keeps what is under the fingers there while zooming", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    const seen = () => {
+      const { target, distance } = rig.pose;
+      const half = Math.tan(FIELD_OF_VIEW / 2) * distance;
+      return [target[0] + 0.3 * half, target[1] + 0.2 * half * Math.cos(rig.pose.pitch)];
+    };
+    const before = seen();
+    rig.zoom(2, 0.3, 0.2);
+    settle(rig);
+    const after = seen();
+    expect(rig.pose.distance).toBeLessThan(40);
+    expect(after[0]).toBeCloseTo(before[0]!, 3);
+    expect(after[1]).toBeCloseTo(before[1]!, 3);
+  });
+
+  it("drags the picture by as much as the fingers", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    const before = rig.pose.target[0];
+    rig.pan(100, 0, 800);
+    settle(rig);
+    expect(before - rig.pose.target[0]).toBeCloseTo((100 / 800) * 40, 4);
+  });
+
+  it("goes back to where it was before it framed something", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    rig.zoom(3, 0.2, 0.1);
+    settle(rig);
+    const before = structuredClone(rig.pose);
+    rig.frame(tree, 1.4);
+    settle(rig);
+    expect(rig.pose.distance).toBeGreaterThan(before.distance);
+    rig.unframe();
+    settle(rig);
+    expect(rig.pose).toEqual(before);
+  });
+
+  it("stays with what it framed, though nothing may be there yet", () => {
+    const rig = new CameraRig();
+    rig.keep({ min: [-1, 0, -1], max: [1, 2, 1] });
+    rig.frame({ min: [-40, 0, -40], max: [40, 60, 40] }, 0.45);
+    rig.keep({ min: [-1, 0, -1], max: [1, 3, 1] });
+    settle(rig);
+    expect(2 * rig.pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.45).toBeGreaterThan(80);
+  });
+
+  it("stays where a hand has moved it meanwhile", () => {
+    const rig = new CameraRig();
+    rig.keep(tree);
+    rig.frame(tree, 1.4);
+    rig.orbit(40, 0);
+    settle(rig);
+    const moved = structuredClone(rig.pose);
+    rig.unframe();
+    settle(rig);
+    expect(rig.pose).toEqual(moved);
+  });
+
+  it("leaves room at the foot of the picture", () => {
+    const rig = new CameraRig();
+    rig.frame(tree, 1.4, 0.2);
+    settle(rig);
+    const { target, distance } = rig.pose;
+    const half = Math.tan(FIELD_OF_VIEW / 2) * distance;
+    // The ground lies above the lowest fifth of what is seen, and the crown's top below the upper edge.
+    expect(target[1] - half * 0.6).toBeLessThanOrEqual(0);
+    expect(target[1] + half).toBeGreaterThan(tree.max[1]);
+  });
+
+  it("fits a wide tree into a tall picture", () => {
+    const wide = { min: [-40, 0, 0], max: [40, 10, 0] } as const;
+    const pose = fitted(wide, 0.7, 0);
+    expect(2 * pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.7).toBeGreaterThan(80);
+  });
+});

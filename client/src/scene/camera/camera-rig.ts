@@ -1,0 +1,225 @@
+import type { Vec3 } from "../vector";
+import { Damper } from "./damper";
+import type { View } from "./view";
+
+/** Where the camera is: on a sphere around a target, looking at it. */
+export interface Pose {
+  target: [number, number, number];
+  /** Turn around the vertical, in radians; 0 looks along −z. */
+  yaw: number;
+  /** Height above the horizontal through the target, in radians. */
+  pitch: number;
+  /** From the target, in internodes. */
+  distance: number;
+}
+
+/** The box the camera keeps in reach. */
+export interface Box {
+  min: readonly [number, number, number];
+  max: readonly [number, number, number];
+}
+
+/** Full vertical opening angle, in radians. */
+export const FIELD_OF_VIEW = (32 * Math.PI) / 180;
+
+const HALF_LIFE = 0.06;
+const EASE_HALF_LIFE = 0.18;
+/** Height in internodes that a new view shows. */
+const FIRST_HEIGHT = 40;
+/** Looking up a little: the crown then stands against the sky. */
+const FIRST_PITCH = -0.08;
+const MIN_DISTANCE = 2.5;
+const MAX_PITCH = 1.5;
+/** The eye stays this far above the ground. */
+const EYE_CLEARANCE = 0.6;
+/** How far the view turns with a finger. */
+export const RADIANS_PER_PIXEL = 0.006;
+const SMALLEST_FIT = 20;
+
+/** An orbiting camera that follows its goal smoothly and never loses the tree or goes under the ground. */
+export class CameraRig {
+  /** What is shown now. */
+  readonly pose: Pose;
+  private readonly goal: Pose;
+  private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
+  private readonly quick = dampers(HALF_LIFE);
+  private readonly slow = dampers(EASE_HALF_LIFE);
+  private easing = false;
+  /** Where the goal was before the last `frame`, as long as nobody has moved the camera since. */
+  private before: Pose | null = null;
+  /** What `frame` showed; it may be about to grow there, and stays in reach until somebody moves the camera. */
+  private framed: Box | null = null;
+
+  constructor() {
+    const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
+    this.pose = { target: [0, 0.42 * FIRST_HEIGHT, 0], yaw: 0, pitch: FIRST_PITCH, distance };
+    this.goal = structuredClone(this.pose);
+  }
+
+  /** Where the eye is. */
+  eye(pose: Pose = this.pose): Vec3 {
+    const level = pose.distance * Math.cos(pose.pitch);
+    return [
+      pose.target[0] + level * Math.sin(pose.yaw),
+      pose.target[1] + pose.distance * Math.sin(pose.pitch),
+      pose.target[2] + level * Math.cos(pose.yaw),
+    ];
+  }
+
+  /** Tells what is to be kept in reach. */
+  keep(box: Box): void {
+    this.box = this.framed ? union(box, this.framed) : box;
+    this.limit();
+  }
+
+  orbit(dx: number, dy: number): void {
+    this.take();
+    this.goal.yaw -= dx * RADIANS_PER_PIXEL;
+    this.goal.pitch += dy * RADIANS_PER_PIXEL;
+    this.limit();
+  }
+
+  /** Moves the picture by pixels, at the target's depth. */
+  pan(dx: number, dy: number, height: number): void {
+    this.take();
+    const scale = (2 * this.goal.distance * Math.tan(FIELD_OF_VIEW / 2)) / height;
+    const { yaw, pitch, target } = this.goal;
+    target[0] += (-dx * Math.cos(yaw) - dy * Math.sin(pitch) * Math.sin(yaw)) * scale;
+    target[1] += dy * Math.cos(pitch) * scale;
+    target[2] += (dx * Math.sin(yaw) - dy * Math.sin(pitch) * Math.cos(yaw)) * scale;
+    this.limit();
+  }
+
+  /** Brings what is seen at `right`, `up` from the middle, in halves of the picture's height, nearer or further. */
+  zoom(factor: number, right: number, up: number): void {
+    this.take();
+    const before = this.goal.distance;
+    this.goal.distance = Math.min(Math.max(before / factor, MIN_DISTANCE), this.furthest());
+    const shift = (before - this.goal.distance) * Math.tan(FIELD_OF_VIEW / 2);
+    const { yaw, pitch, target } = this.goal;
+    target[0] += shift * (right * Math.cos(yaw) - up * Math.sin(pitch) * Math.sin(yaw));
+    target[1] += shift * up * Math.cos(pitch);
+    target[2] += shift * (-right * Math.sin(yaw) - up * Math.sin(pitch) * Math.cos(yaw));
+    this.limit();
+  }
+
+  /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
+  frame(box: Box, aspect: number, covered = 0): void {
+    this.before = structuredClone(this.goal);
+    this.framed = box;
+    this.box = union(this.box, box);
+    const pose = fitted(box, aspect, this.goal.yaw);
+    pose.distance /= 1 - covered;
+    pose.target[1] -= covered * pose.distance * Math.tan(FIELD_OF_VIEW / 2);
+    Object.assign(this.goal, pose);
+    this.easing = true;
+    this.limit();
+  }
+
+  /** Shows the box at once, as a view wants it. */
+  look(box: Box, aspect: number, view: View): void {
+    this.take();
+    this.box = union(this.box, box);
+    const pose = fitted(box, aspect, (view.yaw * Math.PI) / 180);
+    pose.pitch = (view.pitch * Math.PI) / 180;
+    pose.distance /= view.zoom;
+    const half = pose.distance * Math.tan(FIELD_OF_VIEW / 2);
+    pose.target[0] -= view.right * half * Math.cos(pose.yaw);
+    pose.target[1] -= view.up * half;
+    pose.target[2] += view.right * half * Math.sin(pose.yaw);
+    Object.assign(this.goal, pose);
+    this.limit();
+    Object.assign(this.pose, structuredClone(this.goal));
+  }
+
+  /** Eases back to where the camera was before the last `frame`, unless somebody has moved it since. */
+  unframe(): void {
+    if (!this.before) return;
+    Object.assign(this.goal, this.before);
+    this.before = null;
+    this.framed = null;
+    this.easing = true;
+    this.limit();
+  }
+
+  /** Moves on by `seconds`; false once the goal is reached. */
+  step(seconds: number): boolean {
+    const by = this.easing ? this.slow : this.quick;
+    const { pose, goal } = this;
+    const range = goal.distance;
+    for (const axis of [0, 1, 2] as const) {
+      pose.target[axis] = by.target[axis].step(pose.target[axis], goal.target[axis], seconds, range);
+    }
+    pose.yaw = by.yaw.step(pose.yaw, goal.yaw, seconds, 1);
+    pose.pitch = by.pitch.step(pose.pitch, goal.pitch, seconds, 1);
+    pose.distance = by.distance.step(pose.distance, goal.distance, seconds, range);
+    // Each part of the way lies above the ground only if their sum is looked at.
+    pose.pitch = Math.max(pose.pitch, lowestPitch(pose));
+    const arrived =
+      pose.yaw === goal.yaw &&
+      pose.pitch === goal.pitch &&
+      pose.distance === goal.distance &&
+      pose.target.every((value, axis) => value === goal.target[axis]);
+    if (arrived) this.easing = false;
+    return !arrived;
+  }
+
+  /** The hand takes the camera. */
+  private take(): void {
+    this.easing = false;
+    this.before = null;
+    this.framed = null;
+  }
+
+  private furthest(): number {
+    return Math.max(140, 5 * size(this.box));
+  }
+
+  private limit(): void {
+    const { goal, box } = this;
+    const reach = 10 + 0.5 * size(box);
+    for (const axis of [0, 1, 2] as const) {
+      const low = axis === 1 ? 0 : box.min[axis] - reach;
+      goal.target[axis] = Math.min(Math.max(goal.target[axis], low), box.max[axis] + reach);
+    }
+    goal.distance = Math.min(Math.max(goal.distance, MIN_DISTANCE), this.furthest());
+    goal.pitch = Math.min(Math.max(goal.pitch, lowestPitch(goal)), MAX_PITCH);
+  }
+}
+
+/** A pose that shows the whole box with some room around it. */
+export function fitted(box: Box, aspect: number, yaw: number): Pose {
+  const height = Math.max(SMALLEST_FIT, box.max[1] - Math.min(0, box.min[1]));
+  const width = Math.max(SMALLEST_FIT, box.max[0] - box.min[0], box.max[2] - box.min[2]);
+  const half = Math.tan(FIELD_OF_VIEW / 2);
+  const distance = Math.max((0.6 * height) / half, (0.57 * width) / (half * aspect)) + 0.3 * width;
+  return {
+    target: [(box.min[0] + box.max[0]) / 2, 0.46 * height, (box.min[2] + box.max[2]) / 2],
+    yaw,
+    pitch: FIRST_PITCH,
+    distance,
+  };
+}
+
+/** The box around two boxes. */
+export function union(a: Box, b: Box): Box {
+  const axes = [0, 1, 2] as const;
+  return {
+    min: axes.map((axis) => Math.min(a.min[axis], b.min[axis])) as [number, number, number],
+    max: axes.map((axis) => Math.max(a.max[axis], b.max[axis])) as [number, number, number],
+  };
+}
+
+/** How far the eye may sink before it touches the ground. */
+function lowestPitch(pose: Pose): number {
+  return Math.asin(Math.min(1, Math.max(-1, (EYE_CLEARANCE - pose.target[1]) / pose.distance)));
+}
+
+function size(box: Box): number {
+  return Math.hypot(box.max[0] - box.min[0], box.max[1] - box.min[1], box.max[2] - box.min[2]);
+}
+
+function dampers(halfLife: number) {
+  const one = () => new Damper(halfLife);
+  return { target: [one(), one(), one()] as const, yaw: one(), pitch: one(), distance: one() };
+}

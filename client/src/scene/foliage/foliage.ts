@@ -1,0 +1,79 @@
+import type { Mesh } from "three";
+import { DEFAULT_APPEARANCE, type FlowerLook, type FruitLook, type LeafLook } from "../../wire/generated";
+import type { Box } from "../camera/camera-rig";
+import type { Fineness } from "../frame/fineness";
+import type { Materials, Uniforms } from "../materials";
+import { Dirty, type TreeTable } from "../table/tree-table";
+import { FLOWERS } from "./flowers";
+import { FRUITS } from "./fruits";
+import { LeafDress } from "./leaf-dress";
+import { LeafRows } from "./leaf-rows";
+import { Ornaments } from "./ornaments";
+
+/** Leaves, flowers and fruits. */
+export class Foliage {
+  /** Seen by the camera. */
+  readonly meshes: readonly Mesh[];
+  /** Seen by the sun. */
+  readonly casters: readonly Mesh[];
+  private readonly dress: LeafDress;
+  private readonly leaves: LeafRows;
+  private readonly flowers: Ornaments<FlowerLook>;
+  private readonly fruits: Ornaments<FruitLook>;
+
+  constructor(materials: Materials, uniforms: Uniforms) {
+    this.dress = new LeafDress(uniforms);
+    this.leaves = new LeafRows(materials, uniforms);
+    this.flowers = new Ornaments(FLOWERS, materials.flower, materials.flowerDepth, uniforms);
+    this.fruits = new Ornaments(FRUITS, materials.fruit, materials.fruitDepth, uniforms);
+    const parts = [this.leaves, this.flowers, this.fruits];
+    this.meshes = parts.map(({ mesh }) => mesh);
+    this.casters = parts.map(({ caster }) => caster);
+    const { leaves, flowers, fruits } = DEFAULT_APPEARANCE;
+    this.setLook(leaves, flowers, fruits);
+  }
+
+  /** Changes what all of them look like; flowers and fruits may then be elsewhere. */
+  setLook(leaves: LeafLook, flowers: FlowerLook, fruits: FruitLook): void {
+    this.dress.wear(leaves);
+    this.flowers.wear(flowers);
+    this.fruits.wear(fruits);
+  }
+
+  /** What rows from `rows` on bore is gone. */
+  truncate(rows: number): void {
+    this.leaves.truncate(rows);
+    this.flowers.truncate(rows);
+    this.fruits.truncate(rows);
+  }
+
+  /** A row has changed in the way its `Dirty` bits say. */
+  update(table: TreeTable, row: number, bits: number): void {
+    if ((bits & Dirty.Shape) !== 0) this.leaves.update(table, row);
+    this.flowers.update(table, row, bits);
+    this.fruits.update(table, row, bits);
+  }
+
+  /** Chooses how finely everything in the box is drawn. */
+  detail(fineness: Fineness, box: Box): void {
+    this.leaves.detail(fineness, box);
+  }
+
+  /** Has three.js upload what was written since the last call. */
+  upload(table: TreeTable): void {
+    this.leaves.upload();
+    this.flowers.upload(table);
+    this.fruits.upload(table);
+  }
+
+  /** A restored context has lost every texture. */
+  restored(): void {
+    this.dress.restored();
+    this.flowers.restored();
+    this.fruits.restored();
+  }
+
+  dispose(): void {
+    for (const part of [this.dress, this.leaves, this.flowers, this.fruits]) part.dispose();
+  }
+}

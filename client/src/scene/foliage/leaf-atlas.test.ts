@@ -1,0 +1,86 @@
+import { describe, expect, it } from "vitest";
+import type { LeafKind } from "../../wire/generated";
+import { laminaOf } from "./lamina";
+import { ATLAS_TILES, atlasLevels, coverageOf } from "./leaf-atlas";
+import { paintLeaf, seeded } from "./leaf-painter";
+import { LeafTile, TILE_SIDE } from "./leaf-tile";
+
+const SIDE = ATLAS_TILES * TILE_SIDE;
+
+/** An atlas of four leaves of a kind, whole or painted anew down to so many texels. */
+function levelsOf(kind: LeafKind, coarsest?: number) {
+  const paintings = [0, 1, 2, 3].map((i) => {
+    const lamina = laminaOf(kind, seeded(31 + i));
+    return (side: number) => paintLeaf(lamina, seeded(7 + i), side);
+  });
+  return atlasLevels(paintings, coarsest);
+}
+
+describe.each([
+  ["palmate", undefined],
+  ["lanceolate", undefined],
+  ["needle", 8],
+] as const)("%s leaves", (kind, coarsest) => {
+  const { colour, relief } = levelsOf(kind, coarsest);
+
+  it("cover as much from afar as from near", () => {
+    for (let tile = 0; tile < 4; tile += 1) {
+      const near = coverageOf(colour[0]!, SIDE, tile);
+      expect(near).toBeGreaterThan(0.1);
+      expect(near).toBeLessThan(0.9);
+      for (let level = 1; SIDE >> level >= 32; level += 1) {
+        const afar = coverageOf(colour[level]!, SIDE >> level, tile);
+        expect(Math.abs(afar - near), `tile ${tile} at ${SIDE >> level} texels`).toBeLessThan(0.09);
+      }
+    }
+  });
+
+  it("have a level for every size down to one texel", () => {
+    for (const levels of [colour, relief]) {
+      expect(levels.map(({ length }) => Math.sqrt(length / 4))).toEqual([512, 256, 128, 64, 32, 16, 8, 4, 2, 1]);
+    }
+  });
+
+  it("keep clear of the edges that tiles share", () => {
+    const [finest] = colour;
+    for (let i = 0; i < SIDE; i += 1) {
+      for (const at of [i, i * SIDE, (TILE_SIDE - 1) * SIDE + i, i * SIDE + TILE_SIDE]) {
+        expect(finest![4 * at + 3]).toBeLessThan(128);
+      }
+    }
+  });
+});
+
+it("what is outside lends no colour to what is inside", () => {
+  const half = () => {
+    const tile = new LeafTile(0.5);
+    const corners = [
+      [-0.5, 0],
+      [0, 0],
+      [0, 1],
+      [-0.5, 1],
+    ] as const;
+    tile.fill(corners, () => ({ shade: 1.5, tone: 0, sheer: 0, wood: 0, height: 0 }));
+    return tile;
+  };
+  const { colour } = atlasLevels([half, half, half, half]);
+  for (const level of colour) {
+    const brightness = level.filter((_, i) => i % 4 === 0 && level[i + 3]! > 127);
+    if (level.length > 16) expect(brightness.length).toBeGreaterThan(0);
+    expect(brightness.every((value) => value > 186)).toBe(true);
+  }
+});
+
+it("a fill covers exactly its outline's area", () => {
+  const tile = new LeafTile(0.5);
+  const corners = [
+    [-0.31, 0.2],
+    [0.27, 0.2],
+    [0.27, 0.83],
+    [-0.31, 0.83],
+  ] as const;
+  tile.fill(corners, () => ({ shade: 1, tone: 0, sheer: 0, wood: 0, height: 0 }));
+  const [tx, ty] = tile.texel;
+  const covered = tile.alpha.reduce((sum, alpha) => sum + alpha, 0) * tx * ty;
+  expect(covered).toBeCloseTo(0.58 * 0.63, 2);
+});

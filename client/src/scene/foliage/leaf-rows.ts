@@ -1,0 +1,95 @@
+import { Mesh, type ShaderMaterial, type Vector2, type Vector4 } from "three";
+import type { Box } from "../camera/camera-rig";
+import type { Fineness } from "../frame/fineness";
+import type { Uniforms } from "../materials";
+import type { TreeTable } from "../table/tree-table";
+import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
+import { leafAzimuth, leafRandom } from "./leaves";
+import { RowInstances } from "./row-instances";
+
+/** While a hand moves on a slow device, no more leaves than this are drawn, each the larger for it. */
+const LEAVES_IN_HASTE = 60_000;
+/** The largest leaf is this much longer than the leaf size (LF2). */
+const LARGEST = 1.25;
+const FAR = 2;
+
+/** What a leaf is drawn with, and what draws its shadow. */
+export interface LeafMaterials {
+  readonly leaf: ShaderMaterial;
+  readonly leafDepth: ShaderMaterial;
+}
+
+/** All leaves as instances of one card, placed by the rules LF1 to LF4. */
+export class LeafRows {
+  /** Seen by the camera. */
+  readonly mesh: Mesh;
+  /** Seen by the sun. */
+  readonly caster: Mesh;
+  private readonly instances = new RowInstances(BLADE_CARDS);
+  private spray = false;
+
+  /** The uniforms are the materials' own. */
+  constructor(
+    materials: LeafMaterials,
+    private readonly uniforms: Uniforms,
+  ) {
+    const { geometries } = this.instances;
+    this.mesh = new Mesh(geometries[FAR], materials.leaf);
+    this.caster = new Mesh(geometries[FAR], materials.leafDepth);
+    for (const mesh of [this.mesh, this.caster]) mesh.frustumCulled = false;
+  }
+
+  /** Leaves of rows from `rows` on are gone. */
+  truncate(rows: number): void {
+    this.instances.truncate(rows);
+  }
+
+  /** Places a row's leaves anew. */
+  update(table: TreeTable, row: number): void {
+    const parent = table.parent[row]!;
+    const foliage = table.foliage[row]!;
+    const count = table.radiusCode[row] !== 0 && parent >= 0 ? foliage & 15 : 0;
+    this.instances.place(row, parent, foliage >> 4, count, (k) => [
+      leafAzimuth(row, k, count),
+      (k + 1) / count,
+      leafRandom(row, k),
+    ]);
+  }
+
+  /** Chooses triangles by how large the nearest leaf in the box may be on the screen, and how many leaves may be drawn. */
+  detail({ eye, pixels, ease }: Fineness, box: Box): void {
+    const { count, geometries } = this.instances;
+    this.follow();
+    const size = LARGEST * (this.uniforms.uLeafSize!.value as number);
+    const longest = (size * pixels) / Math.max(0.5, distanceTo(box, eye) - size);
+    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, count, longest, ease);
+    this.mesh.geometry = geometries[level]!;
+    const share = Math.min(1, LEAVES_IN_HASTE / Math.max(1, count));
+    (this.uniforms.uLeafLevel!.value as Vector2).set(level, share + (1 - share) * ease);
+  }
+
+  /** Has three.js upload what was written since the last call. */
+  upload(): void {
+    this.instances.upload();
+    this.mesh.visible = this.instances.count > 0;
+    this.caster.visible = this.instances.count > 0;
+  }
+
+  dispose(): void {
+    this.instances.dispose();
+  }
+
+  /** Sprays stand on crossed cards, but for the one that all are far off. */
+  private follow(): void {
+    const spray = (this.uniforms.uLeafForm!.value as Vector4).y > 0.5;
+    if (spray === this.spray) return;
+    this.spray = spray;
+    this.instances.shape(spray ? SPRAY_CARDS : BLADE_CARDS);
+  }
+}
+
+/** How far a place is from a box; 0 inside. */
+function distanceTo({ min, max }: Box, place: readonly number[]): number {
+  const off = (axis: 0 | 1 | 2) => Math.max(min[axis] - place[axis]!, 0, place[axis]! - max[axis]);
+  return Math.hypot(off(0), off(1), off(2));
+}

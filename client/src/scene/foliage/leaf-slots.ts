@@ -1,0 +1,60 @@
+import { grown } from "../table/column";
+
+const NONE = -1;
+
+/**
+ * Gives each row a run of consecutive slots for its leaves; runs given back are used again for as many leaves, so
+ * that a leaf never has to move.
+ */
+export class LeafSlots {
+  /** Slots in use or to be used again: instances to draw. */
+  end = 0;
+  private first = new Int32Array(0);
+  private count = new Uint8Array(0);
+  private rows = 0;
+  private readonly free: number[][] = Array.from({ length: 16 }, () => []);
+
+  /** Where the row's run begins, or -1. */
+  firstOf(row: number): number {
+    return row < this.rows && this.count[row]! > 0 ? this.first[row]! : NONE;
+  }
+
+  /** How many leaves the row has. */
+  countOf(row: number): number {
+    return row < this.rows ? this.count[row]! : 0;
+  }
+
+  /** Gives the row `count` slots in place of what it had; the slots it loses go to `cleared`. */
+  assign(row: number, count: number, cleared: (first: number, count: number) => void): void {
+    if (row >= this.rows) {
+      this.first = grown(this.first, Math.max(1024, 2 ** Math.ceil(Math.log2(row + 1))));
+      this.count = grown(this.count, this.first.length);
+      this.count.fill(0, this.rows, row + 1);
+      this.rows = row + 1;
+    }
+    const before = this.count[row]!;
+    if (before === count) return;
+    if (before > 0) {
+      this.free[before]!.push(this.first[row]!);
+      cleared(this.first[row]!, before);
+    }
+    this.count[row] = count;
+    if (count === 0) return;
+    const again = this.free[count]!.pop();
+    if (again === undefined) {
+      this.first[row] = this.end;
+      this.end += count;
+    } else {
+      this.first[row] = again;
+    }
+  }
+
+  /** Takes the slots of every row from `rows` on. */
+  truncate(rows: number, cleared: (first: number, count: number) => void): void {
+    for (let row = rows; row < this.rows; row += 1) this.assign(row, 0, cleared);
+    this.rows = Math.min(this.rows, rows);
+    if (this.rows > 0) return;
+    this.end = 0;
+    for (const runs of this.free) runs.length = 0;
+  }
+}

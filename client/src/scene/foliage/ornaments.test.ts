@@ -1,0 +1,134 @@
+import { type BufferGeometry, ShaderMaterial } from "three";
+import { beforeEach, describe, expect, it } from "vitest";
+import { sampleTree } from "../../../test/sample-tree";
+import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
+import type { Uniforms } from "../materials";
+import { TreeTable } from "../table/tree-table";
+import { FLOWERS } from "./flowers";
+import { FRUITS } from "./fruits";
+import { seeded } from "./leaf-painter";
+import { Ornaments } from "./ornaments";
+import { isBearing } from "./places";
+
+const LOOK: FlowerLook = { ...DEFAULT_APPEARANCE.flowers, kind: "rosette", share: 0.4 };
+
+/** Rows that bear something, with how many. */
+function borne(geometry: BufferGeometry): Map<number, number> {
+  const counts = new Map<number, number>();
+  const [leaf, tint] = [geometry.getAttribute("leaf"), geometry.getAttribute("tint")];
+  const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
+  for (let i = 0; i < count; i += 1) {
+    if (tint.getX(i) >= 0) counts.set(leaf.getX(i), (counts.get(leaf.getX(i)) ?? 0) + 1);
+  }
+  return new Map([...counts].sort((a, b) => a[0] - b[0]));
+}
+
+describe("flowers", () => {
+  let table: TreeTable;
+  let uniforms: Uniforms;
+  let flowers: Ornaments<FlowerLook>;
+
+  /** What the table and the look ask for. */
+  function expected(look: FlowerLook, together: number): Map<number, number> {
+    const rows = Array.from({ length: table.rows }, (_, row) => row);
+    return new Map(rows.filter((row) => isBearing(table, row, look, FLOWERS.salt)).map((row) => [row, together]));
+  }
+
+  function sync(): void {
+    table.drain(
+      (rows) => flowers.truncate(rows),
+      (row, bits) => flowers.update(table, row, bits),
+    );
+    flowers.upload(table);
+  }
+
+  beforeEach(() => {
+    table = new TreeTable(() => 0);
+    table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
+    uniforms = {};
+    flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms);
+    flowers.wear(LOOK);
+    sync();
+  });
+
+  it("stand where the look has them", () => {
+    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
+    for (const look of [
+      { ...LOOK, share: 0.9 },
+      { ...LOOK, place: "tips" },
+      { ...LOOK, vigor: -1 },
+    ] as const) {
+      flowers.wear(look);
+      flowers.upload(table);
+      expect(borne(flowers.mesh.geometry)).toEqual(expected(look, FLOWERS.kinds.rosette.together));
+    }
+  });
+
+  it("follow the tree as it changes", () => {
+    table.apply({
+      epoch: 1,
+      sequence: 2,
+      catchUp: false,
+      changes: [
+        {
+          change: "patch",
+          chunk: 0,
+          generation: 2,
+          column: "foliage",
+          rows: Uint8Array.from({ length: 256 }, (_, i) => i),
+          values: Uint8Array.from({ length: 256 }, (_, i) => (i * 37) & 255),
+        },
+        { change: "truncate", rows: table.rows - 100 },
+      ],
+    });
+    sync();
+    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
+  });
+
+  it("that are none take nothing to draw", () => {
+    flowers.wear({ ...LOOK, kind: "none" });
+    flowers.upload(table);
+    expect([flowers.mesh.visible, flowers.caster.visible]).toEqual([false, false]);
+    expect(borne(flowers.mesh.geometry).size).toBe(0);
+  });
+
+  it("only change colour and size in the shaders", () => {
+    const before = borne(flowers.mesh.geometry);
+    flowers.wear({ ...LOOK, tint: [255, 0, 0], size: 1.5 });
+    flowers.upload(table);
+    expect(borne(flowers.mesh.geometry)).toEqual(before);
+    expect(uniforms.uFlowerTint!.value.toArray()).toEqual([1, 0, 0]);
+    expect(uniforms.uFlowerFinish!.value.x).toBe(1.5);
+  });
+});
+
+it("a large tree bears fewer at a place, but as many places", () => {
+  const table = new TreeTable(() => 0);
+  table.apply(sampleTree({ seed: 2, height: 80, orders: 3 }));
+  const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {});
+  flowers.wear({ ...LOOK, share: 1 });
+  flowers.upload(table);
+  const counts = borne(flowers.mesh.geometry);
+  const rows = Array.from({ length: table.rows }, (_, row) => row);
+  const places = rows.filter((row) => (table.foliage[row]! & 15) > 0 && table.radiusCode[row] !== 0);
+  expect(places.length * FLOWERS.kinds.rosette.together).toBeGreaterThan(100_000);
+  expect(counts.size).toBe(places.length);
+  expect([...counts.values()].reduce((sum, count) => sum + count, 0)).toBeLessThanOrEqual(100_000);
+});
+
+it("every flower and fruit is painted within its tile", () => {
+  for (const [name, kind] of [...Object.entries(FLOWERS.kinds), ...Object.entries(FRUITS.kinds)]) {
+    const { alpha, side, height } = kind.paint(seeded(3));
+    const covered = alpha.reduce((sum, value) => sum + value, 0) / alpha.length;
+    expect(covered, name).toBeGreaterThan(0.15);
+    expect(covered, name).toBeLessThan(0.85);
+    expect(height.every(Number.isFinite)).toBe(true);
+    const edge = Array.from({ length: side }, (_, i) => [
+      i,
+      i * side,
+      (side - 1) * side + i,
+      i * side + side - 1,
+    ]).flat();
+    expect(Math.max(...edge.map((at) => alpha[at]!)), name).toBeLessThan(0.5);
+  }
+});

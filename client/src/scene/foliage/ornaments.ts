@@ -1,0 +1,166 @@
+import { Mesh, type ShaderMaterial, Vector3, Vector4 } from "three";
+import { linear } from "../light/colours";
+import type { Uniforms } from "../materials";
+import { Dirty, type TreeTable } from "../table/tree-table";
+import { ATLAS_TILES, atlasLevels, LeafAtlas, type Levels } from "./leaf-atlas";
+import { ORNAMENT_CARDS } from "./leaf-cards";
+import { seeded } from "./leaf-painter";
+import type { LeafTile } from "./leaf-tile";
+import { leafAzimuth, leafRandom } from "./leaves";
+import { isBearing, type Placing } from "./places";
+import { RowInstances } from "./row-instances";
+
+/** With more than this each place bears fewer of them, so that a large tree in flower is still drawn quickly. */
+const MANY = 100_000;
+
+/** How one kind of flower or fruit is made. */
+export interface OrnamentKind {
+  /** Half of its width, in its own lengths. */
+  readonly reach: number;
+  /** How many stand together at a place. */
+  readonly together: number;
+  /** −1 hanging, 0 as a leaf stands, 1 upright. */
+  readonly hang: number;
+  /** How far it turns its face to the eye, 0 to 1; below 0 for a disc that looks where a leaf points. */
+  readonly turn: number;
+  /** Its stalk, in its own lengths. */
+  readonly stalk: number;
+  /** How much it shines. */
+  readonly gloss: number;
+  /** Its second colour in sRGB. */
+  readonly second: readonly number[];
+  /** One picture of it. */
+  paint(random: () => number): LeafTile;
+}
+
+/** Flowers, or fruits: their kinds, and what keeps them from standing in the same places as the others. */
+export interface OrnamentSort<Kind extends string> {
+  readonly name: "Flower" | "Fruit";
+  readonly salt: number;
+  readonly kinds: Record<Exclude<Kind, "none">, OrnamentKind>;
+}
+
+interface OrnamentLook extends Placing {
+  readonly kind: string;
+  readonly tint: readonly [number, number, number];
+  readonly size: number;
+}
+
+/** All flowers, or all fruits, as instances of one card. */
+export class Ornaments<Look extends OrnamentLook> {
+  /** Seen by the camera. */
+  readonly mesh: Mesh;
+  /** Seen by the sun. */
+  readonly caster: Mesh;
+  private readonly instances = new RowInstances([ORNAMENT_CARDS]);
+  private readonly form = { value: new Vector4(0.5, 0, 0, 0) };
+  private readonly finish = { value: new Vector4() };
+  private readonly tint = { value: new Vector3() };
+  private readonly second = { value: new Vector3() };
+  private readonly atlas = new LeafAtlas(() => paintingOf(this.kind));
+  private look: Look | null = null;
+  /** How many stand at a place: as many as the kind has, or fewer. */
+  private together = 0;
+  /** Rows there were when all places were looked for. */
+  private searched = 0;
+  /** Whether places have to be looked for in every row. */
+  private stale = false;
+
+  constructor(
+    private readonly sort: OrnamentSort<Look["kind"]>,
+    material: ShaderMaterial,
+    depth: ShaderMaterial,
+    uniforms: Uniforms,
+  ) {
+    this.mesh = new Mesh(this.instances.geometries[0], material);
+    this.caster = new Mesh(this.instances.geometries[0], depth);
+    for (const mesh of [this.mesh, this.caster]) {
+      mesh.frustumCulled = false;
+      mesh.visible = false;
+    }
+    const { name } = sort;
+    uniforms[`u${name}Form`] = this.form;
+    uniforms[`u${name}Finish`] = this.finish;
+    uniforms[`u${name}Tint`] = this.tint;
+    uniforms[`u${name}Second`] = this.second;
+    uniforms[`u${name}Colour`] = this.atlas.colour;
+    uniforms[`u${name}Relief`] = this.atlas.relief;
+  }
+
+  /** Puts a look on; new places are found with the next upload. */
+  wear(look: Look): void {
+    const before = this.look;
+    this.look = look;
+    const kind = this.kind;
+    if (before?.kind !== look.kind) this.atlas.dispose();
+    this.stale ||=
+      before?.kind !== look.kind ||
+      before.share !== look.share ||
+      before.place !== look.place ||
+      before.vigor !== look.vigor;
+    if (!kind) return;
+    this.form.value.set(kind.reach, kind.hang, kind.turn, kind.stalk);
+    this.finish.value.set(look.size, kind.gloss, 0, 0);
+    this.tint.value.set(...linear(look.tint));
+    this.second.value.set(...linear(kind.second));
+  }
+
+  /** What rows from `rows` on bore is gone. */
+  truncate(rows: number): void {
+    this.instances.truncate(rows);
+    // What was too much for a large tree may not be for what is left of it.
+    if (rows < this.searched / 2) this.stale = true;
+  }
+
+  /** Sees whether a row bears something now. */
+  update(table: TreeTable, row: number, bits: number = Dirty.Shape): void {
+    const { look, kind, sort, instances } = this;
+    if (!look || this.stale) return;
+    const count = kind && isBearing(table, row, look, sort.salt) ? this.together : 0;
+    if (count === instances.countOf(row) && (count === 0 || (bits & Dirty.Shape) === 0)) return;
+    instances.place(row, table.parent[row]!, table.foliage[row]! >> 4, count, (k) => [
+      leafAzimuth(row, k, count) + (sort.salt % 7),
+      (k + 1) / count,
+      leafRandom(row ^ sort.salt, k),
+    ]);
+  }
+
+  /** Has three.js upload what was written since the last call. */
+  upload(table: TreeTable): void {
+    if (this.stale) this.search(table, this.kind?.together ?? 0);
+    while (this.instances.count > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));
+    this.instances.upload();
+    const visible = this.kind !== null && this.instances.count > 0;
+    this.mesh.visible = visible;
+    this.caster.visible = visible;
+  }
+
+  /** A restored context has lost the textures. */
+  restored(): void {
+    this.atlas.restored();
+  }
+
+  dispose(): void {
+    this.atlas.dispose();
+    this.instances.dispose();
+  }
+
+  /** Finds all places anew, for so many at each. */
+  private search(table: TreeTable, together: number): void {
+    this.stale = false;
+    this.together = together;
+    this.searched = table.rows;
+    this.instances.truncate(0);
+    if (this.kind) for (let row = 0; row < table.rows; row += 1) this.update(table, row);
+  }
+
+  private get kind(): OrnamentKind | null {
+    const kinds: Partial<Record<string, OrnamentKind>> = this.sort.kinds;
+    return (this.look && kinds[this.look.kind]) ?? null;
+  }
+}
+
+function paintingOf(kind: OrnamentKind | null): Levels {
+  const pictures = kind ? Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => kind.paint(seeded(97 + i))) : [];
+  return atlasLevels(pictures.map((picture) => () => picture));
+}

@@ -1,0 +1,26 @@
+import type { TreeTable } from "../table/tree-table";
+import type { Guise, Look, SlotWriter, Wearer } from "./guises";
+
+/** Branches that are about to be cut, or are cut and not yet gone from the table. */
+export class Felled implements Guise {
+  readonly slots = 1;
+
+  /** `rows` are those that the branches begin with. */
+  constructor(
+    readonly rows: readonly number[],
+    readonly look: Exclude<Look, "plain">,
+  ) {}
+
+  *wearers(): Iterable<Wearer> {
+    for (const row of this.rows) yield { row, wears: 0, own: false, bears: 0 };
+  }
+
+  write(_table: TreeTable, out: SlotWriter): void {
+    out.plain(0);
+    out.look(0, this.look);
+  }
+
+  over(table: TreeTable): boolean {
+    return this.rows.every((row) => row >= table.rows || table.radiusCode[row] === 0);
+  }
+}

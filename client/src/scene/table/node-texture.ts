@@ -1,0 +1,144 @@
+import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
+import { CHUNK_ROWS } from "../../wire/generated";
+import { grown } from "./column";
+import { EASE_SECONDS, eased } from "./radius-ease";
+import { radiusOf, type TreeTable } from "./tree-table";
+
+/**
+ * Texels each row has: position and radius; frame, and light with the slot; birth, duration, extension and arc. A
+ * duration below 0 says that its radius glides: from minus this, since the birth beside it.
+ */
+const TEXELS = 3;
+const LINE = CHUNK_ROWS * TEXELS * 4;
+const NEVER = 1e9;
+/** How long a tip goes on growing after its metamer is as long as it will be, in seconds. */
+const AFTERGROWTH = 0.3;
+/** Light is a share of this below one, so that it leaves the whole numbers to the slot. */
+const LIGHT_STEPS = 256;
+
+/** The node table on the GPU: one line of the texture is one chunk, so that a delta uploads only its chunks. */
+export class NodeTexture {
+  /** For the shaders' `uNodes`; the texture is another one when the table outgrows it. */
+  readonly uniform: { value: DataTexture };
+  private texels = new Float32Array(4 * LINE);
+  /** What each row wears, see `guises.ts`. */
+  private slots = new Int16Array(0);
+  private readonly stale = new Set<number>();
+  private whole = true;
+
+  constructor() {
+    this.uniform = { value: this.allocate() };
+  }
+
+  /** Makes room for `rows`. */
+  reserve(rows: number): void {
+    const lines = Math.ceil(rows / CHUNK_ROWS);
+    this.slots = grown(this.slots, lines * CHUNK_ROWS);
+    let height = this.texels.length / LINE;
+    if (lines <= height) return;
+    while (height < lines) height *= 2;
+    this.texels = grown(this.texels, height * LINE);
+    this.uniform.value.dispose();
+    this.uniform.value = this.allocate();
+    this.uploadWhole();
+  }
+
+  /** Makes the next upload a whole one, as a new texture or a restored context needs. */
+  uploadWhole(): void {
+    this.whole = true;
+    this.uniform.value.clearUpdateRanges();
+    this.uniform.value.needsUpdate = true;
+  }
+
+  /** Copies a row from the table. */
+  write(table: TreeTable, row: number): void {
+    const { texels } = this;
+    const at = 4 * TEXELS * row;
+    const successor = table.successor[row]!;
+    texels[at] = table.position[3 * row]!;
+    texels[at + 1] = table.position[3 * row + 1]!;
+    texels[at + 2] = table.position[3 * row + 2]!;
+    texels[at + 3] = radiusOf(table.radiusCode[row]!);
+    const parent = table.parent[row]!;
+    if (parent < 0 && successor >= 0) texels[at + 3] = radiusOf(table.radiusCode[successor]!);
+    // A seed is drawn as thick as its trunk, which spreads at its foot by that measure all the way up.
+    if (parent >= 0 && table.parent[parent]! < 0 && table.successor[parent] === row) {
+      texels[4 * TEXELS * parent + 3] = texels[at + 3]!;
+      this.stale.add(Math.floor(parent / CHUNK_ROWS));
+    }
+    texels[at + 4] = table.frames[4 * row]!;
+    texels[at + 5] = table.frames[4 * row + 1]!;
+    texels[at + 6] = table.frames[4 * row + 2]!;
+    texels[at + 7] = worn(this.slots[row]!, table.light[row]!);
+    texels[at + 8] = table.birth[row]!;
+    texels[at + 9] = table.growing[row]!;
+    texels[at + 10] = successor < 0 ? NEVER : table.birth[successor]!;
+    texels[at + 11] = table.arc[row]!;
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /**
+   * The radius a row is shown with, given how a radius in the table is worn; 0 where nothing is shown, or where the
+   * row is still growing out and its radius with it.
+   */
+  shownRadius(row: number, now: number, worn: (radius: number) => number): number {
+    const { texels } = this;
+    const at = 4 * TEXELS * row;
+    const radius = texels[at + 3] ?? 0;
+    if (radius <= 0) return 0;
+    const [birth, growing] = [texels[at + 8]!, texels[at + 9]!];
+    if (growing >= 0) return birth + growing + AFTERGROWTH <= now ? worn(radius) : 0;
+    return -growing + (worn(radius) + growing) * eased(now - birth, EASE_SECONDS);
+  }
+
+  /** Has the radius of a row, which is in place, glide from another one to its own. */
+  ease(row: number, from: number, now: number): void {
+    const at = 4 * TEXELS * row;
+    this.texels[at + 8] = now;
+    this.texels[at + 9] = -from;
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Rows from `rows` on are gone. */
+  truncate(rows: number): void {
+    this.texels.fill(0, 4 * TEXELS * rows);
+  }
+
+  /** Has a row wear another slot: 0 for none, below 0 for its own. */
+  dress(table: TreeTable, row: number, slot: number): void {
+    this.slots[row] = slot;
+    this.texels[4 * TEXELS * row + 7] = worn(slot, table.light[row]!);
+    this.stale.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** Has three.js upload the lines written since the last call. */
+  upload(): void {
+    if (this.stale.size === 0) return;
+    const texture = this.uniform.value;
+    if (!this.whole) {
+      for (const line of this.stale) texture.addUpdateRange(line * LINE, LINE);
+    }
+    this.whole = false;
+    texture.needsUpdate = true;
+    this.stale.clear();
+  }
+
+  dispose(): void {
+    this.uniform.value.dispose();
+  }
+
+  private allocate(): DataTexture {
+    const texture = new DataTexture(this.texels, CHUNK_ROWS * TEXELS, this.texels.length / LINE, RGBAFormat, FloatType);
+    texture.minFilter = NearestFilter;
+    texture.magFilter = NearestFilter;
+    texture.generateMipmaps = false;
+    texture.needsUpdate = true;
+    return texture;
+  }
+}
+
+/** One number for both, as the shaders take them apart. */
+function worn(slot: number, light: number): number {
+  const value = Math.abs(slot) + light / LIGHT_STEPS;
+  return slot < 0 ? -value : value;
+}

@@ -1,0 +1,408 @@
+import { type ChunkChange, type Frame, FrameError, type Rows } from "../../wire/frame";
+import { CHUNK_ROWS, MIN_RADIUS, POSITION_STEPS, RADIUS_LOG_STEP } from "../../wire/generated";
+import { Bounds } from "./bounds";
+import { Cascade } from "./cascade";
+import { grown } from "./column";
+import { type Skeleton, updateFrame } from "./node-frames";
+
+/** What changed in a row since the last `drain`. */
+export const Dirty = {
+  /** Something the GPU draws with: position, frame, radius, light, birth. */
+  Drawn: 1,
+  /** Where its metamer runs, whether it lives, or how many leaves it bears. */
+  Shape: 2,
+} as const;
+
+/** Births this far back mean that a row never eased in. */
+const LONG_AGO = -1000;
+/** Positions beyond this many internodes are not a tree; the server's limit is 1000 plus what grows past it. */
+const MAX_QUANTISED = 1 << 22;
+/** Rows at which the table refuses to grow: four times the largest document. */
+const MAX_ROWS = 1 << 22;
+
+/** Radius in internodes of a code; 0 for the dead. */
+export function radiusOf(code: number): number {
+  return code === 0 ? 0 : MIN_RADIUS * Math.exp((code - 1) * RADIUS_LOG_STEP);
+}
+
+/** The table of rows a session's frames build, with what drawing them needs derived. */
+export class TreeTable implements Skeleton {
+  /** How many rows. */
+  rows = 0;
+  /** Epoch of the frames applied; 0 while there are none. */
+  epoch = 0;
+  /** Sequence of the last frame applied, or null. */
+  sequence: number | null = null;
+
+  /** Where each metamer ends, in internodes: x y z. */
+  position = new Float32Array(0);
+  /** The same in steps of 1/256 internode, exactly as sent. */
+  quantised = new Int32Array(0);
+  /** -1 for a seed. */
+  parent = new Int32Array(0);
+  /** 1 where a row begins an axis. */
+  startsAxis = new Uint8Array(0);
+  /** Radius codes; 0 is dead or a seed. */
+  radiusCode = new Uint16Array(0);
+  /** Leaves in the low four bits, vigor in the high four. */
+  foliage = new Uint8Array(0);
+  /** Exposure 0 to 255. */
+  light = new Uint8Array(0);
+  /** The step of growth in which each metamer was born; 0 for the first seed. */
+  born = new Uint32Array(0);
+  /** The living row that continues the axis, or -1. */
+  successor = new Int32Array(0);
+  /** Quaternion of each node's frame, x y z w with w ≥ 0. */
+  frames = new Float32Array(0);
+  /** Length along the axis from where it begins, in internodes. */
+  arc = new Float32Array(0);
+  /** The row at which the axis begins, which belongs to the bearing axis. */
+  axisOrigin = new Int32Array(0);
+  /** When each row begins to grow, in seconds of `now`. */
+  birth = new Float32Array(0);
+  /** How long it takes to grow. */
+  growing = new Float32Array(0);
+
+  /** When the last row will have finished growing. */
+  settledAt = LONG_AGO;
+
+  private readonly chunkGenerations: number[] = [];
+  private readonly dirty: { bits: Uint8Array; chunks: Set<number>; lowWater: number } = {
+    bits: new Uint8Array(0),
+    chunks: new Set(),
+    lowWater: 0,
+  };
+  private staleFrames = new Uint8Array(0);
+  private moved = new Uint8Array(0);
+  private turned = new Uint8Array(0);
+  private firstStale = Number.POSITIVE_INFINITY;
+  private readonly extent = new Bounds();
+  private readonly start: number;
+
+  constructor(private readonly clock: () => number = () => performance.now() / 1000) {
+    this.start = clock();
+  }
+
+  /** Seconds since the table was made; small enough for 32-bit floats. */
+  now(): number {
+    return this.clock() - this.start;
+  }
+
+  /** The generation of each chunk, for `resume` (RS1). */
+  generations(): number[] {
+    return [...this.chunkGenerations];
+  }
+
+  /** The box around all living rows and seeds. */
+  bounds(): Bounds {
+    this.extent.refresh(this);
+    return this.extent;
+  }
+
+  /** Forgets every row and the epoch. */
+  clear(): void {
+    this.truncate(0);
+    this.epoch = 0;
+    this.sequence = null;
+    this.settledAt = LONG_AGO;
+  }
+
+  /** Applies a frame; one that does not fit throws `FrameError`, and the table must then be cleared (FR1). */
+  apply(frame: Frame): void {
+    if (this.epoch !== 0 && frame.epoch !== this.epoch) {
+      throw new FrameError(`A frame of epoch ${frame.epoch} does not fit rows of epoch ${this.epoch}.`);
+    }
+    if (!frame.catchUp && this.sequence !== null && frame.sequence !== (this.sequence + 1) % 2 ** 32) {
+      throw new FrameError(`Frame ${frame.sequence} does not follow frame ${this.sequence}.`);
+    }
+    const cascade = new Cascade(this.rows);
+    for (const change of frame.changes) {
+      this.change(change, frame.sequence);
+      cascade.shrinkTo(this.rows);
+    }
+    this.epoch = frame.epoch;
+    this.sequence = frame.sequence;
+    this.giveBirth(cascade.firstNew, frame.catchUp);
+    this.derive();
+  }
+
+  /**
+   * Hands over what changed since the last call: first how many of the old rows survived, then each changed row
+   * with its `Dirty` bits, in ascending order within a chunk.
+   */
+  drain(survived: (rows: number) => void, changed: (row: number, bits: number) => void): void {
+    const { bits, chunks } = this.dirty;
+    survived(this.dirty.lowWater);
+    for (const chunk of chunks) {
+      const end = Math.min(this.rows, (chunk + 1) * CHUNK_ROWS);
+      for (let row = chunk * CHUNK_ROWS; row < end; row += 1) {
+        const what = bits[row]!;
+        if (what === 0) continue;
+        bits[row] = 0;
+        changed(row, what);
+      }
+    }
+    chunks.clear();
+    this.dirty.lowWater = this.rows;
+  }
+
+  private change(change: ChunkChange, sequence: number): void {
+    switch (change.change) {
+      case "truncate":
+        if (change.rows > this.rows) throw new FrameError("A truncation keeps more rows than there are.");
+        this.truncate(change.rows);
+        if (change.rows % CHUNK_ROWS !== 0) this.chunkGenerations[this.chunkGenerations.length - 1] = sequence;
+        return;
+      case "replace":
+        this.replace(change.chunk, change.rows);
+        break;
+      case "append": {
+        const first = change.chunk * CHUNK_ROWS + change.start;
+        if (first !== this.rows) throw new FrameError(`An append to row ${first} does not fit ${this.rows} rows.`);
+        this.write(first, change.rows);
+        break;
+      }
+      case "patch":
+        this.patch(change);
+        break;
+    }
+    this.chunkGenerations[change.chunk] = change.generation;
+  }
+
+  private truncate(rows: number): void {
+    if (rows >= this.rows) return;
+    for (let row = rows; row < this.rows; row += 1) {
+      const parent = this.parent[row]!;
+      if (parent >= 0 && parent < rows && this.successor[parent] === row) this.setSuccessor(parent, -1);
+    }
+    this.dirty.bits.fill(0, rows, this.rows);
+    this.staleFrames.fill(0, rows, this.rows);
+    this.rows = rows;
+    this.dirty.lowWater = Math.min(this.dirty.lowWater, rows);
+    this.chunkGenerations.length = Math.ceil(rows / CHUNK_ROWS);
+    this.extent.invalidate();
+  }
+
+  private replace(chunk: number, rows: Rows): void {
+    const first = chunk * CHUNK_ROWS;
+    const end = first + rows.parent.length;
+    if (first > this.rows) throw new FrameError(`Chunk ${chunk} would leave a gap behind ${this.rows} rows.`);
+    if (this.rows > first + CHUNK_ROWS && end < first + CHUNK_ROWS) {
+      throw new FrameError(`Chunk ${chunk} is not the last, so it must be full.`);
+    }
+    if (this.rows > end && this.rows <= first + CHUNK_ROWS) this.truncate(end);
+    this.write(first, rows);
+    this.extent.invalidate();
+  }
+
+  private write(first: number, rows: Rows): void {
+    const end = first + rows.parent.length;
+    this.reserve(end);
+    const known = this.rows;
+    this.rows = Math.max(this.rows, end);
+    for (let i = 0; i < rows.parent.length; i += 1) {
+      const row = first + i;
+      if (row >= known) this.successor[row] = -1;
+      else this.unlink(row);
+      this.setParent(row, rows.parent[i]!);
+      this.setPosition(row, rows.position[3 * i]!, rows.position[3 * i + 1]!, rows.position[3 * i + 2]!);
+      this.radiusCode[row] = rows.radius[i]!;
+      this.foliage[row] = rows.foliage[i]!;
+      this.light[row] = rows.light[i]!;
+      this.born[row] = rows.born[i]!;
+      if (row >= known) this.birth[row] = LONG_AGO;
+      this.link(row);
+      this.mark(row, Dirty.Drawn | Dirty.Shape);
+    }
+  }
+
+  private patch(change: Extract<ChunkChange, { change: "patch" }>): void {
+    const first = change.chunk * CHUNK_ROWS;
+    for (let i = 0; i < change.rows.length; i += 1) {
+      const row = first + change.rows[i]!;
+      if (row >= this.rows) throw new FrameError(`A patch of row ${row} does not fit ${this.rows} rows.`);
+      const { values } = change;
+      switch (change.column) {
+        case "parent":
+          this.unlink(row);
+          this.setParent(row, values[i]!);
+          this.link(row);
+          this.mark(row, Dirty.Drawn | Dirty.Shape);
+          break;
+        case "position":
+          this.setPosition(row, values[3 * i]!, values[3 * i + 1]!, values[3 * i + 2]!);
+          this.extent.invalidate();
+          this.mark(row, Dirty.Drawn | Dirty.Shape);
+          break;
+        case "radius":
+          this.setRadius(row, values[i]!);
+          break;
+        case "foliage":
+          this.foliage[row] = values[i]!;
+          this.mark(row, Dirty.Drawn | Dirty.Shape);
+          break;
+        case "light":
+          this.light[row] = values[i]!;
+          this.mark(row, Dirty.Drawn);
+          break;
+        case "born":
+          this.born[row] = values[i]!;
+          this.mark(row, Dirty.Drawn);
+          break;
+      }
+    }
+  }
+
+  private setRadius(row: number, code: number): void {
+    const before = this.radiusCode[row]!;
+    this.radiusCode[row] = code;
+    if ((before === 0) === (code === 0)) {
+      this.mark(row, Dirty.Drawn);
+      return;
+    }
+    this.unlink(row);
+    this.link(row);
+    // What changed on the axis while a row was dead has passed it by.
+    this.markStale(row);
+    this.extent.invalidate();
+    this.mark(row, Dirty.Drawn | Dirty.Shape);
+  }
+
+  private setParent(row: number, code: number): void {
+    const parent = code === 0 ? -1 : row - (code >>> 1);
+    if (code !== 0 && (parent < 0 || parent >= row)) {
+      throw new FrameError(`The parent of row ${row} is not below it (FR5).`);
+    }
+    this.parent[row] = parent;
+    this.startsAxis[row] = code & 1;
+  }
+
+  private setPosition(row: number, dx: number, dy: number, dz: number): void {
+    const parent = this.parent[row]!;
+    const offsets = [dx, dy, dz];
+    for (let axis = 0; axis < 3; axis += 1) {
+      const from = parent < 0 ? 0 : this.quantised[3 * parent + axis]!;
+      const value = from + offsets[axis]!;
+      if (Math.abs(value) > MAX_QUANTISED) throw new FrameError(`Row ${row} is too far from the origin.`);
+      this.quantised[3 * row + axis] = value;
+      this.position[3 * row + axis] = value / POSITION_STEPS;
+    }
+    this.markStale(row);
+    this.moved[row] = 1;
+    if (parent >= 0) this.markStale(parent);
+  }
+
+  /** Makes a living row that continues its parent's axis known to the parent. */
+  private link(row: number): void {
+    const parent = this.parent[row]!;
+    if (parent < 0 || this.radiusCode[row] === 0) return;
+    // A seed has no axis of its own: what grows from it first continues it, whatever its flag says.
+    if (this.startsAxis[row] === 0 || (this.parent[parent]! < 0 && this.successor[parent]! < 0)) {
+      this.setSuccessor(parent, row);
+    }
+  }
+
+  private unlink(row: number): void {
+    const parent = this.parent[row]!;
+    if (parent >= 0 && this.successor[parent] === row) this.setSuccessor(parent, -1);
+  }
+
+  private setSuccessor(row: number, successor: number): void {
+    this.successor[row] = successor;
+    this.markStale(row);
+    this.mark(row, Dirty.Drawn);
+  }
+
+  private markStale(row: number): void {
+    this.staleFrames[row] = 1;
+    this.firstStale = Math.min(this.firstStale, row);
+  }
+
+  private mark(row: number, bits: number): void {
+    this.dirty.bits[row]! |= bits;
+    this.dirty.chunks.add(Math.floor(row / CHUNK_ROWS));
+  }
+
+  /** A child starts when its parent has finished; a whole cascade takes a quarter of a second. */
+  private giveBirth(firstNew: number, atOnce: boolean): void {
+    if (firstNew >= this.rows) return;
+    if (atOnce) {
+      this.birth.fill(LONG_AGO, firstNew, this.rows);
+      this.growing.fill(0, firstNew, this.rows);
+      return;
+    }
+    const last = Cascade.schedule(this.parent, firstNew, this.rows, this.now(), this.birth, this.growing);
+    this.settledAt = Math.max(this.settledAt, last);
+  }
+
+  /** Brings frames, arcs and axes up to date, in row order so that parents come first. */
+  private derive(): void {
+    for (let row = this.firstStale; row < this.rows; row += 1) {
+      const parent = this.parent[row]!;
+      if (parent >= 0 && this.moved[parent] === 1) {
+        this.mark(row, Dirty.Drawn | Dirty.Shape);
+        this.staleFrames[row] = 1;
+      }
+      // A lateral's frame follows from the one of the node that bears it.
+      if (parent >= 0 && this.turned[parent] === 1) this.staleFrames[row] = 1;
+      if (this.staleFrames[row] === 0) continue;
+      this.staleFrames[row] = 0;
+      const turned = updateFrame(this, this.frames, row);
+      if (turned) this.turned[row] = 1;
+      const measured = this.measure(row, parent);
+      if (!turned && !measured) continue;
+      this.mark(row, Dirty.Drawn);
+      const successor = this.successor[row]!;
+      if (successor >= 0) this.staleFrames[successor] = 1;
+    }
+    this.moved.fill(0, Math.min(this.firstStale, this.rows), this.rows);
+    this.turned.fill(0, Math.min(this.firstStale, this.rows), this.rows);
+    this.firstStale = Number.POSITIVE_INFINITY;
+  }
+
+  private measure(row: number, parent: number): boolean {
+    if (parent < 0) {
+      this.arc[row] = 0;
+      this.axisOrigin[row] = row;
+      return false;
+    }
+    const { position } = this;
+    const length = Math.hypot(
+      position[3 * row]! - position[3 * parent]!,
+      position[3 * row + 1]! - position[3 * parent + 1]!,
+      position[3 * row + 2]! - position[3 * parent + 2]!,
+    );
+    const begins = this.startsAxis[row] === 1 || this.parent[parent]! < 0;
+    const arc = length + (begins ? 0 : this.arc[parent]!);
+    const origin = begins ? parent : this.axisOrigin[parent]!;
+    const changed = Math.abs(arc - this.arc[row]!) > 1e-3 || origin !== this.axisOrigin[row];
+    this.arc[row] = arc;
+    this.axisOrigin[row] = origin;
+    return changed;
+  }
+
+  private reserve(rows: number): void {
+    if (rows > MAX_ROWS) throw new FrameError(`${rows} rows are more than a document can have.`);
+    if (rows <= this.parent.length) return;
+    let room = Math.max(4 * CHUNK_ROWS, this.parent.length);
+    while (room < rows) room *= 2;
+    this.position = grown(this.position, 3 * room);
+    this.quantised = grown(this.quantised, 3 * room);
+    this.parent = grown(this.parent, room);
+    this.startsAxis = grown(this.startsAxis, room);
+    this.radiusCode = grown(this.radiusCode, room);
+    this.foliage = grown(this.foliage, room);
+    this.light = grown(this.light, room);
+    this.born = grown(this.born, room);
+    this.successor = grown(this.successor, room);
+    this.frames = grown(this.frames, 4 * room);
+    this.arc = grown(this.arc, room);
+    this.axisOrigin = grown(this.axisOrigin, room);
+    this.birth = grown(this.birth, room);
+    this.growing = grown(this.growing, room);
+    this.staleFrames = grown(this.staleFrames, room);
+    this.moved = grown(this.moved, room);
+    this.turned = grown(this.turned, room);
+    this.dirty.bits = grown(this.dirty.bits, room);
+  }
+}

@@ -1,0 +1,238 @@
+import type { BarkKind } from "../../wire/generated";
+import { cells, noCell, step, turbulence, waves } from "./bark-noise";
+
+/** One place of a bark. */
+export interface BarkPoint {
+  /** 0 in the deepest crack to 1 on the highest ridge. */
+  height: number;
+  /** How bright the bark's own colour is there. */
+  shade: number;
+  /** Shares of the second and the third colour of its kind. */
+  second: number;
+  third: number;
+}
+
+/** Writes what a bark has at a place of its unit square: u around the limb, v along it. */
+export type BarkPattern = (u: number, v: number, out: BarkPoint) => void;
+
+/** The pattern of each kind. Made when it is asked for, since each fills tables first. */
+export const BARK_PATTERNS: Record<BarkKind, () => BarkPattern> = {
+  smooth,
+  furrowed,
+  plated,
+  papery,
+  flaking,
+  banded,
+  stringy,
+};
+
+/** Beech: a grey skin, finely wrinkled around, with clouds of lichen and drifts of algae. */
+function smooth(): BarkPattern {
+  const clouds = turbulence(3, 3, 4, 11);
+  const lichen = turbulence(5, 5, 4, 12);
+  const wrinkles = waves(5, 46, 13);
+  const folds = waves(4, 12, 14);
+  const drifts = turbulence(8, 2, 3, 15);
+  const pores = cells(11, 30, 0.9, 16);
+  const grain = waves(90, 90, 17);
+  const cell = noCell();
+  return (u, v, out) => {
+    const cloud = clouds(u, v);
+    const warp = 0.02 * cloud;
+    const wrinkle = wrinkles(u, v + warp) * step(-0.1, 0.5, folds(u + 0.3, v));
+    const { across, along, chance } = pores(u, v, cell);
+    const pore = chance > 0.62 ? 1 - step(0.3, 1, Math.hypot(across / 0.26, along / 0.16)) : 0;
+    const patch = step(0.12, 0.55, lichen(u, v));
+    out.height = 0.55 + 0.1 * wrinkle + 0.1 * folds(u, v + warp) + 0.07 * pore + 0.05 * patch + 0.025 * grain(u, v);
+    out.second = 0.55 * step(0.05, 0.7, drifts(u + warp, v)) * (1 - patch);
+    out.third = 0.5 * patch;
+    out.shade = 0.93 + 0.14 * cloud + 0.12 * wrinkle - 0.3 * pore + 0.06 * grain(u, v);
+  };
+}
+
+/** Oak, elm, willow: rounded ridges that part and meet again around long furrows. */
+function furrowed(): BarkPattern {
+  const bends = turbulence(3, 2, 3, 21);
+  const ridges = cells(10, 2, 1, 22);
+  const splits = waves(13, 3, 23);
+  const breaks = cells(16, 12, 1, 24);
+  const fibres = turbulence(30, 5, 3, 25);
+  const grain = waves(110, 60, 26);
+  const lichen = turbulence(4, 4, 4, 27);
+  const cell = noCell();
+  return (u, v, out) => {
+    const bend = bends(u, v);
+    const fibre = fibres(u + 0.03 * bend, v);
+    const x = u + 0.05 * bend + 0.008 * fibre;
+    const y = v + 0.1 * bends(v, u);
+    const { nearest, second, chance } = ridges(x, y, cell);
+    const gap = Math.min(0.5 * (second - nearest), 0.7 * Math.abs(splits(x, y)) + 0.03);
+    const ridge = step(0, 0.17, gap);
+    const crack = breaks(x, y + 0.3 * chance, cell);
+    const broken = step(0.02, 0.14, crack.second - crack.nearest);
+    const worn = 0.6 + 0.4 * Math.sqrt(step(0, 0.5, gap));
+    out.height =
+      ridge * worn * (0.82 + 0.18 * broken) * (0.86 + 0.14 * chance) +
+      0.1 * fibre * (0.4 + 0.6 * ridge) +
+      0.03 * grain(u, v);
+    const depth = 1 - step(0.04, 0.55, out.height);
+    const patch = step(0.2, 0.5, lichen(u, v)) * step(0.45, 0.8, out.height);
+    out.second = 0.84 * depth;
+    out.third = 0.5 * patch;
+    out.shade = 0.7 + 0.36 * out.height + 0.16 * (chance - 0.5) + 0.2 * fibre + 0.06 * grain(u, v);
+  };
+}
+
+/** Pine: long flaky plates, layer upon layer, fox-red where they came off, dark cracks between. */
+function plated(): BarkPattern {
+  const bends = turbulence(3, 2, 4, 31);
+  const plates = cells(6, 3, 1, 32);
+  const slivers = cells(13, 9, 1, 34);
+  const layers = turbulence(8, 5, 4, 33);
+  const widths = waves(5, 4, 36);
+  const grain = turbulence(50, 34, 2, 35);
+  const cell = noCell();
+  return (u, v, out) => {
+    const bend = bends(u, v);
+    const fine = layers(u, v);
+    const x = u + 0.075 * bend + 0.012 * fine;
+    const y = v + 0.1 * bends(v, u) + 0.012 * layers(v, u);
+    const { nearest, second, chance } = plates(x, y, cell);
+    const wide = 0.12 + 0.1 * widths(u, v);
+    const plate = step(0, wide, second - nearest);
+    const sliver = slivers(x, y, cell);
+    const chink = step(0.0, 0.1, sliver.second - sliver.nearest);
+    const level = 1.7 * fine + 1.3 * sliver.chance + 0.9 * chance;
+    // A layer ends in a step, not a slope.
+    const terrace = Math.floor(level) + step(0.75, 1, level - Math.floor(level));
+    const layer = Math.min(1, Math.max(0, 0.26 * (terrace + 1)));
+    const crack = Math.min(plate, 0.55 + 0.45 * chink);
+    out.height = crack * (0.46 + 0.44 * layer) + 0.05 * grain(u, v);
+    const bare = 1 - step(0.2, 0.62, layer + 0.1 * fine);
+    out.third = 0.85 * (1 - step(0.05, 0.42, out.height));
+    out.second = 0.42 * bare * (1 - out.third);
+    out.shade = 0.66 + 0.36 * layer + 0.26 * (sliver.chance - 0.5) + 0.16 * grain(u, v);
+  };
+}
+
+/** Birch: white skin with dark pores across it, that peels in curls and breaks into black diamonds. */
+function papery(): BarkPattern {
+  const clouds = turbulence(3, 4, 4, 41);
+  const streaks = turbulence(5, 44, 2, 42);
+  const pores = cells(5, 34, 0.95, 43);
+  const fine = cells(12, 60, 0.95, 44);
+  const scars = cells(2, 3, 0.7, 45);
+  const ragged = turbulence(14, 22, 3, 46);
+  const sheets = turbulence(2, 7, 3, 47);
+  const cell = noCell();
+  const dash = (across: number, along: number, long: number, wide: number) =>
+    1 - step(0.55, 1, Math.hypot(across / long, along / wide));
+  return (u, v, out) => {
+    const cloud = clouds(u, v);
+    const rough = ragged(u, v);
+    const y = v + 0.006 * cloud;
+    const coarse = pores(u, y, cell);
+    const pore =
+      coarse.chance > 0.35
+        ? dash(coarse.across + 0.1 * rough, coarse.along, 0.16 + 0.36 * (coarse.chance - 0.35), 0.2)
+        : 0;
+    const small = fine(u, y, cell);
+    const speck = small.chance > 0.5 ? 0.7 * dash(small.across, small.along, 0.42, 0.2) : 0;
+    const { across, along, chance } = scars(u, v, cell);
+    // A diamond, wider than high, torn at its rim, under what once was a branch.
+    const size = Math.max(0, chance - 0.45);
+    const torn =
+      Math.abs(across) / (0.62 * size + 0.02) + Math.abs(along + 0.1 * across * across) / (0.3 * size + 0.01);
+    const scar = 1 - step(0.7, 1.05, torn + 0.45 * rough);
+    const sheet = sheets(u, v + 0.004 * rough);
+    const peeled = step(0.2, 0.215, sheet);
+    const lip = peeled * (1 - step(0.2, 0.33, sheet));
+    const mark = Math.max(pore, speck * (1 - 0.5 * peeled));
+    out.height =
+      0.62 - 0.16 * peeled + 0.04 * streaks(u, v) + 0.07 * mark + scar * (0.16 * rough - 0.28) + 0.03 * cloud;
+    out.second = Math.max(0.9 * scar * (0.75 + 0.25 * rough), 0.78 * mark);
+    out.third = (1 - out.second) * Math.min(1, 0.85 * lip + 0.12 * peeled + 0.1 * step(0.2, 0.7, cloud));
+    out.shade = 0.93 + 0.08 * cloud + 0.08 * streaks(u, v) + 0.03 * rough;
+  };
+}
+
+/** Plane: patches that came off one after the other, each with the colour of its age. */
+function flaking(): BarkPattern {
+  const bends = turbulence(6, 6, 3, 51);
+  const oldest = turbulence(4, 4, 4, 52);
+  const older = turbulence(5, 4, 4, 53);
+  const young = turbulence(5, 5, 4, 54);
+  const grain = turbulence(40, 40, 2, 55);
+  const pores = waves(34, 60, 56);
+  return (u, v, out) => {
+    const bend = bends(u, v);
+    const x = u + 0.012 * bend;
+    const y = v + 0.012 * bends(v, u);
+    const grey = step(0.06, 0.1, oldest(x, y) + 0.03 * bend);
+    const olive = step(-0.06, -0.02, older(x, y) + 0.03 * bend);
+    const cream = step(0.12, 0.16, young(x, y));
+    // The oldest bark lies on top of all others.
+    const top = Math.max(grey, 0);
+    const middle = olive * (1 - top);
+    const fresh = cream * (1 - top) * (1 - olive);
+    const rest = Math.max(0, 1 - top - middle - fresh);
+    out.height = 0.3 + 0.4 * top + 0.24 * middle - 0.1 * fresh + 0.05 * grain(u, v) * (0.3 + top) + 0.02 * pores(u, v);
+    out.second = Math.min(1, 0.9 * fresh + 0.45 * rest);
+    out.third = 0.85 * top;
+    out.shade = 0.95 + 0.16 * bend + 0.1 * grain(u, v) - 0.1 * middle;
+  };
+}
+
+/** Cherry: a skin with a sheen, and rows of wide corky pores around the stem. */
+function banded(): BarkPattern {
+  const clouds = turbulence(3, 4, 4, 61);
+  const sheen = turbulence(3, 56, 2, 62);
+  const bands = waves(2, 7, 63);
+  const pores = cells(4, 20, 0.85, 64);
+  const fine = cells(9, 44, 0.95, 65);
+  const rough = turbulence(30, 30, 3, 66);
+  const peels = turbulence(2, 6, 3, 67);
+  const cell = noCell();
+  return (u, v, out) => {
+    const cloud = clouds(u, v);
+    const y = v + 0.012 * cloud;
+    const band = step(-0.05, 0.4, bands(u, y));
+    const noise = rough(u, v);
+    const wide = pores(u, y, cell);
+    const long = (0.2 + 0.5 * wide.chance) * (0.55 + 0.45 * band);
+    const cork =
+      1 - step(0.55, 1.05, Math.hypot(wide.across / long, (wide.along + 0.06 * noise) / (0.14 + 0.12 * wide.chance)));
+    const slit = cork * (1 - step(0.02, 0.06, Math.abs(wide.along + 0.08 * noise)));
+    const small = fine(u, y, cell);
+    const speck = small.chance > 0.45 ? 1 - step(0.4, 1, Math.hypot(small.across / 0.36, small.along / 0.18)) : 0;
+    const peel = step(0.26, 0.28, peels(u, v + 0.01 * cloud));
+    const lens = Math.max(cork, 0.6 * speck);
+    out.height = 0.45 + 0.3 * lens * (1 + 0.4 * noise) - 0.22 * slit + 0.05 * sheen(u, v) + 0.1 * peel + 0.03 * cloud;
+    out.second = 0.8 * lens * (1 - slit);
+    out.third = (1 - out.second) * Math.max(0.5 * peel * (1 - step(0.28, 0.4, peels(u, v))), 0.6 * slit);
+    out.shade = 0.9 + 0.2 * cloud + 0.16 * sheen(u, v) - 0.1 * band;
+  };
+}
+
+/** Juniper, cypress: long fibres in strips that come loose. */
+function stringy(): BarkPattern {
+  const bends = turbulence(4, 2, 3, 71);
+  const ropes = waves(9, 2, 72);
+  const strips = turbulence(16, 2, 2, 73);
+  const fibres = turbulence(44, 4, 3, 74);
+  const loose = turbulence(8, 3, 3, 75);
+  const grey = turbulence(7, 3, 3, 76);
+  return (u, v, out) => {
+    const bend = bends(u, v);
+    const x = u + 0.05 * bend;
+    const rope = 1 - step(0, 0.75, Math.abs(ropes(x, v)));
+    const strip = strips(x + 0.01 * fibres(u, v), v);
+    const split = step(0.02, 0.16, Math.abs(strip));
+    const fibre = fibres(x, v + 0.02 * bend);
+    const lifted = step(0.16, 0.2, loose(x, v));
+    out.height = 0.2 + 0.28 * (1 - rope) * split + 0.24 * split + 0.2 * lifted + 0.16 * fibre;
+    out.second = Math.min(1, 0.8 * (1 - split) * (1 - lifted) + 0.25 * (1 - lifted) * (1 - step(0.1, 0.5, out.height)));
+    out.third = 0.6 * lifted * step(-0.1, 0.4, grey(u, v)) * (1 - out.second);
+    out.shade = 0.72 + 0.4 * out.height + 0.26 * fibre;
+  };
+}

@@ -1,0 +1,332 @@
+import { type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
+import { type BarkLook, DEFAULT_APPEARANCE, RADIUS_LOG_STEP } from "../../wire/generated";
+import { grown } from "../table/column";
+import { radiusOf, type TreeTable } from "../table/tree-table";
+import type { Vec3 } from "../vector";
+import type { Bark } from "./bark";
+import { BranchBin } from "./branch-bin";
+import { LEVELS, levelFor } from "./branch-levels";
+import { face, ribbon, tube } from "./branch-shapes";
+
+const BEGINS_AXIS = 1;
+const FROM_SEED = 2;
+const TRUNK = 4;
+const CUT = 8;
+const OVERLAPS = 16;
+
+const NOWHERE = -1;
+/** Sides of a cut end. */
+const FACE_SIDES = 16;
+/** Segments of the strips that cast the shadows of limbs. */
+const CASTER_SEGMENTS = 3;
+/** An end this many codes thicker than the thinnest twig has lost what made it so thick: it was cut. */
+const THICK_END = Math.ceil(Math.log(1.7) / RADIUS_LOG_STEP);
+/** A lateral at most this many codes thinner than the end that bears it goes on in its place. */
+const HEIR = Math.ceil(Math.log(1.6) / RADIUS_LOG_STEP);
+/** Rows looked at again in a frame after the eye has moved; more would be felt. */
+const ROWS_A_FRAME = 20_000;
+/** What an internode counts as before anybody has looked, in pixels. */
+const UNSEEN_PIXELS = 30;
+/** Nothing is nearer to the eye than this, in internodes. */
+const NEAREST = 0.3;
+
+/** From where the branches are seen. */
+export interface Onlooker {
+  readonly eye: Vec3;
+  /** Pixels of an internode at distance one. */
+  readonly pixels: number;
+}
+
+/** What wood is drawn with. `twig` and `branchDepth` are for strips that face the eye, if there are any. */
+export interface WoodMaterials {
+  readonly bark: RawShaderMaterial;
+  readonly twig: RawShaderMaterial;
+  readonly branchDepth: RawShaderMaterial;
+}
+
+interface Options {
+  /** What all wood wears, unless somebody else looks after it. */
+  readonly bark?: Bark;
+  /** Whether thin wood is drawn as strips, and shadows are; otherwise both passes meet the very same tubes. */
+  readonly strips?: boolean;
+}
+
+/** All metamers as instances of tube segments and strips, one draw call for each level of detail. */
+export class Branches {
+  /** What the camera sees: a mesh for each level, and `faces`. */
+  readonly meshes: Mesh[];
+  /** What the sun sees. */
+  readonly casters: Mesh[];
+  /** Where branches were cut. */
+  readonly faces: Mesh;
+  private readonly fine: InstancedBufferGeometry[];
+  private readonly quick: InstancedBufferGeometry[];
+  private readonly shadow: InstancedBufferGeometry[];
+  private readonly bins: BranchBin[];
+  private readonly ends: BranchBin;
+  private readonly bark: Bark | null;
+  private readonly coarsest: number;
+  private level = new Int8Array(0);
+  private slot = new Int32Array(0);
+  private endSlot = new Int32Array(0);
+  private known = 0;
+  /** The radius code of the thickest lateral that each row bears. */
+  private thickest = new Uint16Array(0);
+  /** The row that bears the axis each row begins, or nowhere. */
+  private bearer = new Int32Array(0);
+  /** The least radius code of a living row. */
+  private thinnest = 0;
+  private onlooker: Onlooker | null = null;
+  private nextSeen = 0;
+  private unseen = 0;
+
+  constructor(materials: WoodMaterials, { bark, strips = true }: Options = {}) {
+    this.bark = bark ?? null;
+    const levels = LEVELS.filter(({ sides }) => strips || sides > 0);
+    this.coarsest = levels.length - 1;
+    const shape = (sides: number, segments: number) => (sides > 0 ? tube(sides, segments) : ribbon(segments));
+    this.fine = levels.map(({ sides, segments }) => shape(sides, segments));
+    this.quick = levels.map(({ quick }) => shape(...quick));
+    this.shadow = levels.map(({ sides, segments }) => ribbon(sides > 0 ? CASTER_SEGMENTS : segments));
+    const ends = face(FACE_SIDES);
+    this.ends = new BranchBin([ends]);
+    this.bins = levels.map((_, i) => new BranchBin([this.fine[i]!, this.quick[i]!, this.shadow[i]!]));
+    this.meshes = levels.map(({ sides }, i) => mesh(this.fine[i]!, sides > 0 ? materials.bark : materials.twig));
+    this.faces = mesh(ends, materials.bark);
+    this.meshes.push(this.faces);
+    this.casters = levels.map((_, i) => mesh(strips ? this.shadow[i]! : this.quick[i]!, materials.branchDepth));
+    if (!strips) this.casters.push(mesh(ends, materials.branchDepth));
+  }
+
+  /** Has all wood wear a bark. */
+  setBark(look: BarkLook): void {
+    this.bark?.wear(look);
+  }
+
+  /** Rows from `rows` on are gone. */
+  truncate(rows: number): void {
+    for (let row = rows; row < this.known; row += 1) {
+      this.leave(row);
+      const bearer = this.bearer[row]!;
+      if (bearer !== NOWHERE) this.thickest[bearer] = 0;
+    }
+    this.known = Math.min(this.known, rows);
+    if (rows === 0) this.thinnest = 0;
+  }
+
+  /** Draws a row as thick as it is now. */
+  update(table: TreeTable, row: number): void {
+    if (row >= this.known) this.welcome(table, row);
+    const parent = table.parent[row]!;
+    const code = table.radiusCode[row]!;
+    if (parent >= 0 && table.startsAxis[row] === 1) {
+      this.bearer[row] = parent;
+      this.bear(table, parent, code);
+    }
+    if (parent < 0 || code === 0) {
+      this.leave(row);
+      return;
+    }
+    if (this.thinnest === 0) this.thinnest = thinnestOf(table);
+    if (code < this.thinnest) this.thinnest = code;
+    const fromSeed = table.parent[parent]! < 0;
+    const origin = table.axisOrigin[row]!;
+    const cut = this.isCut(table, row);
+    const level = this.fitting(table, row);
+    const flags =
+      this.jointAt(table, row, level) |
+      (table.startsAxis[row] === 1 || fromSeed ? BEGINS_AXIS : 0) |
+      (fromSeed ? FROM_SEED : 0) |
+      (table.parent[origin]! < 0 ? TRUNK : 0) |
+      (cut ? CUT : 0);
+    const changed = this.level[row] !== level;
+    this.place(row, level, parent, origin, flags);
+    if (changed) this.rejoin(table, table.successor[row]!);
+    this.showFace(row, cut, parent, origin, flags);
+  }
+
+  /**
+   * Chooses for some of the rows how finely they are drawn from there, or for all of them at once; says whether some
+   * are left for the next frame.
+   */
+  see(table: TreeTable, onlooker: Onlooker, atOnce: boolean): boolean {
+    const before = this.onlooker;
+    const same =
+      before !== null &&
+      before.pixels === onlooker.pixels &&
+      before.eye.every((place, axis) => Math.abs(place - onlooker.eye[axis]!) < 1e-3);
+    if (!same) {
+      this.onlooker = { eye: [...onlooker.eye], pixels: onlooker.pixels };
+      this.unseen = this.known;
+    }
+    this.unseen = Math.min(this.unseen, this.known);
+    if (this.unseen === 0) return false;
+    const turns = atOnce ? this.unseen : Math.min(this.unseen, ROWS_A_FRAME);
+    for (let i = 0; i < turns; i += 1) {
+      this.nextSeen = this.nextSeen + 1 < this.known ? this.nextSeen + 1 : 0;
+      if (this.level[this.nextSeen]! >= 0) this.lookAgain(table, this.nextSeen);
+    }
+    this.unseen -= turns;
+    this.upload();
+    return this.unseen > 0;
+  }
+
+  /** Whether branches are as round and smooth as they can be. */
+  detail(detailed: boolean): void {
+    for (const [i, geometry] of (detailed ? this.fine : this.quick).entries()) this.meshes[i]!.geometry = geometry;
+  }
+
+  /** Has three.js upload what was written since the last call. */
+  upload(): void {
+    if (this.bark && !this.bark.worn && this.known > 0) this.bark.wear(DEFAULT_APPEARANCE.bark);
+    const bins = [...this.bins, this.ends];
+    for (const [i, bin] of bins.entries()) {
+      bin.upload();
+      this.meshes[i]!.visible = bin.count > 0;
+      const caster = this.casters[i];
+      if (caster) caster.visible = bin.count > 0;
+    }
+  }
+
+  /** A restored context has lost every texture. */
+  restored(): void {
+    this.bark?.restored();
+  }
+
+  dispose(): void {
+    for (const bin of [...this.bins, this.ends]) bin.dispose();
+    this.bark?.dispose();
+  }
+
+  /** Whether a row is where a limb was cut off, and not one where a lateral goes on in its place. */
+  private isCut(table: TreeTable, row: number): boolean {
+    const code = table.radiusCode[row]!;
+    return table.successor[row]! < 0 && code > this.thinnest + THICK_END && this.thickest[row]! + HEIR < code;
+  }
+
+  /** A lateral has this radius code now, 0 if it is gone; its bearer is drawn anew where that ends its cut or makes one. */
+  private bear(table: TreeTable, bearer: number, code: number): void {
+    if (bearer >= this.known || (code !== 0 && code <= this.thickest[bearer]!)) return;
+    const before = this.isCut(table, bearer);
+    this.thickest[bearer] = code;
+    if (this.isCut(table, bearer) !== before) this.update(table, bearer);
+  }
+
+  private welcome(table: TreeTable, row: number): void {
+    const room = table.parent.length;
+    this.bearer = grown(this.bearer, room);
+    this.bearer.fill(NOWHERE, this.known, row + 1);
+    this.thickest = grown(this.thickest, room);
+    this.thickest.fill(0, this.known, row + 1);
+    this.level = grown(this.level, room);
+    this.slot = grown(this.slot, room);
+    this.endSlot = grown(this.endSlot, room);
+    this.level.fill(NOWHERE, this.known, row + 1);
+    this.endSlot.fill(NOWHERE, this.known, row + 1);
+    this.known = row + 1;
+  }
+
+  private place(row: number, level: number, parent: number, origin: number, flags: number): void {
+    if (this.level[row] !== level) {
+      this.leaveLevel(row);
+      this.level[row] = level;
+      this.slot[row] = this.bins[level]!.add(row, parent, origin, flags);
+    } else {
+      this.bins[level]!.write(this.slot[row]!, row, parent, origin, flags);
+    }
+  }
+
+  /** A cut end has a face where it is large enough to be seen. */
+  private showFace(row: number, cut: boolean, parent: number, origin: number, flags: number): void {
+    const slot = this.endSlot[row]!;
+    if (!cut || LEVELS[this.level[row]!]!.sides === 0) this.leaveEnds(row);
+    else if (slot === NOWHERE) this.endSlot[row] = this.ends.add(row, parent, origin, flags);
+    else this.ends.write(slot, row, parent, origin, flags);
+  }
+
+  private leave(row: number): void {
+    this.leaveLevel(row);
+    this.leaveEnds(row);
+  }
+
+  private leaveLevel(row: number): void {
+    const level = this.level[row]!;
+    if (level === NOWHERE) return;
+    const slot = this.slot[row]!;
+    const moved = this.bins[level]!.remove(slot);
+    if (moved >= 0) this.slot[moved] = slot;
+    this.level[row] = NOWHERE;
+  }
+
+  private leaveEnds(row: number): void {
+    const slot = this.endSlot[row]!;
+    if (slot === NOWHERE) return;
+    const moved = this.ends.remove(slot);
+    if (moved >= 0) this.endSlot[moved] = slot;
+    this.endSlot[row] = NOWHERE;
+  }
+
+  private lookAgain(table: TreeTable, row: number): void {
+    const before = this.level[row]!;
+    const level = this.fitting(table, row);
+    if (level === before) return;
+    const slot = this.slot[row]!;
+    const moved = this.bins[before]!.moveTo(this.bins[level]!, slot);
+    if (moved >= 0) this.slot[moved] = slot;
+    this.level[row] = level;
+    const at = this.bins[level]!.count - 1;
+    this.slot[row] = at;
+    this.rejoin(table, row);
+    this.rejoin(table, table.successor[row]!);
+    const [, parent, origin, flags] = this.bins[level]!.read(at);
+    if (flags & CUT) this.showFace(row, true, parent, origin, flags);
+  }
+
+  /** Where an axis passes from one level to another its tubes have to overlap: rings with other sides leave gaps. */
+  private jointAt(table: TreeTable, row: number, level: number): number {
+    if (table.startsAxis[row] === 1) return 0;
+    const below = this.level[table.parent[row]!] ?? NOWHERE;
+    return below !== NOWHERE && below !== level ? OVERLAPS : 0;
+  }
+
+  private rejoin(table: TreeTable, row: number): void {
+    const level = row >= 0 && row < this.known ? this.level[row]! : NOWHERE;
+    if (level === NOWHERE) return;
+    const [, parent, origin, flags] = this.bins[level]!.read(this.slot[row]!);
+    const joined = (flags & ~OVERLAPS) | this.jointAt(table, row, level);
+    if (joined !== flags) this.bins[level]!.write(this.slot[row]!, row, parent, origin, joined);
+  }
+
+  private fitting(table: TreeTable, row: number): number {
+    const { onlooker } = this;
+    let pixels = UNSEEN_PIXELS;
+    if (onlooker) {
+      const { position } = table;
+      const dx = position[3 * row]! - onlooker.eye[0];
+      const dy = position[3 * row + 1]! - onlooker.eye[1];
+      const dz = position[3 * row + 2]! - onlooker.eye[2];
+      pixels = onlooker.pixels / Math.max(NEAREST, Math.sqrt(dx * dx + dy * dy + dz * dz));
+    }
+    // A twig that goes on from a limb begins with the limb's end.
+    const parent = table.parent[row]!;
+    const below = table.startsAxis[row] === 1 ? 0 : 0.5 * radiusOf(table.radiusCode[parent]!);
+    const radius = Math.max(radiusOf(table.radiusCode[row]!), below);
+    const level = levelFor(radius * pixels, pixels, this.level[row]!);
+    return Math.min(level, this.coarsest);
+  }
+}
+
+function thinnestOf({ rows, radiusCode }: TreeTable): number {
+  let least = 0;
+  for (let row = 0; row < rows; row += 1) {
+    const code = radiusCode[row]!;
+    if (code !== 0 && (least === 0 || code < least)) least = code;
+  }
+  return least;
+}
+
+function mesh(geometry: InstancedBufferGeometry, material: RawShaderMaterial): Mesh {
+  const made = new Mesh(geometry, material);
+  made.frustumCulled = false;
+  return made;
+}
