@@ -18,7 +18,8 @@ self.addEventListener("activate", (event) => {
   event.waitUntil(
     caches
       .keys()
-      .then((names) => Promise.all(names.filter((name) => name !== KEPT).map((name) => caches.delete(name))))
+      .then((names) => names.filter((name) => name.startsWith("espalier-") && name !== KEPT))
+      .then((stale) => Promise.all(stale.map((name) => caches.delete(name))))
       .then(() => self.clients.claim()),
   );
 });

@@ -37,7 +37,10 @@ impl SimulationPool {
     ) -> Result<T, Panicked> {
         let (answer, answered) = oneshot::channel();
         self.0.spawn(move || {
-            // Whoever asked may have gone; then the result is of no use.
+            // Whoever asked may have gone, before it is begun or after; then the result is of no use.
+            if answer.is_closed() {
+                return;
+            }
             let _ = answer.send(catch_unwind(AssertUnwindSafe(work)).map_err(|_| Panicked));
         });
         answered.await.unwrap_or(Err(Panicked))
@@ -58,6 +61,26 @@ mod tests {
         let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
         assert_eq!(pool.run(|| panic!("on purpose, for a test")).await, Err::<(), _>(Panicked));
         assert_eq!(pool.run(|| 6 * 7).await, Ok(42));
+    }
+
+    #[tokio::test]
+    async fn work_that_nobody_waits_for_is_not_begun() {
+        let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
+        let (open, gate) = std::sync::mpsc::channel::<()>();
+        let (begun, has_begun) = std::sync::mpsc::channel::<()>();
+        let held = tokio::spawn({
+            let pool = pool.clone();
+            async move { pool.run(move || gate.recv().is_ok()).await }
+        });
+        let given_up = tokio::time::timeout(std::time::Duration::from_millis(20), async {
+            tokio::task::yield_now().await;
+            pool.run(move || begun.send(())).await
+        });
+        assert!(given_up.await.is_err(), "the one thread is held");
+        open.send(()).unwrap();
+        assert_eq!(held.await.unwrap(), Ok(true));
+        assert_eq!(pool.run(|| 1).await, Ok(1), "the thread is free again");
+        assert!(has_begun.recv().is_err(), "it was dropped, not begun");
     }
 
     #[test]

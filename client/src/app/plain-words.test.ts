@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { plainly } from "./plain-words";
+import { RequestFailed } from "./library-api";
+import { plainly, sentence } from "./plain-words";
 import { language } from "./words";
 
 describe("plain words", () => {
@@ -27,6 +28,17 @@ describe("plain words", () => {
     } finally {
       language.value = "en";
     }
+  });
+
+  it("what a request came to is told like any other problem", () => {
+    const failed = new RequestFailed(409, { code: "refused", message: "there is nothing to redo" });
+    language.value = "de";
+    try {
+      expect(sentence(failed)).toMatch(/wiederholen/);
+    } finally {
+      language.value = "en";
+    }
+    expect(sentence(new Error("It broke."))).toBe("It broke.");
   });
 
   it("leave sentences as they are", () => {

@@ -1,4 +1,5 @@
 import type { Problem } from "../wire/generated";
+import { RequestFailed } from "./library-api";
 import { type Key, language, say } from "./words";
 
 /** Fields that name wood by its rows, which a person does not. */
@@ -11,6 +12,14 @@ const KNOWN: readonly (readonly [RegExp, Key])[] = [
   [/nothing to ungrow/, "problems.nothing-to-ungrow"],
   [/stands in so little light/, "problems.no-dim-branch"],
   [/foot of a trunk, which cannot be turned/, "problems.trunk-foot"],
+  [/foot of a trunk, which cannot be moved/, "problems.trunk-moved"],
+  [/belongs to a trunk, and nothing branches off/, "problems.trunk-cut"],
+  [/is being bent/, "problems.being-bent"],
+  [/very branch that begins/, "problems.own-branch"],
+  [/leave the world/, "problems.world"],
+  [/nothing can grow into this/, "problems.outline"],
+  [/(?<limit>\d+) may be; remove some first/, "problems.widths"],
+  [/places of wood that was moved/, "problems.places"],
   [/metamers, its budget is/, "problems.full"],
   [/the scene has (?<limit>\d+) obstacles/, "problems.obstacles"],
   [/too many people/i, "problems.people"],
@@ -32,4 +41,12 @@ export function plainly({ code, field, allowed, message }: Problem): string {
   }
   const words = message.replace(/\brow \d+\b/g, "that branch");
   return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
+}
+
+/** What to tell a person about an error. */
+export function sentence(error: unknown): string {
+  if (error instanceof RequestFailed) {
+    return plainly(error.problem);
+  }
+  return error instanceof Error ? error.message : String(error);
 }

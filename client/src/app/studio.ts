@@ -26,6 +26,7 @@ import { GrowControl } from "./grow-control";
 import { createSession, sessionExists, socketAddress } from "./library-api";
 import { ObstacleList } from "./obstacle-list";
 import { followPageLife } from "./page-life";
+import { sentence } from "./plain-words";
 import { refused } from "./refusals";
 import { mayReload } from "./reload-guard";
 import { type AsideServerFrame, rowStore } from "./scene-link";
@@ -464,9 +465,4 @@ export class Studio {
 /** A gesture as a command carries it. */
 function joined(gesture: number | undefined): { gesture?: number } {
   return gesture === undefined ? {} : { gesture };
-}
-
-/** What to tell a person about an error. */
-export function sentence(error: unknown): string {
-  return error instanceof Error ? error.message : String(error);
 }

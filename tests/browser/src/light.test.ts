@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { beforeAll, describe, expect, test } from "vitest";
-import { DRAW_MODES, type DrawMode, TRAITS } from "../../../client/src/scene/draw-mode";
+import { DRAW_MODES, type DrawMode, TRAITS } from "../../../client/src/scene/mode/draw-mode";
 import { type Background, DEFAULT_APPEARANCE } from "../../../client/src/wire/generated";
 import { perform } from "../gallery/performance";
 import { type Box, changed, colours, type Picture, whole } from "./picture";

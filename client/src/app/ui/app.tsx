@@ -110,10 +110,6 @@ function Workspace({ studio }: { studio: Studio }) {
       <BranchHandle studio={studio} />
       {studio.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
       <PredictionBar studio={studio} />
-      <TourCard studio={studio} />
-      <Chips studio={studio} />
-      <SunHandle studio={studio} />
-      <DrawModeLegend studio={studio} />
       <HindranceCard studio={studio} />
     </main>
   );
@@ -132,6 +128,10 @@ function Bars({ studio }: { studio: Studio }) {
         <RotationStrip studio={studio} />
         <TimelineStrip studio={studio} />
       </div>
+      <TourCard studio={studio} />
+      <Chips studio={studio} />
+      <SunHandle studio={studio} />
+      <DrawModeLegend studio={studio} />
     </>
   );
 }

@@ -6,6 +6,7 @@ import type { Studio } from "../studio";
 import { say } from "../words";
 import { Choice } from "./controls/choice";
 import { ColourField, hexOf } from "./controls/colour-field";
+import { numberText } from "./controls/number-text";
 import { Section } from "./controls/section";
 import { LookSlider } from "./looks/look-slider";
 import { Ends, FlowerSection, FruitSection } from "./looks/ornament-section";
@@ -114,5 +115,5 @@ function bearingInWords(orientation: number): string {
     return say("leaves.orientation.spread");
   }
   const word = say(orientation < 0 ? "leaves.orientation.hanging" : "leaves.orientation.raised");
-  return `${word}, ${orientation.toFixed(1)}`;
+  return `${word}, ${numberText(orientation, 0.1)}`;
 }

@@ -1,7 +1,8 @@
 import { useEffect, useState } from "preact/hooks";
 import type { SavedTree } from "../../wire/generated";
 import { deleteTree, listTrees, renameTree } from "../library-api";
-import { type Studio, sentence } from "../studio";
+import { sentence } from "../plain-words";
+import type { Studio } from "../studio";
 import { language, say } from "../words";
 import { DeleteIcon, RenameIcon, TreeIcon } from "./icons";
 import { Sheet } from "./sheet";

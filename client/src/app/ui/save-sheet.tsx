@@ -1,6 +1,7 @@
 import { useState } from "preact/hooks";
 import { saveTree } from "../library-api";
-import { type Studio, sentence } from "../studio";
+import { sentence } from "../plain-words";
+import type { Studio } from "../studio";
 import { language, say } from "../words";
 import { Sheet } from "./sheet";
 

@@ -1,4 +1,4 @@
-import { useRef, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { withFields } from "../appearance";
 import type { Studio } from "../studio";
 import {
@@ -60,8 +60,10 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   /** The finger on the sun, and how far beside its middle it took hold, in dome radii. */
   const hand = useRef<{ readonly id: number; readonly drag: SunDrag; readonly beside: Beside } | null>(null);
   const [held, setHeld] = useState(false);
-  /** Where the eye was when it was last looked, and for how many frames it has stood still since it turned. */
-  const eye = useRef<{ azimuth: number; still: number } | null>(null);
+  /** Whether arrow keys have moved it and none was let go since. */
+  const stepping = useRef(false);
+  /** Where the eye was when it was last looked, for how many frames it has stood still since, and the sun's azimuth. */
+  const eye = useRef<{ azimuth: number; still: number; sun: number } | null>(null);
   const { sun_azimuth: azimuth, sun_elevation: elevation } = studio.appearance.value.background;
   const place: SunPlace = { azimuth, elevation };
 
@@ -71,12 +73,31 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
       sun_azimuth: around(Math.round(azimuth * 10) / 10),
       sun_elevation: Math.min(HIGHEST_SUN, Math.max(LOWEST_SUN, Math.round(elevation * 10) / 10)),
     });
-  const drag = (to: SunPlace) => studio.looks.drag(patched(to));
+  const drag = (to: SunPlace) => {
+    // What is sent is rounded; what is followed is not, or a slow turn would leave the sun behind.
+    if (eye.current) {
+      eye.current.sun = to.azimuth;
+    }
+    studio.looks.drag(patched(to));
+  };
   const commit = (to: SunPlace) => studio.looks.commit(patched(to));
   const now = (): SunPlace => {
     const { sun_azimuth, sun_elevation } = studio.appearance.peek().background;
     return { azimuth: sun_azimuth, elevation: sun_elevation };
   };
+
+  useEffect(
+    () => () => {
+      // The panel has gone while the sun was on its way: it stays where it has come to.
+      if (hand.current || (eye.current && eye.current.still < REST_FRAMES)) {
+        commit(now());
+      }
+      if (hand.current) {
+        studio.stage.hold(studio.tools.drawing.peek());
+      }
+    },
+    [],
+  );
 
   useFrames(true, () => {
     const axes = studio.stage.screenAxes();
@@ -102,14 +123,17 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
     const looksFrom = azimuthOfEye(axes);
     const last = eye.current;
     if (last === null || !(pinned || held)) {
-      eye.current = { azimuth: looksFrom, still: REST_FRAMES };
+      eye.current = { azimuth: looksFrom, still: REST_FRAMES, sun: now().azimuth };
+      return;
+    }
+    if (studio.tools.drawing.peek() && !held) {
+      // A change of looks amid a stroke would cut it in two for undo; the sun catches up once it is drawn.
       return;
     }
     const turned = ((looksFrom - last.azimuth + 540) % 360) - 180;
     if (Math.abs(turned) > STILL) {
-      eye.current = { azimuth: looksFrom, still: 0 };
-      const { azimuth, elevation } = now();
-      drag({ azimuth: azimuth + turned, elevation });
+      eye.current = { azimuth: looksFrom, still: 0, sun: last.sun };
+      drag({ azimuth: last.sun + turned, elevation: now().elevation });
     } else if (last.still < REST_FRAMES) {
       last.still += 1;
       if (last.still === REST_FRAMES && !held) {
@@ -140,7 +164,15 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
       event.preventDefault();
       event.stopPropagation();
       const { azimuth, elevation } = now();
-      commit({ azimuth: azimuth + move[0], elevation: elevation + move[1] });
+      // A key that is held down is one change.
+      stepping.current = true;
+      drag({ azimuth: azimuth + move[0], elevation: elevation + move[1] });
+    }
+  };
+  const stepped = () => {
+    if (stepping.current) {
+      stepping.current = false;
+      commit(now());
     }
   };
   return (
@@ -193,6 +225,8 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
         onPointerCancel={release}
         onLostPointerCapture={release}
         onKeyDown={step}
+        onKeyUp={stepped}
+        onBlur={stepped}
       />
       <button
         class="sun-pin"

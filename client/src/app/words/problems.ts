@@ -15,6 +15,32 @@ export const PROBLEMS = {
     "That branch is the foot of a trunk, which cannot be turned.",
     "Dieser Ast ist der Fuß eines Stamms; der lässt sich nicht drehen.",
   ],
+  "problems.trunk-moved": [
+    "That is the foot of a trunk, which cannot be moved.",
+    "Das ist der Fuß eines Stamms; er lässt sich nicht versetzen.",
+  ],
+  "problems.trunk-cut": [
+    "The trunk cannot be cut off: nothing branches off below.",
+    "Der Stamm lässt sich nicht abschneiden: Darunter zweigt nichts ab.",
+  ],
+  "problems.being-bent": [
+    "Someone is bending that branch; wait until it is let go.",
+    "Jemand biegt diesen Ast gerade; warte, bis er losgelassen wird.",
+  ],
+  "problems.own-branch": ["A branch cannot be set on itself.", "Ein Ast lässt sich nicht auf sich selbst setzen."],
+  "problems.world": ["The branch would leave the world.", "Der Ast würde über den Rand der Welt hinausragen."],
+  "problems.outline": [
+    "Nothing can grow into this outline. Draw it around some room.",
+    "In diesen Umriss kann nichts wachsen. Zeichne ihn um etwas Raum herum.",
+  ],
+  "problems.widths": [
+    "There are {limit} widths set, which is the most. Remove some first.",
+    "Es sind schon {limit} Dicken festgelegt, mehr geht nicht. Entferne zuerst einige.",
+  ],
+  "problems.places": [
+    "The history holds as much moved wood as it can. Undo something first.",
+    "Die Vorgeschichte fasst nicht mehr bewegtes Holz. Nimm zuerst etwas zurück.",
+  ],
   "problems.full": [
     "The tree has all the growth this document holds.",
     "Der Baum ist so groß, wie dieses Dokument es erlaubt.",

@@ -2,9 +2,10 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { Parameters, Species } from "../../../wire/generated";
 import { DEFAULTS } from "../../growth-parameters";
+import { sentence } from "../../plain-words";
 import { listSpecies } from "../../species-api";
 import { type Kin, kinOf } from "../../species-choice";
-import { type Studio, sentence } from "../../studio";
+import type { Studio } from "../../studio";
 
 /** The species of the server, asked for once; null before it has answered. */
 const known = signal<readonly Species[] | null>(null);

@@ -5,6 +5,7 @@ import type { Studio } from "../../studio";
 import { say } from "../../words";
 import { Choice } from "../controls/choice";
 import { ColourField } from "../controls/colour-field";
+import { numberText } from "../controls/number-text";
 import { Section } from "../controls/section";
 import { LookSlider } from "./look-slider";
 import { FlowerPicture, FruitPicture, PlacePicture } from "./ornament-pictures";
@@ -104,9 +105,8 @@ export function Ends({ ends }: { ends: readonly [string, string, string] }): Com
 }
 
 function vigorInWords(vigor: number): string {
-  const rounded = vigor.toFixed(1);
   if (Math.abs(vigor) < 0.05) {
     return say("leaves.vigor.all");
   }
-  return `${say(vigor < 0 ? "leaves.vigor.weak" : "leaves.vigor.strong")}, ${rounded}`;
+  return `${say(vigor < 0 ? "leaves.vigor.weak" : "leaves.vigor.strong")}, ${numberText(vigor, 0.1)}`;
 }
