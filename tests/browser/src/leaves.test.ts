@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
 import { leafAzimuth } from "../../../client/src/scene/foliage/leaves";
+import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
 import { launchBrowser } from "./browser";
 
 /** A leaf: its row, its number of so many, its metamer; then base, direction and normal as the rules have them. */

@@ -1,8 +1,9 @@
-import { type BarkKind, DEFAULT_APPEARANCE } from "../../wire/generated";
+import type { BarkKind } from "../../wire/generated";
 import { withFields } from "../appearance";
 import { NUMBERS } from "../growth-parameters";
 import type { Studio } from "../studio";
 import { say } from "../words";
+import { standardLooks } from "./architecture/species-list";
 import { Choice } from "./controls/choice";
 import { ColourField } from "./controls/colour-field";
 import { Section } from "./controls/section";
@@ -18,7 +19,7 @@ const BARKS: readonly BarkKind[] = ["smooth", "furrowed", "plated", "papery", "f
 /** What wood looks like, and how thick it grows. */
 export function BranchesPanel({ studio }: { studio: Studio }) {
   const { bark } = studio.appearance.value;
-  const standard = DEFAULT_APPEARANCE.bark;
+  const standard = standardLooks(studio).bark;
   const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), "bark", { tint });
   return (
     <Panel studio={studio} title={say("panels.branches")}>

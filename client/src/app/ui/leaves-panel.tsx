@@ -1,9 +1,10 @@
 import { laminaPath } from "../../scene/foliage/lamina";
-import { DEFAULT_APPEARANCE, type LeafKind } from "../../wire/generated";
+import type { LeafKind } from "../../wire/generated";
 import { withFields, withNumber } from "../appearance";
 import { OF_THE_LEAVES } from "../growth-parameters";
 import type { Studio } from "../studio";
 import { say } from "../words";
+import { standardLooks } from "./architecture/species-list";
 import { Choice } from "./controls/choice";
 import { ColourField, hexOf } from "./controls/colour-field";
 import { numberText } from "./controls/number-text";
@@ -31,7 +32,7 @@ const SHAPES: readonly LeafKind[] = [
 /** What leaves, flowers and fruits look like, and how many leaves there are. */
 export function LeavesPanel({ studio }: { studio: Studio }) {
   const { leaves } = studio.appearance.value;
-  const standard = DEFAULT_APPEARANCE.leaves;
+  const standard = standardLooks(studio).leaves;
   const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), "leaves", { tint });
   return (
     <Panel studio={studio} title={say("panels.leaves")}>

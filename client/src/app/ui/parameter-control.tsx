@@ -20,9 +20,7 @@ export function ParameterControl({ studio, parameter }: ParameterControlProps) {
   }
   switch (parameter.kind) {
     case "number":
-      return parameter.applies?.(now) === false ? null : (
-        <ParameterSlider studio={studio} parameter={parameter} standard={standard[parameter.name]} />
-      );
+      return parameter.applies?.(now) === false ? null : <ParameterSlider studio={studio} parameter={parameter} />;
     case "switch":
       return (
         <Switch

@@ -1,16 +1,15 @@
 import { DEFAULTS, helpOf, type NumberParameter, nameOf, patchFor, unitOf } from "../growth-parameters";
 import type { Studio } from "../studio";
+import { standardOf } from "./architecture/species-list";
 import { Slider } from "./controls/slider";
 
 interface ParameterSliderProps {
   readonly studio: Studio;
   readonly parameter: NumberParameter;
-  /** What it is reset to; without it, what a session begins with. */
-  readonly standard?: number;
 }
 
 /** A slider for one number that trees grow by. */
-export function ParameterSlider({ studio, parameter, standard }: ParameterSliderProps) {
+export function ParameterSlider({ studio, parameter }: ParameterSliderProps) {
   const { name, symbol, least, most, step } = parameter;
   const now = studio.parameters.value;
   const patch = (value: number) => patchFor(name, value, now ?? DEFAULTS);
@@ -22,7 +21,7 @@ export function ParameterSlider({ studio, parameter, standard }: ParameterSlider
       help={helpOf(parameter)}
       {...{ least, most, step }}
       value={now?.[name] ?? DEFAULTS[name]}
-      standard={standard ?? DEFAULTS[name]}
+      standard={standardOf(studio)[name]}
       disabled={now === null}
       onDrag={(value) => studio.growing.drag(patch(value))}
       onCommit={(value) => studio.growing.commit(patch(value))}

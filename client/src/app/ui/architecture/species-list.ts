@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
-import type { Parameters, Species } from "../../../wire/generated";
+import { type Appearance, DEFAULT_APPEARANCE, type Parameters, type Species } from "../../../wire/generated";
 import { DEFAULTS } from "../../growth-parameters";
 import { sentence } from "../../plain-words";
 import { listSpecies } from "../../species-api";
@@ -45,4 +45,10 @@ export function kinNow(studio: Studio): Kin | null {
 /** What a reset goes back to: the species' own values, else those a session begins with. */
 export function standardOf(studio: Studio): Parameters {
   return kinNow(studio)?.species.parameters ?? DEFAULTS;
+}
+
+/** The same of looks; what is around a tree is no species' own. */
+export function standardLooks(studio: Studio): Appearance {
+  const own = kinNow(studio)?.species.appearance;
+  return own ? { ...own, background: DEFAULT_APPEARANCE.background } : DEFAULT_APPEARANCE;
 }

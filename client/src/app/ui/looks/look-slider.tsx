@@ -1,7 +1,8 @@
 import type { ComponentChildren } from "preact";
-import { LOOK_NUMBERS, type LookNumber, numberIn, standardOf, withNumber } from "../../appearance";
+import { LOOK_NUMBERS, type LookNumber, numberIn, withNumber } from "../../appearance";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
+import { standardLooks } from "../architecture/species-list";
 import { Slider } from "../controls/slider";
 
 interface LookSliderProps {
@@ -25,7 +26,7 @@ export function LookSlider({ studio, name, inWords, marks, middle = false }: Loo
       {...(inWords ? { inWords } : {})}
       {...(middle ? { track: "middle" } : {})}
       value={numberIn(studio.appearance.value, name)}
-      standard={standardOf(name)}
+      standard={numberIn(standardLooks(studio), name)}
       onDrag={(value) => studio.looks.drag(patch(value))}
       onCommit={(value) => studio.looks.commit(patch(value))}
     />

@@ -1,8 +1,9 @@
 import type { ComponentChildren } from "preact";
-import { DEFAULT_APPEARANCE, type FlowerKind, type FruitKind, type Place } from "../../../wire/generated";
+import type { FlowerKind, FruitKind, Place } from "../../../wire/generated";
 import { withFields } from "../../appearance";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
+import { standardLooks } from "../architecture/species-list";
 import { Choice } from "../controls/choice";
 import { ColourField } from "../controls/colour-field";
 import { numberText } from "../controls/number-text";
@@ -24,7 +25,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
         label={say("flowers.kind")}
         columns={4}
         value={kind}
-        standard={DEFAULT_APPEARANCE.flowers.kind}
+        standard={standardLooks(studio).flowers.kind}
         options={FLOWERS.map((value) => ({
           value,
           label: say(`flowers.kind.${value}`),
@@ -46,7 +47,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
         label={say("fruits.kind")}
         columns={5}
         value={kind}
-        standard={DEFAULT_APPEARANCE.fruits.kind}
+        standard={standardLooks(studio).fruits.kind}
         options={FRUITS.map((value) => ({
           value,
           label: say(`fruits.kind.${value}`),
@@ -62,7 +63,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
 /** What flowers and fruits have in common: colour, size, number, and where they are borne. */
 function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" }) {
   const now = studio.appearance.value[part];
-  const standard = DEFAULT_APPEARANCE[part];
+  const standard = standardLooks(studio)[part];
   const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), part, { tint });
   return (
     <>

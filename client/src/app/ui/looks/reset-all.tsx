@@ -1,9 +1,9 @@
-import { DEFAULT_APPEARANCE } from "../../../wire/generated";
 import type { Part } from "../../appearance";
 import { alike } from "../../draft";
-import { DEFAULTS } from "../../growth-parameters";
+import type { DEFAULTS } from "../../growth-parameters";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
+import { standardLooks, standardOf, useSpecies } from "../architecture/species-list";
 import { ResetIcon } from "../controls/icons";
 
 type ParameterName = keyof typeof DEFAULTS;
@@ -16,12 +16,14 @@ interface ResetAllProps {
   readonly parameters?: readonly ParameterName[];
 }
 
-/** Puts all that a panel sets back to what it was before anyone changed it; one undo brings it back. */
+/** Puts all that a panel sets back to what the species has, else a session begins with; one undo brings it back. */
 export function ResetAll({ studio, parts, parameters = [] }: ResetAllProps) {
+  useSpecies(studio);
+  const [looksThen, grownThen] = [standardLooks(studio), standardOf(studio)];
   const now = studio.appearance.value;
   const growing = studio.parameters.value;
-  const looks = parts.filter((part) => !alike(now[part], DEFAULT_APPEARANCE[part]));
-  const grown = growing === null ? [] : parameters.filter((name) => !alike(growing[name], DEFAULTS[name]));
+  const looks = parts.filter((part) => !alike(now[part], looksThen[part]));
+  const grown = growing === null ? [] : parameters.filter((name) => !alike(growing[name], grownThen[name]));
   return (
     <button
       type="button"
@@ -30,10 +32,10 @@ export function ResetAll({ studio, parts, parameters = [] }: ResetAllProps) {
       onClick={() => {
         const gesture = studio.newGesture();
         if (looks.length > 0) {
-          studio.dress(Object.fromEntries(looks.map((part) => [part, DEFAULT_APPEARANCE[part]])), gesture);
+          studio.dress(Object.fromEntries(looks.map((part) => [part, looksThen[part]])), gesture);
         }
         if (grown.length > 0) {
-          studio.setParameters(Object.fromEntries(grown.map((name) => [name, DEFAULTS[name]])), gesture);
+          studio.setParameters(Object.fromEntries(grown.map((name) => [name, grownThen[name]])), gesture);
         }
       }}
     >
