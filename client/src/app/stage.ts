@@ -94,6 +94,11 @@ export class Stage {
     this.#view?.orbit(radians / RADIANS_PER_PIXEL, 0);
   }
 
+  /** Turns the tree to its front. */
+  face(): void {
+    this.#view?.face();
+  }
+
   /** How far the tree is turned, in radians from −π to π; 0 as a page opens. */
   get turned(): number {
     const [right] = this.screenAxes() ?? [[1, 0, 0]];

@@ -136,6 +136,12 @@ export class Viewport {
     this.stir();
   }
 
+  /** Turns to the front. */
+  face(): void {
+    this.rig.face();
+    this.stir();
+  }
+
   /** Moves the picture with the fingers. */
   pan(dxPixels: number, dyPixels: number): void {
     this.rig.pan(dxPixels, dyPixels, this.sight.height);

@@ -6,8 +6,8 @@ import { Workshop } from "./workshop";
 const workshop = Workshop.forThisFile();
 
 /** A tablet held upright, and a phone. */
-const UPRIGHT: Screen = { width: 834, height: 1194, detail: 1 };
-const PHONE: Screen = { width: 390, height: 844, detail: 1 };
+const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
+const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
 /** One with the panel of architecture pulled down and one of its tabs shown. */
 async function opened(

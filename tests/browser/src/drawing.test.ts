@@ -173,7 +173,7 @@ test("a tree is saved, found in the library and opened again", async () => {
 
 test("the page fits an upright tablet", async () => {
   const address = await server.newSession(5);
-  const tablet = await workshop.open(address, { width: 834, height: 1194, detail: 1 });
+  const tablet = await workshop.open(address, { width: 834, height: 1194, detail: 0.5 });
   const before = await tablet.photograph("12-upright-seedling");
   await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 500 })]);
   await tablet.untilQuiet();

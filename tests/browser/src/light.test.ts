@@ -11,7 +11,7 @@ const workshop = Workshop.forThisFile();
 
 /** Small, because the processor draws it; everything but the picture is hidden. */
 const SCREEN: Screen = { width: 720, height: 540, detail: 0.75 };
-const [WIDTH, HEIGHT] = [SCREEN.width * SCREEN.detail, SCREEN.height * SCREEN.detail];
+const { width: WIDTH, height: HEIGHT } = SCREEN;
 /** The eye stands high enough for the shadow on the ground to be seen. */
 const VIEW = "?yaw=0&pitch=22&zoom=0.95";
 /** A little tree with a bare trunk, the same on every machine. */

@@ -11,12 +11,7 @@ const SCREEN = COARSE;
 const SMALL: Screen = { width: 900, height: 640, detail: 0.3 };
 
 /** The picture between the bars, with a panel beside it. */
-const TREE: Box = scaled({ x: 160, y: 130, width: 660, height: 600 });
-
-function scaled({ x, y, width, height }: Box): Box {
-  const by = (length: number) => Math.round(length * SCREEN.detail);
-  return { x: by(x), y: by(y), width: by(width), height: by(height) };
-}
+const TREE: Box = { x: 160, y: 130, width: 660, height: 600 };
 
 /** A tablet with a tree on it, and a panel pulled down. */
 async function withPanel(panel: string): Promise<Grown> {

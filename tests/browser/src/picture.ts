@@ -28,23 +28,27 @@ export class Darkroom {
     return new Darkroom(await browser.newPage());
   }
 
-  async develop(png: Buffer): Promise<Picture> {
-    const { width, height, base64 } = await this.#page.evaluate(async (source) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${source}`;
-      await image.decode();
-      const canvas = document.createElement("canvas");
-      canvas.width = image.width;
-      canvas.height = image.height;
-      const context = canvas.getContext("2d", { willReadFrequently: true });
-      if (!context) throw new Error("there is no 2D canvas");
-      context.drawImage(image, 0, 0);
-      const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-      // A few million numbers would be slow to hand over one by one.
-      let text = "";
-      for (let i = 0; i < data.length; i += 32768) text += String.fromCharCode(...data.subarray(i, i + 32768));
-      return { width: canvas.width, height: canvas.height, base64: btoa(text) };
-    }, png.toString("base64"));
+  /** A screenshot as pixels of the page, however many of the device's there are to one. */
+  async develop(png: Buffer, detail = 1): Promise<Picture> {
+    const { width, height, base64 } = await this.#page.evaluate(
+      async ({ source, detail }) => {
+        const image = new Image();
+        image.src = `data:image/png;base64,${source}`;
+        await image.decode();
+        const canvas = document.createElement("canvas");
+        canvas.width = Math.round(image.width / detail);
+        canvas.height = Math.round(image.height / detail);
+        const context = canvas.getContext("2d", { willReadFrequently: true });
+        if (!context) throw new Error("there is no 2D canvas");
+        context.drawImage(image, 0, 0, canvas.width, canvas.height);
+        const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+        // A few million numbers would be slow to hand over one by one.
+        let text = "";
+        for (let i = 0; i < data.length; i += 32768) text += String.fromCharCode(...data.subarray(i, i + 32768));
+        return { width: canvas.width, height: canvas.height, base64: btoa(text) };
+      },
+      { source: png.toString("base64"), detail },
+    );
     return { width, height, pixels: new Uint8Array(Buffer.from(base64, "base64")) };
   }
 }

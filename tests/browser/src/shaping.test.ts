@@ -255,7 +255,7 @@ test("a width shows under the fingers before the server answers, and Escape take
   workshop.server.pause();
   await pull();
   await until("it is thick at once", async () => {
-    return changed(before, await tablet.photograph("43-thick-at-once"), trunk) > 0.1;
+    return changed(before, await tablet.glimpse("43-thick-at-once"), trunk) > 0.1;
   });
   workshop.server.resume();
   await tablet.until("it is sent", (facts) => facts.sent === facts.acknowledged);
@@ -275,7 +275,7 @@ test("what is cut disappears at once, and the trunk is explained", async () => {
   await tablet.swipe([way({ x: 700, y: 440 }, { x: 760, y: 620 })]);
   const where: Box = { x: 740, y: 500, width: 80, height: 70 };
   await until("it is hidden under the finger", async () => {
-    return changed(before, await tablet.photograph("47-cut-at-once"), where) > 0.02;
+    return changed(before, await tablet.glimpse("47-cut-at-once"), where) > 0.02;
   });
   workshop.server.resume();
   await tablet.until("then it is gone", (facts) => facts.metamers < metamers - 2);
@@ -323,7 +323,7 @@ test("branches in the dark are marked and cut", async () => {
 
 test("an upright tablet has room for every tool", async () => {
   const address = await workshop.server.newSession(5);
-  const tablet = await workshop.open(address, { width: 834, height: 1194, detail: 1 });
+  const tablet = await workshop.open(address, { width: 834, height: 1194, detail: 0.5 });
   await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 500 })]);
   await tablet.untilQuiet();
   for (const label of ["Bend", "Width", "Prune"]) {

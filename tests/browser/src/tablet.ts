@@ -44,9 +44,9 @@ export interface Screen {
   readonly detail: number;
 }
 
-/** A tablet on its side, as people see it. */
-export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 1 };
-/** The same with coarse pixels, because the processor draws each of them; for tests that are not about looks. */
+/** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
+export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
+/** The same with still coarser ones, for tests that are not about looks. */
 export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
 
 /** One tablet with the page open: real touch points in, screenshots out. */
@@ -57,12 +57,14 @@ export class Tablet {
   readonly #context: BrowserContext;
   readonly #touch: CDPSession;
   readonly #darkroom: Darkroom;
+  readonly #detail: number;
 
-  private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom) {
+  private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom, detail: number) {
     this.#context = context;
     this.page = page;
     this.#touch = touch;
     this.#darkroom = darkroom;
+    this.#detail = detail;
     page.on("pageerror", (error) => this.errors.push(String(error)));
   }
 
@@ -75,7 +77,7 @@ export class Tablet {
       if (localStorage.getItem("espalier.tour") === null) localStorage.setItem("espalier.tour", "true");
     });
     const page = await context.newPage();
-    const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom);
+    const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, detail);
     await page.goto(address);
     await tablet.untilReady();
     return tablet;
@@ -195,7 +197,14 @@ export class Tablet {
     await this.page.getByLabel(label, { exact: true }).first().tap();
   }
 
-  /** What is on the screen, kept under a name for people to look at. */
+  /** What is on the screen this moment, at rest or not: while the server is silent something always moves. */
+  async glimpse(name: string): Promise<Picture> {
+    await mkdir(screenshots, { recursive: true });
+    const taken = await this.page.screenshot({ path: join(screenshots, `${name}.png`) });
+    return this.#darkroom.develop(taken, this.#detail);
+  }
+
+  /** What is on the screen once it is at rest, kept under a name for people to look at. */
   async photograph(name: string): Promise<Picture> {
     await mkdir(screenshots, { recursive: true });
     // Growth eases in and the camera glides; two pictures that agree are at rest.
@@ -208,7 +217,7 @@ export class Tablet {
       return rests;
     }).catch(() => undefined);
     await this.page.screenshot({ path: join(screenshots, `${name}.png`) });
-    return this.#darkroom.develop(last);
+    return this.#darkroom.develop(last, this.#detail);
   }
 }
 

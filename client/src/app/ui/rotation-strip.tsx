@@ -43,7 +43,10 @@ export function RotationStrip({ studio }: { studio: Studio }) {
     ArrowDown: () => turn(-KEY_TURN),
     PageUp: () => turn(PAGE_TURN),
     PageDown: () => turn(-PAGE_TURN),
-    Home: () => turn(-studio.stage.turned / DEGREE),
+    Home: () => {
+      studio.stage.face();
+      follow();
+    },
   };
   return (
     <div

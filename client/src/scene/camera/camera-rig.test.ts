@@ -34,6 +34,21 @@ describe("the camera", () => {
     expect(rig.step(1 / 60)).toBe(false);
   });
 
+  it("turns to the front the shorter way, also while it is on its way elsewhere", () => {
+    for (const [pixels, turns] of [
+      [-200, 0],
+      [-900, 1],
+      [400, 0],
+    ] as const) {
+      const rig = new CameraRig();
+      rig.orbit(pixels, 0);
+      rig.step(1 / 60);
+      rig.face();
+      settle(rig);
+      expect(rig.pose.yaw / (2 * Math.PI)).toBeCloseTo(turns, 3);
+    }
+  });
+
   it("keeps what is under the fingers there while zooming", () => {
     const rig = new CameraRig();
     rig.keep(tree);

@@ -79,6 +79,13 @@ export class CameraRig {
     this.limit();
   }
 
+  /** Turns to the front, the shorter way round, wherever the view is on its way to. */
+  face(): void {
+    this.take();
+    this.goal.yaw = 2 * Math.PI * Math.round(this.goal.yaw / (2 * Math.PI));
+    this.limit();
+  }
+
   /** Moves the picture by pixels, at the target's depth. */
   pan(dx: number, dy: number, height: number): void {
     this.take();
