@@ -25,7 +25,7 @@ test("a lasso grows a crown that fills its outline", async () => {
   await tablet.touch("touchStart", [outline[0]!]);
   for (const point of outline.slice(1)) await tablet.touch("touchMove", [point]);
   expect(await tablet.page.locator(".outline-body").getAttribute("d"), "it shows while it is drawn").toContain("L");
-  await tablet.photograph("21-outline");
+  await tablet.glimpse("21-outline");
   expect((await tablet.facts()).metamers, "nothing grows before the finger lifts").toBe(metamers);
   await tablet.touch("touchEnd", []);
   const grown = await tablet.untilQuiet();
@@ -97,7 +97,7 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
   expect(chosen.bud).not.toBe("");
   expect(chosen.sent, "holding draws nothing").toBe(limbed.sent);
   await tablet.page.getByText("Only this branch grows").waitFor();
-  await tablet.photograph("23-chosen");
+  await tablet.glimpse("23-chosen");
 
   await widen(tablet);
   const aroundTip = [way(at(390), at(300))];

@@ -54,8 +54,9 @@ test("three fingers bend a branch between its base and its end", async () => {
   const { sent } = await tablet.facts();
   await drag(tablet, [way(base, base), way(end, { x: 740, y: 490 }), way(middle, { x: 630, y: 510 })]);
   await tablet.until("it is sent", (facts) => facts.sent > sent + 2);
-  const held = await tablet.photograph("31-bent");
-  expect(becameTree(before, held, aside), "the branch follows the fingers").toBeGreaterThan(0.02);
+  await until("the branch follows the fingers", async () => {
+    return becameTree(before, await tablet.glimpse("31-bent"), aside) > 0.02;
+  });
   expect(await extentOf(address), "nothing is committed while they hold it").toEqual(straight);
   await tablet.touch("touchEnd", []);
   const facts = await tablet.untilQuiet();
@@ -91,7 +92,7 @@ test("a mouse bends a branch it has marked the base of, and Escape puts it back"
     }
   };
   await pull();
-  await tablet.photograph("33-mouse-bends");
+  await tablet.glimpse("33-mouse-bends");
   await keyboard.press("Escape");
   await mouse.up();
   await tablet.untilQuiet();
@@ -113,7 +114,7 @@ test("another tablet sees a branch bend while fingers hold it", async () => {
   await drag(tablet, [way(onStem(600), onStem(600)), way(onStem(440), { x: 740, y: 490 })]);
   let during = before;
   await until("it bends there too", async () => {
-    during = await second.photograph("35-second-during");
+    during = await second.glimpse("35-second-during");
     return becameTree(before, during, aside) > 0.02;
   });
   await tablet.touch("touchEnd", []);
@@ -133,9 +134,10 @@ test("two fingers pinch a limb thicker, and its ring says how thick", async () =
     way({ x: at.x - 20, y: at.y }, { x: at.x - 160, y: at.y }),
     way({ x: at.x + 20, y: at.y }, { x: at.x + 160, y: at.y }),
   ]);
-  const held = await tablet.photograph("41-pinched");
   const trunk: Box = { x: SEED.x - 24, y: 560, width: 48, height: 50 };
-  expect(becameTree(before, held, trunk), "thicker under the fingers").toBeGreaterThan(0.1);
+  await until("thicker under the fingers", async () => {
+    return becameTree(before, await tablet.glimpse("41-pinched"), trunk) > 0.1;
+  });
   await tablet.touch("touchEnd", []);
   await tablet.untilQuiet();
   const ring = tablet.page.getByLabel("Diameter in internodes");
@@ -295,7 +297,7 @@ test("a line cuts all that it crosses, in one go", async () => {
   await tablet.touch("touchStart", [line[0]!]);
   for (const point of [...line, ...way({ x: 560, y: 690 }, { x: 560, y: 690 }, 2)])
     await tablet.touch("touchMove", [point]);
-  await tablet.photograph("48-marked");
+  await tablet.glimpse("48-marked");
   expect((await tablet.facts()).metamers, "nothing is cut before the finger lifts").toBe(metamers);
   await tablet.touch("touchEnd", []);
   const one = await tablet.untilQuiet();

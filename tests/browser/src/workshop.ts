@@ -76,6 +76,8 @@ export class Workshop {
   }
 
   async #clear(): Promise<void> {
+    // A test that failed may have left it silent.
+    this.server.resume();
     const errors = this.#tablets.flatMap((tablet) => tablet.errors);
     for (const tablet of this.#tablets.splice(0)) await tablet.close();
     expect(errors).toEqual([]);
