@@ -22,7 +22,13 @@ class Input extends Field {
 }
 
 class Area extends Field {}
-class Button extends Field {}
+class Plain extends Field {
+  override readonly localName: string;
+  constructor(localName: string) {
+    super();
+    this.localName = localName;
+  }
+}
 
 afterEach(() => vi.unstubAllGlobals());
 
@@ -32,7 +38,6 @@ function setUp() {
   vi.stubGlobal("HTMLElement", Field);
   vi.stubGlobal("HTMLInputElement", Input);
   vi.stubGlobal("HTMLTextAreaElement", Area);
-  vi.stubGlobal("HTMLButtonElement", Button);
   const done: unknown[][] = [];
   const actions = new Proxy({} as KeyActions, {
     get:
@@ -57,7 +62,7 @@ function setUp() {
 describe("arrow keys", () => {
   it("turn what is held, with Shift about itself", () => {
     const { done, press } = setUp();
-    expect(press("ArrowLeft", {}, new Button()).defaultPrevented).toBe(true);
+    expect(press("ArrowLeft", {}, new Plain("button")).defaultPrevented).toBe(true);
     press("ArrowUp", {}, new Input("checkbox"));
     press("ArrowRight", { shiftKey: true });
     expect(done).toEqual([
@@ -132,5 +137,17 @@ describe("letters", () => {
     press("H", {}, new Input("search"));
     press("h", {}, new Input("range"));
     expect(done).toEqual([["bare"], ["bare"]]);
+  });
+});
+
+describe("the space bar", () => {
+  it("moves the picture, but not where it means something already", () => {
+    const { press } = setUp();
+    for (const target of [null, new Plain("div"), new Input("range")]) {
+      expect(press(" ", {}, target).defaultPrevented).toBe(true);
+    }
+    for (const target of [new Plain("button"), new Plain("summary"), new Input("radio"), new Input("checkbox")]) {
+      expect(press(" ", {}, target).defaultPrevented).toBe(false);
+    }
   });
 });

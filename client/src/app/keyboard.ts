@@ -68,8 +68,7 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
     }
     switch (key) {
       case " ":
-        // On a focused button the space bar presses it.
-        if (!(event.target instanceof HTMLButtonElement)) {
+        if (!takesSpace(event.target)) {
           space = true;
           event.preventDefault();
         }
@@ -158,6 +157,14 @@ function takesArrows(target: EventTarget | null): boolean {
     return target.type !== "checkbox";
   }
   return target instanceof HTMLElement && (target.localName === "select" || target.getAttribute("role") === "slider");
+}
+
+/** Whether the space bar already means something there: it presses a button, flips a switch, unfolds a section. */
+function takesSpace(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) {
+    return target.type !== "range";
+  }
+  return target instanceof HTMLElement && ["button", "summary", "select", "a"].includes(target.localName);
 }
 
 function typing(target: EventTarget | null): boolean {

@@ -179,3 +179,20 @@ test("what is placed in the scene is seen by all, and moves with the finger", as
   await tablet.tap("Undo");
   await second.until("and placing", (facts) => facts.obstacles === 0);
 });
+
+test("parameters are set in the architecture panel, for everyone", async () => {
+  const { tablet, address } = await workshop.fresh();
+  const second = await workshop.open(address);
+  const priority = async (on: Tablet) => {
+    await on.tap("Architecture");
+    await on.page.getByRole("tab", { name: "Growth" }).tap();
+    await on.page.getByText("How vigor is shared", { exact: true }).tap();
+    return on.page.getByRole("radio", { name: "Priority", exact: true });
+  };
+  const here = await priority(tablet);
+  await here.focus();
+  await tablet.page.keyboard.press("Space");
+  await tablet.page.getByText("Least weight").first().waitFor();
+  await tablet.untilQuiet();
+  expect(await (await priority(second)).isChecked()).toBe(true);
+});
