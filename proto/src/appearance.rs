@@ -29,22 +29,6 @@ pub enum LeafKind {
     Scale,
 }
 
-/// What leaves look like. How many there are, and how long, are parameters of growth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct LeafLook {
-    /// Their form.
-    pub shape: LeafKind,
-    /// Their colour in summer: red, green and blue in sRGB.
-    pub tint: [u8; 3],
-    /// How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
-    pub vigor_shift: f32,
-    /// 0 bud burst, 1 summer, 2 autumn, 3 winter, and anything between; evergreen leaves hardly change.
-    pub season: f32,
-    /// -1 hanging, 0 by the rule of `LF2`, 1 raised.
-    pub orientation: f32,
-}
-
 /// Where flowers and fruits are borne.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
@@ -71,24 +55,6 @@ pub enum FlowerKind {
     Panicle,
 }
 
-/// Flowers, and where they are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct FlowerLook {
-    /// Their form, or none.
-    pub kind: FlowerKind,
-    /// Their colour: red, green and blue in sRGB.
-    pub tint: [u8; 3],
-    /// Their diameter in internodes, or their length where they are long; 0.05 to 2.
-    pub size: f32,
-    /// Which share of the places bears one, 0 to 1.
-    pub share: f32,
-    /// Where they are borne.
-    pub place: Place,
-    /// Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
-    pub vigor: f32,
-}
-
 /// Forms of fruits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
@@ -103,24 +69,6 @@ pub enum FruitKind {
     Nut,
     /// Keys with wings, as of maples.
     Winged,
-}
-
-/// Fruits, and where they are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct FruitLook {
-    /// Their form, or none.
-    pub kind: FruitKind,
-    /// Their colour: red, green and blue in sRGB.
-    pub tint: [u8; 3],
-    /// Their diameter in internodes, or their length where they are long; 0.05 to 2.
-    pub size: f32,
-    /// Which share of the places bears one, 0 to 1.
-    pub share: f32,
-    /// Where they are borne.
-    pub place: Place,
-    /// Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
-    pub vigor: f32,
 }
 
 /// Patterns of bark.
@@ -141,24 +89,6 @@ pub enum BarkKind {
     Banded,
     /// In fine strips.
     Stringy,
-}
-
-/// What wood looks like.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct BarkLook {
-    /// Its pattern.
-    pub kind: BarkKind,
-    /// Its colour: red, green and blue in sRGB.
-    pub tint: [u8; 3],
-    /// How deep its furrows look, 0 to 2; 1 by default.
-    pub relief: f32,
-    /// How far the trunk widens at the ground, 0 to 2; 1 by default.
-    pub root_flare: f32,
-    /// How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
-    pub collar: f32,
-    /// How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
-    pub smoothing: f32,
 }
 
 /// Kinds of sky.
@@ -191,20 +121,121 @@ pub enum Ground {
     Plain,
 }
 
-/// What surrounds the tree.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
-pub struct Background {
-    /// What is above.
-    pub sky: Sky,
-    /// What is below.
-    pub ground: Ground,
-    /// The colour of the studio's backdrop: red, green and blue in sRGB.
-    pub backdrop: [u8; 3],
-    /// Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
-    pub sun_azimuth: f32,
-    /// How high it is, in degrees above the horizon, -10 to 90.
-    pub sun_elevation: f32,
+/// Declares sections and their patches together, so that they cannot differ.
+macro_rules! sections {
+    ($($(#[doc = $doc:expr])+ $name:ident / $patch:ident { $($(#[doc = $of:expr])+ $field:ident: $type:ty,)+ })+) => { $(
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+        #[serde(deny_unknown_fields)]
+        pub struct $name {
+            $($(#[doc = $of])+ pub $field: $type,)+
+        }
+
+        /// Some fields of the section: those to change.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+        #[serde(deny_unknown_fields)]
+        pub struct $patch {
+            $(
+                $(#[doc = $of])+
+                #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
+                #[ts(optional)]
+                pub $field: Option<$type>,
+            )+
+        }
+
+        impl From<$name> for $patch {
+            /// Sets every field.
+            fn from(all: $name) -> Self {
+                Self { $($field: Some(all.$field),)+ }
+            }
+        }
+
+        impl $name {
+            /// This section with the patch's fields put in.
+            #[must_use]
+            pub fn patched(&self, patch: &$patch) -> Self {
+                Self { $($field: patch.$field.unwrap_or(self.$field),)+ }
+            }
+        }
+    )+ };
+}
+
+sections! {
+    /// What leaves look like. How many there are, and how long, are parameters of growth.
+    LeafLook / LeafPatch {
+        /// Their form.
+        shape: LeafKind,
+        /// Their colour in summer: red, green and blue in sRGB.
+        tint: [u8; 3],
+        /// How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
+        vigor_shift: f32,
+        /// 0 bud burst, 1 summer, 2 autumn, 3 winter, and anything between; evergreen leaves hardly change.
+        season: f32,
+        /// -1 hanging, 0 by the rule of `LF2`, 1 raised.
+        orientation: f32,
+    }
+
+    /// Flowers, and where they are.
+    FlowerLook / FlowerPatch {
+        /// Their form, or none.
+        kind: FlowerKind,
+        /// Their colour: red, green and blue in sRGB.
+        tint: [u8; 3],
+        /// Their diameter in internodes, or their length where they are long; 0.05 to 2.
+        size: f32,
+        /// Which share of the places bears one, 0 to 1.
+        share: f32,
+        /// Where they are borne.
+        place: Place,
+        /// Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+        vigor: f32,
+    }
+
+    /// Fruits, and where they are.
+    FruitLook / FruitPatch {
+        /// Their form, or none.
+        kind: FruitKind,
+        /// Their colour: red, green and blue in sRGB.
+        tint: [u8; 3],
+        /// Their diameter in internodes, or their length where they are long; 0.05 to 2.
+        size: f32,
+        /// Which share of the places bears one, 0 to 1.
+        share: f32,
+        /// Where they are borne.
+        place: Place,
+        /// Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+        vigor: f32,
+    }
+
+    /// What wood looks like.
+    BarkLook / BarkPatch {
+        /// Its pattern.
+        kind: BarkKind,
+        /// Its colour: red, green and blue in sRGB.
+        tint: [u8; 3],
+        /// How deep its furrows look, 0 to 2; 1 by default.
+        relief: f32,
+        /// How far the trunk widens at the ground, 0 to 2; 1 by default.
+        root_flare: f32,
+        /// How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
+        collar: f32,
+        /// How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
+        smoothing: f32,
+    }
+
+    /// What surrounds the tree.
+    Background / BackgroundPatch {
+        /// What is above.
+        sky: Sky,
+        /// What is below.
+        ground: Ground,
+        /// The colour of the studio's backdrop: red, green and blue in sRGB.
+        backdrop: [u8; 3],
+        /// Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
+        sun_azimuth: f32,
+        /// How high it is, in degrees above the horizon, -10 to 90.
+        sun_elevation: f32,
+    }
 }
 
 /// How a tree and its surroundings look.
@@ -223,55 +254,55 @@ pub struct Appearance {
     pub background: Background,
 }
 
-/// Some sections of an appearance: those to change, each as a whole.
+/// Some fields of some sections of an appearance: those to change.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct AppearancePatch {
     /// The leaves.
     #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub leaves: Option<LeafLook>,
+    pub leaves: Option<LeafPatch>,
     /// The flowers.
     #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub flowers: Option<FlowerLook>,
+    pub flowers: Option<FlowerPatch>,
     /// The fruits.
     #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub fruits: Option<FruitLook>,
+    pub fruits: Option<FruitPatch>,
     /// The wood.
     #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub bark: Option<BarkLook>,
+    pub bark: Option<BarkPatch>,
     /// All around.
     #[serde(default, deserialize_with = "crate::present", skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub background: Option<Background>,
+    pub background: Option<BackgroundPatch>,
 }
 
 impl Appearance {
-    /// This appearance with the patch's sections put in.
+    /// This appearance with the patch's fields put in.
     #[must_use]
     pub fn patched(&self, patch: &AppearancePatch) -> Self {
         Self {
-            leaves: patch.leaves.unwrap_or(self.leaves),
-            flowers: patch.flowers.unwrap_or(self.flowers),
-            fruits: patch.fruits.unwrap_or(self.fruits),
-            bark: patch.bark.unwrap_or(self.bark),
-            background: patch.background.unwrap_or(self.background),
+            leaves: patch.leaves.map_or(self.leaves, |fields| self.leaves.patched(&fields)),
+            flowers: patch.flowers.map_or(self.flowers, |fields| self.flowers.patched(&fields)),
+            fruits: patch.fruits.map_or(self.fruits, |fields| self.fruits.patched(&fields)),
+            bark: patch.bark.map_or(self.bark, |fields| self.bark.patched(&fields)),
+            background: patch.background.map_or(self.background, |fields| self.background.patched(&fields)),
         }
     }
 }
 
 impl From<Appearance> for AppearancePatch {
-    /// Sets every section.
+    /// Sets every field of every section.
     fn from(Appearance { leaves, flowers, fruits, bark, background }: Appearance) -> Self {
         Self {
-            leaves: Some(leaves),
-            flowers: Some(flowers),
-            fruits: Some(fruits),
-            bark: Some(bark),
-            background: Some(background),
+            leaves: Some(leaves.into()),
+            flowers: Some(flowers.into()),
+            fruits: Some(fruits.into()),
+            bark: Some(bark.into()),
+            background: Some(background.into()),
         }
     }
 }

@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import { type Appearance, DEFAULT_APPEARANCE } from "../wire/generated";
-import { LOOK_NUMBERS, type LookNumber, numberIn, standardOf, withFields, withNumber } from "./appearance";
+import { LOOK_NUMBERS, type LookNumber, numberIn, patched, standardOf, withNumber } from "./appearance";
 
 const names = Object.keys(LOOK_NUMBERS) as LookNumber[];
 
@@ -51,24 +51,16 @@ describe("appearance", () => {
     }
   });
 
-  it("a number is set in its section, which travels whole", () => {
+  it("AP1: a number is set alone, all else stays", () => {
     for (const name of names) {
       const value = LOOK_NUMBERS[name].most;
-      const patch = withNumber(DEFAULT_APPEARANCE, name, value);
-      const [part] = name.split(".") as [keyof Appearance];
-      expect(Object.keys(patch)).toEqual([part]);
-      expect(Object.keys(patch[part]!)).toEqual(Object.keys(DEFAULT_APPEARANCE[part]));
-      expect(numberIn({ ...DEFAULT_APPEARANCE, ...patch }, name)).toBe(value);
-      for (const other of names.filter((other) => other !== name)) {
-        expect(numberIn({ ...DEFAULT_APPEARANCE, ...patch }, other)).toBe(standardOf(other));
+      const patch = withNumber(name, value);
+      const [part, field] = name.split(".") as [keyof Appearance, string];
+      expect(patch).toEqual({ [part]: { [field]: value } });
+      const looks = patched(DEFAULT_APPEARANCE, patch);
+      for (const other of names) {
+        expect(numberIn(looks, other)).toBe(other === name ? value : standardOf(other));
       }
     }
-  });
-
-  it("fields of a section are set with the rest as it is", () => {
-    const autumn = { ...DEFAULT_APPEARANCE, ...withNumber(DEFAULT_APPEARANCE, "leaves.season", 2) };
-    expect(withFields(autumn, "leaves", { shape: "fan" })).toEqual({
-      leaves: { ...DEFAULT_APPEARANCE.leaves, season: 2, shape: "fan" },
-    });
   });
 });

@@ -1,4 +1,4 @@
-import { type Appearance, DEFAULT_APPEARANCE } from "../wire/generated";
+import { type Appearance, type AppearancePatch, DEFAULT_APPEARANCE } from "../wire/generated";
 
 /** A section of the appearance. */
 export type Part = keyof Appearance;
@@ -52,19 +52,16 @@ export function standardOf(name: LookNumber): number {
   return numberIn(DEFAULT_APPEARANCE, name);
 }
 
-/** The section as it is when a number in it has this value: what is sent, for sections travel whole. */
-export function withNumber(appearance: Appearance, name: LookNumber, value: number): Partial<Appearance> {
+/** What is sent so that a number has a value: all else stays as others may just have set it. */
+export function withNumber(name: LookNumber, value: number): AppearancePatch {
   const [part, field] = split(name);
-  return { [part]: { ...appearance[part], [field]: value } };
+  return { [part]: { [field]: value } };
 }
 
-/** A section with some fields changed. */
-export function withFields<P extends Part>(
-  appearance: Appearance,
-  part: P,
-  fields: Partial<Appearance[P]>,
-): Partial<Appearance> {
-  return { [part]: { ...appearance[part], ...fields } };
+/** An appearance with the fields of a patch put in. */
+export function patched(appearance: Appearance, patch: AppearancePatch): Appearance {
+  const sections = Object.entries(appearance).map(([part, look]) => [part, { ...look, ...patch[part as Part] }]);
+  return Object.fromEntries(sections);
 }
 
 function split(name: LookNumber): [Part, string] {

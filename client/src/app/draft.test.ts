@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Clock } from "./connection";
+import { Virtual } from "../../test/virtual-clock";
 import { alike, Draft } from "./draft";
 
 interface Look {
@@ -8,36 +8,6 @@ interface Look {
 }
 
 const FIRST: Look = { hue: 0, bark: { kind: "smooth", relief: 1 } };
-
-/** A clock that goes when it is told to. */
-class Virtual implements Clock {
-  #now = 0;
-  #timers: { at: number; run: () => void }[] = [];
-
-  now(): number {
-    return this.#now;
-  }
-
-  after(delay: number, run: () => void): () => void {
-    const timer = { at: this.#now + delay, run };
-    this.#timers.push(timer);
-    return () => {
-      this.#timers = this.#timers.filter((other) => other !== timer);
-    };
-  }
-
-  pass(milliseconds: number): void {
-    const end = this.#now + milliseconds;
-    for (;;) {
-      const next = this.#timers.filter(({ at }) => at <= end).sort((a, b) => a.at - b.at)[0];
-      if (!next) break;
-      this.#timers = this.#timers.filter((other) => other !== next);
-      this.#now = next.at;
-      next.run();
-    }
-    this.#now = end;
-  }
-}
 
 /** A draft with its clock, and what it has sent. */
 function bench(options: { readonly busy?: () => boolean; readonly offline?: boolean } = {}) {

@@ -5,15 +5,7 @@ import { axisStart } from "../scene/table/branch-rows";
 import { TreeTable } from "../scene/table/tree-table";
 import { FrameKind } from "../wire/envelope";
 import type { Frame } from "../wire/frame";
-import {
-  type Appearance,
-  type AppearancePatch,
-  type Command,
-  DEFAULT_APPEARANCE,
-  type DocumentState,
-  type Parameters,
-  type ParametersPatch,
-} from "../wire/generated";
+import type { AppearancePatch, Command, DocumentState, Parameters, ParametersPatch } from "../wire/generated";
 import { decodeServerFrame } from "../wire/server-frame";
 import { BranchWork } from "./branch-work";
 import { ChosenBud } from "./chosen-bud";
@@ -24,6 +16,7 @@ import { Draft } from "./draft";
 import { Exports, keepFile } from "./exports";
 import { GrowControl } from "./grow-control";
 import { createSession, sessionExists, socketAddress } from "./library-api";
+import { LookDraft } from "./look-draft";
 import { ObstacleList } from "./obstacle-list";
 import { followPageLife } from "./page-life";
 import { sentence } from "./plain-words";
@@ -73,8 +66,7 @@ export class Studio {
   });
   readonly parameters = this.growing.value;
   /** How the tree looks, as it is set here and by others. */
-  readonly looks = new Draft<Appearance>({
-    none: DEFAULT_APPEARANCE,
+  readonly looks = new LookDraft({
     submit: (appearance, gesture) => this.submit({ kind: "set_appearance", appearance, ...joined(gesture) }),
     newGesture: () => this.newGesture(),
     busy: () => this.#busy(),
@@ -224,7 +216,7 @@ export class Studio {
     this.growing.commit(parameters, gesture);
   }
 
-  /** Sets sections of the appearance, each as a whole; with a gesture as above. */
+  /** Sets fields of the appearance; with a gesture as above. */
   dress(appearance: AppearancePatch, gesture?: number): void {
     this.looks.commit(appearance, gesture);
   }

@@ -535,6 +535,28 @@ season: number,
  */
 orientation: number, };
 
+export type LeafPatch = { 
+/**
+ * Their form.
+ */
+shape?: LeafKind, 
+/**
+ * Their colour in summer: red, green and blue in sRGB.
+ */
+tint?: [number, number, number], 
+/**
+ * How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
+ */
+vigor_shift?: number, 
+/**
+ * 0 bud burst, 1 summer, 2 autumn, 3 winter, and anything between; evergreen leaves hardly change.
+ */
+season?: number, 
+/**
+ * -1 hanging, 0 by the rule of `LF2`, 1 raised.
+ */
+orientation?: number, };
+
 export type Place = "tips" | "twigs" | "wood";
 
 export type FlowerKind = "none" | "rosette" | "catkin" | "panicle";
@@ -565,6 +587,32 @@ place: Place,
  */
 vigor: number, };
 
+export type FlowerPatch = { 
+/**
+ * Their form, or none.
+ */
+kind?: FlowerKind, 
+/**
+ * Their colour: red, green and blue in sRGB.
+ */
+tint?: [number, number, number], 
+/**
+ * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ */
+size?: number, 
+/**
+ * Which share of the places bears one, 0 to 1.
+ */
+share?: number, 
+/**
+ * Where they are borne.
+ */
+place?: Place, 
+/**
+ * Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+ */
+vigor?: number, };
+
 export type FruitKind = "none" | "round" | "cone" | "nut" | "winged";
 
 export type FruitLook = { 
@@ -592,6 +640,32 @@ place: Place,
  * Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
  */
 vigor: number, };
+
+export type FruitPatch = { 
+/**
+ * Their form, or none.
+ */
+kind?: FruitKind, 
+/**
+ * Their colour: red, green and blue in sRGB.
+ */
+tint?: [number, number, number], 
+/**
+ * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ */
+size?: number, 
+/**
+ * Which share of the places bears one, 0 to 1.
+ */
+share?: number, 
+/**
+ * Where they are borne.
+ */
+place?: Place, 
+/**
+ * Which shoots bear more of them: -1 the weak ones, 0 all alike, 1 the vigorous ones.
+ */
+vigor?: number, };
 
 export type BarkKind = "smooth" | "furrowed" | "plated" | "papery" | "flaking" | "banded" | "stringy";
 
@@ -621,6 +695,32 @@ collar: number,
  */
 smoothing: number, };
 
+export type BarkPatch = { 
+/**
+ * Its pattern.
+ */
+kind?: BarkKind, 
+/**
+ * Its colour: red, green and blue in sRGB.
+ */
+tint?: [number, number, number], 
+/**
+ * How deep its furrows look, 0 to 2; 1 by default.
+ */
+relief?: number, 
+/**
+ * How far the trunk widens at the ground, 0 to 2; 1 by default.
+ */
+root_flare?: number, 
+/**
+ * How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
+ */
+collar?: number, 
+/**
+ * How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
+ */
+smoothing?: number, };
+
 export type Sky = "meadow" | "clear" | "overcast" | "studio";
 
 export type Ground = "grass" | "earth" | "sand" | "snow" | "plain";
@@ -646,6 +746,28 @@ sun_azimuth: number,
  * How high it is, in degrees above the horizon, -10 to 90.
  */
 sun_elevation: number, };
+
+export type BackgroundPatch = { 
+/**
+ * What is above.
+ */
+sky?: Sky, 
+/**
+ * What is below.
+ */
+ground?: Ground, 
+/**
+ * The colour of the studio's backdrop: red, green and blue in sRGB.
+ */
+backdrop?: [number, number, number], 
+/**
+ * Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
+ */
+sun_azimuth?: number, 
+/**
+ * How high it is, in degrees above the horizon, -10 to 90.
+ */
+sun_elevation?: number, };
 
 export type Appearance = { 
 /**
@@ -673,23 +795,23 @@ export type AppearancePatch = {
 /**
  * The leaves.
  */
-leaves?: LeafLook, 
+leaves?: LeafPatch, 
 /**
  * The flowers.
  */
-flowers?: FlowerLook, 
+flowers?: FlowerPatch, 
 /**
  * The fruits.
  */
-fruits?: FruitLook, 
+fruits?: FruitPatch, 
 /**
  * The wood.
  */
-bark?: BarkLook, 
+bark?: BarkPatch, 
 /**
  * All around.
  */
-background?: Background, };
+background?: BackgroundPatch, };
 
 export type Command = { "kind": "stroke_begin", 
 /**

@@ -29,63 +29,44 @@ structs! {
     Appearance = wire::Appearance { leaves, flowers, fruits, bark, background }
 }
 
-/// Sections of an appearance, all in range: those to change.
+/// Fields of an appearance, all in range: those to change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AppearanceChange {
-    /// The leaves.
-    pub leaves: Option<LeafLook>,
-    /// The flowers.
-    pub flowers: Option<FlowerLook>,
-    /// The fruits.
-    pub fruits: Option<FruitLook>,
-    /// The wood.
-    pub bark: Option<BarkLook>,
-    /// All around.
-    pub background: Option<Background>,
-}
+pub struct AppearanceChange(AppearancePatch);
 
 impl AppearanceChange {
     /// Checks every range; a problem names section and field.
-    pub(crate) fn parse(wire: &AppearancePatch) -> Result<Self, Problem> {
-        let &AppearancePatch { leaves, flowers, fruits, bark, background } = wire;
-        Ok(Self {
-            leaves: section("leaves", leaves, LeafLook::check)?,
-            flowers: section("flowers", flowers, FlowerLook::check)?,
-            fruits: section("fruits", fruits, FruitLook::check)?,
-            bark: section("bark", bark, BarkLook::check)?,
-            background: section("background", background, Background::check)?,
-        })
+    pub(crate) fn parse(patch: &AppearancePatch) -> Result<Self, Problem> {
+        // What a patch does not set is as in the appearance it is laid over, which is in range.
+        let over: Appearance = wire::Appearance::default().patched(patch).across();
+        within("leaves", over.leaves.check())?;
+        within("flowers", over.flowers.check())?;
+        within("fruits", over.fruits.check())?;
+        within("bark", over.bark.check())?;
+        within("background", over.background.check())?;
+        Ok(Self(*patch))
     }
 
-    /// An appearance with these sections put in.
+    /// The looks of a tree as a whole, all but what surrounds it.
+    pub(crate) fn dressing(looks: &Appearance) -> Self {
+        Self(AppearancePatch { background: None, ..to_proto(looks).into() })
+    }
+
+    /// An appearance with these fields put in.
     pub(crate) fn applied_to(&self, now: &Appearance) -> Appearance {
-        Appearance {
-            leaves: self.leaves.unwrap_or(now.leaves),
-            flowers: self.flowers.unwrap_or(now.flowers),
-            fruits: self.fruits.unwrap_or(now.fruits),
-            bark: self.bark.unwrap_or(now.bark),
-            background: self.background.unwrap_or(now.background),
-        }
+        to_proto(now).patched(&self.0).across()
     }
 }
 
-fn section<Wire: Across<Core>, Core>(
-    name: &str,
-    wire: Option<Wire>,
-    check: impl Fn(&Core) -> Result<(), AppearanceError>,
-) -> Result<Option<Core>, Problem> {
-    let Some(wire) = wire else { return Ok(None) };
-    let core = wire.across();
-    check(&core).map_err(|error| {
+fn within(section: &str, checked: Result<(), AppearanceError>) -> Result<(), Problem> {
+    checked.map_err(|error| {
         let problem = Problem {
             code: ProblemCode::OutOfRange,
             field: Some(error.name.to_owned()),
             message: error.to_string(),
             allowed: Some(error.allowed),
         };
-        problem.within(&format!("appearance.{name}"))
-    })?;
-    Ok(Some(core))
+        problem.within(&format!("appearance.{section}"))
+    })
 }
 
 /// An appearance as it travels.

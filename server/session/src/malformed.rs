@@ -7,7 +7,7 @@ use espalier_growth::appearance::{
 use espalier_proto::{
     AppearancePatch, DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape,
     StrokeSample,
-    appearance::{Background, BarkLook, FlowerLook, FruitLook, LeafLook},
+    appearance::{BackgroundPatch, BarkPatch, FlowerPatch, FruitPatch, LeafPatch},
     version::{MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PRUNED_ROWS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER},
 };
 use serde::de::DeserializeOwned;
@@ -169,11 +169,11 @@ fn locate_in_appearance(appearance: &Value) -> Option<Problem> {
         let field =
             fields.filter_map(|(name, value)| locate_in_section(&format!("{whole}.{name}"), name, value));
         field.into_iter().next().or_else(|| match section.as_str() {
-            "leaves" => wrong::<LeafLook>(&whole, value),
-            "flowers" => wrong::<FlowerLook>(&whole, value),
-            "fruits" => wrong::<FruitLook>(&whole, value),
-            "bark" => wrong::<BarkLook>(&whole, value),
-            "background" => wrong::<Background>(&whole, value),
+            "leaves" => wrong::<LeafPatch>(&whole, value),
+            "flowers" => wrong::<FlowerPatch>(&whole, value),
+            "fruits" => wrong::<FruitPatch>(&whole, value),
+            "bark" => wrong::<BarkPatch>(&whole, value),
+            "background" => wrong::<BackgroundPatch>(&whole, value),
             _ => None,
         })
     });

@@ -46,14 +46,7 @@ fn choose(values: &ParameterValues) -> Action {
 
 /// The looks of a species; what surrounds it stays.
 fn dress(looks: &Appearance) -> Action {
-    let &Appearance { leaves, flowers, fruits, bark, .. } = looks;
-    let change = AppearanceChange {
-        leaves: Some(leaves),
-        flowers: Some(flowers),
-        fruits: Some(fruits),
-        bark: Some(bark),
-        background: None,
-    };
+    let change = AppearanceChange::dressing(looks);
     Action::SetAppearance { change: Box::new(change), gesture: None }
 }
 

@@ -1,5 +1,4 @@
 import { DEFAULT_APPEARANCE, type Ground, type Sky } from "../../wire/generated";
-import { withFields } from "../appearance";
 import type { Studio } from "../studio";
 import { say } from "../words";
 import { Choice } from "./controls/choice";
@@ -19,7 +18,7 @@ const GROUNDS: readonly Ground[] = ["grass", "earth", "sand", "snow", "plain"];
 export function BackgroundPanel({ studio }: { studio: Studio }) {
   const { sky, ground, backdrop } = studio.appearance.value.background;
   const standard = DEFAULT_APPEARANCE.background;
-  const patch = (fields: Partial<typeof standard>) => withFields(studio.appearance.peek(), "background", fields);
+  const patch = (fields: Partial<typeof standard>) => ({ background: fields });
   return (
     <Panel studio={studio} title={say("panels.background")}>
       <Section name="background.sun" title={say("background.sun")} open>
@@ -28,6 +27,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
           label={say("background.pin")}
           help={say("background.pin.help")}
           value={studio.sunPinned.value}
+          standard={false}
           onCommit={(pinned) => {
             studio.sunPinned.value = pinned;
           }}
@@ -36,6 +36,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
       <Section name="background.surroundings" title={say("background.surroundings")} open>
         <Choice
           label={say("background.sky")}
+          help={say("background.sky.help")}
           columns={4}
           value={sky}
           standard={standard.sky}
@@ -59,6 +60,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
         )}
         <Choice
           label={say("background.ground")}
+          help={say("background.ground.help")}
           columns={5}
           value={ground}
           standard={standard.ground}

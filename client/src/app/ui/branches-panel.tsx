@@ -1,5 +1,4 @@
 import type { BarkKind } from "../../wire/generated";
-import { withFields } from "../appearance";
 import { NUMBERS } from "../growth-parameters";
 import type { Studio } from "../studio";
 import { say } from "../words";
@@ -20,7 +19,7 @@ const BARKS: readonly BarkKind[] = ["smooth", "furrowed", "plated", "papery", "f
 export function BranchesPanel({ studio }: { studio: Studio }) {
   const { bark } = studio.appearance.value;
   const standard = standardLooks(studio).bark;
-  const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), "bark", { tint });
+  const withTint = (tint: [number, number, number]) => ({ bark: { tint } });
   return (
     <Panel studio={studio} title={say("panels.branches")}>
       <Section name="branches.bark" title={say("branches.bark")} open>
@@ -35,7 +34,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
             label: say(`bark.kind.${value}`),
             picture: <BarkPicture kind={value} tint={bark.tint} />,
           }))}
-          onCommit={(kind) => studio.dress(withFields(studio.appearance.peek(), "bark", { kind }))}
+          onCommit={(kind) => studio.dress({ bark: { kind } })}
         />
         <ColourField
           label={say("bark.tint")}

@@ -30,6 +30,7 @@ export function BrushPanel({ studio }: { studio: Studio }) {
             label={say("brush.pressure")}
             help={say("brush.pressure.help")}
             value={settings.pressureWidens.value}
+            standard={true}
             onCommit={(on) => {
               settings.pressureWidens.value = on;
             }}

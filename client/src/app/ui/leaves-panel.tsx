@@ -1,6 +1,6 @@
 import { laminaPath } from "../../scene/foliage/lamina";
 import type { LeafKind } from "../../wire/generated";
-import { withFields, withNumber } from "../appearance";
+import { withNumber } from "../appearance";
 import { OF_THE_LEAVES } from "../growth-parameters";
 import type { Studio } from "../studio";
 import { say } from "../words";
@@ -33,7 +33,7 @@ const SHAPES: readonly LeafKind[] = [
 export function LeavesPanel({ studio }: { studio: Studio }) {
   const { leaves } = studio.appearance.value;
   const standard = standardLooks(studio).leaves;
-  const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), "leaves", { tint });
+  const withTint = (tint: [number, number, number]) => ({ leaves: { tint } });
   return (
     <Panel studio={studio} title={say("panels.leaves")}>
       <LookSlider
@@ -42,10 +42,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
         middle
         inWords={seasonName}
         marks={
-          <SeasonButtons
-            season={leaves.season}
-            pick={(season) => studio.dress(withNumber(studio.appearance.peek(), "leaves.season", season))}
-          />
+          <SeasonButtons season={leaves.season} pick={(season) => studio.dress(withNumber("leaves.season", season))} />
         }
       />
       <Section name="leaves.leaves" title={say("leaves.leaves")} open>
@@ -69,7 +66,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
               </svg>
             ),
           }))}
-          onCommit={(shape) => studio.dress(withFields(studio.appearance.peek(), "leaves", { shape }))}
+          onCommit={(shape) => studio.dress({ leaves: { shape } })}
         />
         <ColourField
           label={say("leaves.tint")}

@@ -27,6 +27,7 @@ export function ParameterControl({ studio, parameter }: ParameterControlProps) {
           label={nameOf(parameter)}
           help={helpOf(parameter)}
           value={now[parameter.name]}
+          standard={standard[parameter.name]}
           onCommit={(value) => studio.growing.commit({ [parameter.name]: value })}
         />
       );

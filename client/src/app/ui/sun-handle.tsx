@@ -1,5 +1,4 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { withFields } from "../appearance";
 import type { Studio } from "../studio";
 import {
   around,
@@ -67,12 +66,13 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   const { sun_azimuth: azimuth, sun_elevation: elevation } = studio.appearance.value.background;
   const place: SunPlace = { azimuth, elevation };
 
-  const patched = ({ azimuth, elevation }: SunPlace) =>
-    withFields(studio.appearance.peek(), "background", {
+  const patched = ({ azimuth, elevation }: SunPlace) => ({
+    background: {
       // Tenths are finer than any eye and spare the wire.
       sun_azimuth: around(Math.round(azimuth * 10) / 10),
       sun_elevation: Math.min(HIGHEST_SUN, Math.max(LOWEST_SUN, Math.round(elevation * 10) / 10)),
-    });
+    },
+  });
   const drag = (to: SunPlace) => {
     // What is sent is rounded; what is followed is not, or a slow turn would leave the sun behind.
     if (eye.current) {

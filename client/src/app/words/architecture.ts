@@ -74,7 +74,6 @@ export const ARCHITECTURE = {
     "The inner circle is a bud’s own; in the cone it looks for room, shown as dots, and grows to where they are.",
     "Der innere Kreis gehört der Knospe; im Kegel sucht sie Raum, die Punkte, und wächst dorthin.",
   ],
-  "architecture.reset": ["Reset {name}", "{name} zurücksetzen"],
 
   "architecture.section.vigor": ["Vigor", "Wuchskraft"],
   "architecture.section.sharing": ["How vigor is shared", "Verteilung der Kraft"],

@@ -50,7 +50,7 @@ fn command() -> impl Strategy<Value = Command> {
         }),
         2 => (-0.5f32..3.5, prop::option::of(0u32..2)).prop_map(|(season, gesture)| {
             let leaves = LeafLook { season: season.round(), ..Appearance::default().leaves };
-            let appearance = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
+            let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
             Command::SetAppearance { appearance, gesture }
         }),
         1 => (0u32..20).prop_map(|leaves| Command::SetParameters {

@@ -9,13 +9,13 @@ use crate::world::{Peer, World, grow};
 
 fn leaves(season: f32, gesture: Option<u32>) -> Command {
     let leaves = LeafLook { season, ..Appearance::default().leaves };
-    let appearance = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
+    let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
     Command::SetAppearance { appearance, gesture }
 }
 
 fn background(sky: Sky) -> Command {
     let background = Background { sky, ..Appearance::default().background };
-    let appearance = AppearancePatch { background: Some(background), ..AppearancePatch::default() };
+    let appearance = AppearancePatch { background: Some(background.into()), ..AppearancePatch::default() };
     Command::SetAppearance { appearance, gesture: None }
 }
 

@@ -1,10 +1,10 @@
 import type { ComponentChildren } from "preact";
-import type { ParametersPatch } from "../../../wire/generated";
+import { useId, useState } from "preact/hooks";
+import type { Parameters, ParametersPatch } from "../../../wire/generated";
 import { alike } from "../../draft";
-import { type NumberParameter, nameOf, patchFor, patchFrom, unitOf } from "../../growth-parameters";
+import { helpOf, type NumberParameter, nameOf, patchFor, patchFrom, unitOf } from "../../growth-parameters";
 import type { Studio } from "../../studio";
-import { say } from "../../words";
-import { ResetIcon } from "../controls/icons";
+import { ResetButton } from "../controls/field";
 import { TypedNumber } from "../controls/typed-number";
 import { standardOf } from "./species-list";
 
@@ -31,54 +31,95 @@ interface FrameProps {
 export function WidgetFrame({ studio, title, help, parameters, told, children, more }: FrameProps) {
   const now = studio.parameters.value;
   const standard = standardOf(studio);
+  /** The value that is being explained. */
+  const [asked, ask] = useState<NumberParameter | null>(null);
+  const helpId = useId();
   if (now === null) {
     return null;
   }
-  const changed = parameters.some(({ name }) => !alike(now[name], standard[name]));
+  const differs = ({ name }: NumberParameter) => !alike(now[name], standard[name]);
   const set = (patch: ParametersPatch) => studio.growing.commit(patch);
   return (
     <section class="widget" aria-label={title}>
       <header>
         <h3>{title}</h3>
-        {changed && (
-          <button
-            type="button"
-            class="field-reset"
-            aria-label={say("architecture.reset", { name: title })}
-            title={say("architecture.reset", { name: title })}
-            onClick={() => set(patchFrom(standard, parameters))}
-          >
-            <ResetIcon />
-          </button>
+        {parameters.length > 1 && parameters.some(differs) && (
+          <ResetButton name={title} onReset={() => set(patchFrom(standard, parameters))} />
         )}
       </header>
       <div class="widget-body" data-bare={children === undefined}>
         {children}
         <div class="widget-values">
-          {parameters.map((parameter) => {
-            const { name, symbol, least, most, step, applies } = parameter;
-            return (
-              <div class="widget-value" key={name}>
-                <span>
-                  {nameOf(parameter)} <i class="widget-symbol">{symbol}</i>
-                </span>
-                <TypedNumber
-                  label={nameOf(parameter)}
-                  unit={unitOf(parameter)}
-                  {...{ least, most, step }}
-                  value={now[name]}
-                  disabled={applies?.(now) === false}
-                  onCommit={(value) => set(patchFor(name, value, now))}
-                />
-              </div>
-            );
-          })}
+          {parameters.map((parameter) => (
+            <Value
+              key={parameter.name}
+              parameter={parameter}
+              now={now}
+              helpId={helpId}
+              asked={parameter === asked}
+              onAsk={() => ask(parameter === asked ? null : parameter)}
+              onReset={differs(parameter) ? () => set(patchFor(parameter.name, standard[parameter.name], now)) : null}
+              onCommit={(value) => set(patchFor(parameter.name, value, now))}
+            />
+          ))}
         </div>
       </div>
+      <p class="widget-help asked" id={helpId} hidden={asked === null}>
+        {asked && (
+          <>
+            <b>{nameOf(asked)}:</b> {helpOf(asked)}
+          </>
+        )}
+      </p>
       {told !== undefined && <p class="widget-told">{told}</p>}
       <p class="widget-help">{help}</p>
       {more}
     </section>
+  );
+}
+
+interface ValueProps {
+  readonly parameter: NumberParameter;
+  readonly now: Parameters;
+  /** Where it is explained. */
+  readonly helpId: string;
+  readonly asked: boolean;
+  readonly onAsk: () => void;
+  readonly onReset: (() => void) | null;
+  readonly onCommit: (value: number) => void;
+}
+
+/** One of a widget's values: its name, which asks for its help, a box to type in, its reset. */
+function Value({ parameter, now, helpId, asked, onAsk, onReset, onCommit }: ValueProps) {
+  const { name, symbol, least, most, step, applies } = parameter;
+  const label = nameOf(parameter);
+  return (
+    <div class="widget-value">
+      <button
+        type="button"
+        class="field-name"
+        aria-expanded={asked}
+        aria-controls={helpId}
+        title={helpOf(parameter)}
+        onClick={onAsk}
+      >
+        <span>
+          {label} <i>{symbol}</i>
+        </span>
+        <b aria-hidden="true">?</b>
+      </button>
+      <div class="widget-number">
+        <TypedNumber
+          label={label}
+          unit={unitOf(parameter)}
+          {...{ least, most, step }}
+          value={now[name]}
+          disabled={applies?.(now) === false}
+          onCommit={onCommit}
+        />
+        {onReset && <ResetButton name={label} onReset={onReset} />}
+      </div>
+    </div>
   );
 }
 

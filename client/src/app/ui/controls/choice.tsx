@@ -12,9 +12,10 @@ interface ChoiceProps<Value extends string> {
   readonly label: string;
   readonly options: readonly Option<Value>[];
   readonly value: Value;
-  /** What reset puts it back to; without it there is no reset. */
-  readonly standard?: Value | undefined;
-  readonly help?: string | undefined;
+  /** What reset puts it back to. */
+  readonly standard: Value;
+  /** What it does, in one sentence. */
+  readonly help: string;
   /** How many stand side by side. */
   readonly columns?: number;
   readonly onCommit: (value: Value) => void;
@@ -25,11 +26,7 @@ export function Choice<Value extends string>(props: ChoiceProps<Value>) {
   const { label, options, value, standard, help, columns = Math.min(4, options.length), onCommit } = props;
   const name = useId();
   return (
-    <Field
-      label={label}
-      help={help}
-      onReset={standard === undefined || standard === value ? undefined : () => onCommit(standard)}
-    >
+    <Field label={label} help={help} onReset={standard === value ? undefined : () => onCommit(standard)}>
       {(description) => (
         <div
           class="choice"

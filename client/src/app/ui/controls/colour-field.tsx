@@ -1,6 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { say } from "../../words";
 import { Field } from "./field";
+import { Typed } from "./typed-number";
 
 /** Red, green and blue in sRGB, each from 0 to 255. */
 export type Colour = [number, number, number];
@@ -14,8 +15,10 @@ interface ColourFieldProps {
   readonly label: string;
   readonly value: Readonly<Colour>;
   readonly swatches: readonly Swatch[];
-  readonly standard?: Readonly<Colour> | undefined;
-  readonly help?: string | undefined;
+  /** What reset puts it back to. */
+  readonly standard: Readonly<Colour>;
+  /** What it does, in one sentence. */
+  readonly help: string;
   readonly onDrag?: (value: Colour) => void;
   readonly onCommit: (value: Colour) => void;
 }
@@ -42,7 +45,8 @@ export function ColourField({ label, value, swatches, standard, help, onDrag, on
     <Field
       label={label}
       help={help}
-      onReset={standard === undefined || same(standard, value) ? undefined : () => onCommit([...standard])}
+      onReset={same(standard, value) ? undefined : () => onCommit([...standard])}
+      end={<TypedColour label={label} value={shown} onCommit={onCommit} />}
     >
       {(description) => (
         <fieldset class="colours" aria-label={label} aria-describedby={description}>
@@ -75,6 +79,30 @@ export function ColourField({ label, value, swatches, standard, help, onDrag, on
         </fieldset>
       )}
     </Field>
+  );
+}
+
+interface TypedColourProps {
+  readonly label: string;
+  readonly value: Readonly<Colour>;
+  readonly onCommit: (value: Colour) => void;
+}
+
+/** A colour by its six figures, typed over when it is touched. */
+function TypedColour({ label, value, onCommit }: TypedColourProps) {
+  return (
+    <Typed
+      label={label}
+      text={hexOf(value)}
+      width={7}
+      onTyped={(typed) => {
+        const hex = /^#?([0-9a-f]{6})$/i.exec(typed.trim())?.[1];
+        const colour: Colour = hex === undefined ? [...value] : colourOf(`#${hex}`);
+        if (!same(colour, value)) {
+          onCommit(colour);
+        }
+      }}
+    />
   );
 }
 

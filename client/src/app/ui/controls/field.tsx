@@ -8,13 +8,13 @@ interface FieldProps {
   /** The letter it has in formulas. */
   readonly symbol?: string | undefined;
   /** What it does, in one sentence; it unfolds when the name is touched. */
-  readonly help?: string | undefined;
+  readonly help: string;
   /** Puts the value back to what it was before anyone changed it; absent where it is that already. */
-  readonly onReset?: (() => void) | undefined;
-  /** What stands at the end of the name's line. */
-  readonly end?: ComponentChildren;
-  /** The control itself; it is given what describes it. */
-  readonly children: (descriptionId: string | undefined) => ComponentChildren;
+  readonly onReset: (() => void) | undefined;
+  /** What stands at the end of the name's line; as the control itself it is given what describes it. */
+  readonly end?: ComponentChildren | ((descriptionId: string) => ComponentChildren);
+  /** The control, where it stands under its name. */
+  readonly children?: (descriptionId: string) => ComponentChildren;
 }
 
 /** A control's name with its help and reset, and the control under it. */
@@ -30,40 +30,39 @@ export function Field({ label, symbol, help, onReset, end, children }: FieldProp
   return (
     <div class="control">
       <div class="field-head">
-        {help === undefined ? (
-          <span class="field-name">{name}</span>
-        ) : (
-          <button
-            type="button"
-            class="field-name"
-            aria-expanded={open}
-            aria-controls={helpId}
-            title={help}
-            onClick={() => setOpen(!open)}
-          >
-            {name}
-            <b aria-hidden="true">?</b>
-          </button>
-        )}
-        {onReset && (
-          <button
-            type="button"
-            class="field-reset"
-            aria-label={say("controls.reset", { name: label })}
-            title={say("controls.reset", { name: label })}
-            onClick={onReset}
-          >
-            <ResetIcon />
-          </button>
-        )}
-        {end}
+        <button
+          type="button"
+          class="field-name"
+          aria-expanded={open}
+          aria-controls={helpId}
+          title={help}
+          onClick={() => setOpen(!open)}
+        >
+          {name}
+          <b aria-hidden="true">?</b>
+        </button>
+        {onReset && <ResetButton name={label} onReset={onReset} />}
+        {typeof end === "function" ? end(helpId) : end}
       </div>
-      {help !== undefined && (
-        <p class="field-help" id={helpId} hidden={!open}>
-          {help}
-        </p>
-      )}
-      {children(help === undefined ? undefined : helpId)}
+      <p class="field-help" id={helpId} hidden={!open}>
+        {help}
+      </p>
+      {children?.(helpId)}
     </div>
+  );
+}
+
+interface ResetProps {
+  readonly name: string;
+  readonly onReset: () => void;
+}
+
+/** Puts something back to what it was before anyone changed it. */
+export function ResetButton({ name, onReset }: ResetProps) {
+  const text = say("controls.reset", { name });
+  return (
+    <button type="button" class="field-reset" aria-label={text} title={text} onClick={onReset}>
+      <ResetIcon />
+    </button>
   );
 }

@@ -12,10 +12,10 @@ export interface SliderProps {
   readonly most: number;
   readonly step: number;
   readonly value: number;
-  /** What reset puts it back to; without it there is no reset. */
-  readonly standard?: number | undefined;
+  /** What reset puts it back to. */
+  readonly standard: number;
   /** What it does, in one sentence. */
-  readonly help?: string | undefined;
+  readonly help: string;
   readonly disabled?: boolean;
   /** The value in words, where a number alone says little. */
   readonly inWords?: (value: number) => string;
@@ -27,6 +27,8 @@ export interface SliderProps {
   readonly track?: string;
   /** The value as the hand moves it. */
   readonly onDrag?: (value: number) => void;
+  /** Another way back to the standard than to commit it. */
+  readonly onReset?: () => void;
   /** The value when the hand lets go, or one that was typed or reset. */
   readonly onCommit: (value: number) => void;
 }
@@ -67,13 +69,13 @@ export function Slider(props: SliderProps) {
   );
 
   const place = most > least ? Math.min(1, Math.max(0, (shown - least) / (most - least))) : 0;
-  const isStandard = standard === undefined || Math.abs(value - standard) < step / 2;
+  const isStandard = Math.abs(value - standard) < step / 2;
   return (
     <Field
       label={label}
       symbol={symbol}
       help={help}
-      onReset={isStandard || disabled ? undefined : () => props.onCommit(standard)}
+      onReset={isStandard || disabled ? undefined : (props.onReset ?? (() => props.onCommit(standard)))}
       end={
         <TypedNumber
           {...{ label, unit, least, most, step, disabled, notation: props.notation }}

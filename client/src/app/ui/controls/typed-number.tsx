@@ -25,29 +25,62 @@ interface TypedNumberProps {
 export function TypedNumber(props: TypedNumberProps) {
   const { label, unit, least, most, step, value, disabled = false, onCommit } = props;
   const { write, read } = props.notation ?? { write: (number: number) => numberText(number, step), read: typedNumber };
-  const [typed, setTyped] = useState<string | null>(null);
-  const text = write(value);
   const set = (to: number) => {
     const next = onStep(to, least, most, step);
     if (next !== onStep(value, least, most, step)) {
       onCommit(next);
     }
   };
+  return (
+    <Typed
+      {...{ label, unit, disabled }}
+      text={write(value)}
+      width={Math.max(write(least).length, write(most).length)}
+      inputMode={least < 0 ? "text" : "decimal"}
+      onTyped={(typed) => {
+        const to = read(typed);
+        if (to !== null) {
+          set(to);
+        }
+      }}
+      onStep={(notches, typed) => set((typed === null ? value : (read(typed) ?? value)) + notches * step)}
+    />
+  );
+}
+
+interface TypedProps {
+  /** The name of what is typed. */
+  readonly label: string;
+  readonly text: string;
+  /** How many characters it may need. */
+  readonly width: number;
+  readonly unit?: string;
+  readonly inputMode?: "text" | "decimal";
+  readonly disabled?: boolean;
+  /** What was typed over it, once that is done. */
+  readonly onTyped: (typed: string) => void;
+  /** An arrow key, with what was typed until then. */
+  readonly onStep?: (notches: number, typed: string | null) => void;
+}
+
+/** A value in a box, typed over when it is touched. */
+export function Typed(props: TypedProps) {
+  const { label, text, width, unit = "", inputMode = "text", disabled = false, onTyped, onStep } = props;
+  const [typed, setTyped] = useState<string | null>(null);
   const finish = () => {
-    const to = typed === null ? null : read(typed);
     setTyped(null);
-    if (to !== null) {
-      set(to);
+    if (typed !== null) {
+      onTyped(typed);
     }
   };
   return (
     <label class="typed" data-close={unit === "°"}>
       <input
         type="text"
-        inputMode={least < 0 ? "text" : "decimal"}
+        inputMode={inputMode}
         autocomplete="off"
         aria-label={say("controls.value", { name: label })}
-        style={{ width: `${Math.max(write(least).length, write(most).length) + 0.5}ch` }}
+        style={{ width: `${width + 0.5}ch` }}
         value={typed ?? text}
         disabled={disabled}
         onFocus={(event) => event.currentTarget.select()}
@@ -60,9 +93,9 @@ export function TypedNumber(props: TypedNumberProps) {
             event.currentTarget.select();
           } else if (event.key === "Escape") {
             setTyped(null);
-          } else if (notches !== undefined) {
+          } else if (notches !== undefined && onStep) {
             event.preventDefault();
-            set((typed === null ? value : (read(typed) ?? value)) + notches * step);
+            onStep(notches, typed);
             setTyped(null);
           }
         }}

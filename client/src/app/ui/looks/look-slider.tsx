@@ -17,7 +17,7 @@ interface LookSliderProps {
 /** A slider for one number of the appearance. */
 export function LookSlider({ studio, name, inWords, marks, middle = false }: LookSliderProps) {
   const { least, most, step, unit } = LOOK_NUMBERS[name];
-  const patch = (value: number) => withNumber(studio.appearance.peek(), name, value);
+  const patch = (value: number) => withNumber(name, value);
   return (
     <Slider
       label={say(`${name}`)}

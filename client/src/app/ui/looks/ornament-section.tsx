@@ -1,6 +1,5 @@
 import type { ComponentChildren } from "preact";
 import type { FlowerKind, FruitKind, Place } from "../../../wire/generated";
-import { withFields } from "../../appearance";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
 import { standardLooks } from "../architecture/species-list";
@@ -23,6 +22,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
     <Section name="leaves.flowers" title={say("leaves.flowers")}>
       <Choice
         label={say("flowers.kind")}
+        help={say("flowers.kind.help")}
         columns={4}
         value={kind}
         standard={standardLooks(studio).flowers.kind}
@@ -31,7 +31,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
           label: say(`flowers.kind.${value}`),
           picture: <FlowerPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.dress(withFields(studio.appearance.peek(), "flowers", { kind: value }))}
+        onCommit={(value) => studio.dress({ flowers: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="flowers" />}
     </Section>
@@ -45,6 +45,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
     <Section name="leaves.fruits" title={say("leaves.fruits")}>
       <Choice
         label={say("fruits.kind")}
+        help={say("fruits.kind.help")}
         columns={5}
         value={kind}
         standard={standardLooks(studio).fruits.kind}
@@ -53,7 +54,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
           label: say(`fruits.kind.${value}`),
           picture: <FruitPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.dress(withFields(studio.appearance.peek(), "fruits", { kind: value }))}
+        onCommit={(value) => studio.dress({ fruits: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="fruits" />}
     </Section>
@@ -64,11 +65,12 @@ export function FruitSection({ studio }: { studio: Studio }) {
 function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" }) {
   const now = studio.appearance.value[part];
   const standard = standardLooks(studio)[part];
-  const withTint = (tint: [number, number, number]) => withFields(studio.appearance.peek(), part, { tint });
+  const withTint = (tint: [number, number, number]) => ({ [part]: { tint } });
   return (
     <>
       <ColourField
         label={say(`${part}.tint`)}
+        help={say(`${part}.tint.help`)}
         value={now.tint}
         standard={standard.tint}
         swatches={SWATCHES[part]()}
@@ -79,6 +81,7 @@ function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" })
       <LookSlider studio={studio} name={`${part}.share`} />
       <Choice
         label={say(`${part}.place`)}
+        help={say(`${part}.place.help`)}
         columns={3}
         value={now.place}
         standard={standard.place}
@@ -87,7 +90,7 @@ function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" })
           label: say(`leaves.place.${value}`),
           picture: <PlacePicture place={value} tint={now.tint} />,
         }))}
-        onCommit={(place) => studio.dress(withFields(studio.appearance.peek(), part, { place }))}
+        onCommit={(place) => studio.dress({ [part]: { place } })}
       />
       <LookSlider
         studio={studio}

@@ -1,5 +1,6 @@
 import { useRef } from "preact/hooks";
-import { LOOK_NUMBERS, type LookNumber, standardOf, withFields } from "../../appearance";
+import type { AppearancePatch } from "../../../wire/generated";
+import { LOOK_NUMBERS, type LookNumber, standardOf } from "../../appearance";
 import { clockText, daylight, type SunPlace, sunAt, type TimeOfDay, timeAt, typedHours } from "../../day";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
@@ -22,11 +23,12 @@ const degrees = (radians: number) => (radians * 180) / Math.PI;
 /** Where the sun is: by the time of day, by its direction, by its height. */
 export function SunDial({ studio }: { studio: Studio }) {
   const { sun_azimuth: azimuth, sun_elevation: elevation } = studio.appearance.value.background;
-  const placed = (place: Partial<SunPlace>) =>
-    withFields(studio.appearance.peek(), "background", {
+  const placed = (place: Partial<SunPlace>): AppearancePatch => ({
+    background: {
       ...(place.azimuth === undefined ? {} : { sun_azimuth: place.azimuth }),
       ...(place.elevation === undefined ? {} : { sun_elevation: place.elevation }),
-    });
+    },
+  });
   const drag = (place: Partial<SunPlace>) => studio.looks.drag(placed(place));
   const commit = (place: Partial<SunPlace>) => studio.looks.commit(placed(place));
   const turned = () => degrees(studio.stage.turned);
@@ -70,6 +72,12 @@ interface TimeSliderProps {
   readonly commit: (place: SunPlace) => void;
 }
 
+/** Where the sun stands before anyone has moved it. */
+const STANDARD_PLACE: SunPlace = {
+  azimuth: standardOf("background.sun_azimuth"),
+  elevation: standardOf("background.sun_elevation"),
+};
+
 /** The sun's way over the day it is on, from dawn to dusk. */
 function TimeSlider({ place, drag, commit }: TimeSliderProps) {
   // While the hand moves it stays on one day, however the sun's place is rounded.
@@ -86,6 +94,8 @@ function TimeSlider({ place, drag, commit }: TimeSliderProps) {
       most={Math.floor(dusk / step) * step}
       step={step}
       value={onStep(timeAt(place).hours, 0, 24, step)}
+      standard={onStep(timeAt(STANDARD_PLACE).hours, 0, 24, step)}
+      onReset={() => commit(STANDARD_PLACE)}
       notation={{ write: clockText, read: typedHours }}
       onDrag={(to) => {
         day.current ??= { hours, declination };
@@ -108,9 +118,7 @@ function Typed({ name, value, set }: { name: LookNumber; value: number; set: (va
       help={say(`${name}.help`)}
       onReset={Math.abs(value - standard) < step / 2 ? undefined : () => set(standard)}
       end={<TypedNumber label={say(name)} {...{ least, most, step, unit, value }} onCommit={set} />}
-    >
-      {() => null}
-    </Field>
+    />
   );
 }
 

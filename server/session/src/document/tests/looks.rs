@@ -8,7 +8,7 @@ use super::*;
 /// Another season of the leaves as they are by default.
 pub fn season(gesture: Option<u32>, season: f32) -> Action {
     let leaves = wire::LeafLook { season, ..wire::Appearance::default().leaves };
-    look(gesture, wire::AppearancePatch { leaves: Some(leaves), ..wire::AppearancePatch::default() })
+    look(gesture, wire::AppearancePatch { leaves: Some(leaves.into()), ..wire::AppearancePatch::default() })
         .expect("in range")
 }
 
@@ -28,7 +28,7 @@ fn apply(document: &mut Document, action: &Action) {
 fn ap1_looks_change_section_by_section() {
     let mut document = Document::new(1);
     let bark = wire::BarkLook { kind: wire::BarkKind::Papery, ..wire::Appearance::default().bark };
-    let patch = wire::AppearancePatch { bark: Some(bark), ..wire::AppearancePatch::default() };
+    let patch = wire::AppearancePatch { bark: Some(bark.into()), ..wire::AppearancePatch::default() };
     apply(&mut document, &look(None, patch).expect("in range"));
     let looks = *document.appearance();
     assert_eq!((looks.bark.kind, looks.leaves.shape), (BarkKind::Papery, LeafKind::Ovate));
@@ -46,7 +46,7 @@ fn ap1_looks_change_section_by_section() {
 fn ap1_what_is_out_of_range_names_its_section() {
     let flowers = |size| {
         let flowers = wire::FlowerLook { size, ..wire::Appearance::default().flowers };
-        wire::AppearancePatch { flowers: Some(flowers), ..wire::AppearancePatch::default() }
+        wire::AppearancePatch { flowers: Some(flowers.into()), ..wire::AppearancePatch::default() }
     };
     assert!(look(None, flowers(0.05)).is_ok() && look(None, flowers(2.0)).is_ok());
     for bad in [0.04, 2.1, f32::NAN, f32::INFINITY] {
@@ -162,4 +162,18 @@ fn looks_make_no_difference_to_growth() {
     }
     assert_eq!(plain.plant().hash(), dressed.plant().hash());
     assert_ne!(plain.hash(), dressed.hash());
+}
+
+#[test]
+fn ap1_fields_of_two_people_both_count() {
+    let mut document = Document::new(1);
+    let season = wire::LeafPatch { season: Some(2.0), ..wire::LeafPatch::default() };
+    let tint = wire::LeafPatch { tint: Some([10, 20, 30]), ..wire::LeafPatch::default() };
+    for (author, leaves) in [("ann", season), ("ben", tint)] {
+        let patch = wire::AppearancePatch { leaves: Some(leaves), ..wire::AppearancePatch::default() };
+        document.apply(author, &look(None, patch).expect("in range")).expect("it is done");
+    }
+    let leaves = document.appearance().leaves;
+    assert_eq!((leaves.season, leaves.tint), (2.0, [10, 20, 30]));
+    assert_eq!(leaves.shape, LeafKind::Ovate, "what nobody gave stays");
 }
