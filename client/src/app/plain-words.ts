@@ -1,46 +1,40 @@
 import type { Problem } from "../wire/generated";
 import { RequestFailed } from "./library-api";
+import { ALLOWED, REFUSALS } from "./refusal-table";
 import { type Key, language, say } from "./words";
 
 /** Fields that name wood by its rows, which a person does not. */
 const WOOD = /^(row|onto|base|touches)/;
 
-/** What the server says in English, and the same among our words; `limit` is a number in it. */
-const KNOWN: readonly (readonly [RegExp, Key])[] = [
-  [/nothing to undo/, "problems.nothing-to-undo"],
-  [/nothing to redo/, "problems.nothing-to-redo"],
-  [/nothing to ungrow/, "problems.nothing-to-ungrow"],
-  [/stands in so little light/, "problems.no-dim-branch"],
-  [/foot of a trunk, which cannot be turned/, "problems.trunk-foot"],
-  [/foot of a trunk, which cannot be moved/, "problems.trunk-moved"],
-  [/belongs to a trunk, and nothing branches off/, "problems.trunk-cut"],
-  [/is being bent/, "problems.being-bent"],
-  [/very branch that begins/, "problems.own-branch"],
-  [/leave the world/, "problems.world"],
-  [/nothing can grow into this/, "problems.outline"],
-  [/(?<limit>\d+) may be; remove some first/, "problems.widths"],
-  [/places of wood that was moved/, "problems.places"],
-  [/metamers, its budget is/, "problems.full"],
-  [/the scene has (?<limit>\d+) obstacles/, "problems.obstacles"],
-  [/too many people/i, "problems.people"],
-];
-
-/** What a person is told about a problem: in their language where we know it, no numbers of rows, and a sentence. */
+/** What a person is told about a problem: in their language, without numbers of rows, and as a sentence. */
 export function plainly({ code, field, allowed, message }: Problem): string {
   if (code === "not_found" && WOOD.test(field ?? "")) {
     return say("problems.branch-gone");
   }
-  for (const [pattern, key] of KNOWN) {
-    const match = pattern.exec(message);
+  const known = matched(REFUSALS, message);
+  if (known !== null) {
+    return known;
+  }
+  if (code === "malformed") {
+    return say("problems.page");
+  }
+  if (code === "out_of_range" && language.value !== "en") {
+    const words = matched(ALLOWED, allowed ?? "");
+    return words === null ? say("problems.out-of-range") : say("problems.out-of-range.allowed", { allowed: words });
+  }
+  const words = message.replace(/\brow \d+\b/g, "that branch");
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
+}
+
+/** The words of the first entry that a text matches; null if none does. */
+function matched(table: readonly (readonly [RegExp, Key])[], text: string): string | null {
+  for (const [pattern, key] of table) {
+    const match = pattern.exec(text);
     if (match) {
       return say(key, match.groups);
     }
   }
-  if (code === "out_of_range" && language.value !== "en") {
-    return allowed === undefined ? say("problems.out-of-range") : say("problems.out-of-range.allowed", { allowed });
-  }
-  const words = message.replace(/\brow \d+\b/g, "that branch");
-  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
+  return null;
 }
 
 /** What to tell a person about an error. */

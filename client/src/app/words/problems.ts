@@ -49,6 +49,129 @@ export const PROBLEMS = {
     "There are {limit} obstacles in the scene; remove one first.",
     "In der Szene sind schon {limit} Hindernisse; entferne zuerst eines.",
   ],
+  "problems.outline-points": [
+    "This outline has too few or too many points. Draw it anew, in one go.",
+    "Dieser Umriss hat zu wenige oder zu viele Punkte. Zeichne ihn neu, in einem Zug.",
+  ],
+  "problems.strokes": [
+    "{limit} strokes are being drawn already; let go of one first.",
+    "Es werden schon {limit} Striche gezeichnet; beende zuerst einen.",
+  ],
+  "problems.bends": [
+    "{limit} branches are being bent already; let go of one first.",
+    "Es werden schon {limit} Äste gebogen; lass zuerst einen los.",
+  ],
+  "problems.stroke-gone": ["This stroke has ended already.", "Dieser Strich ist schon zu Ende."],
+  "problems.bend-gone": [
+    "This bend has ended: its branch is gone or has changed.",
+    "Dieses Biegen ist zu Ende: Den Ast gibt es nicht mehr, oder er hat sich verändert.",
+  ],
+  "problems.future-gone": ["This future is no longer kept.", "Diese Zukunft ist nicht mehr aufgehoben."],
+  "problems.future-damaged": [
+    "This future is damaged and cannot be taken up.",
+    "Diese Zukunft ist beschädigt und lässt sich nicht aufnehmen.",
+  ],
+  "problems.too-much": ["That is too much at once; do it in parts.", "Das ist zu viel auf einmal; mach es in Teilen."],
+  "problems.behind": [
+    "The tree is still growing what was asked for; try again when it has caught up.",
+    "Der Baum wächst noch, was verlangt wurde; versuche es wieder, wenn er nachgekommen ist.",
+  ],
+  "problems.obstacle-gone": [
+    "This obstacle is gone: someone has just taken it away.",
+    "Dieses Hindernis gibt es nicht mehr: Jemand hat es gerade entfernt.",
+  ],
+  "problems.obstacle-not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],
+  "problems.triangles": [
+    "All models of the scene and its history together may have {limit} triangles; this would be more.",
+    "Alle Modelle der Szene und ihrer Vorgeschichte dürfen zusammen {limit} Dreiecke haben; so wären es mehr.",
+  ],
+  "problems.file.kind": [
+    "This is no glTF file. Export the model as .glb.",
+    "Das ist keine glTF-Datei. Exportiere das Modell als .glb.",
+  ],
+  "problems.file.version": [
+    "The file is glTF {version}, and only version 2 can be read.",
+    "Die Datei ist glTF {version}, gelesen wird nur Version 2.",
+  ],
+  "problems.file.apart": [
+    "A part of the model lies in another file. Choose both together, or export it as one .glb.",
+    "Ein Teil des Modells liegt in einer anderen Datei. Wähle beide zusammen, oder exportiere es als ein .glb.",
+  ],
+  "problems.file.needs": [
+    "The file needs {needs}, which cannot be read here. Export it without.",
+    "Die Datei braucht {needs}; das wird hier nicht gelesen. Exportiere sie ohne.",
+  ],
+  "problems.file.empty": [
+    "The model has no surface: no triangle in it has an area.",
+    "Das Modell hat keine Oberfläche: Kein Dreieck darin hat eine Fläche.",
+  ],
+  "problems.file.large": [
+    "The model has too many triangles or corners. Simplify it first.",
+    "Das Modell hat zu viele Dreiecke oder Ecken. Vereinfache es zuerst.",
+  ],
+  "problems.file.damaged": [
+    "The file is damaged and cannot be an obstacle.",
+    "Die Datei ist beschädigt und kann kein Hindernis werden.",
+  ],
+  "problems.file.bytes": ["The file is larger than {allowed}.", "Die Datei ist größer als {allowed}."],
+  "problems.file.parts": [
+    "The file did not arrive whole; try again.",
+    "Die Datei ist nicht ganz angekommen; versuche es noch einmal.",
+  ],
+  "problems.shape": [
+    "This shape cannot be an obstacle: it is too thin, too large or too far away.",
+    "Diese Form kann kein Hindernis sein: Sie ist zu dünn, zu groß oder zu weit weg.",
+  ],
+  "problems.no-tree": ["This tree is no longer in the library.", "Dieser Baum ist nicht mehr in der Bibliothek."],
+  "problems.no-session": [
+    "This server does not know the tree of this link.",
+    "Dieser Server kennt den Baum zu diesem Link nicht.",
+  ],
+  "problems.none-such": ["The server does not have this.", "Das hat der Server nicht."],
+  "problems.simulation": [
+    "This tree was grown by another version of Espalier, and this one cannot go on with it.",
+    "Diesen Baum hat eine andere Version von Espalier wachsen lassen; diese kann ihn nicht fortsetzen.",
+  ],
+  "problems.thumbnail": [
+    "The picture for the library could not be taken; try again.",
+    "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",
+  ],
+  "problems.tree-damaged": ["The saved tree is damaged.", "Der gespeicherte Baum ist beschädigt."],
+  "problems.not-exported": ["The tree cannot be exported.", "Der Baum lässt sich nicht exportieren."],
+  "problems.no-picture": ["This picture cannot be drawn.", "Dieses Bild lässt sich nicht zeichnen."],
+  "problems.not-opened": ["The tree cannot be opened now.", "Der Baum lässt sich gerade nicht öffnen."],
+  "problems.ended": [
+    "The server has just put this tree aside; try again.",
+    "Der Server hat diesen Baum gerade weggelegt; versuche es noch einmal.",
+  ],
+  "problems.too-large": [
+    "That is more than the server takes at once.",
+    "Das ist mehr, als der Server auf einmal annimmt.",
+  ],
+  "problems.disk": [
+    "The server cannot write to its disk; nothing was changed. Is the disk full?",
+    "Der Server kann nicht auf seine Platte schreiben; nichts wurde verändert. Ist sie voll?",
+  ],
+  "problems.stopping": ["The server is stopping.", "Der Server wird gerade beendet."],
+  "problems.failed": [
+    "The server could not compute this; nothing was changed.",
+    "Der Server konnte das nicht berechnen; nichts wurde verändert.",
+  ],
+  "problems.schematic-late": [
+    "The server is busy growing trees; the sketch comes later.",
+    "Der Server lässt gerade Bäume wachsen; die Skizze kommt später.",
+  ],
+  "problems.late": ["The server took too long.", "Der Server hat zu lange gebraucht."],
+  "problems.page": [
+    "This page and the server misunderstand each other. Load the page again.",
+    "Diese Seite und der Server missverstehen sich. Lade die Seite neu.",
+  ],
+  "problems.allowed.ground": ["{least}, the ground", "{least}, der Boden"],
+  "problems.allowed.outside": ["a place outside all obstacles", "eine Stelle außerhalb aller Hindernisse"],
+  "problems.allowed.plain": ["characters one can see", "sichtbare Zeichen"],
+  "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
+  "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],
+  "problems.allowed.most": ["up to {most}", "höchstens {most}"],
   "problems.people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
   "problems.out-of-range": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
   "problems.out-of-range.allowed": ["Allowed there: {allowed}.", "Möglich ist dort: {allowed}."],
