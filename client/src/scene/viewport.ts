@@ -81,7 +81,12 @@ export class Viewport {
     this.ghost = new Ghost(this.uniforms);
     this.scene.add(this.obstacles.bodies, this.ghost.group);
     this.sun.casters.add(this.tree.casters, this.obstacles.casters);
-    this.frames = new FrameLoop(this.draw, () => this.frames.control.quality.scale < 1 || this.shadowStale);
+    this.frames = new FrameLoop(
+      this.draw,
+      () => this.frames.control.quality.scale < 1 || this.shadowStale,
+      // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
+      (still) => canvas.toggleAttribute("data-still", still),
+    );
     this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextrestored", this.restored);
     this.resizing = new ResizeObserver(() => this.resize());
@@ -414,7 +419,9 @@ export class Viewport {
     if (width === 0 || height === 0) return;
     this.sight.width = width;
     this.sight.height = height;
-    this.screen.resize(width, height, Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO));
+    const ratio = Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO);
+    this.screen.resize(width, height, ratio);
+    if (this.sun.fit(Math.max(width, height) * ratio)) this.shadowStale = true;
     this.frames.invalidate();
   }
 

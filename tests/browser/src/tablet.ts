@@ -1,6 +1,7 @@
+import { existsSync } from "node:fs";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
-import type { Browser, BrowserContext, CDPSession, Page } from "playwright-core";
+import type { Browser, BrowserContext, CDPSession, Page, Route } from "playwright-core";
 import { screenshots } from "./browser";
 import type { Darkroom, Picture } from "./picture";
 import { until } from "./server";
@@ -49,6 +50,16 @@ export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
 /** The same with still coarser ones, for tests that are not about looks. */
 export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
 
+/** A folder with another build of the client than the one that is part of the program; for work on the client alone. */
+const client = process.env.ESPALIER_CLIENT;
+
+/** Answers with the file of the folder that stands in for the one asked for, if there is one. */
+async function substitute(route: Route, folder: string): Promise<void> {
+  const { pathname } = new URL(route.request().url());
+  const path = join(folder, pathname.startsWith("/s/") || pathname === "/" ? "index.html" : pathname);
+  await (existsSync(path) ? route.fulfill({ path }) : route.continue());
+}
+
 /** One tablet with the page open: real touch points in, screenshots out. */
 export class Tablet {
   readonly page: Page;
@@ -76,6 +87,7 @@ export class Tablet {
     await context.addInitScript(() => {
       if (localStorage.getItem("espalier.tour") === null) localStorage.setItem("espalier.tour", "true");
     });
+    if (client) await context.route("**/*", (route) => substitute(route, client));
     const page = await context.newPage();
     const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, detail);
     await page.goto(address);
@@ -146,14 +158,19 @@ export class Tablet {
   /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
   async swipe(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
     const length = Math.max(...paths.map((path) => path.length));
+    const sent: Promise<void>[] = [];
     for (let i = 0; i < length; i++) {
-      await this.touch(
-        i === 0 ? "touchStart" : "touchMove",
-        paths.map((path) => path[Math.min(i, path.length - 1)]!),
+      // As a hand does not wait for the picture, nor does this: the page gets what it missed with its next frame.
+      sent.push(
+        this.touch(
+          i === 0 ? "touchStart" : "touchMove",
+          paths.map((path) => path[Math.min(i, path.length - 1)]!),
+        ),
       );
       await this.page.waitForTimeout(pause);
     }
-    await this.touch("touchEnd", []);
+    sent.push(this.touch("touchEnd", []));
+    await Promise.all(sent);
   }
 
   /** One real touch event with all fingers that are down. */
@@ -200,24 +217,19 @@ export class Tablet {
   /** What is on the screen this moment, at rest or not: while the server is silent something always moves. */
   async glimpse(name: string): Promise<Picture> {
     await mkdir(screenshots, { recursive: true });
-    const taken = await this.page.screenshot({ path: join(screenshots, `${name}.png`) });
+    const path = join(screenshots, `${name}.png`);
+    const taken = await this.page.screenshot({ path, animations: "disabled" });
     return this.#darkroom.develop(taken, this.#detail);
   }
 
   /** What is on the screen once it is at rest, kept under a name for people to look at. */
   async photograph(name: string): Promise<Picture> {
-    await mkdir(screenshots, { recursive: true });
-    // Growth eases in and the camera glides; two pictures that agree are at rest.
-    let last = await this.page.screenshot();
-    await until("the picture comes to rest", async () => {
-      await this.page.waitForTimeout(250);
-      const next = await this.page.screenshot();
-      const rests = next.equals(last);
-      last = next;
-      return rests;
-    }).catch(() => undefined);
-    await this.page.screenshot({ path: join(screenshots, `${name}.png`) });
-    return this.#darkroom.develop(last, this.#detail);
+    // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
+    await this.page.evaluate(
+      () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))),
+    );
+    await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
+    return this.glimpse(name);
   }
 }
 

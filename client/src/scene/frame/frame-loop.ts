@@ -25,11 +25,16 @@ export class FrameLoop {
   private began: number | null = null;
   private restTimer = 0;
   private held = false;
+  private still = false;
 
-  /** `draw` says whether more is to move by itself; `lacking` whether the last frame was less than the one at rest. */
+  /**
+   * `draw` says whether more is to move by itself; `lacking` whether the last frame was less than the one at rest;
+   * `tell` hears when the picture comes to rest for good, and when it no longer is.
+   */
   constructor(
     private readonly draw: (time: FrameTime) => boolean,
     private readonly lacking: () => boolean,
+    private readonly tell: (still: boolean) => void,
   ) {}
 
   /** Has a frame drawn. */
@@ -57,6 +62,7 @@ export class FrameLoop {
 
   private schedule(): void {
     if (this.request !== 0) return;
+    this.settle(false);
     this.requested = performance.now();
     this.request = requestAnimationFrame(this.frame);
   }
@@ -74,7 +80,10 @@ export class FrameLoop {
     // A frame at rest is followed by a pause, which tells nothing.
     this.began = control.resting ? null : began;
     this.awaitRest();
-    if (!goesOn) return;
+    if (!goesOn) {
+      this.settle(control.resting && this.request === 0);
+      return;
+    }
     this.lastFrame = milliseconds;
     this.schedule();
     this.requested = began;
@@ -97,5 +106,12 @@ export class FrameLoop {
     this.control.rest();
     this.began = null;
     if (lacking) this.invalidate();
+    else this.settle(true);
   };
+
+  private settle(still: boolean): void {
+    if (still === this.still) return;
+    this.still = still;
+    this.tell(still);
+  }
 }

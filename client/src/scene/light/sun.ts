@@ -23,9 +23,10 @@ import type { Box } from "../camera/camera-rig";
 import { SHADE_FRAGMENT, SHADE_VERTEX } from "../glsl/shadow";
 import type { Uniforms } from "../materials";
 
-const MAP_SIZE = 2048;
+/** Texels along each side of the shadow map, at least and at most. */
+const MAP_SIZES = [512, 2048] as const;
 /** Half as fine: shadows on the ground are soft. */
-const SHADE_SIZE = MAP_SIZE / 2;
+const SHADE_SHARE = 0.5;
 /** Leaves stand this far out of the box around the nodes. */
 const MARGIN = 2;
 const UP = new Vector3(0, 1, 0);
@@ -44,19 +45,20 @@ export class Sun {
   private readonly groundDepth = new Vector4();
   private readonly scale = new Vector2(1, 1);
   private readonly far = { value: 1 };
+  private size: number = MAP_SIZES[1];
 
   constructor(private readonly uniforms: Uniforms) {
-    const depth = new DepthTexture(MAP_SIZE, MAP_SIZE, FloatType);
+    const depth = new DepthTexture(this.size, this.size, FloatType);
     depth.compareFunction = LessEqualCompare;
     depth.minFilter = LinearFilter;
     depth.magFilter = LinearFilter;
-    this.target = new WebGLRenderTarget(MAP_SIZE, MAP_SIZE, {
+    this.target = new WebGLRenderTarget(this.size, this.size, {
       depthTexture: depth,
       minFilter: NearestFilter,
       magFilter: NearestFilter,
       generateMipmaps: false,
     });
-    this.shade = new WebGLRenderTarget(SHADE_SIZE, SHADE_SIZE, {
+    this.shade = new WebGLRenderTarget(this.size * SHADE_SHARE, this.size * SHADE_SHARE, {
       depthBuffer: false,
       minFilter: LinearMipmapLinearFilter,
       magFilter: LinearFilter,
@@ -66,7 +68,7 @@ export class Sun {
     uniforms.uShadow = { value: depth };
     uniforms.uShadowBias = { value: 0 };
     uniforms.uShadowTaps = { value: 3 };
-    uniforms.uShadowTexel = { value: 1 / MAP_SIZE };
+    uniforms.uShadowTexel = { value: 1 / this.size };
     uniforms.uShade = { value: this.shade.texture };
     uniforms.uShadeScale = { value: this.scale };
     this.shading = new RawShaderMaterial({
@@ -86,6 +88,17 @@ export class Sun {
     this.whole = new Mesh(geometry, this.shading);
     this.whole.frustumCulled = false;
     this.sheet.add(this.whole);
+  }
+
+  /** Makes the map as fine as a picture of so many pixels along its longer side can show; says whether it is another. */
+  fit(pixels: number): boolean {
+    const size = Math.min(Math.max(2 ** Math.ceil(Math.log2(pixels)), MAP_SIZES[0]), MAP_SIZES[1]);
+    if (size === this.size) return false;
+    this.size = size;
+    this.target.setSize(size, size);
+    this.shade.setSize(size * SHADE_SHARE, size * SHADE_SHARE);
+    this.uniforms.uShadowTexel!.value = 1 / size;
+    return true;
   }
 
   /** Draws the shadows of what stands in `box`, lit from a direction. */
@@ -148,6 +161,6 @@ export class Sun {
     const middle = -e[13]! / e[9]!;
     groundDepth.set(across, upwards, 0.5 * (middle - across - upwards) + 0.5, camera.far - camera.near);
     far.value = camera.far - camera.near;
-    scale.set(SHADE_SIZE / (2 * reach), far.value);
+    scale.set((this.size * SHADE_SHARE) / (2 * reach), far.value);
   }
 }
