@@ -9,7 +9,7 @@ import { SkeletonLines } from "./mode/skeleton-lines";
 import { TraitTexture } from "./mode/trait-texture";
 import { NodeTexture } from "./table/node-texture";
 import { RadiusEase } from "./table/radius-ease";
-import { Dirty, radiusOf, type TreeTable } from "./table/tree-table";
+import { Dirty, type TreeTable } from "./table/tree-table";
 import { Bark } from "./wood/bark";
 import { Branches } from "./wood/branches";
 
@@ -154,7 +154,7 @@ export class TreeView {
     const now = table.now();
     this.radii.begin(
       now,
-      (row) => this.guises.radiusIn(this.guises.wornBy(row), radiusOf(table.radiusCode[row]!)),
+      (row) => this.guises.radiusIn(this.guises.wornBy(row), table.girth.radius[row]!),
       (row, from) => this.nodes.ease(row, from, now),
     );
     this.nodes.upload();

@@ -1,3 +1,4 @@
+import { EASES_OVER, NO_SLOPE, SLOPE_STEPS, STEEPEST } from "../table/girth";
 import { BARK } from "./bark";
 import { HEAD, LIGHT, NODES, NOISE } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
@@ -16,6 +17,13 @@ float rootFlare(float turn, float along, float foot) {
 
 /** Where a limb leaves the axis that bears it. */
 const JUNCTION = /* glsl */ `
+const float STEEPEST = ${STEEPEST.toFixed(3)};
+const float EASES_OVER = ${EASES_OVER.toFixed(3)};
+/** What is left of too much girth after a length of wood, as \`girth.ts\` has it. */
+float excess(float much, float along, float radius) {
+  float straight = clamp((much - STEEPEST * EASES_OVER * radius) / STEEPEST, 0.0, along);
+  return (much - STEEPEST * straight) * exp((straight - along) / (EASES_OVER * max(radius, 1e-4)));
+}
 struct Junction {
   vec3 outward; // of the bearing axis' surface
   float weight; // 1 where the limb comes out of it, 0 where it is wholly its own
@@ -38,7 +46,7 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
   // What goes on above is as thick as the pipe model leaves it.
   float share = min(radius / max(bearing.radius, 1e-4), 1.0);
   float above = bearing.radius * pow(max(1.0 - pow(share, 2.4), 0.04), 0.42);
-  float wood = mix(bearing.radius, above, smoothstep(0.0, 1.0, height));
+  float wood = above + excess(bearing.radius - above, max(height, 0.0), bearing.radius);
   float gap = reach - wood;
   float width = uBarkShape.z * min(1.3 * radius, 0.9 * bearing.radius) + 0.15 * radius;
   float close = clamp(1.0 - gap / max(width, 1e-4), 0.0, 1.0);
@@ -66,9 +74,9 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
 /** Sweeps a ring along one metamer, from its parent's frame to its own. */
 export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}
 in vec4 ring; // cosine, place along the metamer 0 to 1 and on to 2 over a cut end, sine, turn; of a strip, its side first
-in uvec4 metamer; // row, parent's row, row where the axis begins, flags
+in uvec4 metamer; // row, parent's row, row where the limb begins, flags with the slopes of its girth below and above
 uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
-const uint BEGINS_AXIS = 1u;
+const uint BEGINS_LIMB = 1u;
 const uint FROM_SEED = 2u;
 const uint TRUNK = 4u;
 const uint CUT = 8u;
@@ -76,11 +84,12 @@ const uint OVERLAPS = 16u;
 out vec3 vWorld;
 out vec3 vNormal; // of a strip, where its side points
 out vec3 vTangent;
-out vec4 vBark; // turn, length along the axis, radius, how far towards the middle of a cut end or below 0
-out vec4 vBearing; // the same of the axis that bears this one, and how much of its bark shows
+out vec4 vBark; // turn, length along the limb, radius, how far towards the middle of a cut end or below 0
+out vec4 vBearing; // the same of the limb that bears this one, and how much of its bark shows
 out float vLight; // below 0 for what is marked
 out float vTrait;
 ${ROOTS}${JUNCTION}
+float slopeOf(uint code) { return (float(code & 255u) - ${NO_SLOPE.toFixed(1)}) / ${SLOPE_STEPS.toFixed(1)}; }
 /** How thick the wood is at a node: a tip is slim until its axis goes on, unless it has been cut. */
 float woodAt(Node node, bool cut) {
   return node.radius * mix(cut ? 1.0 : 0.42, 1.0, eased(uTime - node.extended, TIP_SECONDS));
@@ -93,7 +102,7 @@ void main() {
     return;
   }
   Node start = nodeAt(int(metamer.y));
-  bool begins = (metamer.w & BEGINS_AXIS) != 0u;
+  bool begins = (metamer.w & BEGINS_LIMB) != 0u;
   bool cut = (metamer.w & CUT) != 0u;
   Node bearing = nodeAt(int(metamer.z));
   float grown = eased(uTime - end.birth, end.growing);
@@ -106,8 +115,8 @@ void main() {
   vec3 n1 = turned(end.turn, vec3(1, 0, 0));
   vec3 n0 = turned(start.turn, vec3(1, 0, 0));
   if (begins) {
-    // A lateral leaves along its bearing axis and bends away; one from the ground comes straight up.
-    t0 = (metamer.w & FROM_SEED) != 0u ? normalize(heading + vec3(0, 0.6, 0)) : normalize(heading + 0.55 * t0);
+    // A lateral leaves along its bearing axis and bends away; one from the ground comes up, one from a cliff straight out.
+    t0 = (metamer.w & FROM_SEED) != 0u ? normalize(heading + vec3(0, 0.6 * max(heading.y, 0.0), 0)) : normalize(heading + 0.55 * t0);
     n0 = n1;
   }
   float smoothing = clamp(uBarkShape.w, 0.0, 1.0);
@@ -131,17 +140,17 @@ void main() {
   float r1 = woodAt(end, cut) * mix(0.25, 1.0, grown);
   float r0 = begins ? end.radius : woodAt(start, false);
   // Widths meet without a corner at the joints; the last metamer is a cone.
+  float drop = r1 - r0;
+  vec2 incline = vec2(slopeOf(metamer.w >> 8u) * r0, slopeOf(metamer.w >> 16u) * r1) * len;
+  // While a width is tried out it may change by less than these slopes say.
+  incline = clamp(incline, vec2(min(0.0, 3.0 * drop)), vec2(max(0.0, 3.0 * drop)));
   bool last = end.extended > 1e8 && !cut;
-  float taper = last ? u2 : 3.0 * u2 - 2.0 * u3;
-  float steepness = last ? 2.0 * u : 6.0 * u - 6.0 * u2;
-  // Where a limb goes on as a mere twig it ends in a knob that bears it.
-  float knob = smoothstep(0.6, 0.35, r1 / max(r0, 1e-4));
-  float reach = 0.9 * min(r0, len) / max(len, 1e-3);
-  float within = min(u / max(reach, 1e-3), 1.0);
-  taper = mix(taper, within * within, knob);
-  steepness = mix(steepness, within < 1.0 ? 2.0 * within / max(reach, 1e-3) : 0.0, knob);
-  float radius = mix(r0, r1, taper) * smoothstep(0.0, 0.02, grown);
-  float slope = (r1 - r0) * steepness / max(len, 1e-3);
+  float radius = last ? r0 + drop * u2 : r0 + drop * (3.0 * u2 - 2.0 * u3)
+    + incline.x * (u3 - 2.0 * u2 + u) + incline.y * (u3 - u2);
+  float slope = last ? 2.0 * drop * u : drop * (6.0 * u - 6.0 * u2)
+    + incline.x * (3.0 * u2 - 4.0 * u + 1.0) + incline.y * (3.0 * u2 - 2.0 * u);
+  slope /= max(len, 1e-3);
+  radius *= smoothstep(0.0, 0.02, grown);
   float along = end.arc - len * (1.0 - u);
   // Where its sides are not those of the tube below, a joint would show gaps.
   if (u == 0.0 && (metamer.w & OVERLAPS) != 0u) centre -= tangent * 0.12 * r0;
@@ -180,8 +189,8 @@ void main() {
     float upwards = (rootFlare(ring.w, along + STEP, foot) - flare) / STEP;
     vNormal = outward - cross(outward, tangent) * (around / flare) - tangent * (slope * flare + radius * upwards);
     radius *= flare;
-    // The foot goes on into the ground, however it slopes.
-    if (begins) centre.y -= (1.0 - u) * (1.0 - u) * 0.5 * foot;
+    // The foot goes on into what it stands on, however that slopes; deeper where it leans, for it is round.
+    if (begins) centre -= t0 * ((1.0 - u) * (1.0 - u) * foot * (0.5 + 0.9 * length(t0.xz) + 1.1 * dot(t0.xz, t0.xz)));
     world = centre + outward * radius * wide;
   } else {
     world = centre + outward * radius * wide;

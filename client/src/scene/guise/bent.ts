@@ -72,7 +72,7 @@ export class Bent implements Guise {
   }
 }
 
-/** The nodes of a path: 0 for the one that bears it, then its own, then those with which axes leave it for good. */
+/** The nodes of a path: 0 for the one that bears it, then its own, then those with which limbs leave it for good. */
 class Chain {
   readonly position: Float32Array;
   readonly parent: Int32Array;
@@ -86,7 +86,7 @@ class Chain {
     private readonly path: readonly number[],
   ) {
     const asides = path.map((row, i) => {
-      const next = table.successor[row]!;
+      const next = table.limbs.onward[row]!;
       return next >= 0 && next !== path[i + 1] ? next : -1;
     });
     const count = 1 + path.length + asides.filter((next) => next >= 0).length;
@@ -105,11 +105,11 @@ class Chain {
     let aside = 1 + path.length;
     for (const [i, row] of path.entries()) {
       this.parent[i + 1] = below < 0 && i === 0 ? -1 : i;
-      this.startsAxis[i + 1] = table.startsAxis[row]!;
+      this.startsAxis[i + 1] = table.limbs.begins[row]!;
       this.position.set(placeOf(table, row), 3 * (i + 1));
       const next = asides[i]!;
       if (next < 0) {
-        if (table.successor[row] === path[i + 1] && i + 1 < path.length) this.successor[i + 1] = i + 2;
+        if (table.limbs.onward[row] === path[i + 1] && i + 1 < path.length) this.successor[i + 1] = i + 2;
         continue;
       }
       this.successor[i + 1] = aside;

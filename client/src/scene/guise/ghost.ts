@@ -89,8 +89,8 @@ export class Ghost {
     const low: [number, number, number] = [Infinity, Infinity, Infinity];
     const high: [number, number, number] = [-Infinity, -Infinity, -Infinity];
     for (const row of rows ?? all(table.rows)) {
-      // A metamer is drawn from its parent's node, and swells where its axis leaves another.
-      for (const needed of [row, table.parent[row]!, table.axisOrigin[row]!]) {
+      // A metamer is drawn from its parent's node, and swells where its limb leaves another.
+      for (const needed of [row, table.parent[row]!, table.limbOrigin[row]!]) {
         if (needed >= 0) this.nodes.write(table, needed);
       }
       this.branches.update(table, row);

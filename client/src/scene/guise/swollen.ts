@@ -46,20 +46,21 @@ export class Swollen implements Guise {
 
   write(table: TreeTable, out: SlotWriter): void {
     const tip = this.girth.twigDiameter / 2;
+    const { radius: drawn } = table.girth;
     const [before, after] = [radiusOf(table.radiusCode[this.row]!), this.diameter / 2];
     const exponent = swelling(before / tip, after / tip);
     out.plain(BRANCH);
     out.swelling(BRANCH, exponent, tip ** (1 - exponent));
     out.plain(LIMB);
     out.frame(LIMB, table.frames, this.row);
-    out.radius(LIMB, after);
+    // A limb that leaves a thick one is drawn a little thicker than it is.
+    out.radius(LIMB, after * (drawn[this.row]! / Math.max(before, 1e-6)));
     out.plain(ABOVE_OTHERS);
     const n = this.girth.exponent;
     for (const [i, row] of this.below.entries()) {
-      const radius = radiusOf(table.radiusCode[row]!);
       out.plain(FIRST_BELOW + i);
       out.frame(FIRST_BELOW + i, table.frames, row);
-      out.radius(FIRST_BELOW + i, borne(radius, before, after, n));
+      out.radius(FIRST_BELOW + i, borne(drawn[row]!, before, after, n));
     }
   }
 

@@ -2,7 +2,7 @@ import { DataTexture, FloatType, NearestFilter, RGBAFormat } from "three";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { grown } from "./column";
 import { EASE_SECONDS, eased } from "./radius-ease";
-import { radiusOf, type TreeTable } from "./tree-table";
+import type { TreeTable } from "./tree-table";
 
 /**
  * Texels each row has: position and radius; frame, and light with the slot; birth, duration, extension and arc. A
@@ -54,13 +54,12 @@ export class NodeTexture {
   write(table: TreeTable, row: number): void {
     const { texels } = this;
     const at = 4 * TEXELS * row;
-    const successor = table.successor[row]!;
+    const onward = table.limbs.onward[row]!;
     texels[at] = table.position[3 * row]!;
     texels[at + 1] = table.position[3 * row + 1]!;
     texels[at + 2] = table.position[3 * row + 2]!;
-    texels[at + 3] = radiusOf(table.radiusCode[row]!);
+    texels[at + 3] = table.girth.radius[row]!;
     const parent = table.parent[row]!;
-    if (parent < 0 && successor >= 0) texels[at + 3] = radiusOf(table.radiusCode[successor]!);
     // A seed is drawn as thick as its trunk, which spreads at its foot by that measure all the way up.
     if (parent >= 0 && table.parent[parent]! < 0 && table.successor[parent] === row) {
       texels[4 * TEXELS * parent + 3] = texels[at + 3]!;
@@ -72,7 +71,7 @@ export class NodeTexture {
     texels[at + 7] = worn(this.slots[row]!, table.light[row]!);
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
-    texels[at + 10] = successor < 0 ? NEVER : table.birth[successor]!;
+    texels[at + 10] = onward < 0 ? NEVER : table.birth[onward]!;
     texels[at + 11] = table.arc[row]!;
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }

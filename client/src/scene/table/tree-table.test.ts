@@ -128,7 +128,7 @@ describe("the table", () => {
     const lateral = rows([5, 256, 0, 0, 300], [2, 256, 0, 0, 300]);
     table.apply(frame(2, [{ change: "append", chunk: 0, generation: 2, start: 4, rows: lateral }]));
     expect([...table.successor.slice(0, 6)]).toEqual([1, 2, 3, -1, 5, -1]);
-    expect(table.axisOrigin[5]).toBe(2);
+    expect(table.limbOrigin[5]).toBe(2);
     expect(table.arc[5]).toBeCloseTo(2);
     const dead: ChunkChange = {
       change: "patch",

@@ -3,6 +3,8 @@ import { CHUNK_ROWS, MIN_RADIUS, POSITION_STEPS, RADIUS_LOG_STEP } from "../../w
 import { Bounds } from "./bounds";
 import { Cascade } from "./cascade";
 import { grown } from "./column";
+import { Girth } from "./girth";
+import { Limbs } from "./limbs";
 import { type Skeleton, updateFrame } from "./node-frames";
 
 /** What changed in a row since the last `drain`. */
@@ -20,9 +22,13 @@ const MAX_QUANTISED = 1 << 22;
 /** Rows at which the table refuses to grow: four times the largest document. */
 const MAX_ROWS = 1 << 22;
 
+/** Radii of codes that somebody has asked for; a step in time asks for those of a whole tree. */
+const RADII = new Float64Array(1 << 16);
+
 /** Radius in internodes of a code; 0 for the dead. */
 export function radiusOf(code: number): number {
-  return code === 0 ? 0 : MIN_RADIUS * Math.exp((code - 1) * RADIUS_LOG_STEP);
+  if (code !== 0 && RADII[code] === 0) RADII[code] = MIN_RADIUS * Math.exp((code - 1) * RADIUS_LOG_STEP);
+  return RADII[code]!;
 }
 
 /** The table of rows a session's frames build, with what drawing them needs derived. */
@@ -54,10 +60,14 @@ export class TreeTable implements Skeleton {
   successor = new Int32Array(0);
   /** Quaternion of each node's frame, x y z w with w ≥ 0. */
   frames = new Float32Array(0);
-  /** Length along the axis from where it begins, in internodes. */
+  /** Which rows are one limb, as it is drawn. */
+  readonly limbs = new Limbs();
+  /** How thick they are drawn. */
+  readonly girth = new Girth();
+  /** Length along the limb from where it begins, in internodes. */
   arc = new Float32Array(0);
-  /** The row at which the axis begins, which belongs to the bearing axis. */
-  axisOrigin = new Int32Array(0);
+  /** The row at which the limb begins, which belongs to the limb that bears it. */
+  limbOrigin = new Int32Array(0);
   /** When each row begins to grow, in seconds of `now`. */
   birth = new Float32Array(0);
   /** How long it takes to grow. */
@@ -76,6 +86,8 @@ export class TreeTable implements Skeleton {
   private moved = new Uint8Array(0);
   private turned = new Uint8Array(0);
   private firstStale = Number.POSITIVE_INFINITY;
+  /** What frames are computed from: limbs as they are drawn. */
+  private drawn: Skeleton = this;
   private readonly extent = new Bounds();
   private readonly start: number;
 
@@ -97,6 +109,12 @@ export class TreeTable implements Skeleton {
   bounds(): Bounds {
     this.extent.refresh(this);
     return this.extent;
+  }
+
+  /** The radius in internodes that the server has for a row; 0 for the dead, and a seed has its trunk's. */
+  radiusOf(row: number): number {
+    const sown = this.parent[row]! < 0 ? this.successor[row]! : row;
+    return sown < 0 ? 0 : radiusOf(this.radiusCode[sown]!);
   }
 
   /** Forgets every row and the epoch. */
@@ -173,7 +191,9 @@ export class TreeTable implements Skeleton {
     if (rows >= this.rows) return;
     for (let row = rows; row < this.rows; row += 1) {
       const parent = this.parent[row]!;
-      if (parent >= 0 && parent < rows && this.successor[parent] === row) this.setSuccessor(parent, -1);
+      if (parent < 0 || parent >= rows) continue;
+      if (this.successor[parent] === row) this.setSuccessor(parent, -1);
+      this.limbs.leave(row);
     }
     this.dirty.bits.fill(0, rows, this.rows);
     this.staleFrames.fill(0, rows, this.rows);
@@ -202,7 +222,7 @@ export class TreeTable implements Skeleton {
     this.rows = Math.max(this.rows, end);
     for (let i = 0; i < rows.parent.length; i += 1) {
       const row = first + i;
-      if (row >= known) this.successor[row] = -1;
+      if (row >= known) this.welcome(row);
       else this.unlink(row);
       this.setParent(row, rows.parent[i]!);
       this.setPosition(row, rows.position[3 * i]!, rows.position[3 * i + 1]!, rows.position[3 * i + 2]!);
@@ -214,6 +234,11 @@ export class TreeTable implements Skeleton {
       this.link(row);
       this.mark(row, Dirty.Drawn | Dirty.Shape);
     }
+  }
+
+  private welcome(row: number): void {
+    this.successor[row] = -1;
+    this.limbs.welcome(row);
   }
 
   private patch(change: Extract<ChunkChange, { change: "patch" }>): void {
@@ -256,6 +281,9 @@ export class TreeTable implements Skeleton {
   private setRadius(row: number, code: number): void {
     const before = this.radiusCode[row]!;
     this.radiusCode[row] = code;
+    this.girth.touch(row);
+    this.limbs.touch(row);
+    if (this.parent[row]! >= 0) this.limbs.touch(this.parent[row]!);
     if ((before === 0) === (code === 0)) {
       this.mark(row, Dirty.Drawn);
       return;
@@ -289,7 +317,11 @@ export class TreeTable implements Skeleton {
     }
     this.markStale(row);
     this.moved[row] = 1;
-    if (parent >= 0) this.markStale(parent);
+    this.limbs.touch(row);
+    this.girth.touch(row);
+    if (parent < 0) return;
+    this.markStale(parent);
+    this.limbs.touch(parent);
   }
 
   /** Makes a living row that continues its parent's axis known to the parent. */
@@ -299,16 +331,21 @@ export class TreeTable implements Skeleton {
     // A seed has no axis of its own: what grows from it first continues it, whatever its flag says.
     if (this.startsAxis[row] === 0 || (this.parent[parent]! < 0 && this.successor[parent]! < 0)) {
       this.setSuccessor(parent, row);
+    } else {
+      this.limbs.bear(parent, row);
     }
   }
 
   private unlink(row: number): void {
+    this.limbs.leave(row);
     const parent = this.parent[row]!;
     if (parent >= 0 && this.successor[parent] === row) this.setSuccessor(parent, -1);
   }
 
   private setSuccessor(row: number, successor: number): void {
     this.successor[row] = successor;
+    this.limbs.touch(row);
+    this.girth.touch(row);
     this.markStale(row);
     this.mark(row, Dirty.Drawn);
   }
@@ -319,7 +356,9 @@ export class TreeTable implements Skeleton {
   }
 
   private mark(row: number, bits: number): void {
-    this.dirty.bits[row]! |= bits;
+    const before = this.dirty.bits[row]!;
+    if ((before & bits) === bits) return;
+    this.dirty.bits[row] = before | bits;
     this.dirty.chunks.add(Math.floor(row / CHUNK_ROWS));
   }
 
@@ -335,8 +374,18 @@ export class TreeTable implements Skeleton {
     this.settledAt = Math.max(this.settledAt, last);
   }
 
-  /** Brings frames, arcs and axes up to date, in row order so that parents come first. */
+  /** Brings limbs, frames, arcs and girth up to date, in row order so that parents come first. */
   private derive(): void {
+    this.limbs.judge(this, (row) => {
+      this.markStale(row);
+      this.girth.touch(row);
+      this.mark(row, Dirty.Drawn);
+    });
+    this.frame();
+    this.girth.derive(this, (row) => this.mark(row, Dirty.Drawn));
+  }
+
+  private frame(): void {
     for (let row = this.firstStale; row < this.rows; row += 1) {
       const parent = this.parent[row]!;
       if (parent >= 0 && this.moved[parent] === 1) {
@@ -347,13 +396,14 @@ export class TreeTable implements Skeleton {
       if (parent >= 0 && this.turned[parent] === 1) this.staleFrames[row] = 1;
       if (this.staleFrames[row] === 0) continue;
       this.staleFrames[row] = 0;
-      const turned = updateFrame(this, this.frames, row);
+      const turned = updateFrame(this.drawn, this.frames, row);
       if (turned) this.turned[row] = 1;
       const measured = this.measure(row, parent);
       if (!turned && !measured) continue;
       this.mark(row, Dirty.Drawn);
-      const successor = this.successor[row]!;
-      if (successor >= 0) this.staleFrames[successor] = 1;
+      if (measured) this.girth.touch(row);
+      const onward = this.limbs.onward[row]!;
+      if (onward >= 0) this.staleFrames[onward] = 1;
     }
     this.moved.fill(0, Math.min(this.firstStale, this.rows), this.rows);
     this.turned.fill(0, Math.min(this.firstStale, this.rows), this.rows);
@@ -363,7 +413,7 @@ export class TreeTable implements Skeleton {
   private measure(row: number, parent: number): boolean {
     if (parent < 0) {
       this.arc[row] = 0;
-      this.axisOrigin[row] = row;
+      this.limbOrigin[row] = row;
       return false;
     }
     const { position } = this;
@@ -372,12 +422,12 @@ export class TreeTable implements Skeleton {
       position[3 * row + 1]! - position[3 * parent + 1]!,
       position[3 * row + 2]! - position[3 * parent + 2]!,
     );
-    const begins = this.startsAxis[row] === 1 || this.parent[parent]! < 0;
+    const begins = this.limbs.begins[row] === 1 || this.parent[parent]! < 0;
     const arc = length + (begins ? 0 : this.arc[parent]!);
-    const origin = begins ? parent : this.axisOrigin[parent]!;
-    const changed = Math.abs(arc - this.arc[row]!) > 1e-3 || origin !== this.axisOrigin[row];
+    const origin = begins ? parent : this.limbOrigin[parent]!;
+    const changed = Math.abs(arc - this.arc[row]!) > 1e-3 || origin !== this.limbOrigin[row];
     this.arc[row] = arc;
-    this.axisOrigin[row] = origin;
+    this.limbOrigin[row] = origin;
     return changed;
   }
 
@@ -397,12 +447,16 @@ export class TreeTable implements Skeleton {
     this.successor = grown(this.successor, room);
     this.frames = grown(this.frames, 4 * room);
     this.arc = grown(this.arc, room);
-    this.axisOrigin = grown(this.axisOrigin, room);
+    this.limbOrigin = grown(this.limbOrigin, room);
     this.birth = grown(this.birth, room);
     this.growing = grown(this.growing, room);
     this.staleFrames = grown(this.staleFrames, room);
     this.moved = grown(this.moved, room);
     this.turned = grown(this.turned, room);
     this.dirty.bits = grown(this.dirty.bits, room);
+    this.limbs.reserve(room);
+    this.girth.reserve(room);
+    const { position, parent } = this;
+    this.drawn = { position, parent, successor: this.limbs.onward, startsAxis: this.limbs.begins };
   }
 }

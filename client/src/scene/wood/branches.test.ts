@@ -179,7 +179,7 @@ describe("branches", { timeout: 30_000 }, () => {
         const { array } = geometry.getAttribute("metamer");
         for (let i = 0; i < Number((geometry as unknown as { instanceCount: number }).instanceCount); i += 1) {
           const [row, parent, flags] = [array[4 * i]!, array[4 * i + 1]!, array[4 * i + 3]!];
-          const passes = table.startsAxis[row] === 0 && level.has(parent) && level.get(parent) !== level.get(row);
+          const passes = table.limbs.begins[row] === 0 && level.has(parent) && level.get(parent) !== level.get(row);
           expect((flags & 16) !== 0, `row ${row}`).toBe(passes);
           if (passes) joints += 1;
         }
@@ -208,8 +208,13 @@ describe("branches", { timeout: 30_000 }, () => {
     const branches = branchesOf(table);
     expect([...drawn([branches.faces]).keys()]).not.toContain(3);
     // It is cut as well, and a stub is left.
-    table.radiusCode[12] = 0;
-    branches.update(table, 12);
+    const patch = { change: "patch", chunk: 0, generation: 2, column: "radius" } as const;
+    const changes = [{ ...patch, rows: Uint8Array.of(12, 13), values: Uint16Array.of(0, 0) }];
+    table.apply({ epoch: 1, sequence: 2, catchUp: true, changes });
+    table.drain(
+      () => undefined,
+      (row) => branches.update(table, row),
+    );
     branches.upload();
     expect([...drawn([branches.faces]).keys()]).toContain(3);
     expect([...drawn([branchesOf(cutAbove(0.2)).faces]).keys()], "a slim one does not").toContain(3);

@@ -1,18 +1,23 @@
 import { type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
 import { type BarkLook, DEFAULT_APPEARANCE, RADIUS_LOG_STEP } from "../../wire/generated";
 import { grown } from "../table/column";
-import { radiusOf, type TreeTable } from "../table/tree-table";
+import { slopeCode } from "../table/girth";
+import type { TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
 import type { Bark } from "./bark";
 import { BranchBin } from "./branch-bin";
 import { LEVELS, levelFor } from "./branch-levels";
 import { face, ribbon, tube } from "./branch-shapes";
 
-const BEGINS_AXIS = 1;
+const BEGINS_LIMB = 1;
 const FROM_SEED = 2;
 const TRUNK = 4;
 const CUT = 8;
 const OVERLAPS = 16;
+
+/** Where the flags hold how the girth changes at both ends of a metamer. */
+const SLOPE_BELOW = 8;
+const SLOPE_ABOVE = 16;
 
 const NOWHERE = -1;
 /** Sides of a cut end. */
@@ -21,8 +26,6 @@ const FACE_SIDES = 16;
 const CASTER_SEGMENTS = 3;
 /** An end this many codes thicker than the thinnest twig has lost what made it so thick: it was cut. */
 const THICK_END = Math.ceil(Math.log(1.7) / RADIUS_LOG_STEP);
-/** A lateral at most this many codes thinner than the end that bears it goes on in its place. */
-const HEIR = Math.ceil(Math.log(1.6) / RADIUS_LOG_STEP);
 /** Rows looked at again in a frame after the eye has moved; more would be felt. */
 const ROWS_A_FRAME = 20_000;
 /** What an internode counts as before anybody has looked, in pixels. */
@@ -70,10 +73,6 @@ export class Branches {
   private slot = new Int32Array(0);
   private endSlot = new Int32Array(0);
   private known = 0;
-  /** The radius code of the thickest lateral that each row bears. */
-  private thickest = new Uint16Array(0);
-  /** The row that bears the axis each row begins, or nowhere. */
-  private bearer = new Int32Array(0);
   /** The least radius code of a living row. */
   private thinnest = 0;
   private onlooker: Onlooker | null = null;
@@ -105,11 +104,7 @@ export class Branches {
 
   /** Rows from `rows` on are gone. */
   truncate(rows: number): void {
-    for (let row = rows; row < this.known; row += 1) {
-      this.leave(row);
-      const bearer = this.bearer[row]!;
-      if (bearer !== NOWHERE) this.thickest[bearer] = 0;
-    }
+    for (let row = rows; row < this.known; row += 1) this.leave(row);
     this.known = Math.min(this.known, rows);
     if (rows === 0) this.thinnest = 0;
   }
@@ -119,10 +114,6 @@ export class Branches {
     if (row >= this.known) this.welcome(table, row);
     const parent = table.parent[row]!;
     const code = table.radiusCode[row]!;
-    if (parent >= 0 && table.startsAxis[row] === 1) {
-      this.bearer[row] = parent;
-      this.bear(table, parent, code);
-    }
     if (parent < 0 || code === 0) {
       this.leave(row);
       return;
@@ -130,18 +121,21 @@ export class Branches {
     if (this.thinnest === 0) this.thinnest = thinnestOf(table);
     if (code < this.thinnest) this.thinnest = code;
     const fromSeed = table.parent[parent]! < 0;
-    const origin = table.axisOrigin[row]!;
+    const origin = table.limbOrigin[row]!;
+    const begins = table.limbs.begins[row] === 1 || fromSeed;
     const cut = this.isCut(table, row);
     const level = this.fitting(table, row);
     const flags =
       this.jointAt(table, row, level) |
-      (table.startsAxis[row] === 1 || fromSeed ? BEGINS_AXIS : 0) |
+      (begins ? BEGINS_LIMB : 0) |
       (fromSeed ? FROM_SEED : 0) |
       (table.parent[origin]! < 0 ? TRUNK : 0) |
-      (cut ? CUT : 0);
+      (cut ? CUT : 0) |
+      (slopeCode(begins ? 0 : table.girth.slope[parent]!) << SLOPE_BELOW) |
+      (slopeCode(table.girth.slope[row]!) << SLOPE_ABOVE);
     const changed = this.level[row] !== level;
     this.place(row, level, parent, origin, flags);
-    if (changed) this.rejoin(table, table.successor[row]!);
+    if (changed) this.rejoin(table, table.limbs.onward[row]!);
     this.showFace(row, cut, parent, origin, flags);
   }
 
@@ -198,26 +192,13 @@ export class Branches {
     this.bark?.dispose();
   }
 
-  /** Whether a row is where a limb was cut off, and not one where a lateral goes on in its place. */
+  /** Whether a row is where a limb was cut off. */
   private isCut(table: TreeTable, row: number): boolean {
-    const code = table.radiusCode[row]!;
-    return table.successor[row]! < 0 && code > this.thinnest + THICK_END && this.thickest[row]! + HEIR < code;
-  }
-
-  /** A lateral has this radius code now, 0 if it is gone; its bearer is drawn anew where that ends its cut or makes one. */
-  private bear(table: TreeTable, bearer: number, code: number): void {
-    if (bearer >= this.known || (code !== 0 && code <= this.thickest[bearer]!)) return;
-    const before = this.isCut(table, bearer);
-    this.thickest[bearer] = code;
-    if (this.isCut(table, bearer) !== before) this.update(table, bearer);
+    return table.limbs.onward[row]! < 0 && table.radiusCode[row]! > this.thinnest + THICK_END;
   }
 
   private welcome(table: TreeTable, row: number): void {
     const room = table.parent.length;
-    this.bearer = grown(this.bearer, room);
-    this.bearer.fill(NOWHERE, this.known, row + 1);
-    this.thickest = grown(this.thickest, room);
-    this.thickest.fill(0, this.known, row + 1);
     this.level = grown(this.level, room);
     this.slot = grown(this.slot, room);
     this.endSlot = grown(this.endSlot, room);
@@ -277,14 +258,14 @@ export class Branches {
     const at = this.bins[level]!.count - 1;
     this.slot[row] = at;
     this.rejoin(table, row);
-    this.rejoin(table, table.successor[row]!);
+    this.rejoin(table, table.limbs.onward[row]!);
     const [, parent, origin, flags] = this.bins[level]!.read(at);
     if (flags & CUT) this.showFace(row, true, parent, origin, flags);
   }
 
-  /** Where an axis passes from one level to another its tubes have to overlap: rings with other sides leave gaps. */
+  /** Where a limb passes from one level to another its tubes have to overlap: rings with other sides leave gaps. */
   private jointAt(table: TreeTable, row: number, level: number): number {
-    if (table.startsAxis[row] === 1) return 0;
+    if (table.limbs.begins[row] === 1) return 0;
     const below = this.level[table.parent[row]!] ?? NOWHERE;
     return below !== NOWHERE && below !== level ? OVERLAPS : 0;
   }
@@ -293,7 +274,7 @@ export class Branches {
     const level = row >= 0 && row < this.known ? this.level[row]! : NOWHERE;
     if (level === NOWHERE) return;
     const [, parent, origin, flags] = this.bins[level]!.read(this.slot[row]!);
-    const joined = (flags & ~OVERLAPS) | this.jointAt(table, row, level);
+    const joined = ((flags & ~OVERLAPS) | this.jointAt(table, row, level)) >>> 0;
     if (joined !== flags) this.bins[level]!.write(this.slot[row]!, row, parent, origin, joined);
   }
 
@@ -308,9 +289,9 @@ export class Branches {
       pixels = onlooker.pixels / Math.max(NEAREST, Math.sqrt(dx * dx + dy * dy + dz * dz));
     }
     // A twig that goes on from a limb begins with the limb's end.
-    const parent = table.parent[row]!;
-    const below = table.startsAxis[row] === 1 ? 0 : 0.5 * radiusOf(table.radiusCode[parent]!);
-    const radius = Math.max(radiusOf(table.radiusCode[row]!), below);
+    const { radius: drawn } = table.girth;
+    const below = table.limbs.begins[row] === 1 ? 0 : 0.5 * drawn[table.parent[row]!]!;
+    const radius = Math.max(drawn[row]!, below);
     const level = levelFor(radius * pixels, pixels, this.level[row]!);
     return Math.min(level, this.coarsest);
   }
