@@ -1,3 +1,4 @@
+import { numberText } from "./ui/controls/number-text";
 import { say } from "./words";
 
 /** The widest brush, in internodes (`LM2`). */
@@ -32,5 +33,5 @@ export function stepRadius(radius: number, notches: number): number {
 
 /** The radius in words. */
 export function radiusLabel(radius: number): string {
-  return radius === 0 ? say("bars.radius.short") : radius < 10 ? radius.toFixed(1) : radius.toFixed(0);
+  return radius === 0 ? say("bars.radius.short") : numberText(radius, radius < 10 ? 0.1 : 1);
 }

@@ -257,6 +257,29 @@ describe("frames", () => {
     expect([admits(40, true), admits(40, true, 8)]).toEqual([true, false]);
   });
 
+  it("frames that stay unreadable are asked for ever less often", () => {
+    const { core, connect, welcome } = setUp();
+    connect();
+    let now = 0;
+    const waits = [];
+    for (let i = 0; i < 7; i++) {
+      // Something may well be read before it fails again.
+      core.applied({ epoch: 7, sequence: 1, catchUp: true });
+      core.invalid(now);
+      waits.push((core.deadline ?? 0) - now);
+      now = core.deadline ?? 0;
+      core.tick(now);
+      core.opened(now);
+      welcome(now, 0);
+      core.effects();
+    }
+    expect(waits).toEqual([250, 1000, 4000, 16_000, 60_000, 60_000, 60_000]);
+    expect(core.garbled).toBe(7);
+    core.invalid(now + 200_000);
+    expect(core.garbled, "after a long good time it is as the first").toBe(1);
+    expect((core.deadline ?? 0) - now - 200_000).toBe(250);
+  });
+
   it("FR1: an invalid frame connects again without resume", () => {
     const { core, connect } = setUp({ resume: () => ({ epoch: 7, generations: [1], rows: 3 }) });
     connect();

@@ -22,6 +22,10 @@ export const PONG_WITHIN = 5000;
 export const OPEN_WITHIN = 8000;
 const BACKOFF_FIRST = 250;
 const BACKOFF_LAST = 8000;
+/** The longest wait after frames that could not be read: each attempt brings the whole tree. */
+const BACKOFF_GARBLED = 60_000;
+/** A connection that has lasted so long is as good as any, whatever came before it. */
+const GARBLED_FOR = 120_000;
 
 export type Phase = "idle" | "opening" | "greeting" | "connected" | "waiting" | "stopped";
 export type StopReason = "unknown-session" | "version";
@@ -98,6 +102,9 @@ export class ConnectionCore {
   #epoch = 0;
   #sequence: number | null = null;
   #resumable = true;
+  /** How often of late frames could not be read, and when they last could not. */
+  #garbled = 0;
+  #garbledAt = 0;
   #effects: Effect[] = [];
 
   constructor(options: CoreOptions) {
@@ -121,6 +128,11 @@ export class ConnectionCore {
   /** Failed attempts since the last welcome. */
   get attempts(): number {
     return this.#attempts;
+  }
+
+  /** How often of late the connection was given up since frames could not be read. */
+  get garbled(): number {
+    return this.#garbled;
   }
 
   /** When `tick` is next due, in the clock of the calls. */
@@ -267,7 +279,10 @@ export class ConnectionCore {
     if (this.#phase === "connected") {
       this.#resumable = false;
       this.#effects.push({ kind: "close" });
-      this.#retry(now);
+      // A welcome does not make it good: what comes after it may be as wrong as before.
+      this.#garbled = now - this.#garbledAt > GARBLED_FOR ? 1 : this.#garbled + 1;
+      this.#garbledAt = now;
+      this.#retry(now, BACKOFF_FIRST * 2 ** (2 * Math.min(this.#garbled - 1, 10)), BACKOFF_GARBLED);
     }
   }
 
@@ -324,8 +339,8 @@ export class ConnectionCore {
     this.#effects.push({ kind: "open" });
   }
 
-  #retry(now: number): void {
-    const delay = Math.min(BACKOFF_LAST, BACKOFF_FIRST * 2 ** Math.min(this.#attempts, 10));
+  #retry(now: number, wait = BACKOFF_FIRST * 2 ** Math.min(this.#attempts, 10), longest = BACKOFF_LAST): void {
+    const delay = Math.min(longest, wait);
     this.#attempts += 1;
     this.#phase = "waiting";
     this.#pinged = null;

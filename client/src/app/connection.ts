@@ -47,7 +47,7 @@ export interface AsideFrame {
 
 /** What the page is told. */
 export interface ConnectionEvents<Aside> {
-  phase(phase: Phase, attempts: number, stopped: StopReason | null): void;
+  phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void;
   commands(sent: number, settled: number): void;
   state(state: DocumentState): void;
   parameters(parameters: Parameters): void;
@@ -284,7 +284,7 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
           break;
       }
     }
-    events.phase(this.#core.phase, this.#core.attempts, this.#core.stopReason);
+    events.phase(this.#core.phase, this.#core.attempts, this.#core.stopReason, this.#core.garbled);
     events.commands(this.#core.next - 1, this.#core.settled);
     this.#arm();
   }

@@ -34,9 +34,10 @@ export async function sessionExists(session: string): Promise<boolean> {
   }
 }
 
-/** The saved trees, newest first. */
-export function listTrees(): Promise<SavedTree[]> {
-  return ask<SavedTree[]>("GET", "/api/trees");
+/** So many saved trees, newest first; behind the one named, if one is. */
+export function listTrees(limit: number, behind?: string): Promise<SavedTree[]> {
+  const page = new URLSearchParams({ limit: String(limit), ...(behind === undefined ? {} : { behind }) });
+  return ask<SavedTree[]>("GET", `/api/trees?${page}`);
 }
 
 /** Saves a session's plants in the library. */

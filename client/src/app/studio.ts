@@ -34,7 +34,8 @@ import { Tour } from "./tour";
 import { say } from "./words";
 
 /** Cards over the workspace, one at a time. */
-export type SheetName = "save" | "library" | "share" | "help" | "settings";
+export const SHEET_NAMES = ["save", "library", "share", "help", "settings"] as const;
+export type SheetName = (typeof SHEET_NAMES)[number];
 
 /** The panels, as they stand in the tool bar. */
 export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "background", "scene"] as const;
@@ -54,6 +55,8 @@ export class Studio {
   readonly session = signal<string | null>(null);
   readonly phase = signal<Phase>("idle");
   readonly attempts = signal(0);
+  /** How often of late what the server sent could not be read. */
+  readonly garbled = signal(0);
   readonly hindrance = signal<Hindrance | null>(null);
   readonly document = signal<DocumentState | null>(null);
   /** What trees grow by, as it is set here and by others. */
@@ -319,7 +322,10 @@ export class Studio {
       newKey: newClientKey,
       ...(record ? { record } : {}),
       events: {
-        phase: (phase, attempts, stopped) => this.#onPhase(phase, attempts, stopped),
+        phase: (phase, attempts, stopped, garbled) => {
+          this.garbled.value = garbled;
+          this.#onPhase(phase, attempts, stopped);
+        },
         commands: (sent, settled) => {
           batch(() => {
             this.sent.value = sent;

@@ -17,6 +17,11 @@ export function say(key: Key, values: Readonly<Record<string, string | number>> 
   return text.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole));
 }
 
+/** A text in every language, for searches. */
+export function inAll(key: Key): string {
+  return TABLE[key].join(" ");
+}
+
 /** The language among ours that a person's browser asks for first. */
 export function preferredLanguage(asked: readonly string[]): Language {
   for (const tag of asked) {

@@ -26,7 +26,8 @@ import { SeedTool } from "./seed-tool";
 import { type GripTool, PICK_TOLERANCE, type StrokeTool } from "./tool";
 import { WidthTool } from "./width-tool";
 
-export type ToolName = "brush" | "lasso" | "seed" | "branch" | "bend" | "width" | "prune";
+export const TOOL_NAMES = ["brush", "lasso", "seed", "branch", "bend", "width", "prune"] as const;
+export type ToolName = (typeof TOOL_NAMES)[number];
 
 /** What the tools work with. */
 export interface Workshop {

@@ -1,4 +1,3 @@
-import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { SECTIONS, SWITCHES, WIDGETS } from "../growth-parameters";
 import { speciesName } from "../species-choice";
@@ -10,17 +9,12 @@ import { SchematicTree } from "./architecture/schematic-tree";
 import { SidesWidget } from "./architecture/sides-widget";
 import { SpeciesGrid } from "./architecture/species-grid";
 import { kinNow, useSpecies } from "./architecture/species-list";
+import { TABS, tab } from "./architecture/tab";
 import { WeightsWidget } from "./architecture/weights-widget";
 import { WidgetFrame } from "./architecture/widget";
 import { Section } from "./controls/section";
 import { Panel } from "./panel";
 import { ParameterControl } from "./parameter-control";
-
-const TABS = ["species", "form", "growth"] as const;
-type Tab = (typeof TABS)[number];
-
-/** It outlasts the panel, which opens as it was closed. */
-const tab = signal<Tab>("species");
 
 /** What trees grow by (TreeSketch §3.4): a small tree that shows it, species, widgets to pull at, and sliders. */
 export function ArchitecturePanel({ studio }: { studio: Studio }) {

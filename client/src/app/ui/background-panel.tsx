@@ -9,6 +9,7 @@ import { ResetAll } from "./looks/reset-all";
 import { GroundPicture, SkyPicture } from "./looks/scenery-pictures";
 import { SunDial } from "./looks/sun-dial";
 import { SWATCHES } from "./looks/swatches";
+import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
 
 const SKIES: readonly Sky[] = ["meadow", "clear", "overcast", "studio"];
@@ -21,6 +22,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
   const patch = (fields: Partial<typeof standard>) => ({ background: fields });
   return (
     <Panel studio={studio} title={say("panels.background")}>
+      <UnlitNote studio={studio} />
       <Section name="background.sun" title={say("background.sun")} open>
         <SunDial studio={studio} />
         <Switch

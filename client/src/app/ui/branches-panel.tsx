@@ -10,6 +10,7 @@ import { BarkPicture } from "./looks/bark-picture";
 import { LookSlider } from "./looks/look-slider";
 import { ResetAll } from "./looks/reset-all";
 import { SWATCHES } from "./looks/swatches";
+import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
 
@@ -22,6 +23,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
   const withTint = (tint: [number, number, number]) => ({ bark: { tint } });
   return (
     <Panel studio={studio} title={say("panels.branches")}>
+      <UnlitNote studio={studio} />
       <Section name="branches.bark" title={say("branches.bark")} open>
         <Choice
           label={say("bark.kind")}

@@ -18,6 +18,7 @@ export function DrawModeMenu({ studio }: { studio: Studio }) {
       <button
         type="button"
         class="tool"
+        data-place="draw-modes"
         aria-label={say("drawmode.menu")}
         title={say("drawmode.menu.title")}
         aria-expanded={open}

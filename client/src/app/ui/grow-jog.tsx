@@ -33,6 +33,7 @@ export function GrowJog({ studio }: { studio: Studio }) {
   return (
     <div
       class="jog"
+      data-place="grow"
       ref={lever}
       role="slider"
       tabIndex={0}

@@ -1,9 +1,11 @@
 import { useState } from "preact/hooks";
-import { helpGroups, searched, type TopicGroup } from "../help-topics";
+import { helpGroups, type Subject, searched, type TopicGroup } from "../help-topics";
 import type { Studio } from "../studio";
 import { type Key, say } from "../words";
 import { GestureSketch } from "./gesture-sketch";
+import { Icon } from "./icons";
 import { Sheet } from "./sheet";
+import { showSubject } from "./show-subject";
 
 /** What is only found by searching; the panels explain it where it stands. */
 const SEARCHED_ONLY: Key = "help.group.controls";
@@ -47,27 +49,50 @@ export function HelpSheet({ studio }: { studio: Studio }) {
       </p>
       <div class="help">
         {shown.map((group) => (
-          <Group key={group.title} group={group} />
+          <Group key={group.title} group={group} onShow={(subject) => showSubject(studio, subject)} />
         ))}
       </div>
     </Sheet>
   );
 }
 
-function Group({ group: { title, topics } }: { group: TopicGroup }) {
+interface GroupProps {
+  readonly group: TopicGroup;
+  readonly onShow: (subject: Subject) => void;
+}
+
+function Group({ group: { title, topics }, onShow }: GroupProps) {
   const cards = topics.some(({ sketch }) => sketch !== undefined);
   return (
     <section class={cards ? "help-group cards" : "help-group"}>
       <h3>{say(title)}</h3>
       <dl>
-        {topics.map(({ id, title, text, keys, sketch }) => (
-          <div key={id}>
+        {topics.map(({ id, title, text, keys, sketch, subject }) => (
+          <div key={id} data-topic={id}>
             {sketch && <GestureSketch name={sketch} />}
             <dt>{keys === undefined ? title : <kbd>{keys}</kbd>}</dt>
             <dd>{text}</dd>
+            {subject && (
+              <dd class="help-show">
+                <button
+                  type="button"
+                  aria-label={say("help.show.what", { title })}
+                  title={say("help.show")}
+                  onClick={() => onShow(subject)}
+                >
+                  <GoIcon />
+                </button>
+              </dd>
+            )}
           </div>
         ))}
       </dl>
     </section>
   );
 }
+
+const GoIcon = () => (
+  <Icon>
+    <path d="M5 12h13.5M13 6.5l5.5 5.5-5.5 5.5" />
+  </Icon>
+);

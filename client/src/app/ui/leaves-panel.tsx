@@ -14,6 +14,7 @@ import { Ends, FlowerSection, FruitSection } from "./looks/ornament-section";
 import { ResetAll } from "./looks/reset-all";
 import { SeasonButtons, seasonName } from "./looks/season-pictures";
 import { SWATCHES } from "./looks/swatches";
+import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
 
@@ -36,6 +37,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
   const withTint = (tint: [number, number, number]) => ({ leaves: { tint } });
   return (
     <Panel studio={studio} title={say("panels.leaves")}>
+      <UnlitNote studio={studio} />
       <LookSlider
         studio={studio}
         name="leaves.season"

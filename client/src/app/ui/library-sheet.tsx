@@ -1,6 +1,7 @@
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import type { SavedTree } from "../../wire/generated";
 import { deleteTree, listTrees, renameTree } from "../library-api";
+import { LibraryPages } from "../library-pages";
 import { sentence } from "../plain-words";
 import type { Studio } from "../studio";
 import { language, say } from "../words";
@@ -9,26 +10,52 @@ import { Sheet } from "./sheet";
 
 /** The saved trees; a tap opens one as a new session. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
-  const [trees, setTrees] = useState<readonly SavedTree[] | null>(null);
-  const [failure, setFailure] = useState<string | null>(null);
-  useEffect(() => {
-    listTrees().then(setTrees, (error: unknown) => setFailure(sentence(error)));
-  }, []);
-
-  const replace = (id: string, tree: SavedTree | null) =>
-    setTrees((all) => (all ?? []).flatMap((other) => (other.id !== id ? other : (tree ?? []))));
-
+  const pages = useMemo(() => new LibraryPages(listTrees), []);
+  const trees = pages.trees.value;
+  const failure = pages.failure.value;
+  useEffect(() => void pages.next(), [pages]);
   return (
     <Sheet studio={studio} title={say("sheets.library")} wide>
-      {failure !== null && <p class="quiet empty">{failure}</p>}
       {trees === null && failure === null && <p class="quiet empty">{say("notices.looking")}</p>}
       {trees?.length === 0 && <p class="quiet empty">{say("sheets.library.empty")}</p>}
       <ul class="library">
         {trees?.map((tree) => (
-          <TreeCard key={tree.id} studio={studio} tree={tree} onChange={(changed) => replace(tree.id, changed)} />
+          <TreeCard key={tree.id} studio={studio} tree={tree} onChange={(changed) => pages.replace(tree.id, changed)} />
         ))}
       </ul>
+      {failure !== null && (
+        <p class="quiet empty" role="status">
+          {sentence(failure)}
+        </p>
+      )}
+      {(failure !== null || (trees !== null && pages.more.value)) && <More key={trees?.length} pages={pages} />}
     </Sheet>
+  );
+}
+
+/** The end of the list: what lies behind it comes when it is scrolled to, or asked for. */
+function More({ pages }: { pages: LibraryPages }) {
+  const end = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    // After a failure only who asks is answered, or a server that is away would be asked all the time.
+    if (!end.current || pages.failure.peek() !== null) {
+      return undefined;
+    }
+    const watcher = new IntersectionObserver(
+      ([seen]) => {
+        if (seen?.isIntersecting) {
+          void pages.next();
+        }
+      },
+      { rootMargin: "300px" },
+    );
+    watcher.observe(end.current);
+    return () => watcher.disconnect();
+  }, [pages]);
+  return (
+    <button type="button" class="small library-more" ref={end} onClick={() => void pages.next()}>
+      {say(pages.failure.value === null ? "sheets.library.more" : "sheets.library.again")}
+    </button>
   );
 }
 

@@ -44,6 +44,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
       </div>
       <div
         class="radius-slider"
+        data-place="radius"
         role="slider"
         tabIndex={0}
         aria-label={say("bars.radius")}

@@ -24,6 +24,15 @@ export function RotationStrip({ studio }: { studio: Studio }) {
     setDegrees(Math.round(turned / DEGREE));
     strip.current?.style.setProperty("--turns", String(turned / (2 * Math.PI)));
   });
+  // A strip that is hidden under the hand lets go of the tree.
+  useEffect(
+    () => () => {
+      if (hand.current !== null) {
+        studio.stage.hold(studio.tools.drawing.peek());
+      }
+    },
+    [studio],
+  );
   const turn = (by: number) => {
     studio.stage.turn(by * DEGREE);
     follow();
@@ -51,6 +60,7 @@ export function RotationStrip({ studio }: { studio: Studio }) {
   return (
     <div
       class="panel rotation"
+      data-place="rotation"
       ref={strip}
       role="slider"
       tabIndex={0}

@@ -44,6 +44,7 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
+          data-place="undo"
           aria-label={say("bars.undo")}
           title={say("bars.undo.title")}
           aria-disabled={document?.can_undo !== true}

@@ -10,13 +10,18 @@ export function Status({ studio }: { studio: Studio }) {
   const people = document?.people ?? 1;
   const full = document?.budget_reached === true;
   const away = phase !== "connected" && studio.hindrance.value === null && studio.session.value !== null;
+  const garbled = studio.garbled.value > 1;
   const unsent = studio.sent.value - studio.settled.value;
   return (
     <div class="status" role="status">
       {away && (
         <p class="note away" key={attempts === 0 ? "first" : "again"}>
           <i class="pulse" />
-          {attempts === 0 ? say("notices.connecting") : say("notices.reconnecting", { attempt: attempts })}
+          {attempts === 0
+            ? say("notices.connecting")
+            : garbled
+              ? say("notices.garbled")
+              : say("notices.reconnecting", { attempt: attempts })}
           {attempts > 0 && unsent > 0 && <span class="quiet">{say("notices.kept")}</span>}
         </p>
       )}

@@ -36,7 +36,7 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
   }
   const step = studio.time.step;
   return (
-    <section class="panel timeline" aria-label={say("timeline.label")}>
+    <section class="panel timeline" data-place="timeline" aria-label={say("timeline.label")}>
       <button
         type="button"
         class="tool"

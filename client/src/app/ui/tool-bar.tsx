@@ -1,5 +1,6 @@
 import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
+import type { PlaceName } from "../help-topics";
 import { PANEL_NAMES, type PanelName, type SheetName, type Studio } from "../studio";
 import { type Key, say } from "../words";
 import { DrawModeMenu } from "./draw-mode-menu";
@@ -34,6 +35,8 @@ const PANEL_ICONS: Record<PanelName, ComponentType> = {
 
 interface Deed {
   readonly label: Key;
+  /** What help calls it. */
+  readonly place?: PlaceName;
   readonly title?: Key;
   readonly Icon: ComponentType;
   readonly act: (studio: Studio) => void;
@@ -45,12 +48,18 @@ const sheet = (name: SheetName) => (studio: Studio) => {
 
 /** What is done with the page and with a tree as a whole. */
 const DEEDS: readonly Deed[] = [
-  { label: "bars.hide", title: "bars.hide.title", Icon: HideIcon, act: (studio) => studio.setBare(true) },
-  { label: "bars.new", Icon: NewIcon, act: (studio) => void studio.newSession() },
+  {
+    label: "bars.hide",
+    place: "hide",
+    title: "bars.hide.title",
+    Icon: HideIcon,
+    act: (studio) => studio.setBare(true),
+  },
+  { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => void studio.newSession() },
   { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
-  { label: "bars.download", Icon: DownloadIcon, act: (studio) => void studio.exports.gltf() },
+  { label: "bars.download", place: "download", Icon: DownloadIcon, act: (studio) => void studio.exports.gltf() },
   { label: "bars.settings", Icon: SettingsIcon, act: sheet("settings") },
   { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
 ];
@@ -80,11 +89,12 @@ export function ToolBar({ studio }: { studio: Studio }) {
       {isToolBarFolded() ? (
         <Menu studio={studio} />
       ) : (
-        DEEDS.map(({ label, title = label, Icon, act }) => (
+        DEEDS.map(({ label, place, title = label, Icon, act }) => (
           <button
             type="button"
             class="tool"
             key={label}
+            data-place={place}
             aria-label={say(label)}
             title={say(title)}
             onClick={() => act(studio)}
@@ -106,6 +116,7 @@ function Menu({ studio }: { studio: Studio }) {
       <button
         type="button"
         class="tool"
+        data-place="more"
         aria-label={say("bars.more")}
         title={say("bars.more")}
         aria-expanded={open}

@@ -3,6 +3,7 @@ import { MAX_DIAMETER, type WidthConstraint } from "../../wire/generated";
 import type { Studio } from "../studio";
 import { LEAST_DIAMETER, type WidthTool } from "../tools/width-tool";
 import { say } from "../words";
+import { numberText } from "./controls/number-text";
 import { CloseIcon } from "./icons";
 import { type Ring, ringAt } from "./ring";
 import { useFrames } from "./use-frames";
@@ -239,7 +240,7 @@ function Figure({ constraint }: { constraint: WidthConstraint }) {
 }
 
 function figure(diameter: number): string {
-  return diameter >= 10 ? diameter.toFixed(1) : diameter >= 0.1 ? diameter.toFixed(2) : diameter.toFixed(3);
+  return numberText(diameter, diameter >= 10 ? 0.1 : diameter >= 0.1 ? 0.01 : 0.001);
 }
 
 function onCanvas(event: PointerEvent): [number, number] {

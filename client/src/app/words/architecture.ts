@@ -28,12 +28,12 @@ export const ARCHITECTURE = {
   "architecture.tropism": ["Tropism", "Tropismus"],
   "architecture.tropism.help": [
     "Turn the arrow on the sketch: branches tend to point along it, on every side of the tree.",
-    "Drehen Sie den Pfeil in der Skizze: Äste streben in seine Richtung, auf jeder Seite des Baums.",
+    "Drehe den Pfeil in der Skizze: Äste streben in seine Richtung, auf jeder Seite des Baums.",
   ],
   "architecture.sides": ["Favoured side", "Begünstigte Seite"],
   "architecture.sides.help": [
     "A slanted branch seen end-on: pull the ellipse to where its buds should grow best.",
-    "Ein schräger Ast, von vorn gesehen: Ziehen Sie die Ellipse dorthin, wo seine Knospen am besten wachsen sollen.",
+    "Ein schräger Ast, von vorn gesehen: Zieh die Ellipse dorthin, wo seine Knospen am besten wachsen sollen.",
   ],
   "architecture.sides.above": ["Upper side", "Oberseite"],
   "architecture.sides.below": ["Underside", "Unterseite"],
@@ -50,7 +50,7 @@ export const ARCHITECTURE = {
   "architecture.fork": ["Branching", "Verzweigung"],
   "architecture.fork.help": [
     "Bend the fork: the side shoot leaves at ψ, and the axis turns away from it by δ.",
-    "Biegen Sie die Gabel: Der Seitentrieb geht im Winkel ψ ab, und die Achse weicht ihm um δ aus.",
+    "Biege die Gabel: Der Seitentrieb geht im Winkel ψ ab, und die Achse weicht ihm um δ aus.",
   ],
   "architecture.fork.several": [
     "Several buds at a node push the axis to no side, so δ rests.",
@@ -59,7 +59,7 @@ export const ARCHITECTURE = {
   "architecture.weights": ["Direction", "Richtung"],
   "architecture.weights.help": [
     "Drag the dot towards what new shoots should obey: their own heading, tropism, or free space.",
-    "Ziehen Sie den Punkt zu dem, was neuen Trieben wichtig sein soll: ihre Richtung, Tropismus oder freier Raum.",
+    "Zieh den Punkt zu dem, was neuen Trieben wichtig sein soll: ihre Richtung, Tropismus oder freier Raum.",
   ],
   "architecture.weights.point": [
     "Balance of heading, tropism and free space",

@@ -31,7 +31,7 @@ export const BACKGROUND = {
   "background.sun_azimuth": ["Direction", "Richtung"],
   "background.sun_azimuth.help": [
     "Where the sun stands around the tree; you are at the foot of the dial.",
-    "Wo die Sonne um den Baum steht; unten in der Scheibe sind Sie.",
+    "Wo die Sonne um den Baum steht; unten in der Scheibe bist du.",
   ],
   "background.sun_elevation": ["Height", "Höhe"],
   "background.sun_elevation.help": [
@@ -41,6 +41,6 @@ export const BACKGROUND = {
   "background.pin": ["Sun stays while you turn the tree", "Sonne bleibt beim Drehen stehen"],
   "background.pin.help": [
     "On: the sun keeps its place beside you. Off: it turns with the tree.",
-    "Ein: Die Sonne bleibt neben Ihnen. Aus: Sie dreht sich mit dem Baum.",
+    "Ein: Die Sonne bleibt neben dir. Aus: Sie dreht sich mit dem Baum.",
   ],
 } as const;

@@ -35,7 +35,7 @@ export const BRUSH = {
   "brush.all-grow": ["Every branch may grow.", "Jeder Ast darf wachsen."],
   "brush.all-grow.how": [
     "To have one alone grow, press and hold it in the picture until the circles close.",
-    "Soll einer allein wachsen, halten Sie ihn im Bild, bis sich die Kreise schließen.",
+    "Soll einer allein wachsen, halte ihn im Bild, bis sich die Kreise schließen.",
   ],
   "brush.one-grows": ["Only the chosen branch grows.", "Nur der gewählte Ast wächst."],
   "brush.release": ["Let every branch grow", "Alle Äste wachsen lassen"],

@@ -42,5 +42,9 @@ export const DRAWMODE = {
   "drawmode.end.step": ["1 step", "1 Schritt"],
   "drawmode.end.steps": ["{count} steps", "{count} Schritte"],
   "drawmode.end.trunk": ["0: trunk", "0: Stamm"],
+  "drawmode.unseen": [
+    "The tree is drawn as “{mode}”, which shows little of what is set here.",
+    "Der Baum ist als „{mode}“ dargestellt; davon, was hier eingestellt wird, zeigt das wenig.",
+  ],
   "drawmode.back": ["Back to the lit tree", "Zurück zum Baum im Licht"],
 } as const;

@@ -36,6 +36,10 @@ export const NOTICES = {
   "notices.hint.brush": ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"],
   "notices.connecting": ["Connecting…", "Verbindet…"],
   "notices.reconnecting": ["Reconnecting… (try {attempt})", "Verbindet wieder… (Versuch {attempt})"],
+  "notices.garbled": [
+    "What the server sends cannot be read. This page tries again in a while; loading it anew may help.",
+    "Was der Server schickt, ist nicht zu lesen. Die Seite versucht es bald wieder; vielleicht hilft es, sie neu zu laden.",
+  ],
   "notices.kept": ["your strokes are kept", "deine Striche bleiben erhalten"],
   "notices.full": [
     "The tree has all the growth this document holds. Undo or ungrow to draw on.",

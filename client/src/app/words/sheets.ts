@@ -15,6 +15,8 @@ export const SHEETS = {
     "Nothing saved yet. Trees you save appear here.",
     "Noch nichts gespeichert. Gespeicherte Bäume erscheinen hier.",
   ],
+  "sheets.library.more": ["Show more", "Mehr zeigen"],
+  "sheets.library.again": ["Try again", "Noch einmal versuchen"],
   "sheets.library.open": ["Open {name}", "{name} öffnen"],
   "sheets.library.new-name": ["New name", "Neuer Name"],
   "sheets.library.rename": ["Rename", "Umbenennen"],

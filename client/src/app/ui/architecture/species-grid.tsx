@@ -5,6 +5,7 @@ import { pictureOf } from "../../species-api";
 import { foundSpecies, speciesName, speciesSentence } from "../../species-choice";
 import type { Studio } from "../../studio";
 import { say } from "../../words";
+import { softly } from "../../words/joints";
 import { LeafSketch } from "../leaf-sketch";
 import { kinNow, lastPicked, useSpecies } from "./species-list";
 import type { WidgetProps } from "./widget";
@@ -94,7 +95,7 @@ function SpeciesCard({ species, state, onPick }: SpeciesCardProps) {
     >
       <SpeciesPicture species={species} />
       {state === "changed" && <span class="species-badge">{say("architecture.badge")}</span>}
-      <span class="species-card-name">{name}</span>
+      <span class="species-card-name">{softly(name)}</span>
     </button>
   );
 }

@@ -4,6 +4,7 @@ import type { Parameters, ParametersPatch } from "../../../wire/generated";
 import { alike } from "../../draft";
 import { helpOf, type NumberParameter, nameOf, patchFor, patchFrom, unitOf } from "../../growth-parameters";
 import type { Studio } from "../../studio";
+import { softly } from "../../words/joints";
 import { ResetButton } from "../controls/field";
 import { TypedNumber } from "../controls/typed-number";
 import { standardOf } from "./species-list";
@@ -104,7 +105,7 @@ function Value({ parameter, now, helpId, asked, onAsk, onReset, onCommit }: Valu
         onClick={onAsk}
       >
         <span>
-          {label} <i>{symbol}</i>
+          {softly(label)} <i>{symbol}</i>
         </span>
         <b aria-hidden="true">?</b>
       </button>

@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
+import { softly } from "../../words/joints";
 import { Field } from "./field";
 
 export interface Option<Value extends string> {
@@ -39,13 +40,14 @@ export function Choice<Value extends string>(props: ChoiceProps<Value>) {
             <label key={option.value} data-picture={option.picture !== undefined}>
               <input
                 type="radio"
+                aria-label={option.label}
                 name={name}
                 value={option.value}
                 checked={option.value === value}
                 onChange={() => onCommit(option.value)}
               />
               {option.picture}
-              <span>{option.label}</span>
+              <span>{softly(option.label)}</span>
             </label>
           ))}
         </div>

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
 import { say } from "../../words";
+import { softly } from "../../words/joints";
 import { ResetIcon } from "./icons";
 
 interface FieldProps {
@@ -23,7 +24,7 @@ export function Field({ label, symbol, help, onReset, end, children }: FieldProp
   const [open, setOpen] = useState(false);
   const name = (
     <span>
-      {label}
+      {softly(label)}
       {symbol && <i> {symbol}</i>}
     </span>
   );

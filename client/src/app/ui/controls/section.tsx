@@ -4,6 +4,11 @@ import type { ComponentChildren } from "preact";
 /** Which sections are open, by their names: a panel opens as it was closed. */
 const unfolded = signal<ReadonlyMap<string, boolean>>(new Map());
 
+/** Opens a section, wherever it stands. */
+export function unfold(name: string): void {
+  unfolded.value = new Map(unfolded.peek()).set(name, true);
+}
+
 interface SectionProps {
   /** What it is remembered by. */
   readonly name: string;
