@@ -63,6 +63,8 @@ export function makeMaterials(uniforms: Uniforms) {
     branchDepth: shader(BRANCH_VERTEX, DEPTH_FRAGMENT, { defines: { RIBBON: "", CASTER: "" }, side: DoubleSide }),
     leaf: shader(LEAF_VERTEX, LEAF_FRAGMENT, cutOut),
     leafDepth: shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, caster),
+    sprig: shader(LEAF_VERTEX, LEAF_FRAGMENT, { ...cutOut, defines: { SPRIG: "" } }),
+    sprigDepth: shader(LEAF_VERTEX, LEAF_DEPTH_FRAGMENT, { ...caster, defines: { CASTER: "", SPRIG: "" } }),
     flower: shader(ornamentVertex("Flower"), ornamentFragment("Flower"), cutOut),
     flowerDepth: shader(ornamentVertex("Flower"), ornamentDepthFragment("Flower"), caster),
     fruit: shader(ornamentVertex("Fruit"), ornamentFragment("Fruit"), cutOut),
@@ -71,6 +73,9 @@ export function makeMaterials(uniforms: Uniforms) {
     ground: shader(GROUND_VERTEX, GROUND_FRAGMENT),
     clay: clay({}),
     clayChosen: clay({ CHOSEN: "" }),
+    // Faces that look away would shine through where they end at an outline.
+    clayClosed: clay({}, { side: FrontSide }),
+    clayClosedChosen: clay({ CHOSEN: "" }, { side: FrontSide }),
     clayPlane: clay(plane, over),
     clayPlaneChosen: clay({ ...plane, CHOSEN: "" }, over),
     clayDepth: shader(OBSTACLE_VERTEX, DEPTH_FRAGMENT, { side: DoubleSide }),

@@ -4,7 +4,10 @@ import type { Materials } from "./materials";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
 
 const materials = Object.fromEntries(
-  ["clay", "clayChosen", "clayPlane", "clayPlaneChosen", "clayDepth"].map((name) => [name, new RawShaderMaterial()]),
+  ["clay", "clayChosen", "clayClosed", "clayClosedChosen", "clayPlane", "clayPlaneChosen", "clayDepth"].map((name) => [
+    name,
+    new RawShaderMaterial(),
+  ]),
 ) as unknown as Materials;
 
 const box: DrawnObstacle = {
@@ -45,7 +48,7 @@ describe("obstacle meshes", () => {
     expect(gone).toEqual([]);
     expect(meshes.bounds()).toEqual({ min: [-1, 7, -3], max: [1, 11, 3] });
     const [body] = meshes.bodies.children as Mesh[];
-    expect(body?.material).toBe(materials.clayChosen);
+    expect(body?.material).toBe(materials.clayClosedChosen);
   });
 
   it("a ray meets the nearest", () => {
@@ -73,6 +76,7 @@ describe("obstacle meshes", () => {
     expect(meshes.bounds()).toBeNull();
     const mesh = { positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 2, 0]), triangles: new Uint32Array([0, 1, 2]) };
     meshes.show([{ ...wedge, mesh }], null);
+    expect((meshes.bodies.children as Mesh[])[0]?.material, "it may be seen from behind").toBe(materials.clay);
     expect(meshes.bounds()).toEqual({ min: [0, 0, 0], max: [10, 20, 0] });
     expect([...mesh.positions], "what was fetched stays as it is").toEqual([0, 0, 0, 1, 0, 0, 0, 2, 0]);
   });

@@ -13,6 +13,7 @@ import {
 } from "three";
 import type { PlacedShape, Pose } from "../wire/generated";
 import type { Box } from "./camera/camera-rig";
+import { facingOut } from "./closed-surface";
 import type { Materials } from "./materials";
 import type { Ray, Vec3 } from "./vector";
 
@@ -39,6 +40,8 @@ export interface DrawnObstacle {
 
 interface Entry {
   readonly shape: PlacedShape;
+  /** Whether nobody can look into it. */
+  readonly closed: boolean;
   readonly body: Mesh;
   /** Shares the body's geometry; a plane casts no shadow of its own. */
   readonly caster: Mesh | null;
@@ -63,7 +66,7 @@ export class ObstacleMeshes {
     for (const obstacle of obstacles) {
       const entry = this.entryOf(obstacle);
       if (!entry) continue;
-      entry.body.material = this.materialOf(obstacle.shape, obstacle.id === chosen);
+      entry.body.material = this.materialOf(entry, obstacle.id === chosen);
       for (const mesh of [entry.body, entry.caster]) {
         if (!mesh) continue;
         mesh.position.set(...obstacle.pose.position);
@@ -105,21 +108,23 @@ export class ObstacleMeshes {
     const known = this.entries.get(id);
     if (known && JSON.stringify(known.shape) === JSON.stringify(shape)) return known;
     this.remove(id);
-    const geometry = geometryOf(obstacle);
-    if (!geometry) return null;
+    const made = geometryOf(obstacle);
+    if (!made) return null;
+    const { geometry, closed } = made;
     const body = new Mesh(geometry, this.materials.clay);
     body.name = String(id);
     if (shape.kind === "plane") body.renderOrder = PLANE_ORDER;
     const caster = shape.kind === "plane" ? null : new Mesh(geometry, this.materials.clayDepth);
     this.bodies.add(body);
     if (caster) this.casters.add(caster);
-    const entry = { shape, body, caster };
+    const entry = { shape, closed, body, caster };
     this.entries.set(id, entry);
     return entry;
   }
 
-  private materialOf(shape: PlacedShape, chosen: boolean): Material {
-    const { clay, clayChosen, clayPlane, clayPlaneChosen } = this.materials;
+  private materialOf({ shape, closed }: Entry, chosen: boolean): Material {
+    const { clay, clayChosen, clayPlane, clayPlaneChosen, clayClosed, clayClosedChosen } = this.materials;
+    if (closed) return chosen ? clayClosedChosen : clayClosed;
     if (shape.kind === "plane") return chosen ? clayPlaneChosen : clayPlane;
     return chosen ? clayChosen : clay;
   }
@@ -134,22 +139,23 @@ export class ObstacleMeshes {
   }
 }
 
-function geometryOf({ shape, mesh }: DrawnObstacle): BufferGeometry | null {
+function geometryOf({ shape, mesh }: DrawnObstacle): { geometry: BufferGeometry; closed: boolean } | null {
   switch (shape.kind) {
     case "box":
-      return new BoxGeometry(...shape.size);
+      return { geometry: new BoxGeometry(...shape.size), closed: true };
     case "sphere":
-      return new SphereGeometry(shape.radius, 48, 32);
+      return { geometry: new SphereGeometry(shape.radius, 48, 32), closed: true };
     case "plane":
-      return new CircleGeometry(PLANE_SHOWN, 48).rotateX(-Math.PI / 2);
+      return { geometry: new CircleGeometry(PLANE_SHOWN, 48).rotateX(-Math.PI / 2), closed: false };
     case "mesh": {
       if (!mesh) return null;
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(mesh.positions.slice(), 3));
-      geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
+      const outside = facingOut(mesh.positions, mesh.triangles);
+      geometry.setIndex(new BufferAttribute(outside ?? mesh.triangles, 1));
       geometry.scale(shape.scale, shape.scale, shape.scale);
       geometry.computeVertexNormals();
-      return geometry;
+      return { geometry, closed: outside !== null };
     }
   }
 }

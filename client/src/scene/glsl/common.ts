@@ -100,6 +100,7 @@ uniform vec3 uSun;
 uniform mat4 uSunFromWorld;
 uniform sampler2DShadow uShadow;
 uniform float uShadowTexel;
+uniform float uShadowSize; // of a texel, in internodes
 uniform float uShadowBias;
 uniform int uShadowTaps; // 1, or 3 along each side of a square that softens edges
 uniform vec3 uSunColour;
@@ -112,8 +113,9 @@ uniform float uExposure;
 #define BOUNCE_COLOUR uBounceColour
 #define HORIZON_COLOUR uHorizonColour
 
-float sunlit(vec3 world, vec3 normal, float softness) {
-  vec4 at = uSunFromWorld * vec4(world + normal * 0.03, 1.0);
+/** How much of the sun comes to a place, which lies a little before what it lights. */
+float sunAt(vec3 place, float softness) {
+  vec4 at = uSunFromWorld * vec4(place, 1.0);
   vec3 p = at.xyz * 0.5 + 0.5;
   if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
   p.z = min(p.z, 1.0) - uShadowBias;
@@ -124,6 +126,13 @@ float sunlit(vec3 world, vec3 normal, float softness) {
     sum += texture(uShadow, vec3(p.xy + offset, p.z));
   }
   return sum / 9.0;
+}
+/** How much comes to a surface: its place is moved out of it by what the taps reach over, or it would shade itself. */
+float sunlit(vec3 world, vec3 normal, float softness) {
+  float facing = dot(normal, uSun);
+  float taps = uShadowTaps == 1 ? 1.0 : 1.42 * softness + 0.75;
+  float slant = sqrt(max(0.0, 1.0 - facing * facing));
+  return sunAt(world + normal * (0.03 + uShadowSize * taps * slant), softness);
 }
 vec3 ambient(vec3 normal) {
   return mix(BOUNCE_COLOUR * 0.55, SKY_COLOUR, normal.y * 0.5 + 0.5) * 0.8;

@@ -5,11 +5,13 @@ in vec3 position;
 in vec3 normal;
 uniform mat4 modelMatrix;
 out vec3 vWorld;
+centroid out vec3 vPlace; // the same, but never beyond the edge of a face that is seen from its side
 out vec3 vNormal;
 out vec3 vOwn;
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vWorld = world.xyz;
+  vPlace = world.xyz;
   vOwn = position;
   vNormal = mat3(modelMatrix) * normal;
   gl_Position = projectionMatrix * viewMatrix * world;
@@ -19,11 +21,12 @@ void main() {
 /** Unfired clay: matt, of no colour that a plant has, and a little darker where it meets the ground. */
 export const OBSTACLE_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}
 in vec3 vWorld;
+centroid in vec3 vPlace;
 in vec3 vNormal;
 in vec3 vOwn;
 out vec4 colour;
 void main() {
-  vec3 toEye = cameraPosition - vWorld;
+  vec3 toEye = cameraPosition - vPlace;
   float away = length(toEye);
   vec3 face = cross(dFdx(vWorld), dFdy(vWorld));
   face = length(face) > 0.0 ? normalize(face) : vec3(0, 1, 0);
@@ -48,8 +51,10 @@ void main() {
   float edge = 0.0;
 #endif
   float open = mix(0.62, 1.0, smoothstep(0.0, 2.5, vWorld.y));
-  float sun = sunlit(vWorld, normal, 2.0);
-  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * max(dot(normal, uSun), 0.0) * sun);
+  float facing = dot(normal, uSun);
+  // What the sun only grazes is as good as in the shade, and its shadows would be all edge.
+  float sun = facing > 0.0 ? sunlit(vPlace, face, 2.0) * smoothstep(0.0, 0.1, dot(face, uSun)) : 0.0;
+  vec3 lit = albedo * (ambient(normal) * open + SUN_COLOUR * max(facing, 0.0) * sun);
   lit += edge * vec3(0.9, 0.3, 0.16);
   colour = vec4(finished(hazed(lit, away)), opacity);
 }

@@ -68,6 +68,7 @@ export class Sun {
     uniforms.uShadow = { value: depth };
     uniforms.uShadowBias = { value: 0 };
     uniforms.uShadowTaps = { value: 3 };
+    uniforms.uShadowSize = { value: 0 };
     uniforms.uShadowTexel = { value: 1 / this.size };
     uniforms.uShade = { value: this.shade.texture };
     uniforms.uShadeScale = { value: this.scale };
@@ -148,6 +149,7 @@ export class Sun {
     camera.updateMatrixWorld();
     const clip: Matrix4 = this.uniforms.uSunFromWorld!.value;
     clip.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
+    this.uniforms.uShadowSize!.value = (2 * reach) / this.size;
     this.uniforms.uShadowBias!.value = 0.035 / (camera.far - camera.near);
     this.measureGround(clip, reach);
   }
