@@ -210,6 +210,33 @@ test("background: ground, sky, sun by dial and by time", async () => {
   expect(differs(before, await tablet.photograph("looks-meadow-again"))).toBeLessThan(SAME);
 });
 
+test("AP1: two who pull at one section both get what they set", async () => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  const other = await workshop.open(address, SMALL);
+  for (const one of [tablet, other]) await one.tap("Leaves");
+  await Promise.all([pull(tablet, "Season", 0.8), pull(other, "Hue by vigor", 0.9)]);
+  await Promise.all([tablet.untilQuiet(), other.untilQuiet()]);
+  const [season, hue] = [await valueAt(tablet, "Season"), await valueAt(other, "Hue by vigor")];
+  expect(season).toBeGreaterThan(2);
+  expect(hue).toBeGreaterThan(0.8);
+  await until("one has the other’s", async () => (await valueAt(tablet, "Hue by vigor")) === hue);
+  await until("and the other theirs", async () => (await valueAt(other, "Season")) === season);
+  expect(await valueAt(tablet, "Season")).toBe(season);
+});
+
+test("in false colours panels of looks say so and lead back", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const { page } = tablet;
+  await page.keyboard.press("d");
+  for (const panel of ["Leaves", "Branches", "Background"]) {
+    await tablet.tap(panel);
+    await page.locator(".drawer").getByText("The tree is drawn as “Skeleton”", { exact: false }).waitFor();
+  }
+  await page.locator(".drawer").getByRole("button", { name: "Back to the lit tree" }).tap();
+  await page.locator(".unlit-note").waitFor({ state: "detached" });
+  await page.getByRole("region", { name: "Skeleton", exact: true }).waitFor({ state: "detached" });
+});
+
 test("draw modes with their legends, on one tablet alone", async () => {
   const { tablet, address } = await workshop.drawn(SCREEN);
   const other = await workshop.open(address, SMALL);

@@ -1,5 +1,6 @@
 import type { Locator } from "playwright-core";
 import { describe, expect, it } from "vitest";
+import { gridModel } from "./grid-model";
 import { until } from "./server";
 import { COARSE, type Point, type Screen, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
@@ -8,6 +9,8 @@ const workshop = Workshop.forThisFile();
 
 const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.4 };
 const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
+/** For tests in which nothing is looked at. */
+const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 
 interface Box {
   readonly x: number;
@@ -243,6 +246,39 @@ describe("a first run", () => {
     await help.getByRole("searchbox").fill("no such thing anywhere");
     await help.getByText("Nothing found").waitFor();
   });
+
+  it("help shows what it speaks of", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    const shown = async (query: string, topic: string) => {
+      await page.keyboard.press("Shift+?");
+      const help = page.getByRole("dialog");
+      await help.getByRole("searchbox").fill(query);
+      await help
+        .getByRole("button", { name: `Show: ${topic}`, exact: true })
+        .first()
+        .tap();
+      await help.getByRole("searchbox").waitFor({ state: "detached" });
+    };
+    // Who reads English may know the German word.
+    await shown("Bibliothek", "Library");
+    await page.getByRole("dialog", { name: "Library" }).waitFor();
+    await page.keyboard.press("Escape");
+    await shown("shears", "Prune");
+    expect((await tablet.facts()).tool).toBe("prune");
+    await shown("mature", "Dominance when mature");
+    await page.getByRole("tab", { name: "Growth", selected: true }).waitFor();
+    await shown("ripe fruits", "Colour of fruits");
+    await page.getByRole("region", { name: "Leaves", exact: true }).waitFor();
+    await shown("relief", "Relief");
+    const relief = page.locator(".field-name.pointed");
+    await relief.waitFor();
+    expect(await relief.textContent()).toContain("Relief");
+    await shown("rotation strip", "Rotation strip");
+    await page.locator(".rotation.pointed").waitFor();
+    await shown("tour", "Help and tour");
+    await page.getByText("1 of 3").waitFor();
+  });
 });
 
 describe("a phone", () => {
@@ -304,6 +340,80 @@ describe("long work", () => {
     answer();
     await page.waitForTimeout(300);
     expect(await page.locator(".toast").count()).toBe(0);
+  });
+});
+
+describe("a model", () => {
+  it("shows how far it has come, can be given up, and comes", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    const network = await page.context().newCDPSession(page);
+    await network.send("Network.enable");
+    const throttle = (uploadThroughput: number) =>
+      network.send("Network.emulateNetworkConditions", {
+        offline: false,
+        latency: 0,
+        downloadThroughput: -1,
+        uploadThroughput,
+      });
+    const file = { name: "sheet.glb", mimeType: "model/gltf-binary", buffer: gridModel(220) };
+    expect(file.buffer.length).toBeGreaterThan(1_500_000);
+    await tablet.tap("Scene");
+    await throttle(150_000);
+    await page.locator('input[type="file"]').setInputFiles(file);
+    const moving = page.getByRole("progressbar", { name: /^Sending the model, / });
+    await moving.waitFor();
+    const first = Number(await moving.getAttribute("value"));
+    await until("more of it has gone", async () => Number(await moving.getAttribute("value")) > first);
+    expect(Number(await moving.getAttribute("value"))).toBeLessThan(100);
+    await page.getByRole("button", { name: "Cancel" }).tap();
+    await moving.waitFor({ state: "detached" });
+    await throttle(-1);
+    await page.waitForTimeout(300);
+    expect((await tablet.facts()).obstacles, "what was given up does not come").toBe(0);
+    expect(await page.locator(".toast").count(), "and is no failure").toBe(0);
+    await page.locator('input[type="file"]').setInputFiles(file);
+    await tablet.until("the model comes", ({ obstacles }) => obstacles === 1);
+  });
+
+  it("that is none is told of in the language of the page", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    await page.evaluate(() => localStorage.setItem("espalier.language", '"de"'));
+    await page.reload();
+    await tablet.untilReady();
+    await tablet.tap("Szene");
+    const none = { name: "none.glb", mimeType: "model/gltf-binary", buffer: Buffer.from("this is no model at all") };
+    await page.locator('input[type="file"]').setInputFiles(none);
+    await page.getByText("Das ist keine glTF-Datei.", { exact: false }).waitFor();
+  });
+});
+
+describe("the library", () => {
+  it("brings more trees when its end is scrolled to", async () => {
+    const { tablet, address } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    const session = address.split("/").at(-1);
+    await page.evaluate(async (session) => {
+      for (let i = 1; i <= 60; i++) {
+        const saved = await fetch("/api/trees", {
+          method: "POST",
+          headers: { "content-type": "application/json" },
+          body: JSON.stringify({ session, name: `Seedling ${i}` }),
+        });
+        if (!saved.ok) throw new Error(await saved.text());
+      }
+    }, session);
+    await tablet.tap("Library");
+    const cards = page.locator(".library .card");
+    await cards.first().waitFor();
+    expect(await cards.count()).toBeLessThan(60);
+    await page.getByText("Seedling 60", { exact: true }).waitFor();
+    await cards.last().scrollIntoViewIfNeeded();
+    await page.getByText("Seedling 1", { exact: true }).waitFor();
+    const names = await page.locator(".library .card-name").allTextContents();
+    expect(new Set(names).size, "each of them once").toBe(names.length);
+    await page.getByRole("button", { name: "Show more" }).waitFor({ state: "detached" });
   });
 });
 
