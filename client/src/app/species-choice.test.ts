@@ -1,8 +1,10 @@
+import { readdirSync, readFileSync } from "node:fs";
 import { afterEach, describe, expect, it } from "vitest";
 import { DEFAULT_APPEARANCE, type Species } from "../wire/generated";
 import { DEFAULTS } from "./growth-parameters";
 import { foundSpecies, kinOf, speciesName, speciesSentence } from "./species-choice";
 import { language } from "./words";
+import { SPECIES } from "./words/species";
 
 const species = (slug: string, name: string, botanical: string, parameters: object): Species => ({
   slug,
@@ -67,9 +69,18 @@ describe("names of species", () => {
     expect(found("oak")).toEqual(["oak"]);
     expect(found("EICHE")).toEqual(["oak"]);
     expect(found("betula")).toEqual(["birch"]);
-    expect(found("hange birke")).toEqual(["birch"]);
+    for (const typed of ["hange birke", "haenge-birke", "Hänge-Birke"]) expect(found(typed)).toEqual(["birch"]);
     expect(found("  ")).toEqual(["oak", "birch", "hornbeam"]);
     expect(found("fern")).toEqual([]);
+  });
+
+  it("every species of the server has a German name and sentence, and no other has", () => {
+    const folder = new URL("../../../server/growth/src/species/", import.meta.url);
+    const sources = readdirSync(folder).map((file) => readFileSync(new URL(file, folder), "utf8"));
+    const slugs = sources.flatMap((text) => [...text.matchAll(/\bslug: "([a-z-]+)"/g)].map(([, slug]) => slug));
+    expect(slugs.length).toBeGreaterThan(20);
+    expect(Object.keys(SPECIES).sort()).toEqual([...new Set(slugs)].sort());
+    expect(new Set(Object.values(SPECIES).map(([name]) => name)).size).toBe(slugs.length);
   });
 
   it("are said in the language spoken; a newcomer has its own", () => {

@@ -71,9 +71,14 @@ export function foundSpecies(species: readonly Species[], words: string): readon
   });
 }
 
-/** Small letters without signs above them, for nobody types those into a search. */
+/** Small letters without signs above them, for nobody types those into a search; ö may be typed o or oe. */
 function plain(text: string): string {
-  return text.toLowerCase().replace(/ß/g, "ss").normalize("NFD").replace(/\p{M}/gu, "");
+  return text
+    .toLowerCase()
+    .replace(/ß/g, "ss")
+    .normalize("NFD")
+    .replace(/\p{M}/gu, "")
+    .replace(/([aou])e/g, "$1");
 }
 
 function german(slug: string): readonly [name: string, sentence: string] | undefined {
