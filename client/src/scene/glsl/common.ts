@@ -108,6 +108,7 @@ uniform vec3 uSkyColour;
 uniform vec3 uBounceColour;
 uniform vec3 uHorizonColour;
 uniform float uExposure;
+uniform float uVivid; // how much of colours is seen
 #define SUN_COLOUR uSunColour
 #define SKY_COLOUR uSkyColour
 #define BOUNCE_COLOUR uBounceColour
@@ -154,9 +155,9 @@ vec3 finished(vec3 colour) {
   vec3 x2 = x * x;
   vec3 x4 = x2 * x2;
   x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
-  // The film's own look is flat; a little more contrast and colour brings it back to what the eye remembers.
+  // The film's own look is flat; a little more contrast brings it back to what the eye remembers.
   x = pow(max(x, 0.0), vec3(1.2));
-  x = mix(vec3(dot(x, vec3(0.2126, 0.7152, 0.0722))), x, 1.3);
+  x = mix(vec3(dot(x, vec3(0.2126, 0.7152, 0.0722))), x, uVivid);
   return clamp(OUTSET * x, 0.0, 1.0);
 }
 `;

@@ -20,12 +20,30 @@ uniform vec4 uSkyParts; // clouds, stars, hills, studio
 vec3 paper(float up) { return uPaper * (1.0 - 0.10 * smoothstep(0.05, 0.9, up)); }
 `;
 
-/** Land too far off for more than its colour to be seen, and the mist at its feet. */
+/** The ground as a whole, and land too far off for more than its colour to be seen. */
 const DISTANCE = /* glsl */ `
 uniform vec3 uMiddleColour;
+uniform int uGround;
+const int GRASS = 0;
+const int EARTH = 1;
+const int SAND = 2;
+const int SNOW = 3;
+const int PLAIN = 4;
+const vec3 MEAN[4] = vec3[4](vec3(0.092, 0.108, 0.045), vec3(0.190, 0.143, 0.103), vec3(0.480, 0.380, 0.270), vec3(0.860, 0.880, 0.910));
+/** Blades stand up and catch a sun that grazes the ground. */
+float facingSun(vec3 normal) {
+  float upright = uGround == GRASS ? 0.22 : 0.06;
+  return max((dot(normal, uSun) + upright) / (1.0 + upright), 0.0);
+}
+/** The ground where it meets the sky: what it is on the whole, and the air before it. */
+vec3 farGround() {
+  if (uGround == PLAIN) return HORIZON_COLOUR * 0.92;
+  const vec3 UP = vec3(0, 1, 0);
+  vec3 lit = MEAN[uGround] * (ambient(UP) + SUN_COLOUR * facingSun(UP));
+  return mix(lit, HORIZON_COLOUR * 0.8, 0.2);
+}
 vec3 farLand() { return mix(uMiddleColour, HORIZON_COLOUR, 0.35) * 0.84; }
-vec3 nearLand() { return mix(farLand(), BOUNCE_COLOUR, 0.5) * 0.8; }
-vec3 mist() { return mix(HORIZON_COLOUR, nearLand(), 0.62 * uSkyParts.z); }
+vec3 nearLand() { return mix(farLand(), farGround(), 0.55) * 0.86; }
 `;
 
 /** Pale at the horizon, deeper above; clouds, hills and stars as the sky has them. */
@@ -43,8 +61,8 @@ vec3 hills(vec3 behind, vec3 sight, float seed, float low, float high, vec3 hue)
     + noise(towards * 17.0, seed + 9.0) * 0.12;
   float top = mix(low, high, crest);
   float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y) * uSkyParts.z;
-  // Mist gathers at the feet of the hills.
-  return mix(behind, mix(mist(), hue, smoothstep(-0.02, top, sight.y)), inside);
+  // A little mist gathers at the feet of the hills.
+  return mix(behind, mix(mix(hue, HORIZON_COLOUR, 0.12), hue, smoothstep(-0.01, 0.7 * top, sight.y)), inside);
 }
 float star(vec3 sight) {
   vec3 cell = floor(sight * 90.0);
@@ -73,10 +91,13 @@ void main() {
     vec3 lit = uCloudColour * mix(1.0, 0.55 + 0.9 * cloud, smoothstep(0.6, 1.0, uSkyParts.x));
     sky = mix(sky, lit + uGlowColour * 0.6 * pow(towards, 8.0), cover * smoothstep(0.02, 0.22, up) * 0.7);
   }
+  // The ground's own edge lies a little below where land without end would meet the sky.
+  vec3 land = mix(farGround(), HORIZON_COLOUR * 0.85, 0.12 * smoothstep(-0.03, 0.0, sight.y));
   if (uSkyParts.z > 0.0) {
     sky = hills(sky, sight, 3.0, 0.030, 0.085, farLand());
     sky = hills(sky, sight, 8.0, 0.006, 0.050, nearLand());
   }
+  sky = mix(land, sky, smoothstep(-0.0016, 0.0008, sight.y));
   colour = vec4(dithered(finished(sky)), 1.0);
 }
 `;
@@ -96,22 +117,23 @@ void main() {
 export const GROUND_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${GROUND_SUN}${DITHER}
 uniform vec4 uFeet[8]; // where trunks stand, and how thick they are
 uniform vec4 uCrown; // centre x z, radius, how dense
-uniform int uGround;
 uniform float uGroundReach;
 in vec3 vWorld;
 out vec4 colour;
 ${PAPER}${DISTANCE}
-const int GRASS = 0;
-const int EARTH = 1;
-const int SAND = 2;
-const int SNOW = 3;
-const int PLAIN = 4;
 /** What light comes back from, and which way it faces. */
 struct Surface {
   vec3 albedo;
   vec3 normal;
 };
-Surface surfaceAt(vec2 at, float near, float bare) {
+/** How high grass stands, about one half; what is smaller than the picture can show is left out. */
+float sward(vec2 at, float blurred) {
+  vec4 wave = vec4(0.55, 1.3, 2.9, 6.1);
+  vec4 shown = 1.0 - smoothstep(vec4(0.25), vec4(0.75), wave * blurred);
+  vec4 parts = vec4(noise(at * wave.x, 8.0), noise(at.yx * wave.y, 5.0), noise(at * wave.z, 15.0), noise(at.yx * wave.w, 6.0));
+  return 0.5 + dot(vec4(0.22, 0.34, 0.34, 0.30) * shown, parts - 0.5);
+}
+Surface surfaceAt(vec2 at, float near, float blurred, float bare) {
   float broad = noise(at * 0.021, 11.0) * 0.6 + noise(at * 0.057, 0.5) * 0.4;
   float patches = noise(at * 0.09, 2.0) * 0.45 + noise(at.yx * 0.21 + 3.7, 3.0) * 0.3 + noise(at * 0.47, 13.0) * 0.25;
   float fine = noise(at * vec2(4.1, 2.6), 8.0) * 0.5 + noise(at.yx * vec2(7.0, 11.0), 5.0) * 0.5;
@@ -134,18 +156,26 @@ Surface surfaceAt(vec2 at, float near, float bare) {
     vec3 albedo = vec3(0.88, 0.90, 0.93) * (0.95 + 0.05 * fine * near);
     return Surface(albedo, normalize(vec3((drift - 0.75) * 0.10, 1.0, (broad - 0.5) * 0.14)));
   }
-  float tufts = noise(at * vec2(1.1, 0.8), 8.0);
   vec3 albedo = mix(vec3(0.066, 0.086, 0.034), vec3(0.104, 0.118, 0.050), smoothstep(0.2, 0.8, broad));
   // Here and there it is dry.
   albedo = mix(albedo, vec3(0.150, 0.138, 0.072), 0.5 * smoothstep(0.35, 0.95, patches));
-  albedo *= 1.0 + near * ((fine - 0.5) * 0.75 + (tufts - 0.5) * 0.4);
-  albedo = mix(albedo, soil, bare);
-  return Surface(albedo, normalize(vec3((fine - 0.5) * 0.35 * near, 1.0, (tufts - 0.5) * 0.25 * near)));
+  float height = sward(at, blurred);
+  // A tuft is bright where it looks to the sun, and stands in the shade of the next.
+  vec2 towards = uSun.xz / max(length(uSun.xz), 1e-3);
+  float shaded = sward(at + 0.28 * towards, blurred) - height;
+  float grazed = 1.0 - 0.6 * uSun.y;
+  albedo *= max(0.25, 1.0 + 1.5 * (height - 0.5) - 1.3 * grazed * shaded);
+  albedo = mix(albedo, vec3(0.128, 0.132, 0.052), 0.35 * smoothstep(0.55, 0.8, height));
+  albedo = mix(albedo, soil, bare * (1.0 - 0.55 * smoothstep(0.4, 0.62, height)));
+  return Surface(albedo, vec3(0, 1, 0));
 }
 void main() {
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   float near = exp(-away * 0.010);
+  // How wide a pixel is on the ground: less than it is deep, for grass stands up.
+  vec2 wide = vec2(length(dFdx(vWorld.xz)), length(dFdy(vWorld.xz)));
+  float blurred = mix(min(wide.x, wide.y), max(wide.x, wide.y), 0.25);
   float open = 1.0;
   float bare = 0.0;
   for (int i = 0; i < 8; i++) {
@@ -159,8 +189,8 @@ void main() {
   float under = distance(vWorld.xz, uCrown.xy) / max(uCrown.z, 0.1);
   open *= 1.0 - uCrown.w * 0.42 * exp(-under * under * 1.4);
   float sun = groundSun(vWorld);
-  Surface surface = surfaceAt(vWorld.xz, near, 0.8 * bare);
-  float rim = smoothstep(0.25, 0.97, length(vWorld.xz) / uGroundReach);
+  Surface surface = surfaceAt(vWorld.xz, near, blurred, 0.8 * bare);
+  float rim = smoothstep(0.10, 0.97, length(vWorld.xz) / uGroundReach);
   bool studio = uSkyParts.w > 0.5;
   vec3 lit;
   if (uGround == PLAIN) {
@@ -173,13 +203,10 @@ void main() {
     }
     lit *= HORIZON_COLOUR * 0.9;
   } else {
-    // Blades stand up and catch a sun that grazes the ground.
-    float upright = uGround == GRASS ? 0.22 : 0.06;
-    float facing = max((dot(surface.normal, uSun) + upright) / (1.0 + upright), 0.0);
-    lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facing * sun * mix(0.7, 1.0, open));
+    lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.7, 1.0, open));
   }
   // The ground pales behind the trees, not before them, and its own edge is never seen.
-  vec3 seen = finished(mix(hazed(lit, away), mist(), studio ? 0.0 : rim));
+  vec3 seen = finished(studio ? hazed(lit, away) : mix(lit, farGround(), rim));
   colour = vec4(dithered(studio ? mix(seen, paper(0.0), rim) : seen), 1.0);
 }
 `;

@@ -32,6 +32,7 @@ export class Environment {
     uSkyParts: { value: new Vector4() },
     uSunSpread: { value: 0 },
     uExposure: { value: EXPOSURE },
+    uVivid: { value: 1 },
     uAir: { value: new Vector2() },
     uGroundReach: { value: GROUND_RADIUS },
     uGround: { value: 0 },
@@ -113,6 +114,7 @@ export class Environment {
     colours.uSkyParts.value.set(light.clouds, light.stars, light.hills, background.sky === "studio" ? 1 : 0);
     colours.uSunSpread.value = light.spread;
     colours.uExposure.value = EXPOSURE * light.opened;
+    colours.uVivid.value = light.vivid;
     colours.uPaper.value.set(...background.backdrop).divideScalar(255);
     colours.uGround.value = GROUNDS.indexOf(background.ground);
   }

@@ -25,6 +25,8 @@ export interface SkyLight {
   readonly spread: number;
   /** How far the eye has opened for the dark, from 1 by day. */
   readonly opened: number;
+  /** How much of the colours it sees: more than there is by day, less by night. */
+  readonly vivid: number;
 }
 
 /** What changes with the hour. */
@@ -42,17 +44,17 @@ interface Hour {
 const HOURS: readonly Hour[] = [
   {
     elevation: -10,
-    sun: [0.4, 0.52, 0.74],
-    above: [0.13, 0.17, 0.28],
-    zenith: [0.008, 0.016, 0.045],
-    middle: [0.02, 0.036, 0.085],
-    horizon: [0.05, 0.075, 0.13],
+    sun: [0.44, 0.58, 0.86],
+    above: [0.15, 0.2, 0.34],
+    zenith: [0.007, 0.016, 0.055],
+    middle: [0.016, 0.036, 0.105],
+    horizon: [0.045, 0.08, 0.165],
     glow: [0.05, 0.07, 0.12],
   },
   {
     elevation: -4.5,
     sun: [0, 0, 0],
-    above: [0.36, 0.34, 0.47],
+    above: [0.6, 0.57, 0.76],
     zenith: [0.03, 0.055, 0.16],
     middle: [0.12, 0.13, 0.27],
     horizon: [0.5, 0.29, 0.26],
@@ -61,7 +63,7 @@ const HOURS: readonly Hour[] = [
   {
     elevation: 0,
     sun: [1.8, 0.86, 0.42],
-    above: [0.44, 0.42, 0.5],
+    above: [0.5, 0.48, 0.58],
     zenith: [0.09, 0.15, 0.34],
     middle: [0.36, 0.33, 0.43],
     horizon: [0.98, 0.56, 0.36],
@@ -114,6 +116,9 @@ const MOON_ASIDE = 130;
 const LOWEST_LIGHT = 4;
 /** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it. */
 const SKY_GAIN = 1.7;
+/** A film's look is flat, and a little more colour brings it back to what the eye remembers; by moonlight it sees little. */
+const DAY_VIVID = 1.3;
+const NIGHT_VIVID = 1.2;
 /** How green or bright the ground sends light back. */
 const BOUNCE: Record<Background["ground"], Vec3> = {
   grass: [0.3, 0.31, 0.17],
@@ -137,7 +142,8 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
     ? direction(sun_azimuth + MOON_ASIDE, MOON_ELEVATION)
     : direction(sun_azimuth, Math.max(sun_elevation, LOWEST_LIGHT));
   const opened = 1 + 0.55 * clamp((9 - sun_elevation) / 13);
-  const common = { towards, opened, ...HAZE[sky] };
+  const vivid = DAY_VIVID + (NIGHT_VIVID - DAY_VIVID) * clamp((-3 - sun_elevation) / 6);
+  const common = { towards, opened, vivid, ...HAZE[sky] };
   const stars = clamp((-3 - sun_elevation) / 6);
   switch (sky) {
     case "meadow":
@@ -160,29 +166,31 @@ export function skyLight({ sky, ground, backdrop, sun_azimuth, sun_elevation }: 
       // Clouds hide where the sun is and let through what it and the sky give together.
       const day = scale(add(scale(hour.above, 1.05), scale(hour.sun, 0.16 * Math.max(0.3, towards[1]))), 0.92);
       const grey = mix(day, gray(day), 0.72);
-      const faint = scale(mix(hour.sun, gray(hour.sun), 0.7), 0.13);
+      const faint = scale(mix(hour.sun, gray(hour.sun), 0.7), 0.15);
       return {
         ...common,
         sun: faint,
-        above: scale(grey, 1.45),
-        below: scale(times(grey, BOUNCE[ground]), 0.8),
-        zenith: scale(grey, 0.8),
-        middle: scale(grey, 1.2),
-        horizon: scale(grey, 1.75),
+        opened: opened * 1.2,
+        above: scale(grey, 1.95),
+        below: scale(times(grey, BOUNCE[ground]), 1.25),
+        zenith: scale(grey, 0.85),
+        middle: scale(grey, 1.15),
+        horizon: scale(grey, 1.5),
         glow: scale(faint, 0.12),
-        cloud: scale(grey, 1.75),
+        cloud: scale(grey, 1.6),
         stars: 0,
       };
     }
     case "studio": {
       // A lamp where the sun is, and a big soft one above; only the hour's warmth is left of the sky.
       const paper = backdrop.map((value) => linear(value / 255)) as unknown as Vec3;
-      const lamp = Math.max(0.35, clamp((sun_elevation + 10) / 40));
+      const lamp = 0.6 + 0.4 * clamp((sun_elevation + 10) / 40);
       const warm = clamp(1 - sun_elevation / 25);
       const sun = scale(mix([1, 0.965, 0.91], [1, 0.74, 0.48], warm), 2.5 * lamp);
       return {
         ...common,
         opened: 1,
+        vivid: DAY_VIVID,
         towards: direction(sun_azimuth, Math.max(sun_elevation, 12)),
         sun,
         above: mix([0.62, 0.63, 0.66], scale(paper, 0.9), 0.25),
