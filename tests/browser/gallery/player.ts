@@ -25,8 +25,6 @@ const CANVAS_ALONE = `
 `;
 /** A processor that has other work as well may need long for a picture, in milliseconds. */
 const PATIENCE = 240_000;
-/** A picture that has not changed for so long, in milliseconds, is at rest. */
-const STILL = 700;
 
 /** Plays sketches on a real server and takes their pictures in a real browser. */
 export class Player {
@@ -83,14 +81,12 @@ export class Player {
   }
 }
 
-/** What a page shows once it stays as it is. */
+/** What a page shows once its picture is finished. */
 async function atRest(page: Page): Promise<Buffer> {
-  const end = Date.now() + PATIENCE;
-  for (let last = await page.screenshot(); ; ) {
-    await page.waitForTimeout(STILL);
-    const next = await page.screenshot();
-    if (next.equals(last)) return next;
-    if (Date.now() > end) throw new Error(`the picture does not come to rest within ${PATIENCE / 1000} s`);
-    last = next;
-  }
+  // What has just come is part of the picture within two frames, which is no longer finished then.
+  await page.evaluate(
+    () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))),
+  );
+  await page.waitForSelector("canvas[data-still]", { state: "attached" });
+  return page.screenshot();
 }
