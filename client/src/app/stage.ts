@@ -19,6 +19,8 @@ export class Stage {
   #view: Viewport | null = null;
   #canvas: HTMLCanvasElement | null = null;
   #radiusTimer = 0;
+  /** Whether no picture can be drawn here. */
+  #dark = false;
   /** What a picture made later begins with. */
   #appearance: Appearance | null = null;
   #mode: DrawMode = "lit";
@@ -45,9 +47,14 @@ export class Stage {
     this.#canvas = null;
   }
 
-  /** Whether there is a picture. */
-  get lit(): boolean {
-    return this.#view !== null;
+  /** Whether no picture can be drawn here, as was found out when one was tried. */
+  get dark(): boolean {
+    return this.#dark;
+  }
+
+  /** No picture can be drawn. */
+  darken(): void {
+    this.#dark = true;
   }
 
   /** A finger is down or a lever held: the picture is not at rest. */

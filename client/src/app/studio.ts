@@ -298,7 +298,7 @@ export class Studio {
       this.session.value = session;
       this.settings.lastSession.value = session;
       // Another session does not make a browser draw that cannot.
-      this.hindrance.value = this.stage.lit ? null : "no-webgl";
+      this.hindrance.value = this.stage.dark ? "no-webgl" : null;
       this.document.value = null;
       this.growing.clear();
       this.looks.clear();

@@ -20,6 +20,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     viewport = new Viewport(canvas, studio.table);
   } catch (error) {
     console.error(error);
+    studio.stage.darken();
     studio.hindrance.value = "no-webgl";
     return () => {};
   }

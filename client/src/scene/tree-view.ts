@@ -7,6 +7,9 @@ import type { Materials, Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
 import { SkeletonLines } from "./mode/skeleton-lines";
 import { TraitTexture } from "./mode/trait-texture";
+import type { GradualTextures } from "./painting/gradual-textures";
+import type { Sort } from "./painting/paint";
+import type { Painter } from "./painting/painter";
 import { NodeTexture } from "./table/node-texture";
 import { RadiusEase } from "./table/radius-ease";
 import { Dirty, type TreeTable } from "./table/tree-table";
@@ -20,6 +23,7 @@ export class TreeView {
   readonly group = new Group();
   /** Seen by the sun. */
   readonly casters = new Group();
+  private readonly textures: readonly GradualTextures<Sort>[];
   private readonly solid = new Group();
   private readonly nodes = new NodeTexture();
   private readonly radii = new RadiusEase();
@@ -35,12 +39,15 @@ export class TreeView {
     private readonly table: TreeTable,
     materials: Materials,
     uniforms: Uniforms,
+    painter: Painter,
   ) {
     uniforms.uNodes = this.nodes.uniform;
     uniforms.uGuises = this.guises.uniform;
     this.traits = new TraitTexture(uniforms);
-    this.branches = new Branches(materials, { bark: new Bark(uniforms) });
-    this.foliage = new Foliage(materials, uniforms);
+    const bark = new Bark(uniforms, painter);
+    this.branches = new Branches(materials, { bark });
+    this.foliage = new Foliage(materials, uniforms, painter);
+    this.textures = [bark.textures, ...this.foliage.textures];
     this.skeleton = new SkeletonLines(materials);
     this.solid.add(...this.branches.meshes, ...this.foliage.meshes);
     this.group.add(this.solid, this.skeleton.mesh);
@@ -55,6 +62,32 @@ export class TreeView {
   /** When the last radius that glides will have arrived, in the table's seconds. */
   get glidesUntil(): number {
     return this.radii.until;
+  }
+
+  /** Whether whole textures are there and coarse ones still shown. */
+  get ripe(): boolean {
+    return this.textures.some(({ ripe }) => ripe);
+  }
+
+  /** Whether textures are still being painted, or not yet shown. */
+  get unfinished(): boolean {
+    return this.textures.some(({ unfinished }) => unfinished);
+  }
+
+  /** Shows whole textures in place of coarse ones. */
+  ripen(): void {
+    for (const textures of this.textures) textures.ripen();
+  }
+
+  /** What nearly every tree has, for its shaders to be made before there is one. */
+  get essential(): readonly Mesh[] {
+    const { branches, foliage } = this;
+    return [...branches.meshes, ...foliage.meshes.slice(0, 1), ...branches.casters, ...foliage.casters.slice(0, 1)];
+  }
+
+  /** How far leaves have given way to sprigs, 0 to 1. */
+  get merged(): number {
+    return this.foliage.merged;
   }
 
   /** The table has changed. */

@@ -17,6 +17,7 @@ import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
 import { NoiseTextures } from "./noise-texture";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
+import { Painter } from "./painting/painter";
 import type { TreeTable } from "./table/tree-table";
 import { TreeView } from "./tree-view";
 import type { Vec3 } from "./vector";
@@ -26,6 +27,8 @@ const MAX_PIXEL_RATIO = 2;
 const AFTERGROWTH_SECONDS = 0.6;
 /** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
 const SHADOW_REACH = 40;
+/** Shadows are drawn anew once so many more or fewer of the leaves are drawn as sprigs. */
+const MERGED_STEP = 0.125;
 /** A line's width in pixels of the page. */
 const LINE = 1.2;
 
@@ -38,6 +41,7 @@ export class Viewport {
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
   private readonly noise = new NoiseTextures();
+  private readonly painter = new Painter(() => this.frames.invalidate());
   private readonly tree: TreeView;
   private readonly environment: Environment;
   private readonly sun: Sun;
@@ -55,6 +59,8 @@ export class Viewport {
   private unsettled = false;
   private shadowStale = true;
   private shadowDrawn = Number.NEGATIVE_INFINITY;
+  /** How far leaves had given way to sprigs then. */
+  private mergedShadow = 0;
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -73,7 +79,7 @@ export class Viewport {
     this.uniforms.uWorldFromClip = { value: this.sight.worldFromClip };
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
-    this.tree = new TreeView(this.table, this.materials, this.uniforms);
+    this.tree = new TreeView(this.table, this.materials, this.uniforms, this.painter);
     this.environment = new Environment(this.materials, this.uniforms);
     this.obstacles = new ObstacleMeshes(this.materials);
     this.brush = new BrushShell(this.materials, this.uniforms);
@@ -83,12 +89,14 @@ export class Viewport {
     this.sun.casters.add(this.tree.casters, this.obstacles.casters);
     this.frames = new FrameLoop(
       this.draw,
-      () => this.frames.control.quality.scale < 1 || this.shadowStale,
+      () => this.frames.control.quality.scale < 1 || this.shadowStale || this.tree.ripe,
       // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
-      (still) => canvas.toggleAttribute("data-still", still),
+      (still) => canvas.toggleAttribute("data-still", still && !this.tree.unfinished),
     );
     this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextrestored", this.restored);
+    // While the page waits for its rows the graphics card makes what they are drawn with.
+    for (const mesh of this.tree.essential) this.renderer.compile(mesh, this.sight.camera, this.scene);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.resize();
@@ -324,6 +332,7 @@ export class Viewport {
       this.screen,
       this.noise,
       this.sun,
+      this.painter,
     ])
       part.dispose();
     for (const material of Object.values(this.materials)) material.dispose();
@@ -348,14 +357,21 @@ export class Viewport {
     if (growing || moving) control.moved(began);
     const { quality } = control;
     const { camera } = this.aimed();
-    const over = control.resting && this.screen.improves(quality.scale, quality.smooth);
+    // Finer textures wait for the picture at rest, which comes over that before it: nobody sees one put for another.
+    const finer = control.resting && this.tree.ripe;
+    const over = finer || (control.resting && this.screen.improves(quality.scale, quality.smooth));
     if (over) this.screen.remember(this.scene, camera);
+    if (finer) this.tree.ripen();
+    this.shadowStale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
     this.unsettled = this.refine(this.screen.size.y, quality.detailed ? 1 : 0);
-    this.shadowStale ||= growing;
+    // Shadows are those of the leaves that are drawn, near enough.
+    const { merged } = this.tree;
+    this.shadowStale ||= growing || Math.abs(merged - this.mergedShadow) > MERGED_STEP;
     if (this.shadowStale && began - this.shadowDrawn >= quality.shadowEvery) {
       this.drawShadow();
       this.shadowDrawn = began;
+      this.mergedShadow = merged;
       // One more frame after the last growth shows everything full grown.
       this.shadowStale = growing;
     }

@@ -87,9 +87,9 @@ function Workspace({ studio }: { studio: Studio }) {
     if (!canvas.current) {
       return undefined;
     }
-    const detach = attachWorkspace(studio, canvas.current);
+    // The server is asked first: it answers while the browser makes its picture ready.
     void studio.start();
-    return detach;
+    return attachWorkspace(studio, canvas.current);
   }, [studio]);
   return (
     <main

@@ -45,8 +45,8 @@ export const FLOWERS: OrnamentSort<FlowerKind> = {
 };
 
 /** Five notched petals around stamens, hollow like a bowl. */
-function rosette(random: Random): LeafTile {
-  const tile = new LeafTile(0.5);
+function rosette(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.5, side);
   const turn = 2 * Math.PI * random();
   for (let petal = 0; petal < 5; petal += 1) {
     const angle = turn + (2 * Math.PI * (petal + 0.12 * (random() - 0.5))) / 5;
@@ -98,8 +98,8 @@ function petalOutline(angle: number, length: number): Outline {
 }
 
 /** Small flowers close together along a thread. */
-function catkin(random: Random): LeafTile {
-  const tile = new LeafTile(0.11);
+function catkin(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.11, side);
   const rows = 30;
   for (let row = rows - 1; row >= 0; row -= 1) {
     const y = 0.05 + (0.92 * row) / rows;
@@ -119,8 +119,8 @@ function catkin(random: Random): LeafTile {
 }
 
 /** An upright candle of many small flowers, broad below. */
-function panicle(random: Random): LeafTile {
-  const tile = new LeafTile(0.27);
+function panicle(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.27, side);
   tile.stroke({ from: [0, 0], to: [0, 0.9], width: [0.03, 0.01] }, () => ({ ...paint(0.9, 0, 0.01), wood: 1 }));
   for (let i = 0; i < 170; i += 1) {
     const layer = i / 170;

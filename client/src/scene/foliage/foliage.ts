@@ -3,12 +3,16 @@ import { DEFAULT_APPEARANCE, type FlowerLook, type FruitLook, type LeafLook } fr
 import type { Box } from "../camera/camera-rig";
 import type { Fineness } from "../frame/fineness";
 import type { Materials, Uniforms } from "../materials";
+import type { GradualTextures } from "../painting/gradual-textures";
+import type { Sort } from "../painting/paint";
+import type { Painter } from "../painting/painter";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { FLOWERS } from "./flowers";
 import { FRUITS } from "./fruits";
 import { LeafDress } from "./leaf-dress";
 import { LeafRows } from "./leaf-rows";
 import { Ornaments } from "./ornaments";
+import { Sprigs } from "./sprigs";
 
 /** Leaves, flowers and fruits. */
 export class Foliage {
@@ -16,17 +20,21 @@ export class Foliage {
   readonly meshes: readonly Mesh[];
   /** Seen by the sun. */
   readonly casters: readonly Mesh[];
+  readonly textures: readonly GradualTextures<Sort>[];
   private readonly dress: LeafDress;
   private readonly leaves: LeafRows;
+  private readonly sprigs: Sprigs;
   private readonly flowers: Ornaments<FlowerLook>;
   private readonly fruits: Ornaments<FruitLook>;
 
-  constructor(materials: Materials, uniforms: Uniforms) {
-    this.dress = new LeafDress(uniforms);
+  constructor(materials: Materials, uniforms: Uniforms, painter: Painter) {
+    this.dress = new LeafDress(uniforms, painter);
     this.leaves = new LeafRows(materials, uniforms);
-    this.flowers = new Ornaments(FLOWERS, materials.flower, materials.flowerDepth, uniforms);
-    this.fruits = new Ornaments(FRUITS, materials.fruit, materials.fruitDepth, uniforms);
-    const parts = [this.leaves, this.flowers, this.fruits];
+    this.sprigs = new Sprigs(materials, uniforms);
+    this.flowers = new Ornaments(FLOWERS, materials.flower, materials.flowerDepth, uniforms, painter);
+    this.fruits = new Ornaments(FRUITS, materials.fruit, materials.fruitDepth, uniforms, painter);
+    this.textures = [this.dress.textures, this.flowers.textures, this.fruits.textures];
+    const parts = [this.leaves, this.sprigs, this.flowers, this.fruits];
     this.meshes = parts.map(({ mesh }) => mesh);
     this.casters = parts.map(({ caster }) => caster);
     const { leaves, flowers, fruits } = DEFAULT_APPEARANCE;
@@ -43,13 +51,17 @@ export class Foliage {
   /** What rows from `rows` on bore is gone. */
   truncate(rows: number): void {
     this.leaves.truncate(rows);
+    this.sprigs.truncate(rows);
     this.flowers.truncate(rows);
     this.fruits.truncate(rows);
   }
 
   /** A row has changed in the way its `Dirty` bits say. */
   update(table: TreeTable, row: number, bits: number): void {
-    if ((bits & Dirty.Shape) !== 0) this.leaves.update(table, row);
+    if ((bits & Dirty.Shape) !== 0) {
+      this.leaves.update(table, row);
+      this.sprigs.update(table, row);
+    }
     this.flowers.update(table, row, bits);
     this.fruits.update(table, row, bits);
   }
@@ -57,11 +69,18 @@ export class Foliage {
   /** Chooses how finely everything in the box is drawn. */
   detail(fineness: Fineness, box: Box): void {
     this.leaves.detail(fineness, box);
+    this.sprigs.detail(fineness, box, this.leaves);
+  }
+
+  /** How far leaves have given way to sprigs, 0 to 1; shadows are those of what is drawn. */
+  get merged(): number {
+    return this.sprigs.share;
   }
 
   /** Has three.js upload what was written since the last call. */
   upload(table: TreeTable): void {
     this.leaves.upload();
+    this.sprigs.upload();
     this.flowers.upload(table);
     this.fruits.upload(table);
   }
@@ -74,6 +93,6 @@ export class Foliage {
   }
 
   dispose(): void {
-    for (const part of [this.dress, this.leaves, this.flowers, this.fruits]) part.dispose();
+    for (const part of [this.dress, this.leaves, this.sprigs, this.flowers, this.fruits]) part.dispose();
   }
 }

@@ -47,8 +47,8 @@ export const FRUITS: OrnamentSort<FruitKind> = {
 const STALK: Omit<Paint, "height"> = { shade: 0.9, tone: 0, sheer: 0, wood: 1 };
 
 /** A ball on a stalk, flushed on one side. */
-function ball(random: Random): LeafTile {
-  const tile = new LeafTile(0.5);
+function ball(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.5, side);
   const centre = 0.57;
   const radius = 0.41;
   const [flushX, flushY] = [0.5 * (random() - 0.5), 0.3 * (random() - 0.5)];
@@ -72,8 +72,8 @@ function ball(random: Random): LeafTile {
 }
 
 /** Scales in spirals, those nearer to the tip under the others. */
-function cone(random: Random): LeafTile {
-  const tile = new LeafTile(0.27);
+function cone(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.27, side);
   stalk(tile, [0, 0.02], [0, 0.1], 0.05);
   const rows = 13;
   const half = (t: number) => 0.22 * Math.sin(Math.PI * Math.min(1, 0.16 + 0.86 * t)) ** 0.62;
@@ -102,8 +102,8 @@ function cone(random: Random): LeafTile {
 }
 
 /** A nut in its cup, as of oaks. */
-function nut(random: Random): LeafTile {
-  const tile = new LeafTile(0.33);
+function nut(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.33, side);
   stalk(tile, [0, 0.02], [0, 0.16], 0.04);
   const tip = 0.97;
   const body: Point[] = oval([0, 0.58], 0.25, 0.33).filter(([, y]) => y < 0.89);
@@ -134,8 +134,8 @@ function nut(random: Random): LeafTile {
 }
 
 /** Two nutlets side by side, each with a wing. */
-function winged(random: Random): LeafTile {
-  const tile = new LeafTile(0.5);
+function winged(random: Random, side?: number): LeafTile {
+  const tile = new LeafTile(0.5, side);
   stalk(tile, [0, 0.02], [0, 0.3], 0.024);
   for (const hand of [-1, 1]) {
     const spread = 0.95 + 0.16 * (random() - 0.5);

@@ -13,7 +13,7 @@ function levelsOf(kind: LeafKind, coarsest?: number) {
     const lamina = laminaOf(kind, seeded(31 + i));
     return (side: number) => paintLeaf(lamina, seeded(7 + i), side);
   });
-  return atlasLevels(paintings, coarsest);
+  return atlasLevels(paintings, TILE_SIDE, coarsest);
 }
 
 describe.each([

@@ -1,10 +1,8 @@
-import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RGBAFormat, type Texture, UnsignedByteType } from "three";
 import { slopeAt } from "./leaf-painter";
 import { type LeafTile, TILE_SIDE } from "./leaf-tile";
 
 /** Tiles along each side of an atlas: as many pictures of one thing as there are, so that it does not repeat. */
 export const ATLAS_TILES = 2;
-const SIDE = ATLAS_TILES * TILE_SIDE;
 /** Where the shaders draw the line between a leaf and none. */
 const THRESHOLD = 0.5;
 
@@ -14,18 +12,20 @@ export interface Levels {
   readonly colour: Uint8Array<ArrayBuffer>[];
   /** Normal across and along, about 128; wood; margin. */
   readonly relief: Uint8Array<ArrayBuffer>[];
+  /** How many leaves long the picture is, where it is of several. */
+  readonly span?: number;
 }
 
 /** A tile with so many texels along each side. */
 export type Painting = (side: number) => LeafTile;
 
 /**
- * Four tiles as one picture, with coarser ones made of it that cover as much of each tile as the finest does; or painted
- * anew, down to `coarsest` texels a side, for what would run together.
+ * Four tiles of so many texels a side as one picture, with coarser ones made of it that cover as much of each tile as the
+ * finest does; or painted anew, down to `coarsest` texels a side, for what would run together.
  */
-export function atlasLevels(paintings: readonly Painting[], coarsest: number = TILE_SIDE): Levels {
+export function atlasLevels(paintings: readonly Painting[], finest: number = TILE_SIDE, coarsest = finest): Levels {
   const levels: Levels = { colour: [], relief: [] };
-  for (let side = SIDE; side >= 1; side /= 2) {
+  for (let side = ATLAS_TILES * finest; side >= 1; side /= 2) {
     if (side >= ATLAS_TILES * coarsest) {
       paint(
         levels,
@@ -37,7 +37,8 @@ export function atlasLevels(paintings: readonly Painting[], coarsest: number = T
     levels.colour.push(halved(above, above, side));
     levels.relief.push(halved(beside, above, side));
   }
-  for (let tile = 0; tile < ATLAS_TILES * ATLAS_TILES; tile += 1) keepCoverage(levels.colour, tile);
+  for (let tile = 0; tile < ATLAS_TILES * ATLAS_TILES; tile += 1)
+    keepCoverage(levels.colour, tile, ATLAS_TILES * finest);
   return levels;
 }
 
@@ -65,50 +66,6 @@ function paint(levels: Levels, tiles: readonly LeafTile[]): void {
   });
   levels.colour.push(colour);
   levels.relief.push(relief);
-}
-
-/** Textures of the levels, painted when they are first drawn with; a restored context gets them from memory again. */
-export class LeafAtlas {
-  /** For a shader's uniforms. */
-  readonly colour: { readonly value: Texture };
-  readonly relief: { readonly value: Texture };
-  private textures: { colour: Texture; relief: Texture } | null = null;
-
-  constructor(private readonly painting: () => Levels) {
-    const textures = () => this.painted();
-    this.colour = {
-      get value() {
-        return textures().colour;
-      },
-    };
-    this.relief = {
-      get value() {
-        return textures().relief;
-      },
-    };
-  }
-
-  /** Has both uploaded again. */
-  restored(): void {
-    if (!this.textures) return;
-    this.textures.colour.needsUpdate = true;
-    this.textures.relief.needsUpdate = true;
-  }
-
-  /** Lets go of them; what is drawn next is painted again. */
-  dispose(): void {
-    this.textures?.colour.dispose();
-    this.textures?.relief.dispose();
-    this.textures = null;
-  }
-
-  private painted() {
-    if (!this.textures) {
-      const { colour, relief } = this.painting();
-      this.textures = { colour: textureOf(colour), relief: textureOf(relief) };
-    }
-    return this.textures;
-  }
 }
 
 /** What share of a tile's texels is inside, if coverages count `factor` times. */
@@ -150,9 +107,9 @@ function halved(above: Uint8Array, weights: Uint8Array, side: number): Uint8Arra
 }
 
 /** Scales the coverages of a tile's coarser levels until each has as much inside as the finest. */
-function keepCoverage(levels: Uint8Array[], tile: number): void {
-  const wanted = coverageOf(levels[0]!, SIDE, tile);
-  for (let level = 1, side = SIDE / 2; side >= ATLAS_TILES; level += 1, side /= 2) {
+function keepCoverage(levels: Uint8Array[], tile: number, finest: number): void {
+  const wanted = coverageOf(levels[0]!, finest, tile);
+  for (let level = 1, side = finest / 2; side >= ATLAS_TILES; level += 1, side /= 2) {
     const texels = levels[level]!;
     let [low, high] = [0, 8];
     for (let i = 0; i < 12; i += 1) {
@@ -171,14 +128,4 @@ function keepCoverage(levels: Uint8Array[], tile: number): void {
 
 function byte(share: number): number {
   return Math.round(255 * Math.min(1, Math.max(0, share)));
-}
-
-function textureOf(levels: Uint8Array<ArrayBuffer>[]): DataTexture {
-  const texture = new DataTexture(levels[0]!, SIDE, SIDE, RGBAFormat, UnsignedByteType);
-  texture.mipmaps = levels.map((data, i) => ({ data, width: SIDE >> i, height: SIDE >> i }));
-  texture.magFilter = LinearFilter;
-  texture.minFilter = LinearMipmapLinearFilter;
-  texture.anisotropy = 4;
-  texture.needsUpdate = true;
-  return texture;
 }

@@ -2,9 +2,10 @@ import { Vector2, Vector3, Vector4 } from "three";
 import { DEFAULT_APPEARANCE, type LeafKind, type LeafLook } from "../../wire/generated";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
-import { isSpray, laminaOf } from "./lamina";
-import { ATLAS_TILES, atlasLevels, LeafAtlas, type Levels } from "./leaf-atlas";
-import { paintLeaf, seeded } from "./leaf-painter";
+import { GradualTextures } from "../painting/gradual-textures";
+import type { Painter } from "../painting/painter";
+import { isSpray } from "./lamina";
+import { reachOf } from "./leaf-pictures";
 import { seasonOf } from "./leaf-season";
 
 /** Colours that a kind of leaf turns into: first, at last, and dead, as the screen shows them. */
@@ -60,9 +61,6 @@ const LEAN: Partial<Record<LeafKind, number>> = { needle: 0.6, scale: 0.72 };
 /** How much a blade bows and folds; long and heavy ones hang. */
 const BEND: Partial<Record<LeafKind, number>> = { lanceolate: 1.3, compound: 1.4, palmate: 0.9, fan: 0.5, needle: 0.3 };
 
-/** Sprays are painted anew for each distance, down to so many texels: thin needles would run together to a blot. */
-const COARSEST_SPRAY = 8;
-
 /** What leaves wear: their textures and all the shaders need to know of the look. */
 export class LeafDress {
   private readonly form = { value: new Vector4() };
@@ -70,32 +68,34 @@ export class LeafDress {
   private readonly traits = { value: new Vector4() };
   private readonly tint = { value: new Vector3() };
   private readonly autumn = { value: [new Vector3(), new Vector3(), new Vector3()] };
-  private readonly atlas: LeafAtlas;
-  private kind: LeafKind = DEFAULT_APPEARANCE.leaves.shape;
+  /** Single leaves, and sprigs of them. */
+  readonly textures: GradualTextures<"leaf">;
 
-  constructor(uniforms: Uniforms) {
-    this.atlas = new LeafAtlas(() => paintingOf(this.kind));
+  constructor(uniforms: Uniforms, painter: Painter) {
+    this.textures = new GradualTextures("leaf", painter, { pictures: 2 });
+    const [single, sprig] = this.textures.drawn;
     Object.assign(uniforms, {
       uLeafLevel: { value: new Vector2(2, 1) },
+      uLeafBand: { value: new Vector3(0, 0, 1) },
       uLeafForm: this.form,
       uLeafSeason: this.season,
       uLeafTraits: this.traits,
       uLeafTint: this.tint,
       uLeafAutumn: this.autumn,
-      uLeafColour: this.atlas.colour,
-      uLeafRelief: this.atlas.relief,
+      uLeafColour: single!.colour,
+      uLeafRelief: single!.relief,
+      uSprigColour: sprig!.colour,
+      uSprigRelief: sprig!.relief,
+      uSprigSpan: sprig!.span,
     });
     this.wear(DEFAULT_APPEARANCE.leaves);
   }
 
   /** Puts a look on. */
   wear(look: LeafLook): void {
-    if (look.shape !== this.kind) {
-      this.kind = look.shape;
-      this.atlas.dispose();
-    }
+    this.textures.choose(look.shape);
     const { unfolded, present, fresh, turned, withered } = seasonOf(look.shape, look.season);
-    const reach = REACHES[look.shape];
+    const reach = reachOf(look.shape);
     this.form.value.set(reach, isSpray(look.shape) ? 1 : 0, LEAN[look.shape] ?? 0, BEND[look.shape] ?? 1);
     this.season.value.set(unfolded, present, fresh, turned);
     this.traits.value.set(look.vigor_shift, look.orientation, withered, 0);
@@ -105,27 +105,10 @@ export class LeafDress {
 
   /** A restored context has lost the textures. */
   restored(): void {
-    this.atlas.restored();
+    this.textures.restored();
   }
 
   dispose(): void {
-    this.atlas.dispose();
+    this.textures.dispose();
   }
-}
-
-/** Half widths of the cards: of the broadest leaf there may be, so that all pictures of a kind are to one scale. */
-const REACHES = Object.fromEntries(
-  (Object.keys(AUTUMN) as LeafKind[]).map((kind) => [kind, Math.max(...specimens(kind).map(({ reach }) => reach))]),
-) as Record<LeafKind, number>;
-
-function specimens(kind: LeafKind) {
-  return Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => laminaOf(kind, seeded(31 + i)));
-}
-
-function paintingOf(kind: LeafKind): Levels {
-  const reach = REACHES[kind];
-  const paintings = specimens(kind).map(
-    (lamina, i) => (side: number) => paintLeaf({ ...lamina, reach }, seeded(7 + i), side),
-  );
-  return atlasLevels(paintings, isSpray(kind) ? COARSEST_SPRAY : undefined);
 }

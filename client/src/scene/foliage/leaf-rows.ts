@@ -5,6 +5,7 @@ import type { Uniforms } from "../materials";
 import type { TreeTable } from "../table/tree-table";
 import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
 import { leafAzimuth, leafRandom } from "./leaves";
+import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
 
 /** While a hand moves on a slow device, no more leaves than this are drawn, each the larger for it. */
@@ -39,6 +40,16 @@ export class LeafRows {
     for (const mesh of [this.mesh, this.caster]) mesh.frustumCulled = false;
   }
 
+  /** Places for leaves, those included where there is none. */
+  get count(): number {
+    return this.instances.count;
+  }
+
+  /** Leaves there are. */
+  get filled(): number {
+    return this.instances.filled;
+  }
+
   /** Leaves of rows from `rows` on are gone. */
   truncate(rows: number): void {
     this.instances.truncate(rows);
@@ -61,18 +72,23 @@ export class LeafRows {
     const { count, geometries } = this.instances;
     this.follow();
     const size = LARGEST * (this.uniforms.uLeafSize!.value as number);
-    const longest = (size * pixels) / Math.max(0.5, distanceTo(box, eye) - size);
+    const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
     const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, count, longest, ease);
     this.mesh.geometry = geometries[level]!;
     const share = Math.min(1, LEAVES_IN_HASTE / Math.max(1, count));
     (this.uniforms.uLeafLevel!.value as Vector2).set(level, share + (1 - share) * ease);
   }
 
+  /** Draws them or not. */
+  show(shown: boolean): void {
+    this.mesh.visible = shown && this.instances.count > 0;
+    this.caster.visible = this.mesh.visible;
+  }
+
   /** Has three.js upload what was written since the last call. */
   upload(): void {
     this.instances.upload();
-    this.mesh.visible = this.instances.count > 0;
-    this.caster.visible = this.instances.count > 0;
+    this.show(true);
   }
 
   dispose(): void {
@@ -86,10 +102,4 @@ export class LeafRows {
     this.spray = spray;
     this.instances.shape(spray ? SPRAY_CARDS : BLADE_CARDS);
   }
-}
-
-/** How far a place is from a box; 0 inside. */
-function distanceTo({ min, max }: Box, place: readonly number[]): number {
-  const off = (axis: 0 | 1 | 2) => Math.max(min[axis] - place[axis]!, 0, place[axis]! - max[axis]);
-  return Math.hypot(off(0), off(1), off(2));
 }

@@ -9,6 +9,8 @@ const NONE = -1;
 export class LeafSlots {
   /** Slots in use or to be used again: instances to draw. */
   end = 0;
+  /** Slots in use. */
+  filled = 0;
   private first = new Int32Array(0);
   private count = new Uint8Array(0);
   private rows = 0;
@@ -39,6 +41,7 @@ export class LeafSlots {
       cleared(this.first[row]!, before);
     }
     this.count[row] = count;
+    this.filled += count - before;
     if (count === 0) return;
     const again = this.free[count]!.pop();
     if (again === undefined) {

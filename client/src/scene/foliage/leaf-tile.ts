@@ -17,6 +17,8 @@ export interface Paint {
   wood: number;
   /** Above the plane, in lengths of the leaf. */
   height: number;
+  /** 0 inside, to 1 along the margin of a blade. */
+  margin?: number;
 }
 
 /** One picture of a leaf, a flower or a fruit: x from −reach to reach, y from 0 to 1, with a margin around. */
@@ -136,7 +138,14 @@ export class LeafTile {
     }
   }
 
-  private blend(at: number, covered: number, { shade, tone, sheer, wood, height }: Paint): void {
+  /** The texel at coordinates. */
+  nearest(x: number, y: number): number {
+    const inside = (place: number) => Math.min(this.side - 1, Math.max(0, Math.floor(place)));
+    return inside(this.line(y)) * this.side + inside(this.column(x));
+  }
+
+  /** Lays paint over a texel, so much of which it covers. */
+  blend(at: number, covered: number, { shade, tone, sheer, wood, height, margin = 0 }: Paint): void {
     const before = this.alpha[at]!;
     const after = covered + before * (1 - covered);
     const share = covered / after;
@@ -146,6 +155,7 @@ export class LeafTile {
     this.sheer[at]! += (sheer - this.sheer[at]!) * share;
     this.wood[at]! += (wood - this.wood[at]!) * share;
     this.height[at]! += (height - this.height[at]!) * share;
+    this.margin[at]! += (margin - this.margin[at]!) * share;
   }
 }
 

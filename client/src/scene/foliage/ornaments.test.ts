@@ -3,6 +3,7 @@ import { beforeEach, describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { Painter } from "../painting/painter";
 import { TreeTable } from "../table/tree-table";
 import { FLOWERS } from "./flowers";
 import { FRUITS } from "./fruits";
@@ -46,7 +47,7 @@ describe("flowers", () => {
     table = new TreeTable(() => 0);
     table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
     uniforms = {};
-    flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms);
+    flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, new Painter());
     flowers.wear(LOOK);
     sync();
   });
@@ -105,7 +106,7 @@ describe("flowers", () => {
 it("a large tree bears fewer at a place, but as many places", () => {
   const table = new TreeTable(() => 0);
   table.apply(sampleTree({ seed: 2, height: 80, orders: 3 }));
-  const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {});
+  const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, new Painter());
   flowers.wear({ ...LOOK, share: 1 });
   flowers.upload(table);
   const counts = borne(flowers.mesh.geometry);

@@ -1,10 +1,11 @@
 import { Mesh, type ShaderMaterial, Vector3, Vector4 } from "three";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
+import { GradualTextures } from "../painting/gradual-textures";
+import type { Kinds } from "../painting/paint";
+import type { Painter } from "../painting/painter";
 import { Dirty, type TreeTable } from "../table/tree-table";
-import { ATLAS_TILES, atlasLevels, LeafAtlas, type Levels } from "./leaf-atlas";
 import { ORNAMENT_CARDS } from "./leaf-cards";
-import { seeded } from "./leaf-painter";
 import type { LeafTile } from "./leaf-tile";
 import { leafAzimuth, leafRandom } from "./leaves";
 import { isBearing, type Placing } from "./places";
@@ -29,8 +30,8 @@ export interface OrnamentKind {
   readonly gloss: number;
   /** Its second colour in sRGB. */
   readonly second: readonly number[];
-  /** One picture of it. */
-  paint(random: () => number): LeafTile;
+  /** One picture of it, with so many texels along each side. */
+  paint(random: () => number, side?: number): LeafTile;
 }
 
 /** Flowers, or fruits: their kinds, and what keeps them from standing in the same places as the others. */
@@ -57,7 +58,7 @@ export class Ornaments<Look extends OrnamentLook> {
   private readonly finish = { value: new Vector4() };
   private readonly tint = { value: new Vector3() };
   private readonly second = { value: new Vector3() };
-  private readonly atlas = new LeafAtlas(() => paintingOf(this.kind));
+  readonly textures: GradualTextures<"flower" | "fruit">;
   private look: Look | null = null;
   /** How many stand at a place: as many as the kind has, or fewer. */
   private together = 0;
@@ -71,6 +72,7 @@ export class Ornaments<Look extends OrnamentLook> {
     material: ShaderMaterial,
     depth: ShaderMaterial,
     uniforms: Uniforms,
+    painter: Painter,
   ) {
     this.mesh = new Mesh(this.instances.geometries[0], material);
     this.caster = new Mesh(this.instances.geometries[0], depth);
@@ -83,8 +85,10 @@ export class Ornaments<Look extends OrnamentLook> {
     uniforms[`u${name}Finish`] = this.finish;
     uniforms[`u${name}Tint`] = this.tint;
     uniforms[`u${name}Second`] = this.second;
-    uniforms[`u${name}Colour`] = this.atlas.colour;
-    uniforms[`u${name}Relief`] = this.atlas.relief;
+    this.textures = new GradualTextures(name === "Flower" ? "flower" : "fruit", painter);
+    const { colour, relief } = this.textures.drawn[0]!;
+    uniforms[`u${name}Colour`] = colour;
+    uniforms[`u${name}Relief`] = relief;
   }
 
   /** Puts a look on; new places are found with the next upload. */
@@ -92,7 +96,8 @@ export class Ornaments<Look extends OrnamentLook> {
     const before = this.look;
     this.look = look;
     const kind = this.kind;
-    if (before?.kind !== look.kind) this.atlas.dispose();
+    if (look.kind === "none") this.textures.dispose();
+    else this.textures.choose(look.kind as Kinds["flower" | "fruit"]);
     this.stale ||=
       before?.kind !== look.kind ||
       before.share !== look.share ||
@@ -137,11 +142,11 @@ export class Ornaments<Look extends OrnamentLook> {
 
   /** A restored context has lost the textures. */
   restored(): void {
-    this.atlas.restored();
+    this.textures.restored();
   }
 
   dispose(): void {
-    this.atlas.dispose();
+    this.textures.dispose();
     this.instances.dispose();
   }
 
@@ -158,9 +163,4 @@ export class Ornaments<Look extends OrnamentLook> {
     const kinds: Partial<Record<string, OrnamentKind>> = this.sort.kinds;
     return (this.look && kinds[this.look.kind]) ?? null;
   }
-}
-
-function paintingOf(kind: OrnamentKind | null): Levels {
-  const pictures = kind ? Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => kind.paint(seeded(97 + i))) : [];
-  return atlasLevels(pictures.map((picture) => () => picture));
 }

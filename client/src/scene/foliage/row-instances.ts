@@ -33,6 +33,11 @@ export class RowInstances {
     return this.slots.end;
   }
 
+  /** Those that show something. */
+  get filled(): number {
+    return this.slots.filled;
+  }
+
   /** Gives every instance another card. */
   shape(levels: readonly Card[]): void {
     for (const [i, { card, index }] of levels.entries()) {

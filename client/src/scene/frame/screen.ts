@@ -73,6 +73,8 @@ export class Screen {
   private ratio = 1;
   private scale = 1;
   private smooth = true;
+  /** Whether the last picture is in the target still. */
+  private kept = false;
 
   constructor(private readonly renderer: WebGLRenderer) {
     const geometry = new BufferGeometry();
@@ -103,13 +105,21 @@ export class Screen {
     return scale > this.scale || (smooth && !this.smooth);
   }
 
-  /** Draws the picture as coarsely as the last, for the next one to come over it by and by. */
+  /** Keeps the last picture, or draws it once more as coarsely, for the next one to come over it by and by. */
   remember(scene: Scene, camera: Camera): void {
-    const { renderer, before, size } = this;
+    const { renderer, before, size, material } = this;
     before.setSize(size.x, size.y);
     renderer.setRenderTarget(before);
     renderer.clear();
-    renderer.render(scene, camera);
+    if (this.kept) {
+      // What is drawn into must not be read as well.
+      material.uniforms.uBefore!.value = this.target.texture;
+      this.share.value = 1;
+      renderer.render(this.copy, camera);
+      material.uniforms.uBefore!.value = before.texture;
+    } else {
+      renderer.render(scene, camera);
+    }
     renderer.setRenderTarget(null);
   }
 
@@ -128,6 +138,7 @@ export class Screen {
     const { renderer, target } = this;
     this.share.value = over ? 0 : 1;
     this.fading = null;
+    this.kept = this.smooth;
     if (!this.smooth) {
       renderer.clear();
       renderer.render(scene, camera);
@@ -150,6 +161,7 @@ export class Screen {
   }
 
   private allot(): void {
+    this.kept = false;
     const { renderer, width, height } = this;
     renderer.setDrawingBufferSize(width, height, this.ratio * this.scale);
     const { domElement } = renderer;

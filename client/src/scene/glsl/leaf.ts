@@ -1,4 +1,5 @@
 import { TILE_MARGIN } from "../foliage/leaf-tile";
+import { SPRIG_REACH } from "../foliage/sprig";
 import { HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
@@ -25,6 +26,7 @@ Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
 /** Cards that wear a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
 export const CARD = /* glsl */ `
 const float MARGIN = ${TILE_MARGIN.toFixed(4)};
+const float SPRIG_REACH = ${SPRIG_REACH.toFixed(4)};
 /** Towards whoever looks: the eye, or the sun while it draws. */
 vec3 towardsEye(vec3 place) {
 #ifdef CASTER
@@ -38,6 +40,26 @@ vec2 tileAt(vec2 at, float random, float hand) {
   float tile = floor(random * 4.0);
   return (vec2(mod(tile, 2.0), floor(tile * 0.5)) + vec2(0.5 + 0.5 * hand * at.x, at.y)) * 0.5;
 }
+`;
+
+/** Pictures of single leaves, or of sprigs. */
+const LEAF_SAMPLERS = /* glsl */ `
+#ifdef SPRIG
+uniform sampler2D uSprigColour;
+uniform sampler2D uSprigRelief;
+#define PAINTED uSprigColour
+#define RELIEF uSprigRelief
+// Leaves of a pixel or two stay apart, or a sprig would be a blot.
+#define SHARPER -2.0
+#define FINER -2.0
+#else
+uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
+uniform sampler2D uLeafRelief; // normal across and along, wood, margin
+#define PAINTED uLeafColour
+#define RELIEF uLeafRelief
+#define SHARPER (-0.35 * uLeafForm.y)
+#define FINER 0.0
+#endif
 `;
 
 /** The colour of a leaf, in its middle and along its margin. */
@@ -81,6 +103,10 @@ uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies 
 uniform vec4 uLeafSeason; // size, presence, fresh, turned
 uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
 uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
+uniform vec3 uLeafBand; // length of a leaf in pixels up to which all give way to sprigs, and from which none; how much sprigs swell
+#ifdef SPRIG
+uniform float uSprigSpan; // leaves that a sprig is long
+#endif
 in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones
 in vec4 leaf; // row, parent's row, azimuth, share of the way along the metamer
 in float tint; // a random number with the vigor above the point; below 0 where there is no leaf
@@ -102,7 +128,17 @@ void main() {
   Node from = nodeAt(int(leaf.y + 0.5));
   float random = fract(tint);
   vec4 more = fract(random * vec4(57.31, 131.7, 313.3, 709.9));
-  float there = presence(uLeafSeason.y, more.z) * presence(uLeafLevel.y, more.w);
+  // From afar single leaves give way to sprigs, one here and one there, until none is left.
+  float length_ = uLeafSize * uView.w / max(0.1, distance(uView.xyz, node.position));
+  float single = uLeafBand.y > 0.0 ? smoothstep(uLeafBand.x, uLeafBand.y, length_) : 1.0;
+#ifdef SPRIG
+  float share = 1.0 - single;
+  float haste = 1.0;
+#else
+  float share = single;
+  float haste = uLeafLevel.y;
+#endif
+  float there = presence(uLeafSeason.y, more.z) * presence(haste, more.w) * presence(share, fract(random * 1531.7));
   if (tint < 0.0 || there <= 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
@@ -110,7 +146,7 @@ void main() {
   float vigor = floor(tint) / 15.0;
   float grown = eased(uTime - node.birth - node.growing * 0.6, SECONDS);
   float unfolded = mix(uLeafSeason.x, 1.0, 0.35 * more.y * (1.0 - uLeafSeason.x));
-  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolded * there * inversesqrt(max(uLeafLevel.y, 0.2));
+  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolded * there * inversesqrt(max(haste, 0.2));
   Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
   vec3 h = normalize(node.position - from.position);
   vec3 side = cross(place.direction, place.normal);
@@ -123,13 +159,20 @@ void main() {
   float across = card.x * uLeafForm.x * (1.0 + 2.0 * MARGIN);
   float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
   float pixels = size * uView.w / max(0.1, distance(uView.xyz, place.base));
+#ifdef SPRIG
+  // Its middle is where that of the leaf would be.
+  // Single leaves about as small as a pixel seem larger than they are.
+  float span = uSprigSpan * uLeafBand.z * mix(1.17, 1.0, smoothstep(1.5, 3.8, length_)) * (1.0 + 2.0 * MARGIN);
+  along = (card.y - 0.5) * span + 0.5;
+  across = card.x * SPRIG_REACH * span;
+#endif
   vec3 world = place.base;
   vec3 lengthwise = d;
   if (uLeafForm.y > 0.5) {
     vec3 eye = towardsEye(place.base);
     vec3 facing = normalize(cross(d, eye) + 1e-4 * side);
     float far = max(step(1.5, uLeafLevel.x), 1.0 - smoothstep(12.0, 30.0, pixels));
-#ifdef CASTER
+#if defined(CASTER) || defined(SPRIG)
     far = 1.0;
 #endif
     float angle = 1.0472 * card.z + 6.2832 * more.y;
@@ -148,7 +191,7 @@ void main() {
     side = cos(roll) * side - sin(roll) * level;
     // The tip bows, each leaf by its own measure, and the halves rise from the midrib; far off nobody sees it.
     float near = smoothstep(7.0, 22.0, pixels) * uLeafForm.w;
-#ifdef CASTER
+#if defined(CASTER) || defined(SPRIG)
     near = 0.0;
 #endif
     float bow = mix(0.10, 0.38, random) * near;
@@ -167,6 +210,9 @@ void main() {
   vMargin = hues.margin;
   // The outer half of a leaf sees more of the sky than where it is hidden by its twig.
   vLight = vec2(node.look == MARKED ? -1.0 : node.light, 0.72 + 0.28 * card.y);
+#ifdef SPRIG
+  vLight.y = 0.86;
+#endif
   vTrait = traitOf(int(leaf.x + 0.5));
 #ifdef GHOST
   vWorld = world = ghostPlace(world);
@@ -189,11 +235,11 @@ float cut(float covered) {
 
 /** For shadows: what the picture leaves out lets the sun through. */
 export const LEAF_DEPTH_FRAGMENT = /* glsl */ `${HEAD}${DEPTH_COLOUR}
-uniform sampler2D uLeafColour;
+${LEAF_SAMPLERS}
 in vec2 vPicture;
 out vec4 colour;
 void main() {
-  if (texture(uLeafColour, vPicture).a < 0.5) discard;
+  if (texture(PAINTED, vPicture).a < 0.5) discard;
   colour = depthColour();
 }
 `;
@@ -203,12 +249,14 @@ export const THIN_LIGHT = /* glsl */ `
 vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, float gloss, float exposure, float open) {
   float facing = dot(normal, uSun);
   // Some sun always finds its way through a crown, from leaf to leaf.
-  float sun = mix(0.10, 1.0, sunlit(world, uSun * 4.0, 1.4));
+  float sun = mix(0.10, 1.0, sunAt(world + uSun * (0.12 + uShadowSize), 1.4));
   float reflected = max(0.0, (facing + 0.25) / 1.25);
   float through = sheer * (max(0.0, 0.15 - facing) * 0.85 + 0.5 * pow(max(0.0, -dot(sight, uSun)), 4.0));
   vec3 sieved = albedo * (0.35 + 2.4 * albedo / max(max(albedo.r, albedo.g), 0.02)) * vec3(0.62, 0.60, 0.36);
-  float shade = mix(0.42, 1.0, exposure) * open;
-  vec3 lit = albedo * (ambient(normal) * 1.45 * shade + SUN_COLOUR * reflected * sun) + sieved * SUN_COLOUR * through * sun;
+  // Deep in a crown there is little of the sky, and what comes from behind a leaf shines through it.
+  float shade = mix(0.24, 1.08, exposure) * open * mix(0.62, 1.1, sunAround(world));
+  vec3 lit = albedo * (ambient(normal) * 1.35 * shade + SUN_COLOUR * reflected * sun);
+  lit += sieved * (SUN_COLOUR * through * sun + ambient(-normal) * sheer * 0.8 * shade);
   float shine = pow(max(0.0, dot(normal, normalize(sight + uSun))), 24.0) * sun;
   return lit + (SUN_COLOUR * shine * 0.06 + SKY_COLOUR * 0.03 * shade * pow(1.0 - abs(dot(normal, sight)), 3.0)) * gloss;
 }
@@ -216,8 +264,7 @@ vec3 thinLit(vec3 albedo, vec3 normal, vec3 sight, vec3 world, float sheer, floa
 
 /** A leaf as its picture shows it. */
 export const LEAF_FRAGMENT = /* glsl */ `${HEAD}${LIGHT}${MODES}${GHOST_COLOUR}${CUT}${THIN_LIGHT}
-uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
-uniform sampler2D uLeafRelief; // normal across and along, wood, margin
+${LEAF_SAMPLERS}
 uniform vec4 uLeafForm;
 in vec3 vWorld;
 in vec3 vNormal;
@@ -231,14 +278,14 @@ out vec4 colour;
 const vec3 TWIG = vec3(0.150, 0.095, 0.055);
 
 void main() {
-  vec4 painted = texture(uLeafColour, vPicture, -0.35 * uLeafForm.y);
+  vec4 painted = texture(PAINTED, vPicture, SHARPER);
   float there = cut(painted.a);
 #ifdef GHOST
   if (painted.a < 0.5) discard;
 #else
   if (there < 0.12) discard;
 #endif
-  vec4 relief = texture(uLeafRelief, vPicture);
+  vec4 relief = texture(RELIEF, vPicture, FINER);
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);
   vec3 sight = eye / max(away, 1e-4);

@@ -37,6 +37,7 @@ export class Ghost {
       uMode: { value: 0 },
       // Both passes must meet the very same leaves, however they are looked at.
       uLeafLevel: { value: new Vector2(2, 1) },
+      uLeafBand: { value: new Vector3(0, 0, 1) },
       uGhostTurn: { value: this.pose.turn },
       uGhostFrom: { value: this.pose.from },
       uGhostTo: { value: this.pose.to },

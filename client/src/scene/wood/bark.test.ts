@@ -1,6 +1,7 @@
 import { describe, expect, it, vi } from "vitest";
 import { type BarkKind, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { Painter } from "../painting/painter";
 import { Bark } from "./bark";
 import { cells, noCell, turbulence, waves } from "./bark-noise";
 import { barkPalette } from "./bark-palette";
@@ -118,7 +119,7 @@ describe("a palette", () => {
 describe("the bark worn", () => {
   const wear = () => {
     const uniforms: Uniforms = {};
-    return { uniforms, bark: new Bark(uniforms, 32) };
+    return { uniforms, bark: new Bark(uniforms, new Painter()) };
   };
 
   it("keeps its textures while only colour and shape change", () => {

@@ -7,6 +7,7 @@ import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS } from "../../wire/generated";
 import { Foliage } from "../foliage/foliage";
 import { makeMaterials } from "../materials";
+import { Painter } from "../painting/painter";
 import { TreeTable } from "../table/tree-table";
 import { Branches } from "./branches";
 
@@ -44,7 +45,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
   const table = new TreeTable(() => 0);
   const materials = makeMaterials({});
   const branches = new Branches(materials);
-  const foliage = new Foliage(materials, {});
+  const foliage = new Foliage(materials, {}, new Painter());
   const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
   table.apply(sample);
   let sequence = sample.sequence;

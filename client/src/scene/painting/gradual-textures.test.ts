@@ -1,0 +1,74 @@
+import type { DataTexture } from "three";
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import type { Levels } from "../foliage/leaf-atlas";
+import { GradualTextures } from "./gradual-textures";
+import { type Order, paint } from "./paint";
+import type { Painter } from "./painter";
+
+describe("textures", () => {
+  let orders: { order: Order; done: (painted: Levels[]) => void; off: boolean }[];
+  let textures: GradualTextures<"bark">;
+  const shown = () => textures.drawn[0]!.colour.value as DataTexture;
+  const side = () => (shown().image as { width: number }).width;
+  const finish = () => orders.at(-1)!.done(paint({ ...orders.at(-1)!.order, coarse: false }));
+
+  beforeEach(() => {
+    orders = [];
+    const painter = {
+      order: (order: Order, done: (painted: Levels[]) => void) => {
+        const entry = { order, done, off: false };
+        orders.push(entry);
+        return () => {
+          entry.off = true;
+        };
+      },
+    } as unknown as Painter;
+    textures = new GradualTextures("bark", painter);
+    textures.choose("papery");
+  });
+
+  it("are not painted before they are drawn with", () => {
+    expect(orders).toEqual([]);
+    expect(textures.unfinished).toBe(false);
+  });
+
+  it("are coarse at once and whole when the time is right", () => {
+    expect(side()).toBe(64);
+    expect(textures.unfinished).toBe(true);
+    finish();
+    expect(textures.ripe).toBe(true);
+    expect(side()).toBe(64);
+    const gone = vi.fn();
+    shown().addEventListener("dispose", gone);
+    textures.ripen();
+    expect(side()).toBe(512);
+    expect(gone).toHaveBeenCalledOnce();
+    expect(textures.unfinished).toBe(false);
+  });
+
+  it("call off what nobody wants any more", () => {
+    shown();
+    textures.choose("smooth");
+    expect(orders[0]!.off).toBe(true);
+    expect(textures.unfinished).toBe(false);
+    shown();
+    expect(orders.map(({ order }) => order.kind)).toEqual(["papery", "smooth"]);
+    textures.choose("smooth");
+    expect(orders[1]!.off).toBe(false);
+  });
+
+  it("go up again to a restored context", () => {
+    const before = shown().version;
+    textures.restored();
+    expect(shown().version).toBeGreaterThan(before);
+  });
+});
+
+it("coarse pictures have a small part of the texels", () => {
+  // In texels, for a clock would measure what else the machine does: at most a sixteenth of the whole.
+  const texels = (order: Order) => paint(order).reduce((sum, { colour }) => sum + colour[0]!.length / 4, 0);
+  expect(texels({ sort: "bark", kind: "plated", coarse: true })).toBe(64 * 64);
+  expect(texels({ sort: "flower", kind: "panicle", coarse: true })).toBe(128 * 128);
+  expect(texels({ sort: "fruit", kind: "cone", coarse: true })).toBe(128 * 128);
+  expect(texels({ sort: "leaf", kind: "needle", coarse: true })).toBe(64 * 64 + 128 * 128);
+});

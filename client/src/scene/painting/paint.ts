@@ -1,0 +1,51 @@
+import type { BarkKind, FlowerKind, FruitKind, LeafKind } from "../../wire/generated";
+import { FLOWERS } from "../foliage/flowers";
+import { FRUITS } from "../foliage/fruits";
+import { ATLAS_TILES, atlasLevels, type Levels } from "../foliage/leaf-atlas";
+import { seeded } from "../foliage/leaf-painter";
+import { leafLevels } from "../foliage/leaf-pictures";
+import { TILE_SIDE } from "../foliage/leaf-tile";
+import { BARK_SIDE, barkTexels } from "../wood/bark-relief";
+
+/** What there are pictures of, and the kinds of each. */
+export interface Kinds {
+  readonly bark: BarkKind;
+  readonly leaf: LeafKind;
+  readonly flower: Exclude<FlowerKind, "none">;
+  readonly fruit: Exclude<FruitKind, "none">;
+}
+export type Sort = keyof Kinds;
+
+/** A picture somebody wants. */
+export type Order = {
+  readonly [S in Sort]: { readonly sort: S; readonly kind: Kinds[S]; readonly coarse: boolean };
+}[Sort];
+
+/** Coarse pictures are so many times smaller along each side: little enough to be painted within a frame. */
+const COARSER = { bark: 8, leaf: 8, flower: 4, fruit: 4 } as const satisfies Record<Sort, number>;
+
+/** Paints what was ordered, one picture after the other; the same ones everywhere. */
+export function paint(order: Order): Levels[] {
+  const shrunk = order.coarse ? COARSER[order.sort] : 1;
+  switch (order.sort) {
+    case "bark": {
+      const { colours, relief } = barkTexels(order.kind, BARK_SIDE / shrunk);
+      // The graphics card makes the coarser levels.
+      return [{ colour: [colours], relief: [relief] }];
+    }
+    case "leaf":
+      return leafLevels(order.kind, TILE_SIDE / shrunk);
+    case "flower":
+      return [ornamentLevels(FLOWERS.kinds[order.kind].paint, TILE_SIDE / shrunk)];
+    case "fruit":
+      return [ornamentLevels(FRUITS.kinds[order.kind].paint, TILE_SIDE / shrunk)];
+  }
+}
+
+function ornamentLevels(picture: typeof FLOWERS.kinds.rosette.paint, side: number): Levels {
+  const tiles = Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => picture(seeded(97 + i), side));
+  return atlasLevels(
+    tiles.map((tile) => () => tile),
+    side,
+  );
+}

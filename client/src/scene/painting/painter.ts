@@ -1,0 +1,92 @@
+import type { Levels } from "../foliage/leaf-atlas";
+import { type Order, paint } from "./paint";
+
+/** What a painter's hand is: a worker, or what tests have in its place. */
+export interface Hand {
+  onmessage: ((event: { readonly data: Levels[] }) => void) | null;
+  onerror: (() => void) | null;
+  postMessage(order: Order): void;
+  terminate(): void;
+}
+
+interface Job {
+  readonly order: Order;
+  readonly done: (painted: Levels[]) => void;
+}
+
+/** Paints beside the page, so that no frame waits for it; where no worker is to be had, on the page after all. */
+export class Painter {
+  private hand: Hand | null = null;
+  private broken = false;
+  private current: Job | null = null;
+  private waiting: Job[] = [];
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  /** `told` hears of each picture that is finished. */
+  constructor(
+    private readonly told: () => void = () => {},
+    private readonly hire: () => Hand = worker,
+  ) {}
+
+  /** Has something painted; gives back what calls that off. */
+  order(order: Order, done: (painted: Levels[]) => void): () => void {
+    const job = { order, done };
+    this.waiting.push(job);
+    this.next();
+    return () => {
+      this.waiting = this.waiting.filter((other) => other !== job);
+      // What is on the easel is finished, but nobody looks at it.
+      if (this.current === job) this.current = { order, done: () => {} };
+    };
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
+    this.waiting = [];
+    this.current = null;
+    this.hand?.terminate();
+    this.hand = null;
+  }
+
+  private next(): void {
+    if (this.current || this.waiting.length === 0) return;
+    this.current = this.waiting.shift()!;
+    const { order } = this.current;
+    if (!this.broken && !this.hand) this.hand = this.hired();
+    if (this.hand) this.hand.postMessage(order);
+    else this.timer = setTimeout(() => this.finish(paint(order)), 0);
+  }
+
+  private finish(painted: Levels[]): void {
+    const job = this.current;
+    this.current = null;
+    job?.done(painted);
+    this.told();
+    this.next();
+  }
+
+  private hired(): Hand | null {
+    try {
+      const hand = this.hire();
+      hand.onmessage = ({ data }) => this.finish(data);
+      hand.onerror = () => this.giveUp();
+      return hand;
+    } catch {
+      this.broken = true;
+      return null;
+    }
+  }
+
+  private giveUp(): void {
+    this.broken = true;
+    this.hand?.terminate();
+    this.hand = null;
+    if (this.current) this.waiting.unshift(this.current);
+    this.current = null;
+    this.next();
+  }
+}
+
+function worker(): Hand {
+  return new Worker(new URL("./paint-worker.ts", import.meta.url), { type: "module" }) as unknown as Hand;
+}
