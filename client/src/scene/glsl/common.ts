@@ -128,6 +128,18 @@ float sunAt(vec3 place, float softness) {
   }
   return sum / 9.0;
 }
+/** How much comes to the leaves around a place: whether a part of the crown lies in the sun as a whole. */
+float sunAround(vec3 place) {
+  const float REACH = 1.7; // internodes
+  vec3 p = (uSunFromWorld * vec4(place + uSun * 0.8, 1.0)).xyz * 0.5 + 0.5;
+  if (p.x <= 0.0 || p.y <= 0.0 || p.x >= 1.0 || p.y >= 1.0) return 1.0;
+  p.z = min(p.z, 1.0);
+  vec2 wide = vec2(REACH, 0.45 * REACH) * (uShadowTexel / max(uShadowSize, 1e-4));
+  float sum = texture(uShadow, vec3(p.xy + wide, p.z)) + texture(uShadow, vec3(p.xy - wide, p.z));
+  if (uShadowTaps == 1) return sum * 0.5;
+  wide = vec2(-wide.y, wide.x);
+  return (sum + texture(uShadow, vec3(p.xy + wide, p.z)) + texture(uShadow, vec3(p.xy - wide, p.z))) * 0.25;
+}
 /** How much comes to a surface: its place is moved out of it by what the taps reach over, or it would shade itself. */
 float sunlit(vec3 world, vec3 normal, float softness) {
   float facing = dot(normal, uSun);

@@ -40,7 +40,7 @@ vec3 farGround() {
   if (uGround == PLAIN) return HORIZON_COLOUR * 0.92;
   const vec3 UP = vec3(0, 1, 0);
   vec3 lit = MEAN[uGround] * (ambient(UP) + SUN_COLOUR * facingSun(UP));
-  return mix(lit, HORIZON_COLOUR * 0.8, 0.2);
+  return mix(lit, HORIZON_COLOUR * 0.8, 0.12);
 }
 vec3 farLand() { return mix(uMiddleColour, HORIZON_COLOUR, 0.35) * 0.84; }
 vec3 nearLand() { return mix(farLand(), farGround(), 0.55) * 0.86; }
@@ -62,7 +62,7 @@ vec3 hills(vec3 behind, vec3 sight, float seed, float low, float high, vec3 hue)
   float top = mix(low, high, crest);
   float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y) * uSkyParts.z;
   // A little mist gathers at the feet of the hills.
-  return mix(behind, mix(mix(hue, HORIZON_COLOUR, 0.12), hue, smoothstep(-0.01, 0.7 * top, sight.y)), inside);
+  return mix(behind, mix(mix(hue, HORIZON_COLOUR, 0.06), hue, smoothstep(-0.01, 0.7 * top, sight.y)), inside);
 }
 float star(vec3 sight) {
   vec3 cell = floor(sight * 90.0);
