@@ -5,6 +5,7 @@
 //! back. What is left lies packed in birth order: parents stand before what they bear.
 
 mod priority;
+mod waves;
 
 use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
 use glam::Vec3;
@@ -19,6 +20,7 @@ use crate::{
     space::Space,
     vigor::{self, Flow, Split},
 };
+use waves::Waves;
 
 /// Work smaller than this is not worth handing to other threads.
 const PARALLEL_FROM: usize = 8192;
@@ -33,6 +35,9 @@ const NOWHERE: u32 = u32::MAX;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canopy {
     nodes: Vec<Node>,
+    waves: Waves,
+    /// How many of the nodes are dead.
+    dead: usize,
     /// Where light is read, up to those nodes that are new.
     spots: Vec<Spot>,
     /// The share of the sky that is seen past obstacles; empty where there are none.
@@ -69,7 +74,7 @@ struct Node {
     id: MetamerId,
     /// Slot of the parent.
     parent: u32,
-    /// Which of the plants it belongs to, shifted, and below that [`Node::MAIN`] and [`Node::TIP`].
+    /// Which of the plants it belongs to, shifted, and below that [`Node::MAIN`], [`Node::TIP`] and [`Node::DEAD`].
     bits: u32,
     /// Propensities of the lateral buds here that have not grown (TreeSketch Figure 10), added up.
     propensity: f32,
@@ -80,7 +85,9 @@ impl Node {
     const MAIN: u32 = 1;
     /// Its axis' bud sits here.
     const TIP: u32 = 2;
-    const PLANT_SHIFT: u32 = 2;
+    /// It has died, and is left out when the canopy is next packed.
+    const DEAD: u32 = 4;
+    const PLANT_SHIFT: u32 = 3;
 
     fn is_main(&self) -> bool {
         self.bits & Self::MAIN != 0
@@ -92,6 +99,17 @@ impl Node {
 
     fn set_tip(&mut self, is_tip: bool) {
         self.bits = self.bits & !Self::TIP | if is_tip { Self::TIP } else { 0 };
+    }
+
+    fn is_dead(&self) -> bool {
+        self.bits & Self::DEAD != 0
+    }
+
+    /// From now on it has no buds.
+    fn die(&mut self) {
+        self.set_tip(false);
+        self.propensity = 0.0;
+        self.bits |= Self::DEAD;
     }
 
     /// Which of the plants it belongs to.
@@ -149,6 +167,7 @@ impl Canopy {
             let tip = if plant.is_axis_alive(metamers.axis(id)) { Node::TIP } else { 0 };
             let kind = tip | if is_main { Node::MAIN } else { 0 };
             let bits = (of_plant as u32) << Node::PLANT_SHIFT | kind;
+            self.waves.add(slot, parent);
             self.nodes.push(Node { id, parent, bits, propensity });
         }
         reserve(&mut self.light, more);
@@ -170,7 +189,9 @@ impl Canopy {
             .map(|node| node.parent)
             .filter(|&parent| (parent as usize) < kept)
             .collect();
+        self.dead -= self.nodes[kept..].iter().filter(|node| node.is_dead()).count();
         self.nodes.truncate(kept);
+        self.waves.truncate(kept as u32);
         self.spots.truncate(kept);
         self.sky.truncate(kept);
         self.slots.truncate(count);
@@ -233,20 +254,12 @@ impl Canopy {
         let may_pack = parameters.scene().shedding_threshold == 0.0;
         if may_pack && dark * DARK_SHARE > self.nodes.len() {
             self.has_left_out = true;
-            self.pack(plant, |flow, _| flow.light() > 0);
+            self.pack(plant, |_, flow| flow.light() > 0);
         }
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
-        for slot in 0..self.nodes.len() {
-            let node = self.nodes[slot];
-            let (parent, light) = (node.parent, self.flows[slot].light());
-            self.flows[slot].vigor = if parent == NOWHERE {
-                gain * light as i64 as f64
-            } else {
-                let split = Split::new(&self.flows[parent as usize], self.plants[node.plant()].1);
-                if node.is_main() { split.to_main() } else { split.to_lateral(light) }
-            };
-        }
+        let Self { nodes, flows, plants, waves, .. } = self;
+        waves.share_out(nodes, flows, plants, gain);
     }
 
     /// Tips before bases. Returns how many nodes no light flows through.
@@ -258,44 +271,59 @@ impl Canopy {
         let mut dark = 0;
         for slot in (0..self.nodes.len()).rev() {
             let node = self.nodes[slot];
-            let Node { id, parent, propensity, .. } = node;
-            let response = response(self.light[slot], parameters.of(plant.metamers().axis(id)));
+            let response = response(self.light[slot], parameters.of(plant.metamers().axis(node.id)));
             let flow = &mut self.flows[slot];
             flow.main += if node.is_tip() { vigor::quantised(response) } else { 0 };
-            flow.lateral += vigor::quantised(response * propensity);
+            flow.lateral += vigor::quantised(response * node.propensity);
             let through = flow.light();
             dark += usize::from(through == 0);
-            if parent == NOWHERE {
+            if node.parent == NOWHERE {
                 continue;
             }
-            let below = &mut self.flows[parent as usize];
+            let below = &mut self.flows[node.parent as usize];
             *(if node.is_main() { &mut below.main } else { &mut below.lateral }) += through;
             if counts_size {
-                self.sizes[slot] += 1;
-                self.sizes[parent as usize] += self.sizes[slot];
+                self.sizes[slot] += u32::from(!node.is_dead());
+                self.sizes[node.parent as usize] += self.sizes[slot];
             }
         }
         dark
     }
 
-    /// Leaves out what has died.
-    pub(crate) fn bury(&mut self, plant: &Plant) {
-        self.pack(plant, |_, id| plant.is_alive(id));
+    /// Takes out what has died, as light and space see it. Its rows go when they have become many.
+    pub(crate) fn bury(&mut self, plant: &Plant, dead: &[MetamerId]) {
+        for id in dead {
+            let slot = core::mem::replace(&mut self.slots[id.index()], NOWHERE);
+            if let Some(node) = self.nodes.get_mut(slot as usize) {
+                node.die();
+                self.darkened.push(*id);
+                self.dead += 1;
+            }
+        }
+        if self.dead * DARK_SHARE > self.nodes.len() {
+            self.pack(plant, |node, _| !node.is_dead());
+        }
     }
 
     /// Keeps the nodes for which `stays` holds; what they bear stays only with them.
-    fn pack(&mut self, plant: &Plant, stays: impl Fn(&Flow, MetamerId) -> bool) {
+    fn pack(&mut self, plant: &Plant, stays: impl Fn(&Node, &Flow) -> bool) {
         let mut kept = 0;
+        self.waves.clear();
+        self.dead = 0;
         for slot in 0..self.nodes.len() {
-            let (Node { id, .. }, flow) = (self.nodes[slot], self.flows[slot]);
-            if !stays(&flow, id) {
-                self.slots[id.index()] = NOWHERE;
-                self.darkened.push(id);
+            let (node, flow) = (self.nodes[slot], self.flows[slot]);
+            if !stays(&node, &flow) {
+                if !node.is_dead() {
+                    self.slots[node.id.index()] = NOWHERE;
+                    self.darkened.push(node.id);
+                }
                 continue;
             }
-            let parent = plant.metamers().parent(id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
-            self.slots[id.index()] = kept as u32;
-            self.nodes[kept] = Node { parent, ..self.nodes[slot] };
+            let parent =
+                plant.metamers().parent(node.id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
+            self.slots[node.id.index()] = kept as u32;
+            self.waves.add(kept as u32, parent);
+            self.nodes[kept] = Node { parent, ..node };
             self.spots[kept] = self.spots[slot];
             if let Some(&sky) = self.sky.get(slot) {
                 self.sky[kept] = sky;
@@ -344,10 +372,21 @@ impl Canopy {
         vigor::quantised(response(light, parameters.of(axis)) * propensity)
     }
 
-    /// Whether a branch's vigor per metamer lies below a threshold.
-    pub(crate) fn starves(&self, first: MetamerId, threshold: f64) -> bool {
-        let slot = self.slots[first.index()] as usize;
-        self.sizes.get(slot).is_some_and(|&size| self.flows[slot].vigor < threshold * f64::from(size))
+    /// Axes whose branches get less vigor for each metamer than their thresholds, as far as they are `old` enough;
+    /// who is older than another is old enough if the other is.
+    pub(crate) fn starving(
+        &self,
+        plant: &Plant,
+        is_old: impl Fn(MetamerId) -> bool,
+        threshold: impl Fn(AxisId) -> f64,
+    ) -> Vec<AxisId> {
+        let old = self.nodes.partition_point(|node| is_old(node.id));
+        let rows = self.nodes[..old].iter().zip(&self.flows).zip(&self.sizes);
+        let starve = |((node, flow), &size): ((&Node, &Flow), &u32)| {
+            let axis = plant.metamers().axis(node.id);
+            (flow.vigor < threshold(axis) * f64::from(size)).then_some(axis)
+        };
+        rows.filter(|((node, _), _)| !node.is_main()).filter_map(starve).collect()
     }
 
     /// Hands light and vigor on to whoever draws the plant.

@@ -78,20 +78,34 @@ impl Claims {
         }
     }
 
-    /// How many buds claim anything.
-    pub(crate) fn len(&self) -> usize {
-        self.claims.len()
+    /// How many buds claim anything, but for those the directions of whose claims cancel out.
+    pub(crate) fn count(&self) -> u32 {
+        self.claims.iter().filter(|claim| claim.sum != [0; 3]).count() as u32
     }
 
-    /// Each bud that claims anything, unless the directions of what it claims cancel out; the oldest first.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (AxisId, Claimed)> + '_ {
+    /// The buds that claim anything, but for those the directions of whose claims cancel out; the oldest first.
+    pub(crate) fn claimants(&self) -> impl Iterator<Item = AxisId> + '_ {
         let words = self.claimants.iter().enumerate();
-        words.flat_map(|(word, &axes)| bits(axes).map(move |bit| word * 64 + bit)).filter_map(|axis| {
-            let claim = &self.claims[self.slots[axis] as usize];
-            let [x, y, z] = claim.sum.map(|sum| sum as f32);
-            let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
-            let envelope = claim.far.is_finite().then_some(claim.far);
-            Some((AxisId::new(axis), Claimed { space, envelope }))
-        })
+        let axes = words.flat_map(|(word, &axes)| bits(axes).map(move |bit| word * 64 + bit));
+        axes.filter(|&axis| self.claims[self.slots[axis] as usize].sum != [0; 3]).map(AxisId::new)
+    }
+
+    /// What a bud has claimed, unless the directions to it cancel out.
+    pub(crate) fn of(&self, axis: AxisId) -> Option<Claimed> {
+        let word = self.claimants.get(axis.index() / 64)?;
+        if word >> (axis.index() % 64) & 1 == 0 {
+            return None;
+        }
+        let claim = &self.claims[self.slots[axis.index()] as usize];
+        let [x, y, z] = claim.sum.map(|sum| sum as f32);
+        let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
+        let envelope = claim.far.is_finite().then_some(claim.far);
+        Some(Claimed { space, envelope })
+    }
+
+    /// Each of the claimants with its claim.
+    #[cfg(test)]
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (AxisId, Claimed)> + '_ {
+        self.claimants().filter_map(|axis| Some((axis, self.of(axis)?)))
     }
 }

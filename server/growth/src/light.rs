@@ -4,7 +4,11 @@
 //! as whole numbers, so that taking one back leaves exactly what was there before. A voxel is two internodes
 //! wide: shadows are smoother than that, and eight times fewer voxels are eight times less to write and to hold.
 
+mod reading;
+
 use glam::Vec3;
+
+pub(crate) use reading::Spot;
 
 use crate::{
     directory::{self, Directory},
@@ -226,138 +230,10 @@ impl ShadowGrid {
         (position - reach, position + Vec3::new(reach, 1.5 * VOXEL, reach))
     }
 
-    /// Light at a place, 0 to 1, as if the metamer whose node is there cast no shadow.
-    pub fn exposure(&self, position: Vec3) -> f32 {
-        let (low, fraction) = low_and_fraction(position);
-        self.exposure_in(self.octet_around(low), fraction)
-    }
-
-    /// How to read the light at a place again and again.
-    pub(crate) fn spot(&self, position: Vec3) -> Spot {
-        let (low, fraction) = low_and_fraction(position);
-        let is_split = low[0] & (WIDTH - 1) == WIDTH - 1
-            || low[1] & (DEPTH - 1) == DEPTH - 1
-            || low[2] & (DEPTH - 1) == DEPTH - 1;
-        let at = self.chunks.number(chunk_of(low)).map_or(NOWHERE, |chunk| {
-            let at = chunk * VALUES as u32 + offset(low) as u32;
-            if is_split { at | Spot::SPLIT } else { at }
-        });
-        Spot { at, fraction }
-    }
-
-    /// Light at a place with this spot, 0 to 1, as if the metamer whose node is there cast no shadow.
-    #[inline]
-    pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
-        let octet = if spot.at & Spot::SPLIT == 0 {
-            self.octet(spot.at)
-        } else if spot.at != NOWHERE {
-            self.split_octet(spot.at & !Spot::SPLIT)
-        } else {
-            self.octet_around(low_and_fraction(place()).0)
-        };
-        self.exposure_in(octet, spot.fraction)
-    }
-
-    #[inline(always)]
-    fn exposure_in(&self, octet: [u32; 8], fraction: [u16; 3]) -> f32 {
-        let (shadow, f) = interpolated(octet, fraction);
-        // The metamer's own voxel is the nearest of the eight; its shadow reaches that one and the layer below.
-        let [x, y, z] = f.to_array().map(|f| f.max(1.0 - f));
-        let below = if f.y < 0.5 { 0.0 } else { 1.0 - f.y };
-        let own = self.first * (x * y * z) + self.second * below;
-        (1.0 - (shadow - own) * (1.0 / UNIT)).clamp(0.0, 1.0)
-    }
-
-    /// The direction towards more light at a place, −∇s by central differences (Pałubicki et al. 2009 §4.1) of the
-    /// shadows an internode to each side; none where shadows are even.
-    pub fn towards_light(&self, position: Vec3) -> Option<Vec3> {
-        let shadow = |place: Vec3| {
-            let (low, fraction) = low_and_fraction(place);
-            interpolated(self.octet_around(low), fraction).0
-        };
-        let difference = |axis: Vec3| shadow(position - axis) - shadow(position + axis);
-        let gradient = Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z));
-        (gradient * (1.0 / UNIT)).try_normalize()
-    }
-
     /// The shadow in one voxel.
     fn shadow(&self, voxel: [i32; 3]) -> u32 {
         self.chunks.get(chunk_of(voxel)).map_or(0, |chunk| chunk[offset(voxel)])
     }
-
-    /// Shadows in the eight voxels of one chunk of which the least stands here, x fastest, then z, then y.
-    #[inline]
-    fn octet(&self, at: u32) -> [u32; 8] {
-        const LAST: usize = PLANE + WIDTH as usize + 2;
-        let values = self.chunks.all().as_flattened().get(at as usize..);
-        let Some(values) = values.and_then(|values| values.first_chunk::<LAST>()) else { return [0; 8] };
-        const ACROSS: usize = WIDTH as usize;
-        [0, 1, ACROSS, ACROSS + 1, PLANE, PLANE + 1, PLANE + ACROSS, PLANE + ACROSS + 1]
-            .map(|step| values[step])
-    }
-
-    /// The same where they lie in several chunks.
-    #[inline(never)]
-    fn split_octet(&self, at: u32) -> [u32; 8] {
-        let within = at as usize % VALUES;
-        let (y, in_plane) = (within / PLANE, within % PLANE);
-        let (z, x) = (in_plane >> WIDTH_BITS, in_plane & (WIDTH - 1) as usize);
-        let octants = &self.octants[at as usize / VALUES];
-        let values = self.chunks.all().as_flattened();
-        core::array::from_fn(|corner| {
-            let (x, y, z) = (x + (corner & 1), y + (corner >> 2), z + (corner >> 1 & 1));
-            let octant = x >> WIDTH_BITS | z >> DEPTH_BITS << 1 | y >> DEPTH_BITS << 2;
-            let at = octants[octant] as usize + offset([x as i32, y as i32, z as i32]);
-            values.get(at).copied().unwrap_or(0)
-        })
-    }
-
-    /// The same from this voxel on, wherever they are.
-    fn octet_around(&self, [x, y, z]: [i32; 3]) -> [u32; 8] {
-        core::array::from_fn(|corner| {
-            let corner = corner as i32;
-            self.shadow([x + (corner & 1), y + (corner >> 2), z + (corner >> 1 & 1)])
-        })
-    }
-}
-
-/// A place whose light is read often: where its voxels are, and how it lies between them.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Spot {
-    /// Where the least of its eight voxels stands among all chunks' values, with [`Spot::SPLIT`] if they lie in
-    /// several; [`NOWHERE`] if the least had no chunk yet.
-    at: u32,
-    /// Where it lies between the centres of the eight, in steps of 1/[`Spot::STEPS`].
-    fraction: [u16; 3],
-}
-
-impl Spot {
-    const SPLIT: u32 = 1 << 31;
-    const STEPS: f32 = 32768.0;
-}
-
-/// The least of the eight voxels around a place, and where the place lies between their centres.
-#[inline(always)]
-fn low_and_fraction(place: Vec3) -> ([i32; 3], [u16; 3]) {
-    let at = place * (1.0 / VOXEL) - 0.5;
-    let fraction = at - Vec3::from_array(directory::voxel_of(at).map(|i| i as f32));
-    (voxel_of(place - 0.5 * VOXEL), fraction.to_array().map(|f| (f * Spot::STEPS) as i32 as u16))
-}
-
-/// The shadow between the centres of eight voxels, and where that is.
-///
-/// Shadows are interpolated; read at one voxel they would come in blocks.
-#[inline(always)]
-fn interpolated(octet: [u32; 8], fraction: [u16; 3]) -> (f32, Vec3) {
-    let f = Vec3::from_array(fraction.map(|f| f32::from(f) * (1.0 / Spot::STEPS)));
-    let mut s = [0.0; 8];
-    for (s, shadow) in s.iter_mut().zip(octet) {
-        // As a signed number it converts faster; none is so dark that it would matter.
-        *s = shadow as i32 as f32;
-    }
-    let along_x = |i: usize| s[i] * (1.0 - f.x) + s[i + 1] * f.x;
-    let along_z = |i: usize| along_x(i) * (1.0 - f.z) + along_x(i + 2) * f.z;
-    (along_z(0) * (1.0 - f.y) + along_z(4) * f.y, f)
 }
 
 /// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk.
@@ -490,7 +366,7 @@ mod tests {
                 let corner = Vec3::new((voxel[0] - WIDTH / 2) as f32, voxel[1] as f32, (voxel[2] - DEPTH / 2) as f32);
                 let place = (corner + 0.75) * VOXEL;
                 let spot = grid.spot(place);
-                let octet = grid.octet_around(low_and_fraction(place).0);
+                let octet = grid.octet_around(reading::least_voxel(place));
                 prop_assert_eq!(grid.exposure_at(spot, || place), grid.exposure(place));
                 for (i, shadow) in (0..).zip(octet) {
                     let corner = [voxel[0] + (i & 1), voxel[1] + (i >> 2), voxel[2] + (i >> 1 & 1)];

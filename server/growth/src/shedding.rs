@@ -7,19 +7,12 @@ use crate::{canopy::Canopy, parameter_table::ParameterTable};
 /// Steps a branch is given before it is judged: a shoot of the last step has had no light yet.
 const GRACE: u32 = 3;
 
-/// Axes whose branches do not pay, bearers before what they bear; some of them inside others.
+/// Axes whose branches do not pay, some of them inside others.
 pub(crate) fn condemned(plant: &Plant, canopy: &Canopy, parameters: &ParameterTable) -> Vec<AxisId> {
     if parameters.scene().shedding_threshold == 0.0 {
         return Vec::new();
     }
     let gain = f64::from(parameters.scene().vigor_gain);
-    let axes = (0..plant.axis_count()).map(AxisId::new);
-    axes.filter(|&axis| plant.is_standing(axis) && plant.axes().order(axis) > 0)
-        .filter(|&axis| {
-            plant.axes().first(axis).is_some_and(|first| {
-                let threshold = gain * f64::from(parameters.of(axis).shedding_threshold);
-                plant.age(first) >= GRACE && canopy.starves(first, threshold)
-            })
-        })
-        .collect()
+    let threshold = |axis| gain * f64::from(parameters.of(axis).shedding_threshold);
+    canopy.starving(plant, |first| plant.age(first) >= GRACE, threshold)
 }

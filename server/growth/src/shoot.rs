@@ -2,7 +2,7 @@
 
 use core::f32::consts::TAU;
 
-use espalier_plant::{AxisId, Internode, MetamerId};
+use espalier_plant::{AxisId, Internode, MetamerId, Plant};
 use glam::Vec3;
 
 use crate::{
@@ -48,16 +48,74 @@ fn follows(turned: Vec3, heading: Vec3, before: Vec3) -> bool {
     turned.dot(heading) > 0.05 && turned.dot(before) > -0.2
 }
 
+/// An internode that would grow if nobody took its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Draft {
+    /// The axis that it continues.
+    pub axis: AxisId,
+    /// Where its node would be.
+    pub end: Vec3,
+    heading: Vec3,
+    normal: Vec3,
+}
+
+/// The end of an axis, as its next internode finds it.
+#[derive(Clone, Copy, Debug)]
+struct Tip {
+    base: Vec3,
+    heading: Vec3,
+    /// The normal of the axis' last internode, once it has one.
+    normal: Option<Vec3>,
+}
+
+impl Tip {
+    fn of(axis: AxisId, plant: &Plant) -> Self {
+        let normal = plant.has_grown(axis).then(|| plant.metamers().normal(plant.bud_node(axis)));
+        Self { base: plant.bud_position(axis), heading: plant.bud_direction(axis), normal }
+    }
+
+    fn after(self, draft: &Draft) -> Self {
+        let Draft { end, normal, .. } = *draft;
+        Self { base: end, heading: (end - self.base).normalize(), normal: Some(normal) }
+    }
+}
+
 impl Simulation {
-    /// Lets a bud grow up to `count` internodes; fewer where it runs into another's zone.
+    /// Lets a bud grow up to `count` internodes, and tells space; fewer where it runs into another's zone.
     pub(crate) fn grow_shoot(&mut self, axis: AxisId, count: u32, aim: Aim) {
-        let mut grown = 0;
-        while grown < count && self.grow_internode(axis, aim, None) {
-            grown += 1;
+        let mut tip = Tip::of(axis, &self.plant);
+        for _ in 0..count {
+            if self.is_full() {
+                break;
+            }
+            let Some(draft) = self.draft_freely(axis, tip, aim) else { break };
+            tip = tip.after(&draft);
+            let id = self.add(&draft);
+            self.space.occupy(id, draft.end);
         }
     }
 
-    /// Lets a leader grow along the path of its stroke, up to `count` internodes. Returns how many.
+    /// Drafts what a bud would grow into the space there is now.
+    pub(crate) fn draft_shoot(&self, axis: AxisId, count: u32, aim: Aim, drafts: &mut Vec<Draft>) {
+        let mut tip = Tip::of(axis, &self.plant);
+        for _ in 0..count {
+            let Some(draft) = self.draft_freely(axis, tip, aim) else { break };
+            tip = tip.after(&draft);
+            drafts.push(draft);
+        }
+    }
+
+    /// The next internode at the tip of an axis, unless something stops it or its place is taken.
+    #[inline]
+    fn draft_freely(&self, axis: AxisId, tip: Tip, aim: Aim) -> Option<Draft> {
+        let draft = self.draft(axis, tip, aim, None)?;
+        let radius = self.parameters.of(axis).occupancy_radius;
+        let is_taken = self.space.is_occupied(draft.end, radius, |id| !self.is_kin(axis, draft.end, id));
+        (!is_taken).then_some(draft)
+    }
+
+    /// Lets a leader grow along the path of its stroke, up to `count` internodes; it goes where the finger went,
+    /// through others' zones as well. Returns how many.
     pub(crate) fn grow_guided(
         &mut self,
         axis: AxisId,
@@ -69,62 +127,63 @@ impl Simulation {
         while grown < count {
             let is_blocked = |place| self.obstacles.blocks(place, place, CLEARANCE);
             let Some(waypoint) = next(self.plant.bud_position(axis), &is_blocked) else { break };
-            if !self.grow_internode(axis, aim, Some(waypoint)) {
+            if self.is_full() {
                 break;
             }
+            let draft = self.draft(axis, Tip::of(axis, &self.plant), aim, Some(waypoint));
+            let Some(draft) = draft else { break };
+            self.add(&draft);
             grown += 1;
         }
         grown
     }
 
-    fn grow_internode(&mut self, axis: AxisId, aim: Aim, waypoint: Option<Waypoint>) -> bool {
-        if self.plant.metamer_count() as u32 >= self.metamer_budget {
-            self.budget_reached = true;
-            return false;
-        }
-        let node = self.plant.bud_node(axis);
-        let base = self.plant.metamers().end(node);
-        let parameters = self.parameters.of(axis);
-        let before = self.plant.bud_direction(axis);
-        let laid_down = self.laid_down_heading(axis, node, before);
-        let mut heading =
-            next_heading(laid_down, self.tropism(axis, aim), aim.space, aim.weights(parameters), parameters);
-        if let Some(Waypoint { position, weight }) = waypoint {
-            let towards = (position - base).try_normalize().unwrap_or(heading);
-            heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
-        }
-        // Who is led goes where the finger went, through others' zones as well.
-        let is_led = waypoint.is_some();
-        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
-        let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
-        let Some(heading) = free.filter(is_free) else { return false };
-        let end = base + heading;
-        let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
-        if !in_world || (!is_led && self.is_taken(axis, node, end)) {
-            return false;
-        }
+    /// Whether the scene holds all the metamers it may.
+    pub(crate) fn is_full(&mut self) -> bool {
+        let is_full = self.plant.metamer_count() as u32 >= self.metamer_budget;
+        self.budget_reached |= is_full;
+        is_full
+    }
 
-        let normal = self.next_normal(axis, node, before, heading);
+    /// Lets an internode grow.
+    pub(crate) fn add(&mut self, draft: &Draft) -> MetamerId {
+        let Draft { axis, end, heading, normal } = *draft;
+        let parameters = self.parameters.of(axis);
         let (sin, cos) = parameters.branching;
         let mut laterals = [Vec3::ZERO; MAX_LATERALS];
         let buds = parameters.buds_per_node as usize;
         for (lateral, &around) in laterals.iter_mut().zip(&parameters.whorl).take(buds) {
             *lateral = (heading * cos + turn(normal, heading, around) * sin).normalize();
         }
-        let id = self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] });
-        self.space.occupy(id, end);
-        true
+        self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] })
+    }
+
+    /// The next internode at the tip of an axis, unless the ground, an obstacle or the end of the world stops it.
+    fn draft(&self, axis: AxisId, tip: Tip, aim: Aim, waypoint: Option<Waypoint>) -> Option<Draft> {
+        let parameters = self.parameters.of(axis);
+        let Tip { base, heading: before, .. } = tip;
+        let laid_down = self.laid_down_heading(axis, tip);
+        let mut heading =
+            next_heading(laid_down, self.tropism(axis, aim), aim.space, aim.weights(parameters), parameters);
+        if let Some(Waypoint { position, weight }) = waypoint {
+            let towards = (position - base).try_normalize().unwrap_or(heading);
+            heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
+        }
+        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
+        let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
+        let heading = free.filter(is_free)?;
+        let end = base + heading;
+        let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
+        in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(axis, tip, heading) })
     }
 
     /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.
-    fn laid_down_heading(&self, axis: AxisId, node: MetamerId, heading: Vec3) -> Vec3 {
+    fn laid_down_heading(&self, axis: AxisId, Tip { heading, normal, .. }: Tip) -> Vec3 {
         let parameters = self.parameters.of(axis);
         // Opposite and whorled buds push an axis to no side.
-        if !self.plant.has_grown(axis) || parameters.buds_per_node > 1 {
-            return heading;
-        }
+        let Some(normal) = normal.filter(|_| parameters.buds_per_node == 1) else { return heading };
         let (sin, cos) = parameters.deflection;
-        heading * cos - self.plant.metamers().normal(node) * sin
+        heading * cos - normal * sin
     }
 
     fn tropism(&self, axis: AxisId, aim: Aim) -> Tropism {
@@ -145,9 +204,9 @@ impl Simulation {
 
     /// The normal of a new internode: its axis' last one, carried along from the heading before and turned by the
     /// phyllotactic angle.
-    fn next_normal(&self, axis: AxisId, node: MetamerId, before: Vec3, heading: Vec3) -> Vec3 {
-        if self.plant.has_grown(axis) {
-            let carried = transport(self.plant.metamers().normal(node), before, heading);
+    fn next_normal(&self, axis: AxisId, tip: Tip, heading: Vec3) -> Vec3 {
+        if let Some(normal) = tip.normal {
+            let carried = transport(normal, tip.heading, heading);
             return turn(across(carried, heading), heading, self.parameters.of(axis).phyllotaxis);
         }
         if self.parameters.of(axis).is_flat {
@@ -164,28 +223,22 @@ impl Simulation {
         across(heading.cross(Vec3::Y), heading)
     }
 
-    /// Whether a node there would lie in the occupancy zone of one that is not its own kin.
+    /// Whether a metamer's node never takes a place that an axis may grow to.
     ///
-    /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide. `base`
-    /// is the node the bud sits at: either its own or its bearer, so that what says of the bearer what is young
-    /// holds whenever the place is in its zone.
-    fn is_taken(&self, axis: AxisId, base: MetamerId, place: Vec3) -> bool {
-        let radius = self.parameters.of(axis).occupancy_radius;
+    /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide. The
+    /// node the bud sits at is either its own or its bearer, so that what says of the bearer what is young holds
+    /// whenever the place is in its zone.
+    pub(crate) fn is_kin(&self, axis: AxisId, place: Vec3, id: MetamerId) -> bool {
         let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
         let bearing_axis = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
-        let parent = bearing_axis(axis);
-        let is_young = axes.bearer(axis).is_some_and(|bearer| {
-            let zone = 2.0 * radius;
-            metamers.end(bearer).distance_squared(place) < zone * zone
-        });
-        self.space.is_occupied(place, radius, |id| {
-            if id == base {
-                return false;
-            }
-            let other = metamers.axis(id);
-            let is_own = other == axis || bearing_axis(other) == Some(axis);
-            let is_kin = is_young && (Some(other) == parent || bearing_axis(other) == parent);
-            !is_own && !is_kin
-        })
+        let other = metamers.axis(id);
+        if id == self.plant.bud_node(axis) || other == axis || bearing_axis(other) == Some(axis) {
+            return true;
+        }
+        let Some(bearer) = axes.bearer(axis) else { return false };
+        let zone = 2.0 * self.parameters.of(axis).occupancy_radius;
+        let is_young = metamers.end(bearer).distance_squared(place) < zone * zone;
+        let parent = Some(metamers.axis(bearer));
+        is_young && (Some(other) == parent || bearing_axis(other) == parent)
     }
 }

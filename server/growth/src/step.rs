@@ -4,25 +4,26 @@
 //! vigor are read last. They are then always those of the plant as it is, for whoever draws it and for the
 //! next step alike.
 
-use std::collections::BTreeSet;
+use std::ops::Range;
 
 use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
+use rayon::prelude::*;
 
 use crate::{
     brush::BrushPiece,
-    claims::Claimed,
     directory::nearness,
     field::MarkerField,
     markers::{Marker, MarkerSource},
     observer::{Observer, Phase},
     selection::Selection,
     shedding,
-    shoot::Aim,
     simulation::Simulation,
     space::Bud,
-    vigor,
 };
+
+/// New nodes whose buds one thread describes at a time.
+const BATCH: usize = if cfg!(test) { 4 } else { 256 };
 
 /// What guides one step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -45,17 +46,6 @@ pub struct StepOutcome {
     pub buds_enabled: u32,
 }
 
-/// A bud that will grow, and how.
-#[derive(Clone, Copy, Debug)]
-struct Shoot {
-    axis: AxisId,
-    vigor: f64,
-    /// Internodes.
-    length: u32,
-    /// What it grows towards.
-    claimed: Claimed,
-}
-
 impl Simulation {
     /// One step. A step in which nothing grows or is shed leaves no trace.
     pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
@@ -70,17 +60,15 @@ impl Simulation {
         let selection = Selection::new(&self.plant, input.chosen);
         self.sow_and_clear_markers(input, &selection);
         self.claim_markers(input, &selection);
-        let mut enabled: Vec<(AxisId, Claimed)> = Vec::with_capacity(self.claims.len());
-        enabled.extend(self.claims.iter());
-        let buds_enabled = enabled.len() as u32;
+        let buds_enabled = self.claims.count();
 
         observer.enter(Phase::Growth);
         let stroke = input.pieces.iter().find_map(BrushPiece::direction);
-        self.grow(enabled, stroke, &selection);
+        let untold = self.grow(stroke, &selection);
         observer.enter(Phase::Girth);
         self.plant.end_step();
         observer.enter(Phase::Space);
-        changed.extend(self.settle(born));
+        changed.extend(self.settle(born, &untold));
         self.see_light(&changed, observer);
         StepOutcome { metamers_grown: (self.plant.metamer_count() - born) as u32, buds_enabled }
     }
@@ -167,41 +155,11 @@ impl Simulation {
         let (metamers, axes) = self.plant.shed(&condemned);
         axes.into_iter().for_each(|axis| self.space.remove_bud(axis));
         let nodes: Vec<Vec3> = metamers.iter().map(|&id| self.plant.metamers().end(id)).collect();
-        for (id, &node) in metamers.into_iter().zip(&nodes) {
+        for (&id, &node) in metamers.iter().zip(&nodes) {
             self.leave(id, node);
         }
-        self.canopy.bury(&self.plant);
+        self.canopy.bury(&self.plant, &metamers);
         nodes
-    }
-
-    /// Lets buds grow: leaders of strokes along their paths, others into the space they have claimed.
-    fn grow(&mut self, enabled: Vec<(AxisId, Claimed)>, stroke: Option<Vec3>, selection: &Selection) {
-        let mut led = BTreeSet::new();
-        let mut guides = core::mem::take(&mut self.guides);
-        for guide in guides.values_mut() {
-            let Some(leader) = guide.leader else { continue };
-            if !self.plant.is_axis_alive(leader) {
-                guide.restart();
-                continue;
-            }
-            if !selection.includes(leader) {
-                continue;
-            }
-            let space = enabled.iter().find(|(axis, _)| *axis == leader).map(|(_, claimed)| claimed.space);
-            let longest = self.parameters.of(leader).max_shoot_length;
-            let aim = Aim { space, stroke, is_enclosed: false };
-            if self.grow_guided(leader, longest, aim, |tip, is_blocked| guide.next_node(tip, is_blocked)) > 0
-            {
-                led.insert(leader);
-            }
-        }
-        self.guides = guides;
-        for shoot in self.shoots(enabled.into_iter().filter(|(axis, _)| !led.contains(axis))) {
-            let Claimed { space, envelope } = shoot.claimed;
-            let space = Some(self.lit_side(shoot.axis, space));
-            let aim = Aim { space, stroke, is_enclosed: envelope.is_some() };
-            self.grow_shoot(shoot.axis, shoot.length, aim);
-        }
     }
 
     /// E, turned towards the light as far as phototropism has it.
@@ -226,26 +184,9 @@ impl Simulation {
         Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z)).try_normalize()
     }
 
-    /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
-    fn shoots(&self, enabled: impl Iterator<Item = (AxisId, Claimed)>) -> Vec<Shoot> {
-        let vigor = |axis| self.canopy.bud_vigor(&self.plant, axis, &self.parameters);
-        let shoot = |(axis, claimed)| Shoot { axis, vigor: vigor(axis), length: 0, claimed };
-        let mut shoots = Vec::with_capacity(enabled.size_hint().1.unwrap_or(0));
-        shoots.extend(enabled.map(shoot).filter(|shoot| shoot.vigor > 0.0));
-        let greatest = shoots.iter().map(|shoot| shoot.vigor).fold(0.0, f64::max);
-        for shoot in &mut shoots {
-            let parameters = self.parameters.of(shoot.axis);
-            let length = vigor::shoot_length(shoot.vigor, greatest, parameters);
-            shoot.length = shoot.claimed.limit(length, parameters);
-        }
-        shoots.retain(|shoot| shoot.length > 0);
-        // As one number, for two are compared more slowly.
-        shoots.sort_unstable_by_key(|shoot| u64::from(!shoot.length) << 32 | u64::from(shoot.axis.raw()));
-        shoots
-    }
-
-    /// Tells light and space what has grown: the rows from `born` on. Returns their nodes.
-    fn settle(&mut self, born: usize) -> Vec<Vec3> {
+    /// Tells light and space what has grown: the rows from `born` on, space those it has yet to be told of. Returns
+    /// their nodes.
+    fn settle(&mut self, born: usize, untold: &Range<usize>) -> Vec<Vec3> {
         let Self { plant, space, parameters, field, shadows, obstacles, .. } = self;
         // What lies together is told together: all that is written to is larger than a cache, and neighbours
         // write to the same places.
@@ -253,29 +194,40 @@ impl Simulation {
             .map(|row| u64::from(nearness(plant.metamers().end(MetamerId::new(row)))) << 32 | row as u64)
             .collect();
         new.sort_unstable();
-        let ids = || new.iter().map(|&row| MetamerId::new(row as u32 as usize));
-        let nodes = || ids().map(|id| (id, plant.metamers().end(id)));
+        let id = |row: u64| MetamerId::new(row as u32 as usize);
+        let nodes = || new.iter().map(|&row| (id(row), plant.metamers().end(id(row))));
         nodes().for_each(|(_, node)| obstacles.survey_sky(node));
         let obstacles = &*obstacles;
-        let cast = || shadows.cast_all(nodes().map(|(_, node)| node));
-        let place = || {
-            if let Some(field) = field {
-                let radius = parameters.scene().occupancy_radius;
-                nodes().for_each(|(_, node)| field.occupy(node, radius, obstacles));
-            }
-            for (id, node) in nodes() {
+        let buds_at = |rows: &[u64]| {
+            let mut buds = Vec::with_capacity(rows.len() * 2);
+            for id in rows.iter().map(|&row| id(row)) {
                 let axis = plant.metamers().axis(id);
                 let tip = (plant.axes().last(axis) == Some(id)).then_some(axis);
                 for axis in tip.into_iter().chain(plant.laterals(id)) {
-                    let bud = Bud { position: node, direction: plant.bud_direction(axis) };
-                    space.place_bud(axis, bud);
-                    if let Some(field) = field {
-                        field.place_bud(axis, bud, parameters.of(axis), obstacles);
-                    }
+                    let position = plant.metamers().end(id);
+                    buds.push((axis, Bud { position, direction: plant.bud_direction(axis) }));
                 }
             }
+            buds
         };
-        rayon::join(cast, place);
+        let buds: Vec<Vec<(AxisId, Bud)>> = match new.len() {
+            ..=BATCH => vec![buds_at(&new)],
+            _ => new.par_chunks(BATCH).map(buds_at).collect(),
+        };
+        let buds = || buds.iter().flatten().copied();
+        let tell_space = || {
+            shadows.cast_all(nodes().map(|(_, node)| node));
+            let untold = nodes().filter(|(id, _)| untold.contains(&id.index()));
+            untold.for_each(|(id, node)| space.occupy(id, node));
+            buds().for_each(|(axis, bud)| space.place_bud(axis, bud));
+        };
+        let tell_field = || {
+            let Some(field) = field else { return };
+            let radius = parameters.scene().occupancy_radius;
+            nodes().for_each(|(_, node)| field.occupy(node, radius, obstacles));
+            buds().for_each(|(axis, bud)| field.place_bud(axis, bud, parameters.of(axis), obstacles));
+        };
+        rayon::join(tell_space, tell_field);
         nodes().map(|(_, node)| node).collect()
     }
 }

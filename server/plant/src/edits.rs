@@ -102,38 +102,44 @@ impl Plant {
     /// Lets living metamers die, and all that stands on them.
     fn fell(&mut self, roots: &[MetamerId]) -> Fallen {
         let mut fallen = Fallen::default();
-        let Some(first) = roots.iter().min().map(|first| first.index()) else { return fallen };
-        let now = self.timeline.now;
-        let mut falls = vec![false; self.metamer_count() - first];
+        let mut roots = roots.to_vec();
+        roots.sort_unstable();
         for root in roots {
-            falls[root.index() - first] = true;
-        }
-        for index in first..self.metamer_count() {
-            let id = MetamerId::new(index);
-            let parent = self.metamers.parent[index];
-            let with_parent =
-                parent != MetamerId::NONE && parent.index() >= first && falls[parent.index() - first];
-            let is_root = falls[index - first];
-            falls[index - first] = (is_root || with_parent) && self.is_alive(id);
-            if falls[index - first] {
-                self.metamers.death[index] = now;
-                fallen.metamers.push(id);
-                if !with_parent {
-                    fallen.roots.push(id);
-                }
+            // What falls with another is younger than that.
+            if self.is_alive(root) {
+                fallen.roots.push(root);
+                self.fell_branch(root, &mut fallen);
             }
         }
-        // No axis of a branch is older than that of its first metamer.
-        let oldest = fallen.roots.iter().map(|&root| self.metamers.axis(root).index()).min();
-        for axis in (oldest.unwrap_or(self.axis_count())..self.axis_count()).map(AxisId::new) {
-            let at = self.bud_node(axis).index().checked_sub(first);
-            if self.is_axis_alive(axis) && at.is_some_and(|at| falls[at]) {
+        fallen.metamers.sort_unstable();
+        fallen.axes.sort_unstable();
+        self.living = self.living.wrapping_sub(fallen.metamers.len() as u32);
+        fallen
+    }
+
+    /// Lets a metamer die, and all that stands on it.
+    fn fell_branch(&mut self, root: MetamerId, fallen: &mut Fallen) {
+        let now = self.timeline.now;
+        // Axes, and the first of their metamers to fall; none of a bud that has not grown.
+        let mut waiting = vec![(self.metamers.axis(root), Some(root))];
+        while let Some((axis, lowest)) = waiting.pop() {
+            if self.is_axis_alive(axis) {
                 self.axes.death[axis.index()] = now;
                 fallen.axes.push(axis);
             }
+            let Some(lowest) = lowest else { continue };
+            let mut next = self.axes.last(axis);
+            while let Some(id) = next {
+                // The top of an axis may have been cut off before.
+                if self.is_alive(id) {
+                    self.metamers.death[id.index()] = now;
+                    fallen.metamers.push(id);
+                    let standing = self.laterals(id).filter(|&lateral| self.is_standing(lateral));
+                    waiting.extend(standing.map(|lateral| (lateral, self.axes.first(lateral))));
+                }
+                next = self.metamers.parent(id).filter(|_| id != lowest);
+            }
         }
-        self.living = self.living.wrapping_sub(fallen.metamers.len() as u32);
-        fallen
     }
 
     /// Moves the wood on a path and what it bears, within a step. A row of the path goes with its own motion,

@@ -1,0 +1,92 @@
+//! Vigor flows up wave by wave: through many nodes at once.
+
+use espalier_plant::MetamerId;
+
+use super::{NOWHERE, Node};
+use crate::vigor::{Flow, Split};
+
+/// Waves smaller than this are not worth handing to other threads.
+const PARALLEL_FROM: usize = if cfg!(test) { 4 } else { 2048 };
+
+/// The nodes of a canopy in runs: each node's parent stands before its wave, or right before the node itself.
+///
+/// So shoots of one wave do not depend on each other. Mostly a wave is what has grown in one step.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Waves {
+    /// Slot of each wave's first node.
+    starts: Vec<u32>,
+}
+
+impl Waves {
+    /// Takes in the next node.
+    pub(super) fn add(&mut self, slot: u32, parent: u32) {
+        let start = self.starts.last().copied();
+        let fits = |start| parent == NOWHERE || parent < start || parent + 1 == slot;
+        if !start.is_some_and(fits) {
+            self.starts.push(slot);
+        }
+    }
+
+    /// Forgets all nodes from a slot on.
+    pub(super) fn truncate(&mut self, slots: u32) {
+        self.starts.truncate(self.starts.partition_point(|&start| start < slots));
+    }
+
+    /// Forgets all nodes.
+    pub(super) fn clear(&mut self) {
+        self.starts.clear();
+    }
+
+    /// Lets vigor flow up: at the base of each plant `gain` for each unit of light, farther up as nodes split it.
+    pub(super) fn share_out(
+        &self,
+        nodes: &[Node],
+        flows: &mut [Flow],
+        plants: &[(MetamerId, f64)],
+        gain: f64,
+    ) {
+        let mut starts = self.starts.iter().map(|&start| start as usize).peekable();
+        while let Some(start) = starts.next() {
+            let end = starts.peek().copied().unwrap_or(nodes.len());
+            let (below, wave) = flows[..end].split_at_mut(start);
+            Wave { nodes, plants, gain, below }.share_out(wave, start);
+        }
+    }
+}
+
+/// What all shoots of a wave have in common.
+#[derive(Clone, Copy)]
+struct Wave<'a> {
+    nodes: &'a [Node],
+    plants: &'a [(MetamerId, f64)],
+    gain: f64,
+    /// Flows of all nodes before the wave.
+    below: &'a [Flow],
+}
+
+impl Wave<'_> {
+    /// Lets vigor flow through a part of the wave that begins with a shoot, in this slot.
+    fn share_out(self, flows: &mut [Flow], first: usize) {
+        let nodes = &self.nodes[first..first + flows.len()];
+        if flows.len() >= PARALLEL_FROM {
+            // Not amid a shoot.
+            let begins = |at: &usize| nodes[*at].parent as usize != first + at - 1;
+            if let Some(middle) = (flows.len() / 2..flows.len()).find(begins) {
+                let (left, right) = flows.split_at_mut(middle);
+                rayon::join(|| self.share_out(left, first), || self.share_out(right, first + middle));
+                return;
+            }
+        }
+        for (at, node) in nodes.iter().enumerate() {
+            let light = flows[at].light();
+            let parent = match node.parent {
+                NOWHERE => None,
+                parent => self.below.get(parent as usize).or_else(|| flows.get(at.wrapping_sub(1))),
+            };
+            flows[at].vigor = parent.map_or(self.gain * light as i64 as f64, |parent| {
+                let split = Split::new(parent, self.plants[node.plant()].1);
+                if node.is_main() { split.to_main() } else { split.to_lateral(light) }
+            });
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! A flush: all that grows in one step.
+//!
+//! Leaders of strokes come first, then the longest shoots; no node may lie in the zone of another that is there by
+//! then.
+
+use std::{collections::BTreeSet, ops::Range};
+
+use espalier_plant::{AxisId, MetamerId};
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::{
+    claims::Claimed,
+    newcomers::Newcomers,
+    selection::Selection,
+    shoot::{Aim, Draft},
+    simulation::Simulation,
+    vigor,
+};
+
+/// Buds that are asked, and shoots that are drafted, by one thread at a time.
+const BATCH: usize = if cfg!(test) { 4 } else { 256 };
+
+/// A bud that will grow: the complement of its length in the upper half of a number, its axis in the lower. So those
+/// that grow first come first, and two are compared as one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Shoot(u64);
+
+impl Shoot {
+    fn new(axis: AxisId, length: u32) -> Self {
+        Self(u64::from(!length) << 32 | u64::from(axis.raw()))
+    }
+
+    fn axis(self) -> AxisId {
+        AxisId::new(self.0 as u32 as usize)
+    }
+
+    /// Internodes.
+    fn length(self) -> u32 {
+        !((self.0 >> 32) as u32)
+    }
+}
+
+impl Simulation {
+    /// Lets buds grow: leaders along their paths, others into the space they have claimed. Returns the new metamers
+    /// that space has yet to be told of.
+    pub(crate) fn grow(&mut self, stroke: Option<Vec3>, selection: &Selection) -> Range<usize> {
+        let born = self.plant.metamer_count();
+        let led = self.grow_leaders(stroke, selection);
+        let shoots = self.shoots(&led);
+        if shoots.len() > BATCH && (rayon::current_num_threads() > 1 || cfg!(test)) {
+            self.grow_side_by_side(born, &shoots, stroke);
+            return born..self.plant.metamer_count();
+        }
+        self.tell_space(born..self.plant.metamer_count());
+        for shoot in shoots {
+            if let Some(aim) = self.aim(shoot.axis(), stroke) {
+                self.grow_shoot(shoot.axis(), shoot.length(), aim);
+            }
+        }
+        0..0
+    }
+
+    /// The same as if they grew one after another: whether a zone of an earlier step is in the way does not depend on
+    /// who grows first. So all are drafted as if each were the only one, and grow as far as those before let them.
+    fn grow_side_by_side(&mut self, born: usize, shoots: &[Shoot], stroke: Option<Vec3>) {
+        let draft = |shoots: &[Shoot]| {
+            let mut drafts = Vec::with_capacity(shoots.len());
+            for &shoot in shoots {
+                if let Some(aim) = self.aim(shoot.axis(), stroke) {
+                    self.draft_shoot(shoot.axis(), shoot.length(), aim, &mut drafts);
+                }
+            }
+            drafts
+        };
+        let drafts: Vec<Vec<Draft>> = shoots.par_chunks(BATCH).map(draft).collect();
+        let count = self.plant.metamer_count() - born + drafts.iter().map(Vec::len).sum::<usize>();
+        let mut newcomers = Newcomers::new(self.parameters.scene().occupancy_radius, count);
+        for id in (born..self.plant.metamer_count()).map(MetamerId::new) {
+            newcomers.insert(id, self.plant.metamers().end(id));
+        }
+        let (mut stopped, mut last_grown) = (None, 0);
+        let last = shoots.last().copied();
+        for draft in drafts.iter().flatten() {
+            if stopped == Some(draft.axis) {
+                continue;
+            }
+            if self.is_full() {
+                break;
+            }
+            if newcomers.is_occupied(draft.end, |id| !self.is_kin(draft.axis, draft.end, id)) {
+                stopped = Some(draft.axis);
+                continue;
+            }
+            let id = self.add(draft);
+            newcomers.insert(id, draft.end);
+            last_grown += u32::from(last.is_some_and(|shoot| shoot.axis() == draft.axis));
+        }
+        if last.is_some_and(|shoot| last_grown < shoot.length()) {
+            // One after another, the last shoot would have asked for room once more.
+            self.is_full();
+        }
+    }
+
+    fn aim(&self, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
+        let Claimed { space, envelope } = self.claims.of(axis)?;
+        Some(Aim { space: Some(self.lit_side(axis, space)), stroke, is_enclosed: envelope.is_some() })
+    }
+
+    fn tell_space(&mut self, rows: Range<usize>) {
+        for id in rows.map(MetamerId::new) {
+            self.space.occupy(id, self.plant.metamers().end(id));
+        }
+    }
+
+    /// Lets leaders grow along the paths of their strokes. Returns those that did.
+    fn grow_leaders(&mut self, stroke: Option<Vec3>, selection: &Selection) -> BTreeSet<AxisId> {
+        let mut led = BTreeSet::new();
+        let mut guides = core::mem::take(&mut self.guides);
+        for guide in guides.values_mut() {
+            let Some(leader) = guide.leader else { continue };
+            if !self.plant.is_axis_alive(leader) {
+                guide.restart();
+                continue;
+            }
+            if !selection.includes(leader) {
+                continue;
+            }
+            let space = self.claims.of(leader).map(|claimed| claimed.space);
+            let longest = self.parameters.of(leader).max_shoot_length;
+            let aim = Aim { space, stroke, is_enclosed: false };
+            if self.grow_guided(leader, longest, aim, |tip, is_blocked| guide.next_node(tip, is_blocked)) > 0
+            {
+                led.insert(leader);
+            }
+        }
+        self.guides = guides;
+        led
+    }
+
+    /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
+    fn shoots(&self, led: &BTreeSet<AxisId>) -> Vec<Shoot> {
+        let axes: Vec<AxisId> = self.claims.claimants().filter(|axis| !led.contains(axis)).collect();
+        let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&self.plant, axis, &self.parameters);
+        let vigors: Vec<f64> = match axes.len() {
+            ..=BATCH => axes.iter().map(vigor).collect(),
+            _ => axes.par_iter().with_min_len(BATCH).map(vigor).collect(),
+        };
+        let greatest = vigors.iter().copied().fold(0.0, f64::max);
+        let shoot = |(&axis, &vigor): (&AxisId, &f64)| {
+            let parameters = self.parameters.of(axis);
+            let length = if vigor > 0.0 { vigor::shoot_length(vigor, greatest, parameters) } else { 0 };
+            let length = if length > 0 { self.claims.of(axis)?.limit(length, parameters) } else { 0 };
+            (length > 0).then(|| Shoot::new(axis, length))
+        };
+        let mut shoots: Vec<Shoot> = axes.iter().zip(&vigors).filter_map(shoot).collect();
+        shoots.sort_unstable();
+        shoots
+    }
+}
