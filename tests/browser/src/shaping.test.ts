@@ -185,16 +185,10 @@ test("a mouse pulls the ring around a limb, and a width can be typed", async () 
 test("a double tap cuts a branch off, and draws nothing", async () => {
   const { tablet, metamers, sent } = await limbed();
   const before = await tablet.photograph("44-limbed");
-  const limb = { x: 745, y: 542 };
-  const twice = async ({ x, y }: Point) => {
-    await tablet.hold({ x, y }, 40);
-    await tablet.page.waitForTimeout(60);
-    await tablet.hold({ x: x + 3, y: y - 2 }, 40);
-  };
-  await twice({ x: 950, y: 250 });
+  await tablet.doubleTap({ x: 950, y: 250 });
   await tablet.page.waitForTimeout(500);
   expect((await tablet.facts()).sent, "on nothing it does nothing").toBe(sent);
-  await twice(limb);
+  await tablet.doubleTap({ x: 745, y: 542 });
   const cut = await tablet.until("the limb is gone", (facts) => facts.metamers < metamers - 3);
   expect(cut.sent, "one command, and no stroke").toBe(sent + 1);
   const after = await tablet.photograph("45-cut");
@@ -310,7 +304,10 @@ test("a line cuts all that it crosses, in one go", async () => {
 });
 
 test("branches in the dark are marked and cut", async () => {
-  const { tablet, metamers } = await workshop.drawn(LANDSCAPE);
+  const { tablet, address } = await workshop.fresh(LANDSCAPE);
+  // A crown that shades its own inside.
+  await workshop.act(address, [{ kind: "grow", steps: 12 }]);
+  const { metamers } = await tablet.untilQuiet();
   const slider = tablet.page.getByLabel("Mark branches that get less light than");
   await tablet.tap("Prune");
   await slider.focus();

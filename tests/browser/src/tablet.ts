@@ -158,19 +158,26 @@ export class Tablet {
   /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
   async swipe(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
     const length = Math.max(...paths.map((path) => path.length));
-    const sent: Promise<void>[] = [];
     for (let i = 0; i < length; i++) {
-      // As a hand does not wait for the picture, nor does this: the page gets what it missed with its next frame.
-      sent.push(
-        this.touch(
-          i === 0 ? "touchStart" : "touchMove",
-          paths.map((path) => path[Math.min(i, path.length - 1)]!),
-        ),
+      await this.touch(
+        i === 0 ? "touchStart" : "touchMove",
+        paths.map((path) => path[Math.min(i, path.length - 1)]!),
       );
       await this.page.waitForTimeout(pause);
     }
-    sent.push(this.touch("touchEnd", []));
-    await Promise.all(sent);
+    await this.touch("touchEnd", []);
+  }
+
+  /** One finger that presses on each place for so long, one after the other, however long the page takes to answer. */
+  async press(places: readonly Point[], milliseconds: number): Promise<void> {
+    const answers: Promise<void>[] = [];
+    for (const place of places) {
+      answers.push(this.touch("touchStart", [place]));
+      await this.page.waitForTimeout(milliseconds);
+      answers.push(this.touch("touchEnd", []));
+      await this.page.waitForTimeout(milliseconds);
+    }
+    await Promise.all(answers);
   }
 
   /** One real touch event with all fingers that are down. */
@@ -205,9 +212,18 @@ export class Tablet {
 
   /** One finger pressed on a place and held still. */
   async hold(place: Point, milliseconds: number): Promise<void> {
-    await this.touch("touchStart", [place]);
-    await this.page.waitForTimeout(milliseconds);
-    await this.touch("touchEnd", []);
+    await this.press([place], milliseconds);
+  }
+
+  /** One finger that taps on a place twice. */
+  async doubleTap({ x, y }: Point): Promise<void> {
+    await this.press(
+      [
+        { x, y },
+        { x: x + 3, y: y - 2 },
+      ],
+      50,
+    );
   }
 
   async tap(label: string): Promise<void> {
