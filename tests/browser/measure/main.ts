@@ -17,7 +17,7 @@ const A_TREE = 50_000;
 
 const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, script99: 4, gzip: 300_000, first: 1000 };
 
-/** Measures the client with a large tree and prints what it costs; `--metamers N` for another size. Gives the exit code. */
+/** Measures the client with a large tree and prints what it costs; `--metamers N` for another size. Gives the exit code: 0 if every goal was kept. */
 export async function main(words: readonly string[]): Promise<number> {
   const at = words.indexOf("--metamers");
   const metamers = at < 0 ? METAMERS : Number(words[at + 1]);
@@ -38,34 +38,45 @@ export async function main(words: readonly string[]): Promise<number> {
     const size = await scriptSize(page);
     const still = await atRest(page);
     const { frames: script, processor } = await turning(page);
-    const middle = quantile(script, 0.5);
-    const rare = quantile(script, 0.99);
-    const table: [string, string, string][] = [
-      ["metamers, leaves", `${tree.metamers}, ${tree.leaves}`, ""],
-      ["draw calls of the camera", `${still.camera.calls}`, `${BUDGET.calls}`],
-      ["draw calls of the shadow map", `${still.shadow.calls}`, ""],
-      ["triangles of the camera", thousands(still.camera.triangles), thousands(BUDGET.triangles)],
-      ["triangles of the shadow map", thousands(still.shadow.triangles), ""],
-      ["script a frame, median, ms", middle.toFixed(2), `${BUDGET.script}`],
-      ["script a frame, 99 %, ms", rare.toFixed(2), `${BUDGET.script99}`],
-      ["script a frame, processor time, mean, ms", processor.toFixed(2), `${BUDGET.script}`],
-      ["JavaScript, gzip, kB", (size / 1000).toFixed(1), `${BUDGET.gzip / 1000}`],
-      ["its rows received, ms", rows.toFixed(0), ""],
-      ["first tree handed to the graphics card, ms", first.toFixed(0), `${BUDGET.first}`],
+    const figures: Figure[] = [
+      { what: "draw calls of the camera", value: still.camera.calls, most: BUDGET.calls, print: String },
+      { what: "draw calls of the shadow map", value: still.shadow.calls, print: String },
+      { what: "triangles of the camera", value: still.camera.triangles, most: BUDGET.triangles, print: thousands },
+      { what: "triangles of the shadow map", value: still.shadow.triangles, print: thousands },
+      { what: "script a frame, median, ms", value: quantile(script, 0.5), most: BUDGET.script, print: hundredths },
+      { what: "script a frame, 99 %, ms", value: quantile(script, 0.99), most: BUDGET.script99, print: hundredths },
+      { what: "script a frame, processor time, mean, ms", value: processor, most: BUDGET.script, print: hundredths },
+      { what: "JavaScript, gzip, bytes", value: size, most: BUDGET.gzip, print: thousands },
+      { what: "its rows received, ms", value: rows, print: whole },
+      { what: "first tree handed to the graphics card, ms", value: first, most: BUDGET.first, print: whole },
     ];
     console.log(`${cpus()[0]?.model ?? "an unknown processor"}, ${cpus().length} cores`);
     console.log(`${browser.browserType().name()} ${browser.version()}, ${SCREEN.width} × ${SCREEN.height}\n`);
-    for (const [what, value, budget] of table) console.log(`| ${what} | ${value} | ${budget} |`);
-    const kept =
-      still.camera.calls <= BUDGET.calls &&
-      still.camera.triangles <= BUDGET.triangles &&
-      middle <= BUDGET.script &&
-      size <= BUDGET.gzip;
-    return kept ? 0 : 1;
+    console.log(`| metamers, leaves | ${tree.metamers}, ${tree.leaves} | | |`);
+    for (const figure of figures) console.log(lineOf(figure));
+    return figures.every(isKept) ? 0 : 1;
   } finally {
     await browser.close();
     await server.stop();
   }
+}
+
+/** What was measured, and the most it may be. */
+interface Figure {
+  readonly what: string;
+  readonly value: number;
+  readonly most?: number;
+  readonly print: (value: number) => string;
+}
+
+function isKept({ value, most }: Figure): boolean {
+  return most === undefined || value <= most;
+}
+
+function lineOf(figure: Figure): string {
+  const { what, value, most, print } = figure;
+  const goal = most === undefined ? ["", ""] : [print(most), isKept(figure) ? "kept" : "not kept"];
+  return `| ${[what, print(value), ...goal].join(" | ")} |`;
 }
 
 interface Tree {
@@ -194,6 +205,14 @@ async function turn(page: Page, enough: number): Promise<number[]> {
 function quantile(values: readonly number[], share: number): number {
   const sorted = [...values].sort((a, b) => a - b);
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? Number.NaN;
+}
+
+function whole(value: number): string {
+  return value.toFixed(0);
+}
+
+function hundredths(value: number): string {
+  return value.toFixed(2);
 }
 
 function thousands(value: number): string {

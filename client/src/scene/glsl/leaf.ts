@@ -50,8 +50,8 @@ uniform sampler2D uSprigRelief;
 #define PAINTED uSprigColour
 #define RELIEF uSprigRelief
 // Leaves of a pixel or two stay apart, or a sprig would be a blot.
-#define SHARPER -2.0
-#define FINER -2.0
+#define SHARPER -1.0
+#define FINER -1.0
 #else
 uniform sampler2D uLeafColour; // half the brightness, second hue, sheerness, coverage
 uniform sampler2D uLeafRelief; // normal across and along, wood, margin
@@ -279,7 +279,12 @@ const vec3 TWIG = vec3(0.150, 0.095, 0.055);
 
 void main() {
   vec4 painted = texture(PAINTED, vPicture, SHARPER);
+#ifdef SPRIG
+  // Of a leaf that is hardly a pixel long there is no edge to be seen.
+  float there = clamp(1.6 * (painted.a - 0.5) + 0.5, 0.0, 1.0);
+#else
   float there = cut(painted.a);
+#endif
 #ifdef GHOST
   if (painted.a < 0.5) discard;
 #else

@@ -28,6 +28,8 @@ const CASTER_SEGMENTS = 3;
 const THICK_END = Math.ceil(Math.log(1.7) / RADIUS_LOG_STEP);
 /** Rows looked at again in a frame after the eye has moved; more would be felt. */
 const ROWS_A_FRAME = 20_000;
+/** One that is drawn otherwise from then on costs as much as so many that are not. */
+const ROWS_A_MOVE = 8;
 /** What an internode counts as before anybody has looked, in pixels. */
 const UNSEEN_PIXELS = 30;
 /** Nothing is nearer to the eye than this, in internodes. */
@@ -155,12 +157,12 @@ export class Branches {
     }
     this.unseen = Math.min(this.unseen, this.known);
     if (this.unseen === 0) return false;
-    const turns = atOnce ? this.unseen : Math.min(this.unseen, ROWS_A_FRAME);
-    for (let i = 0; i < turns; i += 1) {
+    let left = atOnce ? Number.POSITIVE_INFINITY : ROWS_A_FRAME;
+    while (this.unseen > 0 && left > 0) {
       this.nextSeen = this.nextSeen + 1 < this.known ? this.nextSeen + 1 : 0;
-      if (this.level[this.nextSeen]! >= 0) this.lookAgain(table, this.nextSeen);
+      left -= this.level[this.nextSeen]! >= 0 && this.lookAgain(table, this.nextSeen) ? ROWS_A_MOVE : 1;
+      this.unseen -= 1;
     }
-    this.unseen -= turns;
     this.upload();
     return this.unseen > 0;
   }
@@ -247,10 +249,11 @@ export class Branches {
     this.endSlot[row] = NOWHERE;
   }
 
-  private lookAgain(table: TreeTable, row: number): void {
+  /** Says whether the row is drawn otherwise. */
+  private lookAgain(table: TreeTable, row: number): boolean {
     const before = this.level[row]!;
     const level = this.fitting(table, row);
-    if (level === before) return;
+    if (level === before) return false;
     const slot = this.slot[row]!;
     const moved = this.bins[before]!.moveTo(this.bins[level]!, slot);
     if (moved >= 0) this.slot[moved] = slot;
@@ -261,6 +264,7 @@ export class Branches {
     this.rejoin(table, table.limbs.onward[row]!);
     const [, parent, origin, flags] = this.bins[level]!.read(at);
     if (flags & CUT) this.showFace(row, true, parent, origin, flags);
+    return true;
   }
 
   /** Where a limb passes from one level to another its tubes have to overlap: rings with other sides leave gaps. */
