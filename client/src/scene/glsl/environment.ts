@@ -40,7 +40,7 @@ vec3 farGround() {
   if (uGround == PLAIN) return HORIZON_COLOUR * 0.92;
   const vec3 UP = vec3(0, 1, 0);
   vec3 lit = MEAN[uGround] * (ambient(UP) + SUN_COLOUR * facingSun(UP));
-  return mix(lit, HORIZON_COLOUR * 0.8, 0.12);
+  return mix(lit, HORIZON_COLOUR * 0.8, 0.16);
 }
 vec3 farLand() { return mix(uMiddleColour, HORIZON_COLOUR, 0.35) * 0.84; }
 vec3 nearLand() { return mix(farLand(), farGround(), 0.55) * 0.86; }

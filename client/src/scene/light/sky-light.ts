@@ -54,7 +54,7 @@ const HOURS: readonly Hour[] = [
   {
     elevation: -4.5,
     sun: [0, 0, 0],
-    above: [0.6, 0.57, 0.76],
+    above: [0.63, 0.57, 0.7],
     zenith: [0.03, 0.055, 0.16],
     middle: [0.12, 0.13, 0.27],
     horizon: [0.5, 0.29, 0.26],
