@@ -73,6 +73,8 @@ function hint(studio: Studio): string | null {
     studio.hindrance.value === null &&
     studio.phase.value === "connected" &&
     !tools.drawing.value &&
+    // A legend has its place, and its lesson.
+    studio.drawMode.value === "lit" &&
     studio.tour.step.value === null;
   if (!usable) {
     return null;
