@@ -5,6 +5,7 @@
 //! back. What is left lies packed in birth order: parents stand before what they bear.
 
 mod priority;
+mod slots;
 mod waves;
 
 use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
@@ -20,6 +21,7 @@ use crate::{
     space::Space,
     vigor::{self, Flow, Split},
 };
+use slots::Slots;
 use waves::Waves;
 
 /// Work smaller than this is not worth handing to other threads.
@@ -52,7 +54,7 @@ pub(crate) struct Canopy {
     /// Living metamers from each node on upwards; empty while nothing can be shed.
     sizes: Vec<u32>,
     /// Where each metamer of the plant stands in the canopy.
-    slots: Vec<u32>,
+    slots: Slots,
     /// Nodes that have gone dark since appearance was last written.
     darkened: Vec<MetamerId>,
     /// Whether living nodes have been left out.
@@ -129,7 +131,7 @@ impl Canopy {
         let known = self.slots.len();
         let bears_new = |id: &MetamerId| {
             let parent = plant.metamers().parent(*id).filter(|parent| parent.index() < known);
-            parent.is_some_and(|parent| self.slots[parent.index()] == NOWHERE)
+            parent.is_some_and(|parent| self.slots.of(parent) == NOWHERE)
         };
         // A stroke can wake a branch that was left out.
         let mut grown = (known..plant.metamer_count()).map(MetamerId::new);
@@ -138,7 +140,7 @@ impl Canopy {
         }
         let metamers = plant.metamers();
         let more = plant.metamer_count() - self.slots.len();
-        reserve(&mut self.slots, more);
+        self.slots.reserve(more);
         reserve(&mut self.nodes, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
@@ -147,7 +149,7 @@ impl Canopy {
                 continue;
             }
             let slot = self.nodes.len() as u32;
-            let parent = metamers.parent(id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
+            let parent = metamers.parent(id).map_or(NOWHERE, |parent| self.slots.of(parent));
             let (mut is_main, mut of_plant) = (true, self.plants.len());
             if let Some(below) = self.nodes.get_mut(parent as usize) {
                 of_plant = below.plant();
@@ -224,7 +226,7 @@ impl Canopy {
         if !is_new && changed.len() * NODES_IN_SHADOW < nodes.len() {
             let boxes = changed.iter().map(|&place| shadows.reach(place));
             space.nodes_around(boxes, |id| {
-                let slot = self.slots[id.index()] as usize;
+                let slot = self.slots.of(id) as usize;
                 if let Some(light) = self.light.get_mut(slot) {
                     *light = read(slot, spots[slot]);
                 }
@@ -293,7 +295,8 @@ impl Canopy {
     /// Takes out what has died, as light and space see it. Its rows go when they have become many.
     pub(crate) fn bury(&mut self, plant: &Plant, dead: &[MetamerId]) {
         for id in dead {
-            let slot = core::mem::replace(&mut self.slots[id.index()], NOWHERE);
+            let slot = self.slots.of(*id);
+            self.slots.set(*id, NOWHERE);
             if let Some(node) = self.nodes.get_mut(slot as usize) {
                 node.die();
                 self.darkened.push(*id);
@@ -314,14 +317,13 @@ impl Canopy {
             let (node, flow) = (self.nodes[slot], self.flows[slot]);
             if !stays(&node, &flow) {
                 if !node.is_dead() {
-                    self.slots[node.id.index()] = NOWHERE;
+                    self.slots.set(node.id, NOWHERE);
                     self.darkened.push(node.id);
                 }
                 continue;
             }
-            let parent =
-                plant.metamers().parent(node.id).map_or(NOWHERE, |parent| self.slots[parent.index()]);
-            self.slots[node.id.index()] = kept as u32;
+            let parent = plant.metamers().parent(node.id).map_or(NOWHERE, |parent| self.slots.of(parent));
+            self.slots.set(node.id, kept as u32);
             self.waves.add(kept as u32, parent);
             self.nodes[kept] = Node { parent, ..node };
             self.spots[kept] = self.spots[slot];
@@ -341,7 +343,7 @@ impl Canopy {
 
     /// What flows through a metamer's node, if any light does.
     fn flow(&self, id: MetamerId) -> Option<&Flow> {
-        self.flows.get(*self.slots.get(id.index())? as usize)
+        self.flows.get(self.slots.of(id) as usize)
     }
 
     /// Vigor of the bud of a living axis.
@@ -351,7 +353,7 @@ impl Canopy {
             return vigor;
         }
         let Some(flow) = self.flow(node) else { return 0.0 };
-        let of_plant = self.nodes[self.slots[node.index()] as usize].plant();
+        let of_plant = self.nodes[self.slots.of(node) as usize].plant();
         let split = Split::new(flow, self.plants[of_plant].1);
         if plant.axes().last(axis).is_some() {
             return split.to_main();
@@ -367,7 +369,7 @@ impl Canopy {
         node: MetamerId,
         parameters: &ParameterTable,
     ) -> u64 {
-        let light = self.light[self.slots[node.index()] as usize];
+        let light = self.light[self.slots.of(node) as usize];
         let propensity = propensity_of(plant, axis, node, parameters);
         vigor::quantised(response(light, parameters.of(axis)) * propensity)
     }

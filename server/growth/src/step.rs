@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use crate::{
     brush::BrushPiece,
+    claims::Claims,
     directory::nearness,
     field::MarkerField,
     markers::{Marker, MarkerSource},
@@ -65,6 +66,7 @@ impl Simulation {
         observer.enter(Phase::Growth);
         let stroke = input.pieces.iter().find_map(BrushPiece::direction);
         let untold = self.grow(stroke, &selection);
+        self.claims = Claims::default();
         observer.enter(Phase::Girth);
         self.plant.end_step();
         observer.enter(Phase::Space);

@@ -14,7 +14,7 @@ pub struct Axes {
     pub(crate) first: Vec<MetamerId>,
     pub(crate) last: Vec<MetamerId>,
     pub(crate) direction: Vec<Vec3>,
-    pub(crate) order: Vec<u32>,
+    pub(crate) order: Vec<u16>,
     pub(crate) death: Vec<u32>,
 }
 
@@ -28,7 +28,7 @@ impl Axes {
         self.first.push(MetamerId::NONE);
         self.last.push(MetamerId::NONE);
         self.direction.push(direction);
-        self.order.push(order);
+        self.order.push(stored_order(order));
         self.death.push(ALIVE);
         id
     }
@@ -94,6 +94,11 @@ impl Axes {
 
     /// Branching order: 0 for trunks.
     pub fn order(&self, id: AxisId) -> u32 {
-        self.order[id.index()]
+        u32::from(self.order[id.index()])
     }
+}
+
+/// An order as the column holds it; higher ones than it can hold are all the same.
+pub(crate) fn stored_order(order: u32) -> u16 {
+    u16::try_from(order).unwrap_or(u16::MAX)
 }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use glam::Vec3;
 
 use crate::{
-    axes::Axes,
+    axes::{Axes, stored_order},
     edits::Edit,
     id::{AxisId, MetamerId},
     metamers::{ALIVE, Appearance, Metamers},
@@ -100,7 +100,7 @@ impl Future {
             lateral: m.lateral.iter().map(|id| id.raw()).collect(),
             bearer: a.bearer.iter().map(|id| id.raw()).collect(),
             direction: a.direction.clone(),
-            order: a.order.clone(),
+            order: a.order.iter().map(|&order| u32::from(order)).collect(),
             axis_death: a.death.clone(),
             deaths: self.deaths.iter().map(|&(id, step)| (id.raw(), step)).collect(),
             axis_deaths: self.axis_deaths.iter().map(|&(id, step)| (id.raw(), step)).collect(),
@@ -138,7 +138,7 @@ impl Future {
                 first: vec![MetamerId::NONE; axes],
                 last: vec![MetamerId::NONE; axes],
                 direction: parts.direction,
-                order: parts.order,
+                order: parts.order.iter().map(|&order| stored_order(order)).collect(),
                 death: parts.axis_death,
             },
             ends: ends.collect(),

@@ -74,7 +74,7 @@ impl Plant {
         let mut order = Vec::with_capacity(axes);
         for &bearer in &parts.bearer {
             let below = (bearer != u32::MAX).then(|| order[parts.axis[bearer as usize] as usize]);
-            order.push(below.map_or(0, |below: u32| below + 1));
+            order.push(below.map_or(0, |below: u16| below.saturating_add(1)));
         }
         let mut lateral = vec![AxisId::NONE; metamers];
         let mut is_graft = vec![false; axes];

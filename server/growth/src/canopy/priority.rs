@@ -91,7 +91,7 @@ impl Canopy {
         for axis in plant.laterals(id).filter(|&axis| plant.is_standing(axis)) {
             let (light, buds) = match plant.axes().first(axis) {
                 Some(first) => {
-                    let first = self.slots[first.index()] as usize;
+                    let first = self.slots.of(first) as usize;
                     (self.flows[first].light(), buds[first])
                 }
                 None => (self.lateral_input(plant, axis, id, parameters), 1),
