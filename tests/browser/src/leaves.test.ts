@@ -1,7 +1,12 @@
 import { expect, test } from "vitest";
 import { leafAzimuth } from "../../../client/src/scene/foliage/leaves";
 import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
+import { perform } from "../gallery/performance";
 import { launchBrowser } from "./browser";
+import type { Picture } from "./picture";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
 
 /** A leaf: its row, its number of so many, its metamer; then base, direction and normal as the rules have them. */
 const leaves = [
@@ -62,6 +67,60 @@ test("LF1, LF2, LF4: the graphics card places leaves by the rules", async () => 
     }
   } finally {
     await browser.close();
+  }
+});
+
+/** Mean colour of the middle of a picture. */
+function crown({ width, height, pixels }: Picture): readonly number[] {
+  const [across, up] = [Math.round(0.08 * width), Math.round(0.15 * height)];
+  const sum = [0, 0, 0];
+  let count = 0;
+  for (let y = Math.round(height / 2) - up; y < height / 2 + up; y += 1) {
+    for (let x = Math.round(width / 2) - across; x < width / 2 + across; x += 1) {
+      for (const channel of [0, 1, 2]) sum[channel]! += pixels[4 * (y * width + x) + channel]!;
+      count += 1;
+    }
+  }
+  return sum.map((value) => value / count);
+}
+
+/** Keeps how many instances the last draws had. */
+function watchInstances(): void {
+  const { prototype } = WebGL2RenderingContext;
+  const draw = prototype.drawElementsInstanced;
+  const last: number[] = [];
+  Object.assign(window, { instances: last });
+  prototype.drawElementsInstanced = function (mode, count, type, offset, instances) {
+    last.push(instances);
+    if (last.length > 8) last.shift();
+    draw.call(this, mode, count, type, offset, instances);
+  };
+}
+
+test("far leaves give way to sprigs, and the crown keeps its look", { timeout: 240_000 }, async () => {
+  const { tablet, address } = await workshop.fresh({ width: 900, height: 640, detail: 0.5 });
+  const { page } = tablet;
+  const session = address.slice(address.lastIndexOf("/") + 1);
+  const parameters = '{"kind":"set_parameters","parameters":{"leaves_per_node":4}}';
+  await perform(page, session, [parameters, '{"kind":"grow","steps":20}']);
+  const { metamers } = await tablet.untilQuiet();
+  expect(metamers).toBeGreaterThan(8000);
+  // The same view, on glass of few pixels and of many.
+  const look = async (detail: number) => {
+    const looking = await workshop.open(address, { width: 900, height: 640, detail });
+    await looking.page.addInitScript(watchInstances);
+    await looking.page.goto(`${address}?zoom=0.9`);
+    await looking.untilReady();
+    const picture = await looking.photograph(`leaves-${detail}`);
+    const instances = await looking.page.evaluate(() => (window as unknown as { instances: number[] }).instances);
+    return { colour: crown(picture), most: Math.max(...instances) };
+  };
+  const [fine, coarse] = [await look(1), await look(0.2)];
+  // There are more leaves than metamers, and fewer sprigs.
+  expect(fine.most).toBeGreaterThan(1.5 * metamers);
+  expect(coarse.most).toBeLessThan(1.1 * metamers);
+  for (const channel of [0, 1, 2]) {
+    expect(Math.abs(coarse.colour[channel]! - fine.colour[channel]!), `channel ${channel}`).toBeLessThan(10);
   }
 });
 

@@ -15,7 +15,7 @@ import { SPRIG_LEAVES } from "./sprig";
 const BAND = [2.2, 3.6] as const;
 /** With more leaves than this they do so sooner, up to so much, for then nobody tells one from another. */
 const MANY = 40_000;
-const SOONER = 1.45;
+const SOONER = 2.15;
 /** A tree with fewer leaves than this keeps them however far it is. */
 const FEW = 2_000;
 /** Of sixteen numbers a row has for its leaves, the one that says which of them a sprig stands in for. */

@@ -162,7 +162,7 @@ void main() {
 #ifdef SPRIG
   // Its middle is where that of the leaf would be.
   // Single leaves about as small as a pixel seem larger than they are.
-  float span = uSprigSpan * uLeafBand.z * mix(1.17, 1.0, smoothstep(1.5, 3.8, length_)) * (1.0 + 2.0 * MARGIN);
+  float span = uSprigSpan * uLeafBand.z * mix(1.35, 1.0, smoothstep(1.0, 3.8, length_)) * (1.0 + 2.0 * MARGIN);
   along = (card.y - 0.5) * span + 0.5;
   across = card.x * SPRIG_REACH * span;
 #endif
