@@ -29,7 +29,7 @@ const THICK_END = Math.ceil(Math.log(1.7) / RADIUS_LOG_STEP);
 /** Rows looked at again in a frame after the eye has moved; more would be felt. */
 const ROWS_A_FRAME = 20_000;
 /** One that is drawn otherwise from then on costs as much as so many that are not. */
-const ROWS_A_MOVE = 8;
+const ROWS_A_MOVE = 3;
 /** What an internode counts as before anybody has looked, in pixels. */
 const UNSEEN_PIXELS = 30;
 /** Nothing is nearer to the eye than this, in internodes. */
