@@ -6,6 +6,7 @@ import { promisify } from "node:util";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { chosen, type Entry, FOLDER, query, readCatalogue, readScript } from "../gallery/catalogue";
+import { readOrder } from "../gallery/order";
 import { DRAFT, Player } from "../gallery/player";
 import { launchBrowser } from "./browser";
 import { becameTree, changed, colours, Darkroom } from "./picture";
@@ -18,7 +19,7 @@ describe("the gallery", () => {
   it("has a script, a picture and a sentence for each sketch", async () => {
     const page = await readFile(join(FOLDER, "README.md"), "utf8");
     const entries = await readCatalogue();
-    expect(entries.length).toBeGreaterThanOrEqual(18);
+    expect(entries.length).toBeGreaterThanOrEqual(26);
     expect(new Set(entries.map(({ name }) => name)).size).toBe(entries.length);
     for (const { name } of entries) {
       const commands = (await readScript(name)).map((line) => JSON.parse(line) as { kind?: string });
@@ -36,6 +37,25 @@ describe("the gallery", () => {
       const { stdout } = await run(program, ["replay", script, "--seed", String(seed), "--stats", "json"]);
       expect((JSON.parse(stdout) as { metamers_alive: number }).metamers_alive, name).toBeGreaterThan(500);
     }
+  });
+
+  it("has at least twenty sketches that a hand drew", async () => {
+    const drawn = await Promise.all(
+      (await readCatalogue()).map(async ({ name }) =>
+        (await readScript(name)).some((line) => /"kind":"(stroke_move|lasso)"/.test(line)),
+      ),
+    );
+    expect(drawn.filter(Boolean).length).toBeGreaterThanOrEqual(20);
+  });
+
+  it("reads which sketches, how and whereto", () => {
+    expect(readOrder([], "/here")).toEqual({ names: [], draft: false, out: FOLDER });
+    expect(readOrder(["oak", "--draft", "--out", "there"], "/here")).toEqual({
+      names: ["oak"],
+      draft: true,
+      out: "/here/there",
+    });
+    expect(() => readOrder(["--drift"], "/here")).toThrow("--drift");
   });
 
   it("plays what is asked for, and knows what there is", () => {
