@@ -19,6 +19,7 @@ mod guide;
 mod lasso;
 mod light;
 mod markers;
+mod nearby_order;
 mod newcomers;
 mod observer;
 mod obstacles;

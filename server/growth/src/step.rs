@@ -13,9 +13,9 @@ use rayon::prelude::*;
 use crate::{
     brush::BrushPiece,
     claims::Claims,
-    directory::nearness,
     field::MarkerField,
     markers::{Marker, MarkerSource},
+    nearby_order::nearby_order,
     observer::{Observer, Phase},
     selection::Selection,
     shedding,
@@ -192,15 +192,13 @@ impl Simulation {
         let Self { plant, space, parameters, field, shadows, obstacles, .. } = self;
         // What lies together is told together: all that is written to is larger than a cache, and neighbours
         // write to the same places.
-        let mut new: Vec<u64> = (born..plant.metamer_count())
-            .map(|row| u64::from(nearness(plant.metamers().end(MetamerId::new(row)))) << 32 | row as u64)
-            .collect();
-        new.sort_unstable();
-        let id = |row: u64| MetamerId::new(row as u32 as usize);
+        let place = |row: usize| plant.metamers().end(MetamerId::new(row));
+        let new = nearby_order((born..plant.metamer_count()).map(|row| (row, place(row))));
+        let id = |row: u32| MetamerId::new(row as usize);
         let nodes = || new.iter().map(|&row| (id(row), plant.metamers().end(id(row))));
         nodes().for_each(|(_, node)| obstacles.survey_sky(node));
         let obstacles = &*obstacles;
-        let buds_at = |rows: &[u64]| {
+        let buds_at = |rows: &[u32]| {
             let mut buds = Vec::with_capacity(rows.len() * 2);
             for id in rows.iter().map(|&row| id(row)) {
                 let axis = plant.metamers().axis(id);
