@@ -23,6 +23,9 @@ use crate::{
 /// The finest and the coarsest lattice, in internodes: beyond them parameters would ask for millions of markers
 /// or for none.
 const SPACING: (f32, f32) = (0.5, 8.0);
+/// Chunks that one thread goes through at a time.
+const BATCH: usize = 64;
+
 /// The markers of the lattice, as far as nodes and buds have touched it.
 #[derive(Clone, Debug)]
 pub(crate) struct MarkerField {
@@ -156,19 +159,28 @@ impl MarkerField {
                 }
             }
         };
-        self.chunks.all_mut().par_iter_mut().with_min_len(64).for_each(resolve);
+        self.chunks.all_mut().par_iter_mut().with_min_len(BATCH).for_each(resolve);
     }
 
-    /// Calls `visit` with every claimed marker and its claimant, as they were last resolved.
-    pub(crate) fn claims(&self, mut visit: impl FnMut(Vec3, AxisId)) {
-        for chunk in self.chunks.all() {
-            for cell in bits(chunk.claimed) {
-                visit(chunk.marker(cell), chunk.claimant[cell]);
+    /// Calls `visit` with every claimed marker's claimant, and where it sees the marker from itself, as they were last
+    /// resolved.
+    pub(crate) fn claims(&self, space: &Space, mut visit: impl FnMut(AxisId, Vec3)) {
+        let seen = |chunks: &[Chunk]| {
+            let mut seen: Vec<(AxisId, Vec3)> = Vec::with_capacity(8 * chunks.len());
+            for chunk in chunks {
+                for cell in bits(chunk.claimed) {
+                    let axis = chunk.claimant[cell];
+                    let bud = space.bud(axis);
+                    seen.extend(bud.map(|bud| (axis, chunk.marker(cell) - bud.position)));
+                }
             }
-        }
+            seen
+        };
+        let batches: Vec<_> = self.chunks.all().par_chunks(BATCH).map(seen).collect();
+        batches.into_iter().flatten().for_each(|(axis, offset)| visit(axis, offset));
     }
 
-    /// The same where only these buds may claim: those that are nearer do not count.
+    /// Calls `visit` with each marker and its claimant where only these buds may claim: those that are nearer do not count.
     pub(crate) fn claims_among(
         &mut self,
         buds: impl Iterator<Item = (AxisId, Bud)>,

@@ -114,14 +114,14 @@ impl Simulation {
             }
         }
         let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
-        let claim = |marker, axis| {
-            if let Some(bud) = space.bud(axis) {
-                claims.add(axis, marker - bud.position);
-            }
-        };
         if selection.is_everyone() {
-            field.claims(claim);
+            field.claims(space, |axis, offset| claims.add(axis, offset));
         } else {
+            let claim = |marker, axis| {
+                if let Some(bud) = space.bud(axis) {
+                    claims.add(axis, marker - bud.position);
+                }
+            };
             let axes = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| selection.includes(axis));
             let buds = axes.filter_map(|axis| Some((axis, space.bud(axis)?)));
             field.claims_among(buds, parameters, obstacles, claim);
