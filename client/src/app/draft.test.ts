@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Virtual } from "../../test/virtual-clock";
-import { alike, Draft } from "./draft";
+import { alike, Draft, type GrowthAhead } from "./draft";
 
 interface Look {
   readonly hue: number;
@@ -10,7 +10,7 @@ interface Look {
 const FIRST: Look = { hue: 0, bark: { kind: "smooth", relief: 1 } };
 
 /** A draft with its clock, and what it has sent. */
-function bench(options: { readonly busy?: () => boolean; readonly offline?: boolean } = {}) {
+function bench(options: { readonly ahead?: () => GrowthAhead; readonly offline?: boolean } = {}) {
   const clock = new Virtual();
   const sent: { patch: Partial<Look>; gesture: number | undefined; at: number }[] = [];
   const draft = new Draft<Look>({
@@ -20,7 +20,7 @@ function bench(options: { readonly busy?: () => boolean; readonly offline?: bool
       return options.offline ? 0 : sent.length;
     },
     newGesture: () => sent.length + 1,
-    busy: options.busy ?? (() => false),
+    ahead: options.ahead ?? (() => ({ step: 0, pending: 0 })),
     clock,
   });
   draft.receive(FIRST);
@@ -152,16 +152,56 @@ describe("draft", () => {
   });
 
   it("what waits behind long growth stays as set", () => {
-    let busy = true;
-    const { clock, draft, hue } = bench({ busy: () => busy });
+    let ahead = { step: 10, pending: 30 };
+    const { clock, draft, hue } = bench({ ahead: () => ahead });
     draft.commit({ hue: 7 });
     draft.settle(1);
     clock.pass(20_000);
     expect(hue()).toBe(7);
-    busy = false;
+    ahead = { step: 40, pending: 0 };
+    clock.pass(300);
+    expect(hue(), "its turn has only just come").toBe(7);
     draft.receive({ ...FIRST, hue: 7 });
     clock.pass(5000);
     expect(hue()).toBe(7);
+  });
+
+  it("growth that was asked for later keeps nothing", () => {
+    let ahead = { step: 10, pending: 3 };
+    const { clock, draft, hue } = bench({ ahead: () => ahead });
+    draft.commit({ hue: 7 });
+    draft.settle(1);
+    // A lever that is held asks for more all the time, so that the server is never done.
+    for (let i = 1; i <= 20; i++) {
+      ahead = { step: 10 + i, pending: 3 };
+      clock.pass(100);
+    }
+    expect(hue()).toBe(0);
+  });
+
+  it("time that goes back is waited for no longer", () => {
+    let ahead = { step: 10, pending: 30 };
+    const { clock, draft, hue } = bench({ ahead: () => ahead });
+    draft.commit({ hue: 7 });
+    draft.settle(1);
+    ahead = { step: 4, pending: 2 };
+    clock.pass(1000);
+    expect(hue()).toBe(0);
+  });
+
+  it("a busy server does not keep what it made otherwise", () => {
+    const { clock, sent, draft, hue } = bench();
+    draft.commit({ hue: 7 });
+    draft.settle(1);
+    draft.receive({ ...FIRST, hue: 2 });
+    for (let i = 0; i < 10; i++) {
+      // Others set something else, and this hand too: each is told and answered.
+      draft.receive({ hue: 2, bark: { kind: "smooth", relief: i } });
+      draft.commit({ bark: { kind: "papery", relief: i } });
+      draft.settle(sent.length);
+      clock.pass(100);
+    }
+    expect(hue()).toBe(2);
   });
 
   it("letting go changes nothing by itself", () => {

@@ -5,8 +5,16 @@ import type { Clock } from "./connection";
 const SEND_EVERY = 100;
 /** Commands that may be under way before a moving hand has to wait. */
 const MAX_UNSETTLED = 2;
-/** How long the hand's own value stands after the server has answered without having said what it made of it. */
+/** How long the hand's own value stands after its command's turn has come, if the server says something else. */
 const GRACE = 600;
+/** How often it is looked whether the turn has come of a command that waits behind growth. */
+const LOOK_EVERY = 100;
+
+/** How far the server has come with growing, and how many steps it has still to do at most. */
+export interface GrowthAhead {
+  readonly step: number;
+  readonly pending: number;
+}
 
 export interface DraftOptions<Whole extends object, None extends Whole | null> {
   /** What is shown before the server has said anything. */
@@ -15,8 +23,8 @@ export interface DraftOptions<Whole extends object, None extends Whole | null> {
   readonly submit: (patch: Partial<Whole>, gesture: number | undefined) => number;
   /** A number that no other gesture of this client has. */
   readonly newGesture: () => number;
-  /** Whether the server still works, so that what it has taken on may be done later. */
-  readonly busy: () => boolean;
+  /** What the server has still to grow, for what it has taken on is done only after that. */
+  readonly ahead: () => GrowthAhead;
   readonly clock: Clock;
 }
 
@@ -24,6 +32,10 @@ export interface DraftOptions<Whole extends object, None extends Whole | null> {
 interface Own<Value> {
   readonly value: Value;
   readonly command: number;
+  /** The steps within which its turn comes, as was known at its answer; growth asked for later is none of them. */
+  turn: { readonly from: number; readonly to: number } | null;
+  /** When the server's value counts again, whatever else happens; null before its turn has come. */
+  deadline: number | null;
 }
 
 /**
@@ -108,7 +120,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
       return;
     }
     for (const name of namesOf(patch)) {
-      this.#own.set(name, { value: patch[name] as Whole[keyof Whole], command: 0 });
+      this.#own.set(name, { value: patch[name] as Whole[keyof Whole], command: 0, turn: null, deadline: null });
     }
     this.#queued = { ...this.#queued, ...patch };
     this.#show();
@@ -157,34 +169,39 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
 
   /** Lets go of the hand's own values that the server has made its own, or has had time to. */
   #reconcile(): void {
-    let waiting = false;
-    for (const [name, { value, command }] of this.#own) {
-      if (!this.#answered(name, command)) {
+    const now = this.#options.clock.now();
+    let next = Number.POSITIVE_INFINITY;
+    for (const [name, own] of this.#own) {
+      if (!this.#answered(name, own.command)) {
         continue;
       }
-      if (this.#told !== null && alike((this.#told as Whole)[name], value)) {
+      if (this.#told !== null && alike((this.#told as Whole)[name], own.value)) {
         this.#own.delete(name);
+      } else if (this.#waits(own)) {
+        next = Math.min(next, now + LOOK_EVERY);
       } else {
-        waiting = true;
+        // It is set once: whatever is told meanwhile must not keep a value that is not the server's.
+        own.deadline ??= now + GRACE;
+        if (own.deadline <= now) {
+          this.#own.delete(name);
+        } else {
+          next = Math.min(next, own.deadline);
+        }
       }
     }
     this.#cancelGrace?.();
-    this.#cancelGrace = waiting ? this.#options.clock.after(GRACE, () => this.#giveWay()) : null;
+    this.#cancelGrace = Number.isFinite(next) ? this.#options.clock.after(next - now, () => this.#reconcile()) : null;
     this.#show();
   }
 
-  #giveWay(): void {
-    this.#cancelGrace = null;
-    if (this.#options.busy()) {
-      this.#reconcile();
-      return;
+  /** Whether growth that was asked for before it is still to be done. */
+  #waits(own: Own<unknown>): boolean {
+    if (own.deadline !== null) {
+      return false;
     }
-    for (const [name, { command }] of this.#own) {
-      if (this.#answered(name, command)) {
-        this.#own.delete(name);
-      }
-    }
-    this.#show();
+    const { step, pending } = this.#options.ahead();
+    own.turn ??= { from: step, to: step + pending };
+    return pending > 0 && step >= own.turn.from && step < own.turn.to;
   }
 
   #answered(name: keyof Whole, command: number): boolean {

@@ -18,7 +18,7 @@ function shared() {
         return command;
       },
       newGesture: () => command + 1,
-      busy: () => false,
+      ahead: () => ({ step: 0, pending: 0 }),
       clock,
     });
   });

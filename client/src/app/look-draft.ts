@@ -5,7 +5,7 @@ import { Draft, type DraftOptions } from "./draft";
 /** Every field of an appearance by itself, as `section.field`. */
 type Fields = Record<string, unknown>;
 
-interface LookDraftOptions extends Pick<DraftOptions<Fields, Fields>, "newGesture" | "busy" | "clock"> {
+interface LookDraftOptions extends Pick<DraftOptions<Fields, Fields>, "newGesture" | "ahead" | "clock"> {
   /** Sends a change and gives the number of the command; 0 where there is nobody to send it to. */
   readonly submit: (patch: AppearancePatch, gesture: number | undefined) => number;
 }

@@ -12,7 +12,7 @@ import { ChosenBud } from "./chosen-bud";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { browserClock, Connection } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
-import { Draft } from "./draft";
+import { Draft, type GrowthAhead } from "./draft";
 import { Exports, keepFile } from "./exports";
 import { GrowControl } from "./grow-control";
 import { createSession, sessionExists, socketAddress } from "./library-api";
@@ -48,6 +48,9 @@ const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */
 const SILENT_AFTER = 2;
 
+/** An outline grows for so many steps at most. */
+const OUTLINE_STEPS = 400;
+
 /** One open page: the session it shows and the tools at hand. */
 export class Studio {
   readonly settings = loadSettings(localStorage);
@@ -64,7 +67,7 @@ export class Studio {
     none: null,
     submit: (parameters, gesture) => this.submit({ kind: "set_parameters", parameters, ...joined(gesture) }),
     newGesture: () => this.newGesture(),
-    busy: () => this.#busy(),
+    ahead: () => this.#ahead(),
     clock: browserClock,
   });
   readonly parameters = this.growing.value;
@@ -72,7 +75,7 @@ export class Studio {
   readonly looks = new LookDraft({
     submit: (appearance, gesture) => this.submit({ kind: "set_appearance", appearance, ...joined(gesture) }),
     newGesture: () => this.newGesture(),
-    busy: () => this.#busy(),
+    ahead: () => this.#ahead(),
     clock: browserClock,
   });
   readonly appearance = this.looks.value;
@@ -286,6 +289,13 @@ export class Studio {
   /** Whether the server still grows what was asked for before. */
   #busy(): boolean {
     return (this.document.peek()?.pending_steps ?? 0) > 0;
+  }
+
+  /** What it has still to grow; of an outline nobody knows how many steps, only how many at most (`LA1`). */
+  #ahead(): GrowthAhead {
+    const { step = 0, pending_steps: pending = 0 } = this.document.peek() ?? {};
+    const outlined = pending > 0 && this.tools.outline.shown.peek()?.stage === "growing";
+    return { step, pending: outlined ? Math.max(pending, OUTLINE_STEPS) : pending };
   }
 
   #unsettled(kind: Command["kind"]): number {
