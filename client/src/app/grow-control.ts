@@ -13,8 +13,8 @@ export interface GrowControlOptions {
   readonly pendingSteps: () => number;
   /** The branch that alone may grow, as a row (`SG1`). */
   readonly bud: () => number | null;
-  /** The control is taken or let go. */
-  readonly held: (held: boolean) => void;
+  /** The control is taken; lets go of it when what this returns is called. */
+  readonly hold: () => () => void;
 }
 
 /** The lever that lets the tree grow on alone, or backwards. */
@@ -24,6 +24,7 @@ export class GrowControl {
   #options: GrowControlOptions;
   #pacer = new GrowPacer();
   #loop = 0;
+  #letGo = () => {};
 
   constructor(options: GrowControlOptions) {
     this.#options = options;
@@ -34,13 +35,13 @@ export class GrowControl {
     if (this.#loop === 0) {
       this.#pacer.press(this.#options.newGesture());
       this.#loop = requestAnimationFrame(this.#beat);
-      this.#options.held(true);
+      this.#letGo = this.#options.hold();
     }
   }
 
   release(): void {
     if (this.#loop !== 0) {
-      this.#options.held(false);
+      this.#letGo();
     }
     cancelAnimationFrame(this.#loop);
     this.#loop = 0;

@@ -59,7 +59,8 @@ describe("obstacle list", () => {
     list.receive([box(1), box(2)]);
     expect(list.chosen.value, "someone else's is not").toBeNull();
     list.place({ kind: "sphere", radius: 3 }, { position: [0, 3, 0] });
-    list.receive([box(1), box(2), box(3)]);
+    const ball: PlacedObstacle = { id: 3, shape: { kind: "sphere", radius: 3 }, pose: { position: [0, 3, 0] } };
+    list.receive([box(1), box(2), ball]);
     expect([sent.length, list.chosen.value]).toEqual([1, 3]);
   });
 
@@ -89,17 +90,74 @@ describe("obstacle list", () => {
     expect(list.drawn.value[0]?.mesh).toBe(mesh);
   });
 
-  it("another shape is another obstacle in the same place", () => {
+  const wide = { kind: "box", size: [9, 9, 9] } as const;
+  const wideAt4 = (id: number): PlacedObstacle => ({ ...box(id, 4), shape: { kind: "box", size: [9, 9, 9] } });
+
+  it("another shape takes the old one's place", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1, 4)]);
+    list.chosen.value = 1;
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    const placed = { kind: "place_obstacle", obstacle: { shape: wide, pose: { position: [4, 0, 0] } } };
+    expect(sent, "the old one stays until the new one stands").toEqual([placed]);
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(sent).toEqual([placed, { kind: "remove_obstacle", id: 1 }]);
+    expect(list.chosen.value).toBe(2);
+    list.receive([wideAt4(2)]);
+    expect(list.chosen.value).toBe(2);
+  });
+
+  it("LM6: a shape that is refused removes nothing", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1, 4)]);
+    list.chosen.value = 1;
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    list.refused(sent[0]!);
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(sent.length, "someone else's alike is no answer").toBe(1);
+    expect(list.chosen.value, "and not taken up").toBe(1);
+  });
+
+  it("CM1: a new shape is awaited across a reconnection", () => {
     const { list, sent } = setUp();
     list.receive([box(1, 4)]);
     list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    expect(sent).toEqual([
-      {
-        kind: "place_obstacle",
-        obstacle: { shape: { kind: "box", size: [9, 9, 9] }, pose: { position: [4, 0, 0] } },
-      },
-      { kind: "remove_obstacle", id: 1 },
-    ]);
+    list.clear();
+    list.receive([box(1, 4)]);
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(sent.slice(1)).toEqual([{ kind: "remove_obstacle", id: 1 }]);
+  });
+
+  it("another's obstacle is no answer to a new shape", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1, 4)]);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    list.receive([box(1, 4), box(2, 30)]);
+    expect(sent.length).toBe(1);
+    list.receive([box(1, 4), box(2, 30), wideAt4(3)]);
+    expect(sent.at(-1)).toEqual({ kind: "remove_obstacle", id: 1 });
+  });
+
+  it("of shapes asked for one after the other the last counts", () => {
+    const { list, sent } = setUp();
+    list.receive([box(1, 4)]);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    list.reshape(1, { kind: "box", size: [7, 7, 7] });
+    list.reshape(1, { kind: "box", size: [8, 8, 8] });
+    expect(sent.length).toBe(1);
+    list.receive([box(1, 4), wideAt4(2)]);
+    const last = { kind: "place_obstacle", obstacle: { shape: { kind: "box", size: [8, 8, 8] } } };
+    expect(sent.slice(1)).toMatchObject([{ kind: "remove_obstacle", id: 1 }, last]);
+  });
+
+  it("remembers how one was through all its shapes", () => {
+    const { list } = setUp();
+    list.receive([box(1, 4)]);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(list.first(2)).toMatchObject({ shape: box(1).shape, pose: { position: [4, 0, 0] } });
+    list.forget();
+    expect(list.first(2)).toBeNull();
   });
 
   it("an imported model is at hand, a broken one is told of", async () => {

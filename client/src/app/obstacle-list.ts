@@ -1,6 +1,7 @@
 import { computed, signal } from "@preact/signals";
 import type { DrawnObstacle, TriangleMesh } from "../scene/obstacle-meshes";
 import type { Command, PlacedObstacle, Pose, Shape } from "../wire/generated";
+import { alike } from "./draft";
 import { type NamedBytes, packedModel } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
 import { Transfer } from "./transfer";
@@ -12,6 +13,16 @@ export interface ObstacleListOptions {
   readonly uploadModel?: typeof uploadModel;
   /** Something could not be fetched or taken in. */
   readonly failed: (error: unknown) => void;
+}
+
+type Placing = Extract<Command, { kind: "place_obstacle" }>;
+
+/** An obstacle of this hand that is to appear, and the one it takes the place of, if any. */
+interface Awaited {
+  readonly command: Placing;
+  readonly instead: number | null;
+  /** Yet another shape that was asked for meanwhile. */
+  afterwards: Shape | null;
 }
 
 /** What stands in the way of growth, as the server has it and as this hand is moving it. */
@@ -35,8 +46,10 @@ export class ObstacleList {
   #moved = signal<{ readonly id: number; readonly pose: Pose } | null>(null);
   #meshes = signal<ReadonlyMap<number, TriangleMesh>>(new Map());
   #fetching = new Set<number>();
-  /** A new one of this hand is chosen when it appears. */
-  #awaited = false;
+  /** What this hand has placed is chosen when it appears. */
+  #awaited: Awaited[] = [];
+  /** Each as this page first saw it: what its measures are put back to. */
+  #first = new Map<number, Pick<PlacedObstacle, "shape" | "pose">>();
 
   constructor(options: ObstacleListOptions) {
     this.#options = options;
@@ -45,13 +58,12 @@ export class ObstacleList {
   /** The server's list has changed. */
   receive(obstacles: readonly PlacedObstacle[]): void {
     const known = new Set(this.list.peek().map(({ id }) => id));
-    const added = obstacles.find(({ id }) => !known.has(id));
     this.list.value = obstacles;
     this.#moved.value = null;
-    if (added && this.#awaited) {
-      this.#awaited = false;
-      this.chosen.value = added.id;
-    } else if (!obstacles.some(({ id }) => id === this.chosen.peek())) {
+    for (const obstacle of obstacles.filter(({ id }) => !known.has(id))) {
+      this.#appeared(obstacle);
+    }
+    if (!obstacles.some(({ id }) => id === this.chosen.peek())) {
       this.chosen.value = null;
     }
     for (const { id, shape } of obstacles) {
@@ -61,7 +73,14 @@ export class ObstacleList {
     }
   }
 
-  /** Another session, or the same one loaded anew: nothing that was fetched still counts. */
+  /** Another session: nothing here is of it. */
+  forget(): void {
+    this.#awaited = [];
+    this.#first.clear();
+    this.clear();
+  }
+
+  /** The same session loaded anew: nothing that was fetched still counts; what was placed is still to come. */
   clear(): void {
     this.#meshes.value = new Map();
     this.#fetching.clear();
@@ -78,8 +97,12 @@ export class ObstacleList {
   }
 
   place(shape: Shape, pose: Pose): void {
-    this.#awaited = true;
-    this.#options.submit({ kind: "place_obstacle", obstacle: { shape, pose } });
+    this.#place(shape, pose, null);
+  }
+
+  /** How one was when this page first saw it, through all shapes it was given since; null where there is none. */
+  first(id: number): Pick<PlacedObstacle, "shape" | "pose"> | null {
+    return this.#first.get(id) ?? null;
   }
 
   move(id: number, pose: Pose): void {
@@ -91,13 +114,26 @@ export class ObstacleList {
     this.#options.submit({ kind: "remove_obstacle", id });
   }
 
-  /** Gives one another shape: the wire knows this as another obstacle in the same place. */
+  /**
+   * Gives one another shape: the wire knows this as another obstacle in the same place. The old one goes once the
+   * other stands there, for it may be refused long after it was taken on.
+   */
   reshape(id: number, shape: Shape): void {
+    const underWay = this.#awaited.find(({ instead }) => instead === id);
+    if (underWay) {
+      underWay.afterwards = shape;
+      return;
+    }
     const pose = this.poseOf(id);
     if (pose) {
-      this.place(shape, pose);
-      this.remove(id);
+      this.#place(shape, pose, id);
     }
+  }
+
+  /** The server would not do something: all stands as it was. */
+  refused(command: Command): void {
+    this.#awaited = this.#awaited.filter((awaited) => awaited.command !== command);
+    this.preview(null);
   }
 
   async import(files: readonly NamedBytes[]): Promise<void> {
@@ -113,6 +149,37 @@ export class ObstacleList {
       }
     } catch (error) {
       this.#options.failed(error);
+    }
+  }
+
+  #place(shape: Shape, pose: Pose, instead: number | null): void {
+    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose } };
+    this.#awaited.push({ command, instead, afterwards: null });
+    this.#options.submit(command);
+  }
+
+  /** One more stands in the scene. */
+  #appeared(added: PlacedObstacle): void {
+    const awaited = this.#awaited.find(({ command: { obstacle } }) => {
+      return alike(obstacle.shape, added.shape) && alike(obstacle.pose.position, added.pose.position);
+    });
+    const instead = awaited?.instead ?? null;
+    if (!this.#first.has(added.id)) {
+      this.#first.set(added.id, (instead === null ? undefined : this.#first.get(instead)) ?? added);
+    }
+    if (!awaited) {
+      return;
+    }
+    this.#awaited = this.#awaited.filter((other) => other !== awaited);
+    // One that is no longer at hand is not taken up again by its new shape.
+    if (instead === null || this.chosen.peek() === instead) {
+      this.chosen.value = added.id;
+    }
+    if (instead !== null && this.list.peek().some(({ id }) => id === instead)) {
+      this.remove(instead);
+    }
+    if (awaited.afterwards !== null) {
+      this.reshape(added.id, awaited.afterwards);
     }
   }
 

@@ -14,7 +14,7 @@ export function refused(studio: Studio, problem: Problem, command?: Command): vo
   studio.branches.refused(command);
   studio.tools.refused(command);
   if (command?.kind.endsWith("_obstacle")) {
-    studio.obstacles.preview(null);
+    studio.obstacles.refused(command);
   }
   if (problem.code === "not_found" && problem.field === "bud") {
     studio.loseBud();

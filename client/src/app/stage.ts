@@ -4,6 +4,7 @@ import type { DrawMode, Legend } from "../scene/mode/draw-mode";
 import type { TreeTable } from "../scene/table/tree-table";
 import type { Viewport } from "../scene/viewport";
 import type { Appearance } from "../wire/generated";
+import { Holds } from "./holds";
 import type { Point } from "./ports";
 import { nearestBase, scaleAt } from "./scene-link";
 import type { Settings } from "./settings";
@@ -24,6 +25,7 @@ export class Stage {
   /** What a picture made later begins with. */
   #appearance: Appearance | null = null;
   #mode: DrawMode = "lit";
+  #holds = new Holds((held) => this.#view?.hold(held));
 
   /** `busy` tells whether a tool shows itself, which the radius then must not. */
   constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
@@ -39,6 +41,7 @@ export class Stage {
       view.setAppearance(this.#appearance);
     }
     view.setDrawMode(this.#mode);
+    view.hold(this.#holds.held);
   }
 
   detach(): void {
@@ -57,9 +60,9 @@ export class Stage {
     this.#dark = true;
   }
 
-  /** A finger is down or a lever held: the picture is not at rest. */
-  hold(held: boolean): void {
-    this.#view?.hold(held);
+  /** A finger is down or a lever held: the picture is not at rest until what this returns was called. */
+  hold(): () => void {
+    return this.#holds.take();
   }
 
   /** Rows have changed; draw. */

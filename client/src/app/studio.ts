@@ -42,7 +42,7 @@ export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "back
 export type PanelName = (typeof PANEL_NAMES)[number];
 
 /** What keeps the workspace from being used, with a way on. */
-export type Hindrance = "unknown-session" | "version" | "no-server" | "no-webgl";
+export type Hindrance = "unknown-session" | "version" | "no-server" | "no-webgl" | "no-picture";
 
 const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */
@@ -111,7 +111,7 @@ export class Studio {
     unsettled: () => this.#unsettled("grow") + this.#unsettled("ungrow"),
     pendingSteps: () => this.document.peek()?.pending_steps ?? 0,
     bud: () => this.bud.row.peek(),
-    held: (held) => this.stage.hold(held),
+    hold: () => this.stage.hold(),
   });
   readonly time = new TimelineControl({
     goTo: (step) => this.submit({ kind: "go_to", step }),
@@ -119,7 +119,7 @@ export class Studio {
     ready: () => this.phase.peek() === "connected",
     unsettled: () => this.#unsettled("go_to"),
     revision: () => this.revision.peek(),
-    held: (held) => this.stage.hold(held),
+    hold: () => this.stage.hold(),
   });
   readonly branches: BranchWork = new BranchWork({
     table: this.table,
@@ -150,6 +150,7 @@ export class Studio {
       return { exponent, twigDiameter };
     },
     predict: (rows) => this.branches.predict(rows),
+    hold: () => this.stage.hold(),
     ready: () => this.#connection !== null && this.hindrance.peek() === null,
     arranging: () => this.panel.peek() === "scene",
     choose: (x, y) => this.chooseBud(x, y),
@@ -163,7 +164,7 @@ export class Studio {
     growing: () => this.growth.deflection.value !== 0,
   });
 
-  readonly stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
+  readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
   #connection: Connection<Frame, AsideServerFrame> | null = null;
   #framed = false;
@@ -315,7 +316,7 @@ export class Studio {
       this.rows.value = 0;
       this.bud.release();
       this.tools.clear();
-      this.obstacles.clear();
+      this.obstacles.forget();
       this.time.clear();
       this.branches.clear();
     });

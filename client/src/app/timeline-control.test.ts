@@ -43,8 +43,11 @@ function control() {
     ready: () => true,
     unsettled: () => server.unsettled,
     revision: () => server.revision,
-    held: (held) => {
-      server.held = held;
+    hold: () => {
+      server.held = true;
+      return () => {
+        server.held = false;
+      };
     },
   });
   time.receive(told(40));

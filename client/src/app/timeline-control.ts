@@ -11,8 +11,8 @@ export interface TimelineControlOptions {
   readonly unsettled: () => number;
   /** Counts the frames of rows that came in. */
   readonly revision: () => number;
-  /** The playhead is taken or let go. */
-  readonly held: (held: boolean) => void;
+  /** The playhead is taken; lets go of it when what this returns is called. */
+  readonly hold: () => () => void;
 }
 
 /** The line of time as the server tells it, and the hand that travels along it. */
@@ -24,6 +24,7 @@ export class TimelineControl {
   #options: TimelineControlOptions;
   #pacer = new TravelPacer();
   #loop = 0;
+  #letGo = () => {};
   #held = false;
   #resting = 0;
 
@@ -83,7 +84,7 @@ export class TimelineControl {
     if (this.#loop !== 0) {
       cancelAnimationFrame(this.#loop);
       this.#loop = 0;
-      this.#options.held(false);
+      this.#letGo();
     }
     this.#held = false;
     this.wanted.value = null;
@@ -103,7 +104,7 @@ export class TimelineControl {
     this.#resting = 0;
     if (this.#loop === 0) {
       this.#pacer.take();
-      this.#options.held(true);
+      this.#letGo = this.#options.hold();
       this.#loop = requestAnimationFrame(this.#beat);
     }
   }

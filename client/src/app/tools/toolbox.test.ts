@@ -16,7 +16,7 @@ afterEach(() => vi.useRealTimers());
 function setUp() {
   vi.useFakeTimers();
   const sent: Command[] = [];
-  const world = { arranging: false, ready: true, chosen: [] as number[][] };
+  const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0 };
   const store = { getItem: () => null, setItem: () => {} } as unknown as Storage;
   const view = {
     pointOnPlane: (x: number, y: number, through: Point) => [x / 10, (1000 - y) / 10, through[2]],
@@ -34,7 +34,6 @@ function setUp() {
     looksDown: () => false,
     showBrush: () => {},
     hideBrush: () => {},
-    hold: () => {},
   } as unknown as Viewport;
   const submit = (command: Command) => {
     sent.push(command);
@@ -55,6 +54,12 @@ function setUp() {
     girth: () => ({ exponent: 2.5, twigDiameter: 0.07 }),
     branch: { release: () => {} } as unknown as BranchHand,
     predict: () => {},
+    hold: () => {
+      world.held += 1;
+      return () => {
+        world.held -= 1;
+      };
+    },
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),
@@ -82,6 +87,19 @@ const ring: [number, number][] = [
 ];
 
 describe("toolbox", () => {
+  it("holds the picture once for each stroke", () => {
+    const { tools, world, begin } = setUp();
+    for (let i = 0; i < 3; i += 1) {
+      begin(ring);
+      expect(world.held).toBe(1);
+      tools.gesture({ kind: "stroke-end" });
+      expect(world.held).toBe(0);
+    }
+    begin(ring);
+    tools.abandon();
+    expect(world.held).toBe(0);
+  });
+
   it("a stroke goes to the tool that was chosen", () => {
     const { tools, sent, draw } = setUp();
     draw(ring);

@@ -48,6 +48,8 @@ export interface Workshop {
   readonly girth: () => Girth;
   /** Shows what would become of the tree without the branches at these rows. */
   readonly predict: (rows: readonly number[]) => void;
+  /** The picture is not at rest until what this returns was called. */
+  readonly hold: () => () => void;
   /** Whether a stroke would come to anything. */
   readonly ready: () => boolean;
   /** Whether a finger on an obstacle moves it. */
@@ -94,6 +96,7 @@ export class Toolbox {
   /** Fingers that the tool under way has taken. */
   #grips = new Set<number>();
   #stopPacing = () => {};
+  #letGo = () => {};
   #hoverFrame = 0;
 
   constructor(workshop: Workshop) {
@@ -384,7 +387,7 @@ export class Toolbox {
   #work(tool: StrokeTool | GripTool): void {
     this.#active = tool;
     this.drawing.value = true;
-    this.#view?.hold(true);
+    this.#letGo = this.#workshop.hold();
     this.#stopPacing = pace(SEND_EVERY, () => tool.tick?.());
   }
 
@@ -394,7 +397,7 @@ export class Toolbox {
     this.#grips.clear();
     if (this.#active) {
       this.#active = null;
-      this.#view?.hold(false);
+      this.#letGo();
       this.drawing.value = false;
     }
   }

@@ -109,6 +109,7 @@ function Workspace({ studio }: { studio: Studio }) {
       <HoldRing studio={studio} />
       <BranchHandle studio={studio} />
       {studio.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
+      <SunHandle studio={studio} />
       <PredictionBar studio={studio} />
       <HindranceCard studio={studio} />
     </main>
@@ -130,7 +131,6 @@ function Bars({ studio }: { studio: Studio }) {
       </div>
       <TourCard studio={studio} />
       <Chips studio={studio} />
-      <SunHandle studio={studio} />
       <DrawModeLegend studio={studio} />
     </>
   );

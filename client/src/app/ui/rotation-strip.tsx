@@ -15,6 +15,7 @@ const DEGREE = Math.PI / 180;
 export function RotationStrip({ studio }: { studio: Studio }) {
   const strip = useRef<HTMLDivElement>(null);
   const hand = useRef<{ readonly id: number; x: number } | null>(null);
+  const letGo = useRef(() => {});
   const [held, setHeld] = useState(false);
   const [followed, follow] = useFollowing();
   const [degrees, setDegrees] = useState(0);
@@ -25,14 +26,7 @@ export function RotationStrip({ studio }: { studio: Studio }) {
     strip.current?.style.setProperty("--turns", String(turned / (2 * Math.PI)));
   });
   // A strip that is hidden under the hand lets go of the tree.
-  useEffect(
-    () => () => {
-      if (hand.current !== null) {
-        studio.stage.hold(studio.tools.drawing.peek());
-      }
-    },
-    [studio],
-  );
+  useEffect(() => () => letGo.current(), []);
   const turn = (by: number) => {
     studio.stage.turn(by * DEGREE);
     follow();
@@ -42,7 +36,7 @@ export function RotationStrip({ studio }: { studio: Studio }) {
       hand.current = null;
       setHeld(false);
       follow();
-      studio.stage.hold(studio.tools.drawing.peek());
+      letGo.current();
     }
   };
   const keys: Record<string, () => void> = {
@@ -76,7 +70,7 @@ export function RotationStrip({ studio }: { studio: Studio }) {
           hand.current = { id: event.pointerId, x: event.clientX };
           event.currentTarget.setPointerCapture(event.pointerId);
           setHeld(true);
-          studio.stage.hold(true);
+          letGo.current = studio.stage.hold();
         }
       }}
       onPointerMove={(event) => {

@@ -41,7 +41,8 @@ export function SunHandle({ studio }: { studio: Studio }) {
   const setPinned = (to: boolean) => {
     studio.sunPinned.value = to;
   };
-  const shown = studio.panel.value === "background" || pinned;
+  // With everything hidden a sun that is pinned still goes round with the eye, only nobody sees its handle.
+  const shown = pinned || (studio.panel.value === "background" && !studio.bare.value);
   return shown ? <Sphere studio={studio} pinned={pinned} setPinned={setPinned} /> : null;
 }
 
@@ -58,6 +59,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   const [front, back] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
   /** The finger on the sun, and how far beside its middle it took hold, in dome radii. */
   const hand = useRef<{ readonly id: number; readonly drag: SunDrag; readonly beside: Beside } | null>(null);
+  const letGo = useRef(() => {});
   const [held, setHeld] = useState(false);
   /** Whether arrow keys have moved it and none was let go since. */
   const stepping = useRef(false);
@@ -92,9 +94,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
       if (hand.current || (eye.current && eye.current.still < REST_FRAMES)) {
         commit(now());
       }
-      if (hand.current) {
-        studio.stage.hold(studio.tools.drawing.peek());
-      }
+      letGo.current();
     },
     [],
   );
@@ -149,7 +149,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
     hand.current = null;
     setHeld(false);
     commit(now());
-    studio.stage.hold(studio.tools.drawing.peek());
+    letGo.current();
   };
   const step = (event: KeyboardEvent) => {
     const by = event.shiftKey ? BIG_STEP : KEY_STEP;
@@ -204,7 +204,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
             hand.current = { id: event.pointerId, drag: new SunDrag(shown.before), beside };
             event.currentTarget.setPointerCapture(event.pointerId);
             setHeld(true);
-            studio.stage.hold(true);
+            letGo.current = studio.stage.hold();
           }
         }}
         onPointerMove={(event) => {
