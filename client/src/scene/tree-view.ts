@@ -166,7 +166,7 @@ export class TreeView {
         this.foliage.update(table, row, bits);
       },
     );
-    this.branches.upload();
+    this.branches.upload(table);
     this.foliage.upload(table);
     this.skeleton.changed();
   }

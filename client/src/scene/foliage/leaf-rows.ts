@@ -40,14 +40,14 @@ export class LeafRows {
     for (const mesh of [this.mesh, this.caster]) mesh.frustumCulled = false;
   }
 
-  /** Places for leaves, those included where there is none. */
-  get count(): number {
-    return this.instances.count;
-  }
-
   /** Leaves there are. */
   get filled(): number {
     return this.instances.filled;
+  }
+
+  /** How many leaves a row bears. */
+  countOf(row: number): number {
+    return this.instances.countOf(row);
   }
 
   /** Leaves of rows from `rows` on are gone. */
@@ -69,19 +69,19 @@ export class LeafRows {
 
   /** Chooses triangles by how large the nearest leaf in the box may be on the screen, and how many leaves may be drawn. */
   detail({ eye, pixels, ease }: Fineness, box: Box): void {
-    const { count, geometries } = this.instances;
+    const { filled, geometries } = this.instances;
     this.follow();
     const size = LARGEST * (this.uniforms.uLeafSize!.value as number);
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
-    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, count, longest, ease);
+    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, ease);
     this.mesh.geometry = geometries[level]!;
-    const share = Math.min(1, LEAVES_IN_HASTE / Math.max(1, count));
+    const share = Math.min(1, LEAVES_IN_HASTE / Math.max(1, filled));
     (this.uniforms.uLeafLevel!.value as Vector2).set(level, share + (1 - share) * ease);
   }
 
   /** Draws them or not. */
   show(shown: boolean): void {
-    this.mesh.visible = shown && this.instances.count > 0;
+    this.mesh.visible = shown && this.instances.filled > 0;
     this.caster.visible = this.mesh.visible;
   }
 

@@ -40,3 +40,36 @@ it("slots given back are used again", () => {
   expect(slots.firstOf(2)).toBe(0);
   expect(slots.end).toBe(6);
 });
+
+it("runs moved together leave no slot unused and keep what was in them", () => {
+  const random = randoms(5);
+  const slots = new LeafSlots();
+  const content: number[] = [];
+  const fill = (row: number) => {
+    for (let k = 0; k < slots.countOf(row); k += 1) content[slots.firstOf(row) + k] = 16 * row + k;
+  };
+  for (let row = 0; row < 300; row += 1) {
+    slots.assign(row, Math.floor(random() * 16), () => {});
+    fill(row);
+  }
+  for (let row = 0; row < 200; row += 1) {
+    slots.assign(row, random() < 0.8 ? 0 : Math.floor(random() * 16), () => {});
+    fill(row);
+  }
+  slots.compact((to, from, count) => {
+    for (let k = 0; k < count; k += 1) content[to + k] = content[from + k]!;
+  });
+  expect(slots.end).toBe(slots.filled);
+  const strangers = () =>
+    Array.from({ length: 300 }, (_, row) => row).filter((row) =>
+      Array.from({ length: slots.countOf(row) }, (_, k) => k).some(
+        (k) => content[slots.firstOf(row) + k] !== 16 * row + k,
+      ),
+    );
+  expect(strangers()).toEqual([]);
+  for (let row = 0; row < 300; row += 1) {
+    slots.assign(row, Math.floor(random() * 16), () => {});
+    fill(row);
+  }
+  expect(strangers(), "no run is given out twice").toEqual([]);
+});

@@ -4,7 +4,7 @@ const NONE = -1;
 
 /**
  * Gives each row a run of consecutive slots for its leaves; runs given back are used again for as many leaves, so
- * that a leaf never has to move.
+ * that a leaf moves only when all are moved together.
  */
 export class LeafSlots {
   /** Slots in use or to be used again: instances to draw. */
@@ -58,6 +58,22 @@ export class LeafSlots {
     this.rows = Math.min(this.rows, rows);
     if (this.rows > 0) return;
     this.end = 0;
+    for (const runs of this.free) runs.length = 0;
+  }
+
+  /** Leaves no slot unused between those in use; what was in a run goes along by `move`, from the first on. */
+  compact(move: (to: number, from: number, count: number) => void): void {
+    const holder = new Int32Array(this.end).fill(NONE);
+    for (let row = 0; row < this.rows; row += 1) if (this.count[row]! > 0) holder[this.first[row]!] = row;
+    let end = 0;
+    for (const [from, row] of holder.entries()) {
+      if (row === NONE) continue;
+      const count = this.count[row]!;
+      if (from !== end) move(end, from, count);
+      this.first[row] = end;
+      end += count;
+    }
+    this.end = end;
     for (const runs of this.free) runs.length = 0;
   }
 }

@@ -133,9 +133,9 @@ export class Ornaments<Look extends OrnamentLook> {
   /** Has three.js upload what was written since the last call. */
   upload(table: TreeTable): void {
     if (this.stale) this.search(table, this.kind?.together ?? 0);
-    while (this.instances.count > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));
+    while (this.instances.filled > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));
     this.instances.upload();
-    const visible = this.kind !== null && this.instances.count > 0;
+    const visible = this.kind !== null && this.instances.filled > 0;
     this.mesh.visible = visible;
     this.caster.visible = visible;
   }

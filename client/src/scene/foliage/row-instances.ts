@@ -5,6 +5,7 @@ import {
   InterleavedBufferAttribute,
 } from "three";
 import { grown } from "../table/column";
+import { uploadRange } from "../upload-range";
 import type { Card } from "./leaf-cards";
 import { LeafSlots } from "./leaf-slots";
 
@@ -12,6 +13,9 @@ import { LeafSlots } from "./leaf-slots";
 const STRIDE = 5;
 const TINT = 4;
 const NOTHING = -1;
+/** Instances may be so many times those that show something, and a few more, before they are moved together. */
+const MOST_ROOM = 1.25;
+const SLACK = 256;
 
 /** Things that rows bear, a few each, as instances of a card; one geometry for each level of detail. */
 export class RowInstances {
@@ -84,11 +88,15 @@ export class RowInstances {
 
   /** Has three.js upload what was written since the last call. */
   upload(): void {
+    if (this.slots.end > MOST_ROOM * this.slots.filled + SLACK) {
+      this.slots.compact((to, from, count) => {
+        this.instances.copyWithin(to * STRIDE, from * STRIDE, (from + count) * STRIDE);
+      });
+      if (this.slots.end > 0) this.touch(0, this.slots.end);
+    }
     for (const geometry of this.geometries) geometry.instanceCount = this.slots.end;
     if (this.changedTo === 0) return;
-    this.buffer.clearUpdateRanges();
-    this.buffer.addUpdateRange(this.changedFrom * STRIDE, (this.changedTo - this.changedFrom) * STRIDE);
-    this.buffer.needsUpdate = true;
+    uploadRange(this.buffer, this.changedFrom * STRIDE, (this.changedTo - this.changedFrom) * STRIDE);
     this.changedFrom = Number.POSITIVE_INFINITY;
     this.changedTo = 0;
   }

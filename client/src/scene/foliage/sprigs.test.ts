@@ -1,4 +1,4 @@
-import { type InstancedBufferGeometry, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
+import { type InstancedBufferGeometry, type Mesh, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import type { LeafKind } from "../../wire/generated";
@@ -109,6 +109,20 @@ describe("sprigs", () => {
     expect((sprigs.mesh.geometry as InstancedBufferGeometry).instanceCount).toBe(0);
   });
 
+  it("and leaves of a tree that is small again are as few as its own", () => {
+    let [left, kept] = [0, 0];
+    for (; left < 1500; kept += 1) left += leaves.countOf(kept);
+    for (const part of [leaves, sprigs]) {
+      part.truncate(kept);
+      part.upload();
+    }
+    const drawn = ({ geometry }: Mesh) => (geometry as InstancedBufferGeometry).instanceCount;
+    expect(leaves.filled).toBe(left);
+    expect(drawn(leaves.mesh)).toBeLessThan(1.3 * left + 300);
+    see(700);
+    expect([leaves.mesh.visible, sprigs.mesh.visible], "and none give way").toEqual([true, false]);
+  });
+
   it("are drawn from afar, leaves from near, both between", () => {
     const drawn = () => [leaves.mesh.visible, sprigs.mesh.visible];
     see(60);
@@ -117,7 +131,7 @@ describe("sprigs", () => {
     see(700);
     expect(drawn()).toEqual([false, true]);
     expect(sprigs.share).toBe(1);
-    const [low, high] = bandFor(leaves.count);
+    const [low, high] = bandFor(leaves.filled);
     see(700 / ((low + high) / 2));
     expect(drawn()).toEqual([true, true]);
     expect(leaves.caster.visible).toBe(true);

@@ -89,7 +89,7 @@ export class Sprigs {
   detail({ eye, pixels }: Fineness, box: Box, leaves: LeafRows): void {
     const size = this.uniforms.uLeafSize!.value as number;
     const { nearest, middle, farthest } = reachFrom(eye, box);
-    const [low, high] = bandFor(leaves.count);
+    const [low, high] = bandFor(leaves.filled);
     const length = (distance: number) => (size * pixels) / Math.max(0.5, distance);
     const whole = SPRIG_LEAVES * this.count;
     // All sprigs together stand for as many leaves as there are.

@@ -104,7 +104,7 @@ export class Ghost {
       }
     }
     this.nodes.upload();
-    this.branches.upload();
+    this.branches.upload(table);
     this.leaves.upload();
     // Both passes must meet the very same surface.
     this.branches.detail(false);

@@ -84,4 +84,15 @@ describe("what a draw mode shows", () => {
     traits.upload(table);
     expect(traits.legend!.range[1]).toBe(1);
   });
+
+  it("is uploaded whole, for three.js takes each texel of a part for four numbers", () => {
+    const table = grown();
+    const { uniforms, traits } = showing("exposure", table);
+    const texture: DataTexture = uniforms.uTraits!.value;
+    const before = texture.version;
+    traits.update(table.rows - 1, false);
+    traits.upload(table);
+    expect(texture.version).toBeGreaterThan(before);
+    expect(texture.updateRanges).toEqual([]);
+  });
 });

@@ -59,16 +59,13 @@ export class TraitTexture {
     for (let row = this.firstStale; row < table.rows; row += 1) texels[row] = trait.of(table, row, orders);
     this.extremes = extremesOf(table, texels);
     this.ends.value.set(...trait.ends(this.extremes));
-    const first = Math.floor(this.firstStale / CHUNK_ROWS) * CHUNK_ROWS;
-    const texture = this.texture.value;
-    if (first > 0) texture.addUpdateRange(first, Math.ceil(table.rows / CHUNK_ROWS) * CHUNK_ROWS - first);
-    texture.needsUpdate = true;
+    // The whole texture: three.js can upload parts only of those with four numbers a texel.
+    this.texture.value.needsUpdate = true;
     this.firstStale = Number.POSITIVE_INFINITY;
   }
 
   /** A restored context has lost the texture. */
   restored(): void {
-    this.texture.value.clearUpdateRanges();
     this.texture.value.needsUpdate = true;
   }
 

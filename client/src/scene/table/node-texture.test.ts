@@ -32,4 +32,18 @@ describe("the node texture", () => {
     const bare = tableOf(SMALL.map((twig, row) => (row === 0 ? twig : { ...twig, dead: true })));
     expect(radiusIn(written(bare, [0, 1]), 0)).toBe(0);
   });
+
+  it("that is not yet on the graphics card is uploaded whole, whatever changes meanwhile", () => {
+    const nodes = written(table, [0, 1, 2]);
+    const texture = nodes.uniform.value;
+    nodes.upload();
+    nodes.write(table, 3);
+    nodes.upload();
+    expect(texture.updateRanges).toEqual([]);
+    // As three.js does once it has uploaded it.
+    texture.onUpdate?.(texture);
+    nodes.write(table, 4);
+    nodes.upload();
+    expect(texture.updateRanges.length).toBe(1);
+  });
 });

@@ -24,6 +24,7 @@ export class NodeTexture {
   /** What each row wears, see `guises.ts`. */
   private slots = new Int16Array(0);
   private readonly stale = new Set<number>();
+  /** Whether the graphics card has yet to get all of it: parts of a new texture would leave the others empty. */
   private whole = true;
 
   constructor() {
@@ -117,7 +118,6 @@ export class NodeTexture {
     if (!this.whole) {
       for (const line of this.stale) texture.addUpdateRange(line * LINE, LINE);
     }
-    this.whole = false;
     texture.needsUpdate = true;
     this.stale.clear();
   }
@@ -131,6 +131,9 @@ export class NodeTexture {
     texture.minFilter = NearestFilter;
     texture.magFilter = NearestFilter;
     texture.generateMipmaps = false;
+    texture.onUpdate = () => {
+      this.whole = false;
+    };
     texture.needsUpdate = true;
     return texture;
   }

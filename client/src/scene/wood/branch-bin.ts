@@ -1,5 +1,6 @@
 import { DynamicDrawUsage, InstancedBufferAttribute, type InstancedBufferGeometry } from "three";
 import { grown } from "../table/column";
+import { uploadRange } from "../upload-range";
 
 /** Row, parent's row, row at which the axis begins, flags. */
 const STRIDE = 4;
@@ -67,9 +68,7 @@ export class BranchBin {
   upload(): void {
     for (const geometry of this.geometries) geometry.instanceCount = this.count;
     if (this.changedTo === 0) return;
-    this.attribute.clearUpdateRanges();
-    this.attribute.addUpdateRange(this.changedFrom * STRIDE, (this.changedTo - this.changedFrom) * STRIDE);
-    this.attribute.needsUpdate = true;
+    uploadRange(this.attribute, this.changedFrom * STRIDE, (this.changedTo - this.changedFrom) * STRIDE);
     this.changedFrom = Number.POSITIVE_INFINITY;
     this.changedTo = 0;
   }

@@ -1,4 +1,4 @@
-import type { Mesh } from "three";
+import type { InstancedBufferGeometry, InterleavedBufferAttribute, Mesh } from "three";
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
@@ -93,7 +93,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
         foliage.update(table, row, bits);
       },
     );
-    branches.upload();
+    branches.upload(table);
     const eye = [40 * random() - 20, 30 * random(), 10 + 200 * random()] as const;
     branches.see(table, { eye, pixels: 900 }, random() < 0.5);
     foliage.upload(table);
@@ -117,7 +117,7 @@ function branchesOf(table: TreeTable): Branches {
     (rows) => branches.truncate(rows),
     (row) => branches.update(table, row),
   );
-  branches.upload();
+  branches.upload(table);
   return branches;
 }
 
@@ -197,6 +197,40 @@ describe("branches", { timeout: 30_000 }, () => {
     expect(faces(tableOf(SMALL.map((twig) => ({ ...twig, radius: 0.1 }))))).toEqual([]);
   });
 
+  it("show the same cut faces however the tree came to be so", () => {
+    const thick = (radius: number) => tableOf(SMALL.map((twig, row) => (row > 9 ? { ...twig, radius } : twig)));
+    const faces = (branches: Branches) => [...drawn([branches.faces]).keys()].sort((a, b) => a - b);
+    const cut = (branches: Branches) =>
+      wood(branches).flatMap(({ geometry }) => {
+        const { array } = geometry.getAttribute("metamer");
+        const count = (geometry as InstancedBufferGeometry).instanceCount;
+        return Array.from({ length: count }, (_, i) => i).flatMap((i) =>
+          array[4 * i + 3]! & 8 ? [array[4 * i]!] : [],
+        );
+      });
+    for (const [before, after] of [
+      [0.07, 0.3],
+      [0.3, 0.07],
+      [0.07, 0.1],
+    ] as const) {
+      const table = thick(before);
+      const branches = branchesOf(table);
+      tableOf(
+        SMALL.map((twig, row) => (row > 9 ? { ...twig, radius: after } : twig)),
+        table,
+      );
+      table.drain(
+        (rows) => branches.truncate(rows),
+        (row) => branches.update(table, row),
+      );
+      branches.upload(table);
+      const fresh = branchesOf(thick(after));
+      expect(faces(branches), `from ${before} to ${after}`).toEqual(faces(fresh));
+      expect(cut(branches).sort()).toEqual(cut(fresh).sort());
+    }
+    expect(faces(branchesOf(thick(0.3)))).toEqual([]);
+  });
+
   it("show none where a lateral goes on in place of what was cut", () => {
     const cutAbove = (heir: number) =>
       tableOf(
@@ -216,8 +250,44 @@ describe("branches", { timeout: 30_000 }, () => {
       () => undefined,
       (row) => branches.update(table, row),
     );
-    branches.upload();
+    branches.upload(table);
     expect([...drawn([branches.faces]).keys()]).toContain(3);
     expect([...drawn([branchesOf(cutAbove(0.2)).faces]).keys()], "a slim one does not").toContain(3);
   });
+});
+
+it("wood and leaves that change while they are hidden are uploaded with what changes later", () => {
+  const table = new TreeTable(() => 0);
+  const sample = sampleTree({ seed: 4, height: 30, orders: 3 });
+  table.apply(sample);
+  const branches = branchesOf(table);
+  const foliage = new Foliage(makeMaterials({}), {}, new Painter());
+  const follow = () => {
+    table.drain(
+      () => undefined,
+      (row, bits) => {
+        branches.update(table, row);
+        foliage.update(table, row, bits);
+      },
+    );
+    branches.upload(table);
+    foliage.upload(table);
+  };
+  for (let row = 0; row < table.rows; row += 1) foliage.update(table, row, 2);
+  foliage.upload(table);
+  const leaf = (foliage.meshes[0]!.geometry.getAttribute("leaf") as InterleavedBufferAttribute).data;
+  // As three.js does once it has uploaded a buffer.
+  leaf.clearUpdateRanges();
+  const chunk = { change: "patch", chunk: 0, generation: 2, column: "foliage" } as const;
+  const changed = [table.rows > CHUNK_ROWS ? 200 : 20, 10];
+  const places: number[] = [];
+  for (const [i, row] of changed.entries()) {
+    const changes = [{ ...chunk, rows: Uint8Array.of(row), values: Uint8Array.of(0x13 + i) }];
+    table.apply({ epoch: 1, sequence: sample.sequence + 1 + i, catchUp: false, changes });
+    follow();
+    for (let at = 0; at < leaf.array.length; at += 5) if (leaf.array[at] === row) places.push(at);
+  }
+  expect(places.length).toBeGreaterThan(4);
+  const waits = (at: number) => leaf.updateRanges.some(({ start, count }) => start <= at && at < start + count);
+  expect(places.filter((at) => !waits(at))).toEqual([]);
 });

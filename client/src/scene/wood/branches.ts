@@ -75,8 +75,10 @@ export class Branches {
   private slot = new Int32Array(0);
   private endSlot = new Int32Array(0);
   private known = 0;
-  /** The least radius code of a living row. */
+  /** The least radius code of a living row, as ends were judged by it last. */
   private thinnest = 0;
+  /** Whether it may be another by now. */
+  private changed = false;
   private onlooker: Onlooker | null = null;
   private nextSeen = 0;
   private unseen = 0;
@@ -108,12 +110,13 @@ export class Branches {
   truncate(rows: number): void {
     for (let row = rows; row < this.known; row += 1) this.leave(row);
     this.known = Math.min(this.known, rows);
-    if (rows === 0) this.thinnest = 0;
+    this.changed = true;
   }
 
   /** Draws a row as thick as it is now. */
   update(table: TreeTable, row: number): void {
     if (row >= this.known) this.welcome(table, row);
+    this.changed = true;
     const parent = table.parent[row]!;
     const code = table.radiusCode[row]!;
     if (parent < 0 || code === 0) {
@@ -121,7 +124,6 @@ export class Branches {
       return;
     }
     if (this.thinnest === 0) this.thinnest = thinnestOf(table);
-    if (code < this.thinnest) this.thinnest = code;
     const fromSeed = table.parent[parent]! < 0;
     const origin = table.limbOrigin[row]!;
     const begins = table.limbs.begins[row] === 1 || fromSeed;
@@ -163,7 +165,7 @@ export class Branches {
       left -= this.level[this.nextSeen]! >= 0 && this.lookAgain(table, this.nextSeen) ? ROWS_A_MOVE : 1;
       this.unseen -= 1;
     }
-    this.upload();
+    this.upload(table);
     return this.unseen > 0;
   }
 
@@ -172,8 +174,9 @@ export class Branches {
     for (const [i, geometry] of (detailed ? this.fine : this.quick).entries()) this.meshes[i]!.geometry = geometry;
   }
 
-  /** Has three.js upload what was written since the last call. */
-  upload(): void {
+  /** Has three.js upload what was written since the last call; ends are judged by the table, where rows are left. */
+  upload(table?: TreeTable): void {
+    if (table && this.changed) this.judgeEnds(table);
     if (this.bark && !this.bark.worn && this.known > 0) this.bark.wear(DEFAULT_APPEARANCE.bark);
     const bins = [...this.bins, this.ends];
     for (const [i, bin] of bins.entries()) {
@@ -197,6 +200,24 @@ export class Branches {
   /** Whether a row is where a limb was cut off. */
   private isCut(table: TreeTable, row: number): boolean {
     return table.limbs.onward[row]! < 0 && table.radiusCode[row]! > this.thinnest + THICK_END;
+  }
+
+  /** What is thick for an end depends on every twig, so that all ends are looked at again once the thinnest is another. */
+  private judgeEnds(table: TreeTable): void {
+    this.changed = false;
+    const thinnest = thinnestOf(table);
+    if (thinnest === this.thinnest) return;
+    this.thinnest = thinnest;
+    for (let row = 0; row < this.known; row += 1) {
+      const level = this.level[row]!;
+      if (level === NOWHERE || table.limbs.onward[row]! >= 0) continue;
+      const [, parent, origin, before] = this.bins[level]!.read(this.slot[row]!);
+      const cut = this.isCut(table, row);
+      const flags = (cut ? before | CUT : before & ~CUT) >>> 0;
+      if (flags === before) continue;
+      this.bins[level]!.write(this.slot[row]!, row, parent, origin, flags);
+      this.showFace(row, cut, parent, origin, flags);
+    }
   }
 
   private welcome(table: TreeTable, row: number): void {
