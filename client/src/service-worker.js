@@ -3,6 +3,8 @@
 
 const KEPT = `espalier-${"VERSION"}`;
 const SHELL = ["SHELL"];
+/** A server that has not sent its page after so long is as good as away, in milliseconds. */
+const PATIENCE = 3000;
 
 self.addEventListener("install", (event) => {
   event.waitUntil(
@@ -31,12 +33,18 @@ self.addEventListener("fetch", (event) => {
     return;
   }
   if (request.mode === "navigate") {
-    // The server's own page first: it is never older than what is kept.
-    event.respondWith(fetch(request).catch(() => kept("/")));
+    event.respondWith(page(request));
   } else if (SHELL.includes(pathname)) {
     event.respondWith(kept(pathname).then((answer) => answer ?? fetch(request)));
   }
 });
+
+/** The server's own page, for it is never older than what is kept; else what is kept. */
+function page(request) {
+  const answer = fetch(request);
+  const shell = new Promise((resolve) => setTimeout(resolve, PATIENCE)).then(() => kept("/"));
+  return Promise.race([answer, shell.then((found) => found ?? answer)]).catch(() => kept("/"));
+}
 
 function kept(path) {
   return caches.open(KEPT).then((cache) => cache.match(path));

@@ -111,9 +111,10 @@ const WHOLE = [
   ["library", { sheet: "library" }],
   ["share", { sheet: "share" }],
   ["download", { place: "download" }],
+  ["install"],
   ["settings", { sheet: "settings" }],
   ["help", { tour: true }],
-] as const;
+] as const satisfies Named<string>;
 
 /** Keys by what they do; those that are named differently in each language stand in the table. */
 const KEYS: readonly (readonly [Key, () => string])[] = [
@@ -148,7 +149,7 @@ export function helpGroups(): readonly TopicGroup[] {
     text: say(`help.topic.${name}.text`),
     also: say(`help.topic.${name}.words`),
     everywhere: everywhere(`help.topic.${name}`, `help.topic.${name}.text`, `help.topic.${name}.words`),
-    subject,
+    ...(subject ? { subject } : {}),
   });
   return [
     {

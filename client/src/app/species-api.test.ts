@@ -24,6 +24,11 @@ describe("species", () => {
     await expect(listSpecies()).rejects.toThrow("does not answer");
   });
 
+  it("a server in trouble is not one without species", async () => {
+    answer({ code: "unavailable", message: "starting" }, 503);
+    await expect(listSpecies()).rejects.toThrow("starting");
+  });
+
   it("each has an address for its picture", () => {
     expect(pictureOf("cedar-of-lebanon")).toBe("/api/species/cedar-of-lebanon/picture");
   });

@@ -7,7 +7,7 @@ export async function listSpecies(): Promise<readonly Species[]> {
     const response = await askFor("GET", "/api/species");
     return (await response.json()) as Species[];
   } catch (error) {
-    if (error instanceof RequestFailed && error.status !== 0) {
+    if (error instanceof RequestFailed && error.status === 404) {
       return [];
     }
     throw error;

@@ -100,6 +100,20 @@ describe("toolbox", () => {
     expect(world.held).toBe(0);
   });
 
+  it("a pen's pressure reaches what is sent", () => {
+    const { tools, sent } = setUp();
+    const pressed = (x: number, pressure: number) => ({ x, y: 300, pressure });
+    tools.gesture({ kind: "stroke-begin", point: pressed(100, 0.5) });
+    tools.gesture({ kind: "stroke-move", points: Array.from({ length: 30 }, (_, i) => pressed(110 + 10 * i, 1)) });
+    tools.gesture({ kind: "stroke-end" });
+    const radii = sent
+      .flatMap((command) => (command.kind === "stroke_move" ? command.samples : []))
+      .map((s) => s.radius);
+    expect(radii.length).toBeGreaterThan(10);
+    expect(radii.every((radius, i) => i === 0 || radius >= radii[i - 1]!)).toBe(true);
+    expect(radii.at(-1)! / radii[0]!).toBeCloseTo(1.8, 1);
+  });
+
   it("a stroke goes to the tool that was chosen", () => {
     const { tools, sent, draw } = setUp();
     draw(ring);

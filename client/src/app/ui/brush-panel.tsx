@@ -2,6 +2,7 @@ import { MAX_RADIUS, MIN_BRUSH, placeOf, radiusAt, radiusLabel } from "../brush-
 import { DEFAULTS, OF_THE_BRUSH, SWITCHES } from "../growth-parameters";
 import type { Studio } from "../studio";
 import { say } from "../words";
+import { useSpecies } from "./architecture/species-list";
 import { BrushPicture } from "./brush-picture";
 import { Field } from "./controls/field";
 import { Section } from "./controls/section";
@@ -14,6 +15,8 @@ import { ParameterControl } from "./parameter-control";
 /** What the brush is like, what its strokes do, and which branches follow it (TreeSketch §3.2). */
 export function BrushPanel({ studio }: { studio: Studio }) {
   const { settings } = studio;
+  // Its resets go back to what the species has.
+  useSpecies(studio);
   const bud = studio.bud.row.value;
   return (
     <Panel studio={studio} title={say("panels.brush")}>

@@ -1,4 +1,5 @@
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { GrowthShare } from "../growth-share";
 import type { Studio } from "../studio";
 import type { Transfer } from "../transfer";
 import { language, say } from "../words";
@@ -54,15 +55,21 @@ function GrowthChip({ studio }: { studio: Studio }) {
   const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
   const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
   const shown = useLasting(growing && studio.phase.value === "connected");
+  const share = useRef(new GrowthShare()).current.of(pending);
   if (!shown) {
     return null;
   }
+  const text = say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {
+    count: pending,
+  });
   return (
     <p class="chip">
-      <i class="spinner" aria-hidden="true" />
-      {say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {
-        count: pending,
-      })}
+      {share === null || outline ? (
+        <i class="spinner" aria-hidden="true" />
+      ) : (
+        <progress aria-label={text} max={1} value={share} />
+      )}
+      {text}
       <button type="button" class="chip-stop" onClick={() => studio.stop()}>
         <StopIcon />
         {say("tools.growing.stop")}

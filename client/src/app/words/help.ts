@@ -227,6 +227,12 @@ export const HELP = {
     "Der Baum als glTF-Datei für andere Programme; bei großen zeigt sich der Fortschritt, und er lässt sich abbrechen",
   ],
   "help.topic.download.words": ["export gltf glb file model", "exportieren Export glTF glb Datei Modell"],
+  "help.topic.install": ["Install as an app", "Als App installieren"],
+  "help.topic.install.text": [
+    "Where the address begins with https or names localhost, the browser can put Espalier on the home screen, and the page opens while the server is away. Over plain http from another device neither works.",
+    "Wo die Adresse mit https beginnt oder localhost nennt, kann der Browser Espalier auf den Startbildschirm legen, und die Seite öffnet sich auch ohne Server. Über einfaches http von einem anderen Gerät geht beides nicht.",
+  ],
+  "help.topic.install.words": ["offline home screen pwa https", "offline Startbildschirm App pwa https"],
   "help.topic.settings": ["Settings", "Einstellungen"],
   "help.topic.settings.text": [
     "Language, light or dark, side of the tools, pen pressure",

@@ -1,28 +1,20 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Appearance, DEFAULT_APPEARANCE, type Parameters, type Species } from "../../../wire/generated";
+import { browserClock } from "../../connection";
 import { DEFAULTS } from "../../growth-parameters";
 import { sentence } from "../../plain-words";
 import { listSpecies } from "../../species-api";
 import { type Kin, kinOf } from "../../species-choice";
+import { SpeciesSource } from "../../species-source";
 import type { Studio } from "../../studio";
 
-/** The species of the server, asked for once; null before it has answered. */
-const known = signal<readonly Species[] | null>(null);
+const source = new SpeciesSource({ list: listSpecies, clock: browserClock });
 
-/** The species there are. */
+/** The species there are; null before the server has answered. */
 export function useSpecies(studio: Studio): readonly Species[] | null {
-  useEffect(() => {
-    if (known.peek() === null) {
-      listSpecies().then(
-        (all) => {
-          known.value = all;
-        },
-        (error: unknown) => studio.toasts.show(sentence(error)),
-      );
-    }
-  }, [studio]);
-  return known.value;
+  useEffect(() => source.ask((error) => studio.toasts.show(sentence(error))), [studio]);
+  return source.known.value;
 }
 
 /** The species picked last on this page, by its slug: some differ only in how they are raised. */
@@ -33,7 +25,7 @@ let last: { readonly about: readonly unknown[]; readonly kin: Kin | null } = { a
 
 /** The species that what is set now comes from, if it is near enough to one. */
 export function kinNow(studio: Studio): Kin | null {
-  const [species, parameters, looks] = [known.value, studio.parameters.value, studio.appearance.value];
+  const [species, parameters, looks] = [source.known.value, studio.parameters.value, studio.appearance.value];
   const picked = lastPicked.value;
   const about = [species, parameters, looks, picked];
   if (about.some((one, i) => one !== last.about[i])) {

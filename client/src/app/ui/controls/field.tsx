@@ -62,8 +62,34 @@ interface ResetProps {
 export function ResetButton({ name, onReset }: ResetProps) {
   const text = say("controls.reset", { name });
   return (
-    <button type="button" class="field-reset" aria-label={text} title={text} onClick={onReset}>
+    <button
+      type="button"
+      class="field-reset"
+      aria-label={text}
+      title={text}
+      onClick={(event) => {
+        // The button goes with what it resets, and must not take the focus with it.
+        if (document.activeElement === event.currentTarget) {
+          controlBeside(event.currentTarget)?.focus();
+        }
+        onReset();
+      }}
+    >
       <ResetIcon />
     </button>
   );
+}
+
+/** What the hand sets things with; not where it types, for there the keys of a tablet would come up. */
+const CONTROL = 'input[type="range"], input[type="checkbox"], input[type="radio"]:checked, [role="slider"]';
+
+/** The control that a button stands beside, else the nearest other one. */
+function controlBeside(button: HTMLElement): HTMLElement | null {
+  for (let around = button.parentElement; around !== null; around = around.parentElement) {
+    const control = around.querySelector<HTMLElement>(CONTROL) ?? around.querySelector<HTMLElement>(".field-name");
+    if (control !== null && !around.classList.contains("field-head")) {
+      return control;
+    }
+  }
+  return null;
 }

@@ -1,0 +1,13 @@
+/** Growth this short is not measured: a bar that fills in a blink tells nothing. */
+const WORTH_A_BAR = 8;
+
+/** How much is done of growth whose steps are told as they are left, from the most that were left since it began. */
+export class GrowthShare {
+  #most = 0;
+
+  /** The share from 0 to 1 with so many steps left; null where there is nothing to measure. */
+  of(left: number): number | null {
+    this.#most = left === 0 ? 0 : Math.max(this.#most, left);
+    return this.#most < WORTH_A_BAR ? null : 1 - left / this.#most;
+  }
+}
