@@ -22,7 +22,7 @@ export async function main(words: readonly string[]): Promise<number> {
   const at = words.indexOf("--metamers");
   const metamers = at < 0 ? METAMERS : Number(words[at + 1]);
   const server = new Server();
-  const browser = await launchBrowser();
+  const browser = await launchBrowser({ asOnTablets: true });
   try {
     await server.start();
     const address = await server.newSession(5);
