@@ -5,6 +5,7 @@ import { stepRadius } from "./brush-radius";
 import { deflectionFor, KEY_RATE } from "./grow-pacer";
 import { listenToKeys } from "./keyboard";
 import { publishFacts } from "./page-facts";
+import { PictureLoss } from "./picture-loss";
 import { listenToPointers } from "./pointer-source";
 import type { Studio } from "./studio";
 
@@ -15,9 +16,10 @@ const KEY_TURN = (5 * Math.PI) / 180;
 
 /** Takes the canvas into use: picture, hands and keys; returns what gives it back. */
 export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () => void {
+  const loss = new PictureLoss(studio.hindrance);
   let viewport: Viewport;
   try {
-    viewport = new Viewport(canvas, studio.table);
+    viewport = new Viewport(canvas, studio.table, loss.tell);
   } catch (error) {
     console.error(error);
     studio.stage.darken();
@@ -57,6 +59,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     studio.branches.detach();
     studio.stage.detach();
     viewport.dispose();
+    loss.stop();
   };
 }
 

@@ -57,14 +57,18 @@ export class Viewport {
   private empty = true;
   /** Whether details are still to be chosen. */
   private unsettled = false;
+  /** Whether the graphics card has taken its context away, and all that was drawn with it. */
+  private lost = false;
   private shadowStale = true;
   private shadowDrawn = Number.NEGATIVE_INFINITY;
   /** How far leaves had given way to sprigs then. */
   private mergedShadow = 0;
 
+  /** `told` hears when there is no picture any more (true), and when there is one again. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly table: TreeTable,
+    private readonly told: (lost: boolean) => void = () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
@@ -91,9 +95,10 @@ export class Viewport {
       this.draw,
       () => this.frames.control.quality.scale < 1 || this.shadowStale || this.tree.ripe,
       // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
-      (still) => canvas.toggleAttribute("data-still", still && !this.tree.unfinished),
+      (still) => canvas.toggleAttribute("data-still", still && !this.lost && !this.tree.unfinished),
     );
     this.frames.control.open(performance.now());
+    canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
     // While the page waits for its rows the graphics card makes what they are drawn with.
     for (const mesh of this.tree.essential) this.renderer.compile(mesh, this.sight.camera, this.scene);
@@ -131,7 +136,7 @@ export class Viewport {
 
   /** What the draw mode's colours mean, as the tree is now. */
   legend(): Legend | null {
-    this.tree.sync();
+    this.sync();
     return this.tree.legend;
   }
 
@@ -301,8 +306,9 @@ export class Viewport {
     this.stir();
   }
 
-  /** A picture of the whole tree as a data URL of at most 192 KiB; too small for every detail to be seen. */
-  async thumbnail(width: number, height: number): Promise<string> {
+  /** A picture of the whole tree as a data URL of at most 192 KiB, if any can be drawn; too small for every detail. */
+  async thumbnail(width: number, height: number): Promise<string | undefined> {
+    if (this.lost) return undefined;
     const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
     const passing = [this.brush.mesh, this.ghost.group].filter(({ visible }) => visible);
     for (const object of passing) object.visible = false;
@@ -322,6 +328,7 @@ export class Viewport {
   dispose(): void {
     this.frames.dispose();
     this.resizing.disconnect();
+    this.canvas.removeEventListener("webglcontextlost", this.lose);
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
     for (const part of [
       this.tree,
@@ -345,6 +352,8 @@ export class Viewport {
   }
 
   private readonly draw = ({ began, step, asked }: FrameTime): boolean => {
+    // What changes meanwhile is taken over once there is something to draw on.
+    if (this.lost) return false;
     const { control } = this.frames;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
@@ -441,11 +450,22 @@ export class Viewport {
     this.frames.invalidate();
   }
 
+  private readonly lose = (event: Event): void => {
+    // Without this the browser would never restore it.
+    event.preventDefault();
+    this.lost = true;
+    this.canvas.removeAttribute("data-still");
+    this.told(true);
+  };
+
   /** A restored context has lost every texture and buffer. */
   private readonly restored = (): void => {
+    this.lost = false;
+    this.screen.restored();
     this.tree.restored();
     this.ghost.restored();
     this.shadowStale = true;
     this.frames.invalidate();
+    this.told(false);
   };
 }

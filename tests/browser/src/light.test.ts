@@ -177,6 +177,27 @@ test("every sky, ground and hour is another picture", async () => {
   expect(Math.abs(brightnessOf("dark-studio") - 64)).toBeLessThan(12);
 });
 
+test("what the graphics card drops is spoken of, and comes back as it was", async () => {
+  const tablet = await looking();
+  const before = await picture(tablet, "95-before-loss");
+  isPicture(before);
+  const context = await tablet.page.evaluateHandle(
+    () =>
+      document
+        .querySelector<HTMLCanvasElement>("#workspace")!
+        .getContext("webgl2")!
+        .getExtension("WEBGL_lose_context")!,
+  );
+  await context.evaluate((extension) => extension.loseContext());
+  const notice = tablet.page.getByText("The picture is gone");
+  await notice.waitFor();
+  expect(await tablet.page.locator("#workspace[data-still]").count(), "nothing is said to be at rest").toBe(0);
+  await context.evaluate((extension) => extension.restoreContext());
+  await notice.waitFor({ state: "hidden" });
+  const after = await picture(tablet, "96-after-loss");
+  expect(changed(before, after)).toBeLessThan(0.002);
+});
+
 /** What each item of the menu is called. */
 const CALLED: Record<DrawMode, string> = {
   lit: "In the light",

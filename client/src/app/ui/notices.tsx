@@ -17,9 +17,9 @@ export function HindranceCard({ studio }: { studio: Studio }) {
           {say("notices.unknown-session.way")}
         </button>
       )}
-      {hindrance === "version" && (
+      {(hindrance === "version" || hindrance === "no-picture") && (
         <button type="button" class="primary" onClick={() => location.reload()}>
-          {say("notices.version.way")}
+          {say("notices.reload")}
         </button>
       )}
     </section>

@@ -20,7 +20,7 @@ export const NOTICES = {
     "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",
     "Server und Seite haben verschiedene Versionen, und neu zu laden hat nicht geholfen. Warte eine Minute und lade dann neu.",
   ],
-  "notices.version.way": ["Reload", "Neu laden"],
+  "notices.reload": ["Reload", "Neu laden"],
   "notices.no-server": ["The server does not answer", "Der Server antwortet nicht"],
   "notices.no-server.text": [
     "Is it running, and is this device in the same network? This page keeps trying.",
@@ -30,6 +30,11 @@ export const NOTICES = {
   "notices.no-webgl.text": [
     "Espalier needs WebGL 2. Try a current Safari, Chrome, Edge or Firefox with graphics acceleration on.",
     "Espalier braucht WebGL 2. Versuche es mit einem aktuellen Safari, Chrome, Edge oder Firefox und eingeschalteter Grafikbeschleunigung.",
+  ],
+  "notices.no-picture": ["The picture is gone", "Das Bild ist weg"],
+  "notices.no-picture.text": [
+    "This device has dropped the picture and has not given it back. Reload the page; your strokes are kept.",
+    "Dieses Gerät hat das Bild verworfen und nicht zurückgegeben. Lade die Seite neu; deine Striche bleiben erhalten.",
   ],
   "notices.hint.seed": ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
   "notices.hint.lasso": ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],

@@ -153,6 +153,12 @@ export class Screen {
     if (over) this.fading = performance.now();
   }
 
+  /** A restored context has lost the pictures that were kept. */
+  restored(): void {
+    this.kept = false;
+    this.fading = null;
+  }
+
   dispose(): void {
     this.target.dispose();
     this.before.dispose();

@@ -1,0 +1,40 @@
+import { signal } from "@preact/signals";
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { PictureLoss } from "./picture-loss";
+import type { Hindrance } from "./studio";
+
+beforeEach(() => void vi.useFakeTimers());
+afterEach(() => void vi.useRealTimers());
+
+function losing(before: Hindrance | null = null) {
+  const hindrance = signal(before);
+  return { hindrance, loss: new PictureLoss(hindrance) };
+}
+
+it("a picture that stays away is spoken of until it is back", () => {
+  const { hindrance, loss } = losing();
+  loss.tell(true);
+  expect(hindrance.value).toBeNull();
+  vi.advanceTimersByTime(5000);
+  expect(hindrance.value).toBe("no-picture");
+  loss.tell(false);
+  expect(hindrance.value).toBeNull();
+});
+
+it("one that is soon back is not spoken of", () => {
+  const { hindrance, loss } = losing();
+  loss.tell(true);
+  vi.advanceTimersByTime(500);
+  loss.tell(false);
+  vi.advanceTimersByTime(60_000);
+  expect(hindrance.value).toBeNull();
+});
+
+it("its loss and its return leave other hindrances as they are", () => {
+  const { hindrance, loss } = losing("no-server");
+  loss.tell(true);
+  vi.advanceTimersByTime(5000);
+  expect(hindrance.value).toBe("no-server");
+  loss.tell(false);
+  expect(hindrance.value).toBe("no-server");
+});
