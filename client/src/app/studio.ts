@@ -19,6 +19,7 @@ import { createSession, sessionExists, socketAddress } from "./library-api";
 import { LookDraft } from "./look-draft";
 import { ObstacleList } from "./obstacle-list";
 import { followPageLife } from "./page-life";
+import { PartedSessions } from "./parted-sessions";
 import { sentence } from "./plain-words";
 import { refused } from "./refusals";
 import { mayReload } from "./reload-guard";
@@ -167,6 +168,7 @@ export class Studio {
   readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
   #connection: Connection<Frame, AsideServerFrame> | null = null;
+  #parted = new PartedSessions();
   #framed = false;
   /** The view is no longer that of a fresh page. */
   #moved = false;
@@ -324,7 +326,9 @@ export class Studio {
     this.#framed = false;
     this.table.clear();
     this.stage.changed();
-    const record = takeRecord(sessionStorage, session);
+    this.#parted.come(sessionStorage);
+    const parted = this.#parted.take(session);
+    const record = takeRecord(sessionStorage, session) ?? parted;
     this.#connection = new Connection<Frame, AsideServerFrame>({
       openSocket: () => new WebSocket(socketAddress(session, location)),
       clock: browserClock,
@@ -440,8 +444,22 @@ export class Studio {
   leave(): void {
     this.tools.end();
     this.growth.release();
+    this.#part();
     this.#connection?.close();
     this.#connection = null;
+  }
+
+  /** Keeps what the server may not have got of the session that is left. */
+  #part(): void {
+    const [session, connection] = [this.session.peek(), this.#connection];
+    const gone = this.hindrance.peek() === "unknown-session";
+    if (session === null || connection === null || gone || connection.settled >= connection.next - 1) {
+      return;
+    }
+    this.#parted.keep(session, connection.record());
+    if (this.phase.peek() !== "connected") {
+      this.toasts.show(say("sheets.parted"));
+    }
   }
 
   /** Ends strokes and keeps what is unsent when the page goes, wakes the connection when it comes back. */
@@ -454,10 +472,12 @@ export class Studio {
         if (session !== null && this.#connection) {
           leaveRecord(sessionStorage, session, this.#connection.record());
         }
+        this.#parted.leave(sessionStorage);
       },
       returning: () => {
         // This page still lives and has all of it; the copy was for a page after it.
         takeRecord(sessionStorage, this.session.peek() ?? "");
+        this.#parted.come(sessionStorage);
         this.#connection?.wake();
       },
       online: () => this.#connection?.wake(),

@@ -44,5 +44,9 @@ export const SHEETS = {
   "sheets.import": ["Sending the model…", "Das Modell wird gesendet…"],
   "sheets.import.moving": ["Sending the model, {megabytes} MB", "Das Modell wird gesendet, {megabytes} MB"],
   "sheets.import.read": ["The server reads the model…", "Der Server liest das Modell…"],
+  "sheets.parted": [
+    "What the server has not got yet of the other tree is kept; it is sent when you open that tree again in this tab.",
+    "Was der Server vom anderen Baum noch nicht hat, bleibt erhalten; es wird gesendet, wenn du jenen Baum in diesem Tab wieder öffnest.",
+  ],
   "sheets.cancel": ["Cancel", "Abbrechen"],
 } as const;
