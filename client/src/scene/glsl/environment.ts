@@ -42,6 +42,10 @@ vec3 farGround() {
   vec3 lit = MEAN[uGround] * (ambient(UP) + SUN_COLOUR * facingSun(UP));
   return mix(lit, HORIZON_COLOUR * 0.8, 0.16);
 }
+/** Land pales into the air before it the lower it lies under the horizon, which is a breath and no line. */
+vec3 inHaze(vec3 land, float elevation) {
+  return mix(land, HORIZON_COLOUR * 0.92, 0.5 * smoothstep(-0.035, 0.002, elevation));
+}
 vec3 farLand() { return mix(uMiddleColour, HORIZON_COLOUR, 0.35) * 0.84; }
 vec3 nearLand() { return mix(farLand(), farGround(), 0.55) * 0.86; }
 `;
@@ -60,7 +64,7 @@ vec3 hills(vec3 behind, vec3 sight, float seed, float low, float high, vec3 hue)
   float crest = noise(towards * 2.3, seed) * 0.6 + noise(towards * 6.0, seed + 5.0) * 0.28
     + noise(towards * 17.0, seed + 9.0) * 0.12;
   float top = mix(low, high, crest);
-  float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y) * uSkyParts.z;
+  float inside = smoothstep(top + 0.0015, top - 0.0015, sight.y);
   // A little mist gathers at the feet of the hills.
   return mix(behind, mix(mix(hue, HORIZON_COLOUR, 0.06), hue, smoothstep(-0.01, 0.7 * top, sight.y)), inside);
 }
@@ -92,12 +96,15 @@ void main() {
     sky = mix(sky, lit + uGlowColour * 0.6 * pow(towards, 8.0), cover * smoothstep(0.02, 0.22, up) * 0.7);
   }
   // The ground's own edge lies a little below where land without end would meet the sky.
-  vec3 land = mix(farGround(), HORIZON_COLOUR * 0.85, 0.12 * smoothstep(-0.03, 0.0, sight.y));
+  vec3 land = inHaze(farGround(), sight.y);
   if (uSkyParts.z > 0.0) {
-    sky = hills(sky, sight, 3.0, 0.030, 0.085, farLand());
-    sky = hills(sky, sight, 8.0, 0.006, 0.050, nearLand());
+    sky = mix(sky, hills(sky, sight, 3.0, 0.030, 0.085, farLand()), uSkyParts.z);
+    sky = mix(sky, hills(sky, sight, 8.0, 0.006, 0.050, nearLand()), uSkyParts.z);
   }
-  sky = mix(land, sky, smoothstep(-0.0016, 0.0008, sight.y));
+  // No land is level to the end: swells in the distance break its edge.
+  vec3 swell = inHaze(farGround(), 0.0);
+  if (uGround != PLAIN) sky = hills(sky, sight, 13.0, -0.004, 0.010, mix(swell, HORIZON_COLOUR, 0.25));
+  sky = mix(land, sky, smoothstep(-0.0024, 0.0012, sight.y));
   colour = vec4(dithered(finished(sky)), 1.0);
 }
 `;
@@ -206,7 +213,7 @@ void main() {
     lit = surface.albedo * (ambient(surface.normal) * open + SUN_COLOUR * facingSun(surface.normal) * sun * mix(0.7, 1.0, open));
   }
   // The ground pales behind the trees, not before them, and its own edge is never seen.
-  vec3 seen = finished(studio ? hazed(lit, away) : mix(lit, farGround(), rim));
+  vec3 seen = finished(studio ? hazed(lit, away) : inHaze(mix(lit, farGround(), rim), -eye.y / away));
   colour = vec4(dithered(studio ? mix(seen, paper(0.0), rim) : seen), 1.0);
 }
 `;
