@@ -38,12 +38,12 @@ describe("help", () => {
     expect(subjects.some((subject) => "tour" in subject)).toBe(true);
   });
 
-  it("every control of growth and looks can be shown where it stands", () => {
+  it("every control of a panel can be shown where it stands", () => {
     const controls = helpGroups().find(({ title }) => title === "help.group.controls")!.topics;
     const lost = controls.filter(({ subject }) => subject === undefined).map(({ id }) => id);
     expect(lost).toEqual([]);
     const parts = new Set(controls.flatMap(({ subject }) => (subject && "panel" in subject ? [subject.panel] : [])));
-    expect([...parts].sort()).toEqual(["architecture", "background", "branches", "brush", "leaves"]);
+    expect([...parts].sort()).toEqual(["architecture", "background", "branches", "brush", "leaves", "scene"]);
   });
 
   it("everything is found by what people call it", () => {

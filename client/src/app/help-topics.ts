@@ -261,6 +261,8 @@ function subjectOf(label: Key): Subject | undefined {
       return { panel: "background", control };
     case "brush":
       return { panel: "brush", control };
+    case "scene":
+      return { panel: "scene" };
     default:
       return undefined;
   }

@@ -103,6 +103,11 @@ describe("obstacle list", () => {
     list.receive([box(1, 4), wideAt4(2)]);
     expect(sent).toEqual([placed, { kind: "remove_obstacle", id: 1 }]);
     expect(list.chosen.value).toBe(2);
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(list.list.value, "never both").toEqual([wideAt4(2)]);
+    list.receive([wideAt4(2)]);
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect(list.list.value.length, "undo brings the old one back").toBe(2);
     list.receive([wideAt4(2)]);
     expect(list.chosen.value).toBe(2);
   });

@@ -48,22 +48,28 @@ export class ObstacleList {
   #fetching = new Set<number>();
   /** What this hand has placed is chosen when it appears. */
   #awaited: Awaited[] = [];
+  /** Those whose other shape stands, until the server's list is without them. */
+  #replaced = new Set<number>();
   /** Each as this page first saw it: what its measures are put back to. */
-  #first = new Map<number, Pick<PlacedObstacle, "shape" | "pose">>();
+  #first = new Map<number, PlacedObstacle>();
 
   constructor(options: ObstacleListOptions) {
     this.#options = options;
   }
 
   /** The server's list has changed. */
-  receive(obstacles: readonly PlacedObstacle[]): void {
+  receive(told: readonly PlacedObstacle[]): void {
+    for (const id of [...this.#replaced].filter((replaced) => !told.some(({ id }) => id === replaced))) {
+      this.#replaced.delete(id);
+    }
+    const obstacles = told.filter(({ id }) => !this.#replaced.has(id));
     const known = new Set(this.list.peek().map(({ id }) => id));
     this.list.value = obstacles;
     this.#moved.value = null;
     for (const obstacle of obstacles.filter(({ id }) => !known.has(id))) {
       this.#appeared(obstacle);
     }
-    if (!obstacles.some(({ id }) => id === this.chosen.peek())) {
+    if (!this.list.peek().some(({ id }) => id === this.chosen.peek())) {
       this.chosen.value = null;
     }
     for (const { id, shape } of obstacles) {
@@ -76,6 +82,7 @@ export class ObstacleList {
   /** Another session: nothing here is of it. */
   forget(): void {
     this.#awaited = [];
+    this.#replaced.clear();
     this.#first.clear();
     this.clear();
   }
@@ -101,7 +108,7 @@ export class ObstacleList {
   }
 
   /** How one was when this page first saw it, through all shapes it was given since; null where there is none. */
-  first(id: number): Pick<PlacedObstacle, "shape" | "pose"> | null {
+  first(id: number): PlacedObstacle | null {
     return this.#first.get(id) ?? null;
   }
 
@@ -133,6 +140,9 @@ export class ObstacleList {
   /** The server would not do something: all stands as it was. */
   refused(command: Command): void {
     this.#awaited = this.#awaited.filter((awaited) => awaited.command !== command);
+    if (command.kind === "remove_obstacle") {
+      this.#replaced.delete(command.id);
+    }
     this.preview(null);
   }
 
@@ -176,6 +186,8 @@ export class ObstacleList {
       this.chosen.value = added.id;
     }
     if (instead !== null && this.list.peek().some(({ id }) => id === instead)) {
+      this.#replaced.add(instead);
+      this.list.value = this.list.peek().filter(({ id }) => id !== instead);
       this.remove(instead);
     }
     if (awaited.afterwards !== null) {

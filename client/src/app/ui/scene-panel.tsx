@@ -4,6 +4,8 @@ import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../..
 import type { Studio } from "../studio";
 import { rotationOf, turningOf } from "../turning";
 import { say } from "../words";
+import { Field } from "./controls/field";
+import { TypedNumber } from "./controls/typed-number";
 import { BoxIcon, DeleteIcon, ModelIcon, NewIcon, PlaneIcon, SphereIcon, WallIcon } from "./icons";
 import { Panel } from "./panel";
 
@@ -20,6 +22,7 @@ const KINDS: readonly (readonly [Kind, () => ComponentChildren])[] = [
 export function ScenePanel({ studio }: { studio: Studio }) {
   const { list, chosen, transfer } = studio.obstacles;
   const obstacles = studio.obstacles.drawn.value;
+  const keys = keysOf(studio, obstacles);
   const full = list.value.length >= MAX_OBSTACLES;
   return (
     <Panel studio={studio} title={say("panels.scene")}>
@@ -41,7 +44,7 @@ export function ScenePanel({ studio }: { studio: Studio }) {
       ) : (
         <ul class="obstacles">
           {obstacles.map((obstacle) => (
-            <li key={obstacle.id} data-chosen={obstacle.id === chosen.value}>
+            <li key={keys.get(obstacle.id)} data-chosen={obstacle.id === chosen.value}>
               <div class="obstacle-head">
                 <button
                   type="button"
@@ -71,6 +74,19 @@ export function ScenePanel({ studio }: { studio: Studio }) {
       )}
     </Panel>
   );
+}
+
+/** Keys by which an obstacle keeps its controls, and the focus in them, when it is given another shape. */
+function keysOf(studio: Studio, obstacles: readonly PlacedObstacle[]): ReadonlyMap<number, string> {
+  const taken = new Set<number>();
+  const keys = new Map<number, string>();
+  for (const { id } of obstacles) {
+    const origin = studio.obstacles.first(id)?.id ?? id;
+    // Undo can bring back one whose other shape still stands.
+    keys.set(id, taken.has(origin) ? `again ${id}` : `${origin}`);
+    taken.add(origin);
+  }
+  return keys;
 }
 
 /** Lets a model be chosen: one .glb, or a .gltf with its buffers. */
@@ -114,69 +130,77 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
   const turning = turningOf(pose.rotation);
   const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to });
   const turn = (to: Partial<typeof turning>) => move({ rotation: rotationOf({ ...turning, ...to }) });
+  const first = studio.obstacles.first(id) ?? obstacle;
+  const [firstX, firstY, firstZ] = first.pose.position;
+  const firstTurning = turningOf(first.pose.rotation);
   return (
     <div class="measures">
       <Measure
-        label={say("scene.across")}
+        name="scene.across"
         value={x}
-        low={-1000}
-        high={1000}
-        set={(value) => move({ position: [value, y, z] })}
+        first={firstX}
+        least={-1000}
+        most={1000}
+        onCommit={(value) => move({ position: [value, y, z] })}
       />
       <Measure
-        label={say("scene.up")}
+        name="scene.up"
         value={y}
-        low={-10}
-        high={1000}
-        set={(value) => move({ position: [x, value, z] })}
+        first={firstY}
+        least={-10}
+        most={1000}
+        onCommit={(value) => move({ position: [x, value, z] })}
       />
       <Measure
-        label={say("scene.deep")}
+        name="scene.deep"
         value={z}
-        low={-1000}
-        high={1000}
-        set={(value) => move({ position: [x, y, value] })}
+        first={firstZ}
+        least={-1000}
+        most={1000}
+        onCommit={(value) => move({ position: [x, y, value] })}
       />
       {shape.kind !== "sphere" && (
         <>
           <Measure
-            label={say("scene.turn")}
+            name="scene.turn"
             unit="°"
             value={turning.turn}
-            low={-360}
-            high={360}
-            step={5}
-            set={(value) => turn({ turn: value })}
+            first={firstTurning.turn}
+            least={-360}
+            most={360}
+            onCommit={(value) => turn({ turn: value })}
           />
           <Measure
-            label={say("scene.tilt")}
+            name="scene.tilt"
             unit="°"
             value={turning.tilt}
-            low={-90}
-            high={90}
-            step={5}
-            set={(value) => turn({ tilt: value })}
+            first={firstTurning.tilt}
+            least={-90}
+            most={90}
+            onCommit={(value) => turn({ tilt: value })}
           />
         </>
       )}
       {shape.kind === "sphere" && (
         <Measure
-          label={say("scene.radius")}
+          name="scene.radius"
           value={shape.radius}
-          low={0.1}
-          high={500}
-          set={(radius) => studio.obstacles.reshape(id, { kind: "sphere", radius })}
+          first={first.shape.kind === "sphere" ? first.shape.radius : shape.radius}
+          least={0.1}
+          most={500}
+          onCommit={(radius) => studio.obstacles.reshape(id, { kind: "sphere", radius })}
         />
       )}
       {shape.kind === "box" &&
-        (["scene.width", "scene.height", "scene.depth"] as const).map((label, axis) => (
+        (["scene.width", "scene.height", "scene.depth"] as const).map((name, axis) => (
           <Measure
-            key={label}
-            label={say(label)}
+            key={name}
+            name={name}
             value={shape.size[axis] ?? 1}
-            low={0.1}
-            high={1000}
-            set={(value) => {
+            first={(first.shape.kind === "box" ? first.shape : shape).size[axis] ?? 1}
+            least={0.1}
+            most={1000}
+            onCommit={(value) => {
               const size = shape.size.map((side, i) => (i === axis ? value : side)) as typeof shape.size;
               studio.obstacles.reshape(id, { kind: "box", size });
             }}
@@ -187,39 +211,31 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
 }
 
 interface MeasureProps {
-  readonly label: string;
+  readonly name: `scene.${"across" | "up" | "deep" | "turn" | "tilt" | "radius" | "width" | "height" | "depth"}`;
   readonly value: number;
-  readonly low: number;
-  readonly high: number;
-  readonly step?: number;
+  /** What it was when this page first saw the obstacle. */
+  readonly first: number;
+  readonly least: number;
+  readonly most: number;
   readonly unit?: string;
-  readonly set: (value: number) => void;
+  readonly onCommit: (value: number) => void;
 }
 
-function Measure({ label, value, low, high, step = 0.5, unit, set }: MeasureProps) {
+/** One number of an obstacle; its way is too long for a slider. */
+function Measure({ name, value, first, least, most, unit = "", onCommit }: MeasureProps) {
+  const label = say(name);
   return (
-    <label class="measure">
-      <span>
-        {label}
-        {unit && ` ${unit}`}
-      </span>
-      <input
-        type="number"
-        inputMode="decimal"
-        min={low}
-        max={high}
-        step={step}
-        value={Math.round(value * 100) / 100}
-        onChange={(event) => {
-          const to = event.currentTarget.valueAsNumber;
-          if (Number.isFinite(to)) {
-            set(Math.min(high, Math.max(low, to)));
-          }
-        }}
-      />
-    </label>
+    <Field
+      label={label}
+      help={say(`${name}.help`)}
+      onReset={Math.abs(value - first) < MEASURE_STEP / 2 ? undefined : () => onCommit(first)}
+      end={<TypedNumber {...{ label, unit, least, most, value, onCommit }} step={MEASURE_STEP} />}
+    />
   );
 }
+
+/** Tenths of an internode or a degree are fine enough. */
+const MEASURE_STEP = 0.1;
 
 function ShapeIcon({ obstacle: { shape } }: { obstacle: PlacedObstacle }) {
   switch (shape.kind) {

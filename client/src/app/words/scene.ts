@@ -14,14 +14,41 @@ export const SCENE = {
   "scene.remove": ["Remove", "Entfernen"],
   "scene.remove.which": ["Remove {name}", "{name} entfernen"],
   "scene.across": ["Across", "Quer"],
+  "scene.across.help": [
+    "How far to the right of the first seed it stands, in internodes",
+    "Wie weit rechts vom ersten Samen es steht, in Internodien",
+  ],
   "scene.up": ["Up", "Hoch"],
+  "scene.up.help": [
+    "How high its middle is above the ground, in internodes",
+    "Wie hoch seine Mitte über dem Boden liegt, in Internodien",
+  ],
   "scene.deep": ["Deep", "Tief"],
+  "scene.deep.help": [
+    "How far in front of the first seed it stands, in internodes",
+    "Wie weit vor dem ersten Samen es steht, in Internodien",
+  ],
   "scene.turn": ["Turn", "Drehung"],
+  "scene.turn.help": ["How far it is turned about the vertical", "Wie weit es um die Senkrechte gedreht ist"],
   "scene.tilt": ["Tilt", "Neigung"],
+  "scene.tilt.help": ["How far its right side is lifted", "Wie weit seine rechte Seite angehoben ist"],
   "scene.radius": ["Radius", "Radius"],
+  "scene.radius.help": [
+    "From its middle to its surface, in internodes",
+    "Von der Mitte bis zur Oberfläche, in Internodien",
+  ],
   "scene.width": ["Width", "Breite"],
+  "scene.width.help": [
+    "From its left side to its right, in internodes",
+    "Von der linken Seite zur rechten, in Internodien",
+  ],
   "scene.height": ["Height", "Höhe"],
+  "scene.height.help": [
+    "From its lower side to its upper, in internodes",
+    "Von der unteren Seite zur oberen, in Internodien",
+  ],
   "scene.depth": ["Depth", "Tiefe"],
+  "scene.depth.help": ["From its front to its back, in internodes", "Von vorn nach hinten, in Internodien"],
   "scene.no-file": [
     "Choose a .glb, or a .gltf together with its .bin files.",
     "Wähle eine .glb-Datei oder eine .gltf-Datei zusammen mit ihren .bin-Dateien.",
