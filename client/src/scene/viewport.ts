@@ -23,8 +23,6 @@ import { TreeView } from "./tree-view";
 import type { Vec3 } from "./vector";
 
 const MAX_PIXEL_RATIO = 2;
-/** So long a scene without a tree waits for one before it is drawn, in milliseconds. */
-const PATIENCE = 700;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
@@ -57,8 +55,6 @@ export class Viewport {
   private drawMode: DrawMode = "lit";
   /** Whether there has been no tree yet. */
   private empty = true;
-  /** The timer of the wait for one; 0 once it is over. */
-  private patience = 0;
   /** Whether details are still to be chosen. */
   private unsettled = false;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
@@ -104,14 +100,8 @@ export class Viewport {
     this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
-    // While the page waits for its rows the graphics card makes what they are drawn with. A picture without a tree would
-    // wait for that, and the rows for the picture.
-    for (const mesh of [...this.tree.essential, ...this.environment.meshes])
-      this.renderer.compile(mesh, this.sight.camera, this.scene);
-    this.patience = window.setTimeout(() => {
-      this.patience = 0;
-      this.frames.invalidate();
-    }, PATIENCE);
+    // While the page waits for its rows the graphics card makes what they are drawn with.
+    for (const mesh of this.tree.essential) this.renderer.compile(mesh, this.sight.camera, this.scene);
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.resize();
@@ -336,7 +326,6 @@ export class Viewport {
 
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
-    clearTimeout(this.patience);
     this.frames.dispose();
     this.resizing.disconnect();
     this.canvas.removeEventListener("webglcontextlost", this.lose);
@@ -364,7 +353,7 @@ export class Viewport {
 
   private readonly draw = ({ began, step, asked }: FrameTime): boolean => {
     // What changes meanwhile is taken over once there is something to draw on.
-    if (this.lost || (this.empty && this.patience !== 0)) return false;
+    if (this.lost) return false;
     const { control } = this.frames;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
