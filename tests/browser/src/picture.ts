@@ -51,6 +51,22 @@ export class Darkroom {
     );
     return { width, height, pixels: new Uint8Array(Buffer.from(base64, "base64")) };
   }
+
+  /** Pixels as a PNG file. */
+  async print({ width, height, pixels }: Picture): Promise<Buffer> {
+    const base64 = await this.#page.evaluate(
+      ({ width, height, base64 }) => {
+        const canvas = document.createElement("canvas");
+        canvas.width = width;
+        canvas.height = height;
+        const pixels = Uint8ClampedArray.from(atob(base64), (letter) => letter.charCodeAt(0));
+        canvas.getContext("2d")?.putImageData(new ImageData(pixels, width, height), 0, 0);
+        return canvas.toDataURL("image/png").split(",")[1] ?? "";
+      },
+      { width, height, base64: Buffer.from(pixels).toString("base64") },
+    );
+    return Buffer.from(base64, "base64");
+  }
 }
 
 type Pixel = readonly [red: number, green: number, blue: number];

@@ -1,5 +1,6 @@
 import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
+import { perform } from "../gallery/performance";
 import { launchBrowser } from "./browser";
 import { Darkroom } from "./picture";
 import { Server } from "./server";
@@ -33,6 +34,26 @@ export class Workshop {
     afterEach(() => workshop.#clear());
     afterAll(() => workshop.#stop());
     return workshop;
+  }
+
+  /** Unpacks and packs pictures. */
+  get darkroom(): Darkroom {
+    if (!this.#darkroom) throw new Error("the browser has not been started");
+    return this.#darkroom;
+  }
+
+  /** Has a page without the client do commands in the session at an address. */
+  async act(address: string, commands: readonly object[]): Promise<void> {
+    if (!this.#browser) throw new Error("the browser has not been started");
+    const page = await this.#browser.newPage();
+    await page.goto(`${this.server.address}/health`);
+    const session = address.slice(address.lastIndexOf("/") + 1);
+    await perform(
+      page,
+      session,
+      commands.map((command) => JSON.stringify(command)),
+    );
+    await page.close();
   }
 
   /** Another tablet with the page at an address. */

@@ -1,0 +1,82 @@
+import { beforeAll, describe, expect, test } from "vitest";
+import { compare, distance, keep, TOLERANCE, within, writes } from "./reference";
+import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+const PORTRAIT: Screen = { width: 834, height: 1194, detail: 0.5 };
+/** The tree from the front and a little above, the same on every machine. */
+const VIEW = "?yaw=20&pitch=8&zoom=0.9";
+const TREE = [
+  { kind: "set_parameters", parameters: { leaves_per_node: 3, trunk_upward: true } },
+  { kind: "grow", steps: 12 },
+];
+
+let address = "";
+
+beforeAll(async () => {
+  address = await workshop.server.newSession(5);
+  await workshop.act(address, TREE);
+});
+
+/** A tablet that looks at the tree. */
+async function looking(screen: Screen): Promise<Tablet> {
+  const tablet = await workshop.open(address + VIEW, screen);
+  await tablet.until("the tree is there", ({ metamers }) => metamers > 100);
+  return tablet;
+}
+
+/** That the page looks as it is known to, and nothing of it is missing. */
+async function expectKnown(tablet: Tablet, name: string): Promise<void> {
+  const picture = await tablet.photograph(`reference-${name}`);
+  if (writes) await keep(workshop.darkroom, picture, name);
+  const apart = await compare(workshop.darkroom, picture, name);
+  expect(within(apart), `${name} differs by ${JSON.stringify(apart)}, of ${JSON.stringify(TOLERANCE)}`).toBe(true);
+}
+
+describe("pictures as they are known", () => {
+  test("the workspace with a tree, upright too", async () => {
+    await expectKnown(await looking(LANDSCAPE), "landscape");
+    await expectKnown(await looking(PORTRAIT), "portrait");
+  });
+
+  test("each panel beside the tree", async () => {
+    const tablet = await looking(LANDSCAPE);
+    for (const panel of ["Architecture", "Brush", "Leaves", "Branches", "Background"]) {
+      await tablet.tap(panel);
+      if (panel === "Architecture") {
+        // Pictures of species come when they come.
+        await tablet.page.getByRole("tab", { name: "Form" }).tap();
+        await tablet.page.locator('.schematic[data-grown="true"]').waitFor();
+      }
+      await expectKnown(tablet, panel.toLowerCase());
+      await tablet.tap(panel);
+    }
+  });
+
+  test("light and order in false colours", async () => {
+    const tablet = await looking(LANDSCAPE);
+    for (const [mode, name] of [
+      ["Light", "exposure"],
+      ["Order", "order"],
+      ["Skeleton", "skeleton"],
+    ] as const) {
+      await tablet.tap("Way of drawing");
+      await tablet.page.getByRole("button", { name: mode, exact: true }).tap();
+      await expectKnown(tablet, name);
+    }
+  });
+
+  test("a black, an empty and another picture are told", async () => {
+    const tablet = await looking(LANDSCAPE);
+    const tree = await tablet.photograph("reference-told");
+    const black = { ...tree, pixels: tree.pixels.map((value, i) => (i % 4 === 3 ? value : 0)) };
+    expect(within(await compare(workshop.darkroom, black, "landscape"))).toBe(false);
+    const { tablet: bare } = await workshop.fresh(LANDSCAPE);
+    const empty = await bare.photograph("reference-empty");
+    expect(within(await compare(workshop.darkroom, empty, "landscape"))).toBe(false);
+    expect(within(await compare(workshop.darkroom, tree, "portrait"))).toBe(false);
+    expect(distance(tree, tree)).toEqual({ mean: 0, worst: 0 });
+  });
+});
