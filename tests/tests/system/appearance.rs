@@ -10,7 +10,7 @@ use tokio_tungstenite::tungstenite::Message;
 
 fn season(season: f32, gesture: Option<u32>) -> Command {
     let leaves = LeafLook { season, ..Appearance::default().leaves };
-    let appearance = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
+    let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
     Command::SetAppearance { appearance, gesture }
 }
 
@@ -55,8 +55,11 @@ async fn looks_outlive_a_kill_and_go_with_saved_trees() {
     let bark = BarkLook { kind: BarkKind::Papery, ..Appearance::default().bark };
     let mut background = Appearance::default().background;
     background.sky = Sky::Overcast;
-    let appearance =
-        AppearancePatch { bark: Some(bark), background: Some(background), ..AppearancePatch::default() };
+    let appearance = AppearancePatch {
+        bark: Some(bark.into()),
+        background: Some(background.into()),
+        ..AppearancePatch::default()
+    };
     client.send(Command::Grow { steps: 4, gesture: None, bud: None }).await;
     client.send(Command::SetAppearance { appearance, gesture: None }).await;
     client.until_settled().await;
