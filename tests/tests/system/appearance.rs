@@ -94,7 +94,6 @@ async fn bad_looks_are_refused_by_name_and_change_nothing() {
         (leaves(r#""season":1e39,"orientation":0"#), "appearance.leaves.season", "0 to 3"),
         (leaves(r#""season":1,"orientation":"up""#), "appearance.leaves.orientation", "-1 to 1"),
         (r#"{"leaves":null}"#.into(), "appearance.leaves", ""),
-        (r#"{"leaves":{"season":1}}"#.into(), "appearance.leaves", ""),
         (r#"{"petals":{}}"#.into(), "appearance", ""),
         (leaves(r#""season":1,"orientation":0,"smell":1"#), "appearance.leaves", "`smell`"),
         (r#"{"background":{"backdrop":[0,300,0]}}"#.into(), "appearance.background.backdrop", "0 to 255"),
