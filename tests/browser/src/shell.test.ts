@@ -251,6 +251,10 @@ describe("a first run", () => {
     const { tablet } = await workshop.fresh(SMALL);
     const { page } = tablet;
     const shown = async (query: string, topic: string) => {
+      // A sheet that has just gone keeps the keys to itself until the next frame.
+      await page.evaluate(
+        () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))),
+      );
       await page.keyboard.press("Shift+?");
       const help = page.getByRole("dialog");
       await help.getByRole("searchbox").fill(query);
@@ -262,8 +266,10 @@ describe("a first run", () => {
     };
     // Who reads English may know the German word.
     await shown("Bibliothek", "Library");
-    await page.getByRole("dialog", { name: "Library" }).waitFor();
+    const library = page.getByRole("dialog", { name: "Library" });
+    await library.waitFor();
     await page.keyboard.press("Escape");
+    await library.waitFor({ state: "detached" });
     await shown("shears", "Prune");
     expect((await tablet.facts()).tool).toBe("prune");
     await shown("mature", "Dominance when mature");
