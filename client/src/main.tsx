@@ -24,5 +24,8 @@ const root = document.getElementById("app");
 if (!root) {
   throw new Error("index.html has no element #app.");
 }
-render(<App studio={new Studio()} />, root);
+const studio = new Studio();
+// The server is asked first: it answers while the browser makes its picture ready.
+void studio.start();
+render(<App studio={studio} />, root);
 keepShell();

@@ -25,6 +25,7 @@ export class Stage {
   /** What a picture made later begins with. */
   #appearance: Appearance | null = null;
   #mode: DrawMode = "lit";
+  #look: View | null = null;
   #holds = new Holds((held) => this.#view?.hold(held));
 
   /** `busy` tells whether a tool shows itself, which the radius then must not. */
@@ -42,6 +43,12 @@ export class Stage {
     }
     view.setDrawMode(this.#mode);
     view.hold(this.#holds.held);
+    if (this.#table.rows > 0) {
+      view.changed();
+    }
+    if (this.#look) {
+      view.look(this.#look);
+    }
   }
 
   detach(): void {
@@ -96,6 +103,7 @@ export class Stage {
   }
 
   look(view: View): void {
+    this.#look = view;
     this.#view?.look(view);
   }
 

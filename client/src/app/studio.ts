@@ -1,5 +1,5 @@
 import { batch, signal } from "@preact/signals";
-import { viewIn } from "../scene/camera/view";
+import { viewIn, WHOLE } from "../scene/camera/view";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { axisStart } from "../scene/table/branch-rows";
 import { TreeTable } from "../scene/table/tree-table";
@@ -422,11 +422,10 @@ export class Studio {
     if (!this.#framed && this.table.rows > 0) {
       this.#framed = true;
       // A page opens with a view that suits a seed; a tree that is there already is shown as a whole.
-      const view = viewIn(location.search);
+      const grown = this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0);
+      const view = viewIn(location.search) ?? (grown ? WHOLE : null);
       if (view) {
         this.stage.look(view);
-      } else if (this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0)) {
-        this.stage.frameTree();
       }
     }
   }

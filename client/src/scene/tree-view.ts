@@ -79,10 +79,9 @@ export class TreeView {
     for (const textures of this.textures) textures.ripen();
   }
 
-  /** What nearly every tree has, for its shaders to be made before there is one. */
+  /** What nearly every tree has, for all it takes on the graphics card to be made before there is one. */
   get essential(): readonly Mesh[] {
-    const { branches, foliage } = this;
-    return [...branches.meshes, ...foliage.meshes.slice(0, 1), ...branches.casters, ...foliage.casters.slice(0, 1)];
+    return [...this.branches.essential, ...this.foliage.essential];
   }
 
   /** How far leaves have given way to sprigs, 0 to 1. */
@@ -113,9 +112,10 @@ export class TreeView {
     for (const { material } of this.solids()) material.wireframe = mode === "wireframe";
   }
 
-  /** Takes over what changed; says whether rows did. */
-  sync(): boolean {
+  /** Takes over what changed, to be seen from there; says whether rows did. */
+  sync(fineness: Fineness): boolean {
     const { table, tableChanged } = this;
+    this.branches.lookFrom(fineness);
     if (tableChanged) this.syncTable();
     this.traits.upload(table);
     if (tableChanged || this.guisesChanged) this.syncGuises(tableChanged);
@@ -149,6 +149,7 @@ export class TreeView {
   private syncTable(): void {
     this.tableChanged = false;
     const { table } = this;
+    const now = table.now();
     this.nodes.reserve(table.rows);
     table.drain(
       (rows) => {
@@ -159,7 +160,7 @@ export class TreeView {
       },
       (row, bits) => {
         const moved = (bits & Dirty.Shape) !== 0;
-        this.noteRadius(row, this.guises.wornBy(row));
+        this.noteRadius(row, this.guises.wornBy(row), now);
         this.nodes.write(table, row);
         this.branches.update(table, row);
         this.traits.update(row, moved);
@@ -174,17 +175,17 @@ export class TreeView {
   private syncGuises(tableChanged: boolean): void {
     const { table } = this;
     this.guisesChanged = false;
+    const now = table.now();
     if (tableChanged) this.guises.settle(table);
     const dressed = this.guises.dress(
       table,
       (row, slot, before) => {
-        this.noteRadius(row, before);
+        this.noteRadius(row, before, now);
         this.nodes.dress(table, row, slot);
       },
       tableChanged,
     );
     if (!dressed) this.guises.write(table);
-    const now = table.now();
     this.radii.begin(
       now,
       (row) => this.guises.radiusIn(this.guises.wornBy(row), table.girth.radius[row]!),
@@ -194,9 +195,10 @@ export class TreeView {
   }
 
   /** A row is about to change; until now it was drawn with what this slot makes of its radius. */
-  private noteRadius(row: number, slot: number): void {
+  private noteRadius(row: number, slot: number, now: number): void {
+    if (!this.nodes.shows(row)) return;
     const worn = (radius: number) => this.guises.radiusIn(slot, radius);
-    this.radii.note(row, this.nodes.shownRadius(row, this.table.now(), worn));
+    this.radii.note(row, this.nodes.shownRadius(row, now, worn));
   }
 
   /** Axes alone are lines, and cast no shadow as wide as the branches they stand for. */

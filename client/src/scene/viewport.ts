@@ -7,6 +7,8 @@ import { pixelsPerInternode, Sight } from "./camera/sight";
 import type { View } from "./camera/view";
 import type { Fineness } from "./frame/fineness";
 import { FrameLoop, type FrameTime } from "./frame/frame-loop";
+import { OPENING } from "./frame/quality";
+import { Rehearsal } from "./frame/rehearsal";
 import { Screen } from "./frame/screen";
 import { encodePicture } from "./frame/thumbnail";
 import { Ghost, type GhostPose } from "./guise/ghost";
@@ -50,6 +52,7 @@ export class Viewport {
   private readonly ghost: Ghost;
   private readonly screen: Screen;
   private readonly frames: FrameLoop;
+  private readonly rehearsal: Rehearsal;
   private readonly resizing: ResizeObserver;
   private readonly eye = new Vector4();
   private drawMode: DrawMode = "lit";
@@ -72,7 +75,9 @@ export class Viewport {
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
-    this.screen = new Screen(this.renderer);
+    // Asked for later, its answer would wait for all that is drawn by then.
+    this.renderer.capabilities.getMaxAnisotropy();
+    this.screen = new Screen(this.renderer, OPENING);
     this.uniforms.uTime = { value: 0 };
     this.uniforms.uLeafSize = { value: 0.7 };
     this.uniforms.uNoise = { value: this.noise.space };
@@ -100,8 +105,8 @@ export class Viewport {
     this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
-    // While the page waits for its rows the graphics card makes what they are drawn with.
-    for (const mesh of this.tree.essential) this.renderer.compile(mesh, this.sight.camera, this.scene);
+    const essential = [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
+    this.rehearsal = new Rehearsal(this.renderer, essential, () => this.frames.invalidate());
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.resize();
@@ -112,6 +117,7 @@ export class Viewport {
     this.tree.changed();
     if (this.empty && this.table.rows > 0) {
       this.empty = false;
+      this.painter.begun = true;
       this.frames.control.open(performance.now());
     }
     this.frames.invalidate();
@@ -353,7 +359,7 @@ export class Viewport {
 
   private readonly draw = ({ began, step, asked }: FrameTime): boolean => {
     // What changes meanwhile is taken over once there is something to draw on.
-    if (this.lost) return false;
+    if (this.lost || !this.rehearsal.prepare()) return false;
     const { control } = this.frames;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
@@ -374,6 +380,11 @@ export class Viewport {
     this.shadowStale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
     this.unsettled = this.refine(this.screen.size.y, quality.detailed ? 1 : 0);
+    if (this.empty)
+      this.rehearsal.play(() => {
+        this.drawShadow();
+        this.drawScene();
+      });
     // Shadows are those of the leaves that are drawn, near enough.
     const { merged } = this.tree;
     this.shadowStale ||= growing || Math.abs(merged - this.mergedShadow) > MERGED_STEP;
@@ -390,17 +401,22 @@ export class Viewport {
 
   /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
   private refine(height: number, ease: number, distance = this.rig.pose.distance): boolean {
-    const { position } = this.sight.camera;
-    const fineness: Fineness = { eye: [position.x, position.y, position.z], pixels: pixelsPerInternode(height), ease };
+    const fineness = this.fineness(height, ease);
     this.eye.set(...fineness.eye, fineness.pixels);
     this.uniforms.uShadowTaps!.value = ease > 0.5 ? 3 : 1;
     this.environment.reach(distance);
     return this.tree.detail(fineness, this.frames.control.resting);
   }
 
+  private fineness(height: number, ease: number): Fineness {
+    const { position } = this.sight.camera;
+    return { eye: [position.x, position.y, position.z], pixels: pixelsPerInternode(height), ease };
+  }
+
   /** Takes over what changed in the table. */
   private sync(): void {
-    if (!this.tree.sync()) return;
+    this.aimed();
+    if (!this.tree.sync(this.fineness(this.screen.size.y, 1))) return;
     this.shadowStale = true;
     this.environment.update(this.table);
     this.rig.keep(this.reach());

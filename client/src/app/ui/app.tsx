@@ -87,8 +87,6 @@ function Workspace({ studio }: { studio: Studio }) {
     if (!canvas.current) {
       return undefined;
     }
-    // The server is asked first: it answers while the browser makes its picture ready.
-    void studio.start();
     return attachWorkspace(studio, canvas.current);
   }, [studio]);
   return (

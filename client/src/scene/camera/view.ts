@@ -11,16 +11,17 @@ export interface View {
   readonly up: number;
 }
 
-const DEFAULT: View = { yaw: 0, pitch: -4.6, zoom: 1, right: 0, up: 0 };
+/** The whole tree from its front. */
+export const WHOLE: View = { yaw: 0, pitch: -4.6, zoom: 1, right: 0, up: 0 };
 const LEAST_ZOOM = 0.2;
 const MOST_ZOOM = 20;
-const NAMES = Object.keys(DEFAULT) as (keyof View)[];
+const NAMES = Object.keys(WHOLE) as (keyof View)[];
 
 /** The view that the query of an address asks for, as `?yaw=30&pitch=10&zoom=1.5`; null if it asks for none. */
 export function viewIn(query: string): View | null {
   const asked = new URLSearchParams(query);
   if (!NAMES.some((name) => asked.has(name))) return null;
-  const view: { -readonly [name in keyof View]: number } = { ...DEFAULT };
+  const view: { -readonly [name in keyof View]: number } = { ...WHOLE };
   for (const name of NAMES) {
     const value = Number.parseFloat(asked.get(name) ?? "");
     if (Number.isFinite(value)) view[name] = value;

@@ -72,6 +72,11 @@ export class Foliage {
     this.sprigs.detail(fineness, box, this.leaves);
   }
 
+  /** What nearly every tree bears. */
+  get essential(): readonly Mesh[] {
+    return [this.leaves, this.sprigs].flatMap(({ mesh, caster }) => [mesh, caster]);
+  }
+
   /** How far leaves have given way to sprigs, 0 to 1; shadows are those of what is drawn. */
   get merged(): number {
     return this.sprigs.share;

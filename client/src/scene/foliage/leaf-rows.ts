@@ -60,11 +60,11 @@ export class LeafRows {
     const parent = table.parent[row]!;
     const foliage = table.foliage[row]!;
     const count = table.radiusCode[row] !== 0 && parent >= 0 ? foliage & 15 : 0;
-    this.instances.place(row, parent, foliage >> 4, count, (k) => [
-      leafAzimuth(row, k, count),
-      (k + 1) / count,
-      leafRandom(row, k),
-    ]);
+    const first = this.instances.place(row, count);
+    for (let k = 0; k < count; k += 1) {
+      const azimuth = leafAzimuth(row, k, count);
+      this.instances.write(first + k, row, parent, azimuth, (k + 1) / count, foliage >> 4, leafRandom(row, k));
+    }
   }
 
   /** Chooses triangles by how large the nearest leaf in the box may be on the screen, and how many leaves may be drawn. */

@@ -123,11 +123,12 @@ export class Ornaments<Look extends OrnamentLook> {
     if (!look || this.stale) return;
     const count = kind && isBearing(table, row, look, sort.salt) ? this.together : 0;
     if (count === instances.countOf(row) && (count === 0 || (bits & Dirty.Shape) === 0)) return;
-    instances.place(row, table.parent[row]!, table.foliage[row]! >> 4, count, (k) => [
-      leafAzimuth(row, k, count) + (sort.salt % 7),
-      (k + 1) / count,
-      leafRandom(row ^ sort.salt, k),
-    ]);
+    const [parent, vigor] = [table.parent[row]!, table.foliage[row]! >> 4];
+    const first = instances.place(row, count);
+    for (let k = 0; k < count; k += 1) {
+      const azimuth = leafAzimuth(row, k, count) + (sort.salt % 7);
+      instances.write(first + k, row, parent, azimuth, (k + 1) / count, vigor, leafRandom(row ^ sort.salt, k));
+    }
   }
 
   /** Has three.js upload what was written since the last call. */

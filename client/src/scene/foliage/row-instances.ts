@@ -61,29 +61,33 @@ export class RowInstances {
     return this.slots.countOf(row);
   }
 
-  /** Has a row bear `count` things; `at` says for each its azimuth, its share of the way, and a random number. */
-  place(
-    row: number,
-    parent: number,
-    vigor: number,
-    count: number,
-    at: (k: number) => readonly [azimuth: number, along: number, random: number],
-  ): void {
+  /** Has a row bear `count` things, and gives back the slot of the first; each is then to be written. */
+  place(row: number, count: number): number {
     this.slots.assign(row, count, this.clear);
-    if (count === 0) return;
+    if (count === 0) return NOTHING;
     const first = this.slots.firstOf(row);
     this.reserve(this.slots.end);
-    const { instances } = this;
-    for (let k = 0; k < count; k += 1) {
-      const to = (first + k) * STRIDE;
-      const [azimuth, along, random] = at(k);
-      instances[to] = row;
-      instances[to + 1] = parent;
-      instances[to + 2] = azimuth;
-      instances[to + 3] = along;
-      instances[to + TINT] = vigor + Math.min(random, 0.999);
-    }
     this.touch(first, count);
+    return first;
+  }
+
+  /** Writes what a row bears in a slot: its azimuth, its share of the way along, the row's vigor and a random number. */
+  write(
+    slot: number,
+    row: number,
+    parent: number,
+    azimuth: number,
+    along: number,
+    vigor: number,
+    random: number,
+  ): void {
+    const { instances } = this;
+    const to = slot * STRIDE;
+    instances[to] = row;
+    instances[to + 1] = parent;
+    instances[to + 2] = azimuth;
+    instances[to + 3] = along;
+    instances[to + TINT] = vigor + Math.min(random, 0.999);
   }
 
   /** Has three.js upload what was written since the last call. */

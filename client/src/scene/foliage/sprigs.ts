@@ -79,10 +79,12 @@ export class Sprigs {
     const leaves = table.radiusCode[row] !== 0 && parent >= 0 ? foliage & 15 : 0;
     const count = sprigsOf(place, leaves);
     if (count === 0 && this.instances.countOf(row) === 0) return;
-    this.instances.place(row, parent, foliage >> 4, count, (i) => {
+    const first = this.instances.place(row, count);
+    for (let i = 0; i < count; i += 1) {
       const k = (leafHash(16 * row + CHOICE) + i) % leaves;
-      return [leafAzimuth(row, k, leaves), (k + 1) / leaves, leafRandom(row, k)];
-    });
+      const azimuth = leafAzimuth(row, k, leaves);
+      this.instances.write(first + i, row, parent, azimuth, (k + 1) / leaves, foliage >> 4, leafRandom(row, k));
+    }
   }
 
   /** Chooses, from where the box is seen, how far its leaves give way; those that are wholly gone are not drawn. */

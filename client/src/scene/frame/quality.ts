@@ -18,8 +18,9 @@ export const QUALITIES: readonly [Quality, ...Quality[]] = [
   { scale: 0.35, smooth: false, shadowEvery: Number.POSITIVE_INFINITY, detailed: false },
 ];
 
+const OPENING_LEVEL = 2;
 /** What a page opens with: something is to be seen soon, and the rest of it comes over that. */
-const OPENING = 2;
+export const OPENING: Quality = QUALITIES[OPENING_LEVEL]!;
 /** How long nothing moves before the whole quality comes back, in milliseconds. */
 export const REST_AFTER = 250;
 /** Frames that take longer than this are slow; a display that shows only 30 a second is not. */
@@ -58,7 +59,7 @@ export class QualityControl {
   /** The first picture is about to be drawn. */
   open(now: number): void {
     this.moved(now);
-    this.level = OPENING;
+    this.level = OPENING_LEVEL;
     this.opening = true;
   }
 

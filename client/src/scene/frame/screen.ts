@@ -12,6 +12,7 @@ import {
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
+import type { Quality } from "./quality";
 
 const SAMPLES = 4;
 
@@ -71,12 +72,18 @@ export class Screen {
   private width = 1;
   private height = 1;
   private ratio = 1;
-  private scale = 1;
-  private smooth = true;
+  private scale: number;
+  private smooth: boolean;
   /** Whether the last picture is in the target still. */
   private kept = false;
 
-  constructor(private readonly renderer: WebGLRenderer) {
+  /** The quality is that of the first picture. */
+  constructor(
+    private readonly renderer: WebGLRenderer,
+    { scale, smooth }: Pick<Quality, "scale" | "smooth">,
+  ) {
+    this.scale = scale;
+    this.smooth = smooth;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
     this.whole = new Mesh(geometry, this.material);

@@ -91,6 +91,11 @@ export class Sun {
     this.sheet.add(this.whole);
   }
 
+  /** What softens shadows, for it to be made before there are any. */
+  get essential(): readonly Mesh[] {
+    return [this.whole];
+  }
+
   /** Makes the map as fine as a picture of so many pixels along its longer side can show; says whether it is another. */
   fit(pixels: number): boolean {
     const size = Math.min(Math.max(2 ** Math.ceil(Math.log2(pixels)), MAP_SIZES[0]), MAP_SIZES[1]);

@@ -8,13 +8,15 @@ import type { Painter } from "./painter";
 describe("textures", () => {
   let orders: { order: Order; done: (painted: Levels[]) => void; off: boolean }[];
   let textures: GradualTextures<"bark">;
+  let painter: Pick<Painter, "begun" | "order">;
   const shown = () => textures.drawn[0]!.colour.value as DataTexture;
   const side = () => (shown().image as { width: number }).width;
   const finish = () => orders.at(-1)!.done(paint({ ...orders.at(-1)!.order, coarse: false }));
 
   beforeEach(() => {
     orders = [];
-    const painter = {
+    painter = {
+      begun: true,
       order: (order: Order, done: (painted: Levels[]) => void) => {
         const entry = { order, done, off: false };
         orders.push(entry);
@@ -22,14 +24,22 @@ describe("textures", () => {
           entry.off = true;
         };
       },
-    } as unknown as Painter;
-    textures = new GradualTextures("bark", painter);
+    };
+    textures = new GradualTextures("bark", painter as unknown as Painter);
     textures.choose("papery");
   });
 
   it("are not painted before they are drawn with", () => {
     expect(orders).toEqual([]);
     expect(textures.unfinished).toBe(false);
+  });
+
+  it("are blank while nothing is to be seen", () => {
+    painter.begun = false;
+    expect(side()).toBe(1);
+    expect(orders).toEqual([]);
+    painter.begun = true;
+    expect(side()).toBe(64);
   });
 
   it("are coarse at once and whole when the time is right", () => {

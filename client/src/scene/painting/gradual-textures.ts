@@ -17,6 +17,8 @@ interface Pair {
   readonly span: number;
 }
 
+const BLANK: Levels = { colour: [new Uint8Array(4)], relief: [new Uint8Array(4)] };
+
 interface Options {
   /** Whether the picture goes on without a seam beyond its edges. */
   readonly tiling?: boolean;
@@ -27,7 +29,7 @@ interface Options {
 }
 
 /**
- * Pictures of one kind as textures: coarse ones the moment they are drawn with, and the whole ones in their place once
+ * Pictures of one kind as textures: blank ones until the painter begins, coarse ones the moment they are drawn with, and the whole ones in their place once
  * they have been painted and the time is right. A restored context gets them from memory again.
  */
 export class GradualTextures<S extends Sort> {
@@ -37,6 +39,8 @@ export class GradualTextures<S extends Sort> {
   private kind: Kinds[S] | null = null;
   private pairs: Pair[] | null = null;
   private finer: Levels[] | null = null;
+  /** What is drawn with while nothing is to be seen: the graphics card can tell what will be asked of it. */
+  private blank: Pair[] | null = null;
   private callOff: (() => void) | null = null;
 
   constructor(
@@ -77,7 +81,7 @@ export class GradualTextures<S extends Sort> {
 
   /** A restored context has lost them. */
   restored(): void {
-    for (const { colour, relief } of this.pairs ?? []) {
+    for (const { colour, relief } of this.held()) {
       colour.needsUpdate = true;
       relief.needsUpdate = true;
     }
@@ -88,8 +92,13 @@ export class GradualTextures<S extends Sort> {
     this.callOff?.();
     this.callOff = null;
     this.finer = null;
-    for (const pair of this.pairs ?? []) letGo(pair);
+    for (const pair of this.held()) letGo(pair);
     this.pairs = null;
+    this.blank = null;
+  }
+
+  private held(): Pair[] {
+    return [...(this.pairs ?? []), ...(this.blank ?? [])];
   }
 
   private uniforms(i: number): Drawn {
@@ -114,6 +123,10 @@ export class GradualTextures<S extends Sort> {
   }
 
   private painted(): Pair[] {
+    if (!this.painter.begun) {
+      this.blank ??= this.drawn.map(() => this.pairOf(BLANK));
+      return this.blank;
+    }
     if (!this.pairs) {
       this.pairs = paint(this.order(true)).map((levels) => this.pairOf(levels));
       this.callOff = this.painter.order(this.order(false), (finer) => {

@@ -16,6 +16,8 @@ interface Job {
 
 /** Paints beside the page, so that no frame waits for it; where no worker is to be had, on the page after all. */
 export class Painter {
+  /** Whether anything is to be seen; before that, nobody is to wait for pictures. */
+  begun = false;
   private hand: Hand | null = null;
   private broken = false;
   private current: Job | null = null;

@@ -23,103 +23,131 @@ const MIN_LENGTH = 1e-6;
 /** A vector with less of itself than this across an axis, squared, says nothing about which way is across. */
 const MIN_ACROSS = 1e-4;
 
+// What is computed for one row after the other lies in the same few places: a large tree would leave a dozen vectors a row
+// to be collected, while the page waits for its first picture.
+const TANGENT: Vector = [0, 0, 0];
+const NORMAL: Vector = [0, 0, 0];
+const BEARER: Vector = [0, 0, 0];
+const STEP: Vector = [0, 0, 0];
+const OUTGOING: Vector = [0, 0, 0];
+
 /** Writes the frame of `row` into `frames` (x y z w per row); says whether it moved noticeably. */
 export function updateFrame(skeleton: Skeleton, frames: Float32Array, row: number): boolean {
-  const tangent = nodeTangent(skeleton, row);
-  const parent = skeleton.parent[row]!;
-  return writeFrame(frames, row, normalAt(skeleton, frames, row, parent, tangent), tangent);
-}
-
-/** A lateral takes its normal from the axis that bears it, so that its bark turns with what bears it. */
-function normalAt(skeleton: Skeleton, frames: Float32Array, row: number, parent: number, tangent: Vector): Vector {
-  if (parent < 0 || skeleton.parent[parent]! < 0) return anyNormal(tangent);
-  const normal = normalOf(frames, parent);
-  if (skeleton.startsAxis[row] === 1) return perpendicular(normal, tangent);
-  return transported(skeleton.position, parent, row, normal, tangentOf(frames, parent), tangent);
-}
-
-/** The direction of the tube at a node: the mean of the metamer that ends there and the one that goes on. */
-export function nodeTangent(skeleton: Skeleton, row: number): Vector {
-  const { position, parent, successor } = skeleton;
-  const before = parent[row]!;
-  const after = successor[row]!;
-  const incoming = before >= 0 ? direction(position, before, row) : null;
-  const outgoing = after >= 0 ? direction(position, row, after) : null;
-  if (incoming && outgoing) {
-    const mean = normalised(add(incoming, outgoing));
-    // An axis that doubles back on itself has no mean direction; it keeps the incoming one.
-    return mean ?? incoming;
-  }
-  return incoming ?? outgoing ?? [0, 1, 0];
+  toNodeTangent(TANGENT, skeleton, row);
+  toNormal(NORMAL, skeleton, frames, row, TANGENT);
+  return writeFrame(frames, row, NORMAL, TANGENT);
 }
 
 /** The third column of a frame: its tangent. */
-export function tangentOf(frames: Float32Array, row: number): Vector {
-  const [x, y, z, w] = quaternion(frames, row);
-  return [2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)];
+export function tangentOf(frames: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
+  const at = 4 * row;
+  const [x, y, z, w] = [frames[at]!, frames[at + 1]!, frames[at + 2]!, frames[at + 3]!];
+  out[0] = 2 * (x * y - w * z);
+  out[1] = 1 - 2 * (x * x + z * z);
+  out[2] = 2 * (y * z + w * x);
+  return out;
 }
 
 /** The first column of a frame: its normal. */
-export function normalOf(frames: Float32Array, row: number): Vector {
-  const [x, y, z, w] = quaternion(frames, row);
-  return [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)];
+export function normalOf(frames: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
+  const at = 4 * row;
+  const [x, y, z, w] = [frames[at]!, frames[at + 1]!, frames[at + 2]!, frames[at + 3]!];
+  out[0] = 1 - 2 * (y * y + z * z);
+  out[1] = 2 * (x * y + w * z);
+  out[2] = 2 * (x * z - w * y);
+  return out;
 }
 
-function quaternion(frames: Float32Array, row: number): [number, number, number, number] {
-  const at = 4 * row;
-  return [frames[at]!, frames[at + 1]!, frames[at + 2]!, frames[at + 3]!];
+/** The direction of the tube at a node: the mean of the metamer that ends there and the one that goes on. */
+function toNodeTangent(out: Vector, { position, parent, successor }: Skeleton, row: number): void {
+  const [before, after] = [parent[row]!, successor[row]!];
+  const comes = before >= 0 && toDirection(out, position, before, row);
+  const goes = after >= 0 && toDirection(OUTGOING, position, row, after);
+  if (comes && goes) {
+    const [x, y, z] = [out[0] + OUTGOING[0], out[1] + OUTGOING[1], out[2] + OUTGOING[2]];
+    const length = Math.hypot(x, y, z);
+    // An axis that doubles back on itself has no mean direction; it keeps the incoming one.
+    if (length >= MIN_LENGTH) set(out, x / length, y / length, z / length);
+  } else if (goes) {
+    set(out, OUTGOING[0], OUTGOING[1], OUTGOING[2]);
+  } else if (!comes) {
+    set(out, 0, 1, 0);
+  }
+}
+
+/** A lateral takes its normal from the axis that bears it, so that its bark turns with what bears it. */
+function toNormal(out: Vector, skeleton: Skeleton, frames: Float32Array, row: number, tangent: Vector): void {
+  const parent = skeleton.parent[row]!;
+  if (parent < 0 || skeleton.parent[parent]! < 0) {
+    toAnyNormal(out, tangent);
+    return;
+  }
+  normalOf(frames, parent, out);
+  if (skeleton.startsAxis[row] === 0) {
+    transport(out, skeleton.position, parent, row, tangentOf(frames, parent, BEARER), tangent);
+  }
+  makePerpendicular(out, tangent);
 }
 
 /** Double reflection: first across the plane between the nodes, then across the one between the tangents. */
-function transported(
+function transport(
+  normal: Vector,
   position: Float32Array,
   from: number,
   to: number,
-  normal: Vector,
   fromTangent: Vector,
   toTangent: Vector,
-): Vector {
-  const step = difference(position, from, to);
-  const c1 = dot(step, step);
-  if (c1 < MIN_LENGTH * MIN_LENGTH) return perpendicular(normal, toTangent);
-  const reflectedNormal = subtract(normal, scale(step, (2 / c1) * dot(step, normal)));
-  const reflectedTangent = subtract(fromTangent, scale(step, (2 / c1) * dot(step, fromTangent)));
-  const turn = subtract(toTangent, reflectedTangent);
+): void {
+  toDifference(STEP, position, from, to);
+  const c1 = dot(STEP, STEP);
+  if (c1 < MIN_LENGTH * MIN_LENGTH) return;
+  takeAway(normal, STEP, (2 / c1) * dot(STEP, normal));
+  takeAway(fromTangent, STEP, (2 / c1) * dot(STEP, fromTangent));
+  const turn = STEP;
+  set(turn, toTangent[0] - fromTangent[0], toTangent[1] - fromTangent[1], toTangent[2] - fromTangent[2]);
   const c2 = dot(turn, turn);
-  if (c2 < MIN_LENGTH * MIN_LENGTH) return perpendicular(reflectedNormal, toTangent);
-  return perpendicular(subtract(reflectedNormal, scale(turn, (2 / c2) * dot(turn, reflectedNormal))), toTangent);
+  if (c2 < MIN_LENGTH * MIN_LENGTH) return;
+  takeAway(normal, turn, (2 / c2) * dot(turn, normal));
 }
 
-/** `vector` made perpendicular to a unit `tangent`. */
-function perpendicular(vector: Vector, tangent: Vector): Vector {
-  const across = subtract(vector, scale(tangent, dot(vector, tangent)));
-  return dot(across, across) < MIN_ACROSS ? anyNormal(tangent) : (normalised(across) ?? anyNormal(tangent));
+/** Makes a vector perpendicular to a unit `tangent`, of length 1. */
+function makePerpendicular(vector: Vector, tangent: Vector): void {
+  takeAway(vector, tangent, dot(vector, tangent));
+  if (dot(vector, vector) < MIN_ACROSS) toAnyNormal(vector, tangent);
+  else normalise(vector);
 }
 
-function anyNormal(tangent: Vector): Vector {
-  const helper: Vector = Math.abs(tangent[0]) < 0.8 ? [1, 0, 0] : [0, 0, 1];
-  return normalised(subtract(helper, scale(tangent, dot(helper, tangent)))) ?? [1, 0, 0];
+function toAnyNormal(out: Vector, tangent: Vector): void {
+  if (Math.abs(tangent[0]) < 0.8) set(out, 1, 0, 0);
+  else set(out, 0, 0, 1);
+  takeAway(out, tangent, dot(out, tangent));
+  normalise(out);
 }
 
 /** The quaternion of the rotation whose columns are normal, tangent and normal × tangent. */
 function writeFrame(frames: Float32Array, row: number, n: Vector, t: Vector): boolean {
-  const b = cross(n, t);
-  const trace = n[0] + t[1] + b[2];
-  let [x, y, z, w] = [0, 0, 0, 1];
+  const bx = n[1] * t[2] - n[2] * t[1];
+  const by = n[2] * t[0] - n[0] * t[2];
+  const bz = n[0] * t[1] - n[1] * t[0];
+  const trace = n[0] + t[1] + bz;
   if (trace > 0) {
     const s = 2 * Math.sqrt(trace + 1);
-    [x, y, z, w] = [(t[2] - b[1]) / s, (b[0] - n[2]) / s, (n[1] - t[0]) / s, s / 4];
-  } else if (n[0] > t[1] && n[0] > b[2]) {
-    const s = 2 * Math.sqrt(1 + n[0] - t[1] - b[2]);
-    [x, y, z, w] = [s / 4, (t[0] + n[1]) / s, (b[0] + n[2]) / s, (t[2] - b[1]) / s];
-  } else if (t[1] > b[2]) {
-    const s = 2 * Math.sqrt(1 + t[1] - n[0] - b[2]);
-    [x, y, z, w] = [(t[0] + n[1]) / s, s / 4, (b[1] + t[2]) / s, (b[0] - n[2]) / s];
-  } else {
-    const s = 2 * Math.sqrt(1 + b[2] - n[0] - t[1]);
-    [x, y, z, w] = [(b[0] + n[2]) / s, (b[1] + t[2]) / s, s / 4, (n[1] - t[0]) / s];
+    return write(frames, row, (t[2] - by) / s, (bx - n[2]) / s, (n[1] - t[0]) / s, s / 4);
   }
-  // One of the two quaternions of a rotation: w is not negative, so that three numbers are enough to store it.
+  if (n[0] > t[1] && n[0] > bz) {
+    const s = 2 * Math.sqrt(1 + n[0] - t[1] - bz);
+    return write(frames, row, s / 4, (t[0] + n[1]) / s, (bx + n[2]) / s, (t[2] - by) / s);
+  }
+  if (t[1] > bz) {
+    const s = 2 * Math.sqrt(1 + t[1] - n[0] - bz);
+    return write(frames, row, (t[0] + n[1]) / s, s / 4, (by + t[2]) / s, (bx - n[2]) / s);
+  }
+  const s = 2 * Math.sqrt(1 + bz - n[0] - t[1]);
+  return write(frames, row, (bx + n[2]) / s, (by + t[2]) / s, s / 4, (n[1] - t[0]) / s);
+}
+
+/** One of the two quaternions of a rotation: w is not negative, so that three numbers are enough to store it. */
+function write(frames: Float32Array, row: number, x: number, y: number, z: number, w: number): boolean {
   const sign = w < 0 ? -1 : 1;
   const at = 4 * row;
   const moved =
@@ -134,39 +162,39 @@ function writeFrame(frames: Float32Array, row: number, n: Vector, t: Vector): bo
   return !(moved < 1e-6);
 }
 
-function difference(position: Float32Array, from: number, to: number): Vector {
-  return [
-    position[3 * to]! - position[3 * from]!,
-    position[3 * to + 1]! - position[3 * from + 1]!,
-    position[3 * to + 2]! - position[3 * from + 2]!,
-  ];
+function toDifference(out: Vector, position: Float32Array, from: number, to: number): void {
+  out[0] = position[3 * to]! - position[3 * from]!;
+  out[1] = position[3 * to + 1]! - position[3 * from + 1]!;
+  out[2] = position[3 * to + 2]! - position[3 * from + 2]!;
 }
 
-function direction(position: Float32Array, from: number, to: number): Vector | null {
-  return normalised(difference(position, from, to));
+/** Says whether there is one. */
+function toDirection(out: Vector, position: Float32Array, from: number, to: number): boolean {
+  toDifference(out, position, from, to);
+  return normalise(out);
 }
 
-function normalised(v: Vector): Vector | null {
+/** Says whether it could be. */
+function normalise(v: Vector): boolean {
   const length = Math.hypot(v[0], v[1], v[2]);
-  return length < MIN_LENGTH ? null : scale(v, 1 / length);
+  if (length < MIN_LENGTH) return false;
+  set(v, v[0] / length, v[1] / length, v[2] / length);
+  return true;
 }
 
-function add(a: Vector, b: Vector): Vector {
-  return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+/** Takes a multiple of one vector from another. */
+function takeAway(v: Vector, other: Vector, factor: number): void {
+  v[0] -= factor * other[0];
+  v[1] -= factor * other[1];
+  v[2] -= factor * other[2];
 }
 
-function subtract(a: Vector, b: Vector): Vector {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-function scale(a: Vector, factor: number): Vector {
-  return [a[0] * factor, a[1] * factor, a[2] * factor];
+function set(out: Vector, x: number, y: number, z: number): void {
+  out[0] = x;
+  out[1] = y;
+  out[2] = z;
 }
 
 function dot(a: Vector, b: Vector): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-function cross(a: Vector, b: Vector): Vector {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }

@@ -77,6 +77,11 @@ export class NodeTexture {
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
+  /** Whether anything has been shown of a row. */
+  shows(row: number): boolean {
+    return (this.texels[4 * TEXELS * row + 3] ?? 0) > 0;
+  }
+
   /**
    * The radius a row is shown with, given how a radius in the table is worn; 0 where nothing is shown, or where the
    * row is still growing out and its radius with it.

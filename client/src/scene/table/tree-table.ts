@@ -134,6 +134,7 @@ export class TreeTable implements Skeleton {
       throw new FrameError(`Frame ${frame.sequence} does not follow frame ${this.sequence}.`);
     }
     const cascade = new Cascade(this.rows);
+    this.reserve(rowsOf(frame));
     for (const change of frame.changes) {
       this.change(change, frame.sequence);
       cascade.shrinkTo(this.rows);
@@ -307,14 +308,9 @@ export class TreeTable implements Skeleton {
 
   private setPosition(row: number, dx: number, dy: number, dz: number): void {
     const parent = this.parent[row]!;
-    const offsets = [dx, dy, dz];
-    for (let axis = 0; axis < 3; axis += 1) {
-      const from = parent < 0 ? 0 : this.quantised[3 * parent + axis]!;
-      const value = from + offsets[axis]!;
-      if (Math.abs(value) > MAX_QUANTISED) throw new FrameError(`Row ${row} is too far from the origin.`);
-      this.quantised[3 * row + axis] = value;
-      this.position[3 * row + axis] = value / POSITION_STEPS;
-    }
+    this.setCoordinate(row, parent, 0, dx);
+    this.setCoordinate(row, parent, 1, dy);
+    this.setCoordinate(row, parent, 2, dz);
     this.markStale(row);
     this.moved[row] = 1;
     this.limbs.touch(row);
@@ -322,6 +318,13 @@ export class TreeTable implements Skeleton {
     if (parent < 0) return;
     this.markStale(parent);
     this.limbs.touch(parent);
+  }
+
+  private setCoordinate(row: number, parent: number, axis: number, offset: number): void {
+    const value = (parent < 0 ? 0 : this.quantised[3 * parent + axis]!) + offset;
+    if (Math.abs(value) > MAX_QUANTISED) throw new FrameError(`Row ${row} is too far from the origin.`);
+    this.quantised[3 * row + axis] = value;
+    this.position[3 * row + axis] = value / POSITION_STEPS;
   }
 
   /** Makes a living row that continues its parent's axis known to the parent. */
@@ -434,8 +437,8 @@ export class TreeTable implements Skeleton {
   private reserve(rows: number): void {
     if (rows > MAX_ROWS) throw new FrameError(`${rows} rows are more than a document can have.`);
     if (rows <= this.parent.length) return;
-    let room = Math.max(4 * CHUNK_ROWS, this.parent.length);
-    while (room < rows) room *= 2;
+    // Twice as many at least, so that a tree that grows on does not move each time.
+    const room = Math.max(4 * CHUNK_ROWS, 2 * this.parent.length, Math.ceil(rows / CHUNK_ROWS) * CHUNK_ROWS);
     this.position = grown(this.position, 3 * room);
     this.quantised = grown(this.quantised, 3 * room);
     this.parent = grown(this.parent, room);
@@ -459,4 +462,15 @@ export class TreeTable implements Skeleton {
     const { position, parent } = this;
     this.drawn = { position, parent, successor: this.limbs.onward, startsAxis: this.limbs.begins };
   }
+}
+
+/** How many rows a frame leaves at most in a table, as far as it adds any. */
+function rowsOf({ changes }: Frame): number {
+  let rows = 0;
+  for (const change of changes) {
+    const first = "chunk" in change ? change.chunk * CHUNK_ROWS : 0;
+    if (change.change === "replace") rows = Math.max(rows, first + change.rows.parent.length);
+    if (change.change === "append") rows = Math.max(rows, first + change.start + change.rows.parent.length);
+  }
+  return rows;
 }

@@ -1,5 +1,5 @@
 import { Vector3, Vector4 } from "three";
-import type { BarkKind, BarkLook } from "../../wire/generated";
+import { type BarkLook, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
 import type { Painter } from "../painting/painter";
@@ -11,7 +11,6 @@ const ANISOTROPY = 2;
 /** The bark that all wood wears, as uniforms. */
 export class Bark {
   readonly textures: GradualTextures<"bark">;
-  private kind: BarkKind | null = null;
   private readonly palette = { value: Array.from({ length: 5 }, () => new Vector3()) };
   /** Relief, root flare, collar, smoothing. */
   private readonly shape = { value: new Vector4(1, 1, 1, 1) };
@@ -23,17 +22,12 @@ export class Bark {
     uniforms.uBarkRelief = relief;
     uniforms.uBarkPalette = this.palette;
     uniforms.uBarkShape = this.shape;
-  }
-
-  /** Whether a bark has been chosen. */
-  get worn(): boolean {
-    return this.kind !== null;
+    this.wear(DEFAULT_APPEARANCE.bark);
   }
 
   wear(look: BarkLook): void {
     this.shape.value.set(look.relief, look.root_flare, look.collar, look.smoothing);
     for (const [i, colour] of barkPalette(look.kind, look.tint).entries()) this.palette.value[i]!.set(...colour);
-    this.kind = look.kind;
     this.textures.choose(look.kind);
   }
 

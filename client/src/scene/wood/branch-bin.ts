@@ -4,6 +4,7 @@ import { uploadRange } from "../upload-range";
 
 /** Row, parent's row, row at which the axis begins, flags. */
 const STRIDE = 4;
+const FLAGS = 3;
 
 /** Metamers drawn with the same shapes, in no order: a list of instances that several geometries share. */
 export class BranchBin {
@@ -22,6 +23,16 @@ export class BranchBin {
     const at = slot * STRIDE;
     const { instances } = this;
     return [instances[at]!, instances[at + 1]!, instances[at + 2]!, instances[at + 3]!];
+  }
+
+  flagsOf(slot: number): number {
+    return this.instances[slot * STRIDE + FLAGS]!;
+  }
+
+  setFlags(slot: number, flags: number): void {
+    if (this.flagsOf(slot) === flags) return;
+    this.instances[slot * STRIDE + FLAGS] = flags;
+    this.touch(slot);
   }
 
   /** Adds a metamer; returns its slot. */
@@ -45,7 +56,9 @@ export class BranchBin {
 
   /** Moves the metamer of a slot to the end of another list; returns the row that has moved into the slot, or −1. */
   moveTo(other: BranchBin, slot: number): number {
-    other.add(...this.read(slot));
+    const at = slot * STRIDE;
+    const { instances } = this;
+    other.add(instances[at]!, instances[at + 1]!, instances[at + 2]!, instances[at + FLAGS]!);
     return this.remove(slot);
   }
 

@@ -1,5 +1,5 @@
 import { type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
-import { type BarkLook, DEFAULT_APPEARANCE, RADIUS_LOG_STEP } from "../../wire/generated";
+import { type BarkLook, RADIUS_LOG_STEP } from "../../wire/generated";
 import { grown } from "../table/column";
 import { slopeCode } from "../table/girth";
 import type { TreeTable } from "../table/tree-table";
@@ -101,6 +101,12 @@ export class Branches {
     if (!strips) this.casters.push(mesh(ends, materials.branchDepth));
   }
 
+  /** One tube, one strip and one shadow: what nearly every tree has. */
+  get essential(): readonly Mesh[] {
+    const { meshes, casters, coarsest } = this;
+    return [meshes[0]!, meshes[coarsest]!, casters[0]!];
+  }
+
   /** Has all wood wear a bark. */
   setBark(look: BarkLook): void {
     this.bark?.wear(look);
@@ -143,20 +149,24 @@ export class Branches {
     this.showFace(row, cut, parent, origin, flags);
   }
 
-  /**
-   * Chooses for some of the rows how finely they are drawn from there, or for all of them at once; says whether some
-   * are left for the next frame.
-   */
-  see(table: TreeTable, onlooker: Onlooker, atOnce: boolean): boolean {
+  /** From now on rows are looked at from there; those known already by and by. */
+  lookFrom(onlooker: Onlooker): void {
     const before = this.onlooker;
     const same =
       before !== null &&
       before.pixels === onlooker.pixels &&
       before.eye.every((place, axis) => Math.abs(place - onlooker.eye[axis]!) < 1e-3);
-    if (!same) {
-      this.onlooker = { eye: [...onlooker.eye], pixels: onlooker.pixels };
-      this.unseen = this.known;
-    }
+    if (same) return;
+    this.onlooker = { eye: [...onlooker.eye], pixels: onlooker.pixels };
+    this.unseen = this.known;
+  }
+
+  /**
+   * Chooses for some of the rows how finely they are drawn from there, or for all of them at once; says whether some
+   * are left for the next frame.
+   */
+  see(table: TreeTable, onlooker: Onlooker, atOnce: boolean): boolean {
+    this.lookFrom(onlooker);
     this.unseen = Math.min(this.unseen, this.known);
     if (this.unseen === 0) return false;
     let left = atOnce ? Number.POSITIVE_INFINITY : ROWS_A_FRAME;
@@ -177,7 +187,6 @@ export class Branches {
   /** Has three.js upload what was written since the last call; ends are judged by the table, where rows are left. */
   upload(table?: TreeTable): void {
     if (table && this.changed) this.judgeEnds(table);
-    if (this.bark && !this.bark.worn && this.known > 0) this.bark.wear(DEFAULT_APPEARANCE.bark);
     const bins = [...this.bins, this.ends];
     for (const [i, bin] of bins.entries()) {
       bin.upload();
@@ -283,8 +292,10 @@ export class Branches {
     this.slot[row] = at;
     this.rejoin(table, row);
     this.rejoin(table, table.limbs.onward[row]!);
-    const [, parent, origin, flags] = this.bins[level]!.read(at);
-    if (flags & CUT) this.showFace(row, true, parent, origin, flags);
+    if (this.bins[level]!.flagsOf(at) & CUT) {
+      const [, parent, origin, flags] = this.bins[level]!.read(at);
+      this.showFace(row, true, parent, origin, flags);
+    }
     return true;
   }
 
@@ -298,9 +309,8 @@ export class Branches {
   private rejoin(table: TreeTable, row: number): void {
     const level = row >= 0 && row < this.known ? this.level[row]! : NOWHERE;
     if (level === NOWHERE) return;
-    const [, parent, origin, flags] = this.bins[level]!.read(this.slot[row]!);
-    const joined = ((flags & ~OVERLAPS) | this.jointAt(table, row, level)) >>> 0;
-    if (joined !== flags) this.bins[level]!.write(this.slot[row]!, row, parent, origin, joined);
+    const [bin, slot] = [this.bins[level]!, this.slot[row]!];
+    bin.setFlags(slot, ((bin.flagsOf(slot) & ~OVERLAPS) | this.jointAt(table, row, level)) >>> 0);
   }
 
   private fitting(table: TreeTable, row: number): number {

@@ -1,0 +1,58 @@
+import { InstancedBufferGeometry, type Mesh, PerspectiveCamera, type WebGLRenderer } from "three";
+
+/**
+ * Sees to it that nobody waits for programs. It says when all are linked; and it has one instance of everything drawn
+ * before there is anything to draw, in a corner of one pixel: a linked program is not yet one that the graphics card can
+ * run. Drivers finish it when it is first drawn with, and whatever they are asked next waits for that.
+ */
+export class Rehearsal {
+  /** Whether every program is linked; drawing would wait for that. */
+  private linked = false;
+  private prepared = false;
+  private played = false;
+
+  /** `told` hears when every program is linked. */
+  constructor(
+    private readonly renderer: WebGLRenderer,
+    private readonly cast: readonly Mesh[],
+    told: () => void,
+  ) {
+    const camera = new PerspectiveCamera();
+    void Promise.all(cast.map((mesh) => renderer.compileAsync(mesh, camera))).then(() => {
+      this.linked = true;
+      told();
+    });
+  }
+
+  /** Says whether it is time to draw, and has everything asked of the programs that has to be known for it. */
+  prepare(): boolean {
+    if (this.linked && !this.prepared) {
+      this.prepared = true;
+      // Asked for one after the other among the drawing, each answer would wait for all that was drawn before.
+      for (const program of this.renderer.info.programs ?? []) program.getUniforms();
+    }
+    return this.prepared;
+  }
+
+  /** Has everything drawn once by what draws the scene, if it is time for that and has not been done. */
+  play(draw: () => void): void {
+    if (this.played) return;
+    this.played = true;
+    const { renderer, cast } = this;
+    const before = cast.map(({ visible }) => visible);
+    this.enter(1);
+    for (const mesh of cast) mesh.visible = true;
+    renderer.setScissor(0, 0, 1, 1);
+    renderer.setScissorTest(true);
+    draw();
+    renderer.setScissorTest(false);
+    this.enter(0);
+    for (const [i, mesh] of cast.entries()) mesh.visible = before[i]!;
+  }
+
+  private enter(instances: number): void {
+    for (const { geometry } of this.cast) {
+      if (geometry instanceof InstancedBufferGeometry) geometry.instanceCount = instances;
+    }
+  }
+}
