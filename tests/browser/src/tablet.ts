@@ -261,10 +261,15 @@ export class Tablet {
 
   /** What is on the screen once it is at rest, kept under a name for people to look at. */
   async photograph(name: string): Promise<Picture> {
+    await this.untilStill();
+    return this.glimpse(name);
+  }
+
+  /** The picture is at rest: nothing in it moves, nor does the view. */
+  async untilStill(): Promise<void> {
     // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
     await this.frames();
     await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
-    return this.glimpse(name);
   }
 }
 
