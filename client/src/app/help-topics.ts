@@ -22,11 +22,11 @@ export type PlaceName =
 export type Subject =
   | { readonly panel: PanelName; readonly tab?: "species" | "form" | "growth"; readonly control?: Control }
   | { readonly sheet: SheetName }
-  | { readonly tool: ToolName }
+  | { readonly tool: ToolName; readonly control?: Control }
   | { readonly place: PlaceName }
   | { readonly tour: true };
 
-/** A control of a panel, and the section it is folded into. */
+/** A control of a panel or of a tool, and the section it is folded into. */
 export interface Control {
   readonly label: Key;
   readonly section?: string;
@@ -263,6 +263,8 @@ function subjectOf(label: Key): Subject | undefined {
       return { panel: "brush", control };
     case "scene":
       return { panel: "scene" };
+    case "tools":
+      return { tool: name === "stretch" ? "bend" : "prune", control };
     default:
       return undefined;
   }

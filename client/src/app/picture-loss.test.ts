@@ -30,6 +30,34 @@ it("one that is soon back is not spoken of", () => {
   expect(hindrance.value).toBeNull();
 });
 
+it("another tree that is opened does not bring it back", () => {
+  const { hindrance, loss } = losing();
+  loss.tell(true);
+  vi.advanceTimersByTime(5000);
+  hindrance.value = null;
+  expect(hindrance.value).toBe("no-picture");
+  loss.tell(false);
+  expect(hindrance.value).toBeNull();
+});
+
+it("it is spoken of once nothing else is in the way", () => {
+  const { hindrance, loss } = losing("no-server");
+  loss.tell(true);
+  vi.advanceTimersByTime(5000);
+  expect(hindrance.value).toBe("no-server");
+  hindrance.value = null;
+  expect(hindrance.value).toBe("no-picture");
+});
+
+it("nothing is said of it once the page has let go", () => {
+  const { hindrance, loss } = losing();
+  loss.tell(true);
+  vi.advanceTimersByTime(5000);
+  loss.stop();
+  hindrance.value = null;
+  expect(hindrance.value).toBeNull();
+});
+
 it("its loss and its return leave other hindrances as they are", () => {
   const { hindrance, loss } = losing("no-server");
   loss.tell(true);

@@ -7,7 +7,8 @@ import type { Key } from "./words";
 
 /** Steps that can be predicted with the slider. */
 export const MOST_STEPS = 30;
-const FIRST_STEPS = 10;
+/** And those that are before anyone has said how many. */
+export const FIRST_STEPS = 10;
 
 export interface PredictionOptions {
   /** The rows with which begins what is cut off at others; none for the trunk (`PR1`). */

@@ -87,8 +87,20 @@ export class Server {
 /** Asks again and again until the answer is yes. */
 export async function until(what: string, check: () => Promise<boolean> | boolean): Promise<void> {
   const end = Date.now() + GUARD;
-  while (!(await check())) {
-    if (Date.now() > end) throw new Error(`${what}: not within ${GUARD / 1000} s`);
+  while (!(await inTime(what, check(), end - Date.now()))) {
     await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
+/** The answer, if it comes within so many milliseconds: a page that hangs never gives one. */
+export async function inTime<Answer>(what: string, answer: Promise<Answer> | Answer, limit = GUARD): Promise<Answer> {
+  let timer: NodeJS.Timeout | undefined;
+  const late = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`${what}: not within ${GUARD / 1000} s`)), Math.max(0, limit));
+  });
+  try {
+    return await Promise.race([answer, late]);
+  } finally {
+    clearTimeout(timer);
   }
 }

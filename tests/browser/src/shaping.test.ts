@@ -308,7 +308,7 @@ test("branches in the dark are marked and cut", async () => {
   // A crown that shades its own inside.
   await workshop.act(address, [{ kind: "grow", steps: 12 }]);
   const { metamers } = await tablet.untilQuiet();
-  const slider = tablet.page.getByLabel("Mark branches that get less light than");
+  const slider = tablet.page.getByLabel("Darker than", { exact: true });
   await tablet.tap("Prune");
   await slider.focus();
   for (let step = 0; step < 45; step++) await tablet.page.keyboard.press("ArrowRight");
@@ -337,5 +337,35 @@ test("an upright tablet has room for every tool", async () => {
         44,
       );
     }
+  }
+});
+
+test("what a tool can be told has a name, help, a typed value and a reset", async () => {
+  const { tablet, address } = await workshop.fresh({ ...LANDSCAPE, detail: 0.2 });
+  const { page } = tablet;
+  await workshop.act(address, [{ kind: "grow", steps: 12 }]);
+  await tablet.untilQuiet();
+  const told = page.locator(".tool-options");
+  for (const [tool, name, usual, typed, taken] of [
+    ["Bend", "Stretch", "30", "70,4", "70"],
+    ["Prune", "Darker than", "0", "99", "60"],
+  ] as const) {
+    await tablet.tap(tool);
+    const [slider, box] = [page.getByLabel(name, { exact: true }), page.getByLabel(`${name}: value`)];
+    const reset = page.getByLabel(`Reset ${name}`);
+    expect([await box.inputValue(), await reset.count()], name).toEqual([usual, 0]);
+    const help = told.locator(`[id="${await slider.getAttribute("aria-describedby")}"]`);
+    expect(await help.isVisible(), `the help of ${name} is folded`).toBe(false);
+    await told.getByRole("button", { name: new RegExp(`^${name}`) }).tap();
+    expect((await help.textContent())!.length).toBeGreaterThan(30);
+    expect(await help.isVisible(), `and unfolds`).toBe(true);
+    const before = (await slider.boundingBox())!;
+    await box.fill(typed);
+    await page.keyboard.press("Enter");
+    await until("what was typed is taken", async () => (await slider.inputValue()) === taken);
+    expect(await slider.boundingBox(), "the slider stays under the finger").toEqual(before);
+    await reset.tap();
+    await until("it is as it was", async () => (await slider.inputValue()) === usual);
+    expect(await reset.count()).toBe(0);
   }
 });

@@ -1,6 +1,7 @@
 import type { Locator } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { gridModel } from "./grid-model";
+import { changed } from "./picture";
 import { until } from "./server";
 import { COARSE, type Point, type Screen, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
@@ -252,9 +253,7 @@ describe("a first run", () => {
     const { page } = tablet;
     const shown = async (query: string, topic: string) => {
       // A sheet that has just gone keeps the keys to itself until the next frame.
-      await page.evaluate(
-        () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))),
-      );
+      await tablet.frames();
       await page.keyboard.press("Shift+?");
       const help = page.getByRole("dialog");
       await help.getByRole("searchbox").fill(query);
@@ -341,11 +340,51 @@ describe("long work", () => {
     });
     await tablet.tap("Download as glTF");
     await page.getByText("Making the glTF file…").waitFor();
+    const making = page.getByRole("progressbar", { name: "Making the glTF file…" });
+    expect(await making.getAttribute("value"), "how long it takes, nobody knows").toBeNull();
     await page.getByRole("button", { name: "Cancel" }).tap();
     await page.getByText("Making the glTF file…").waitFor({ state: "detached" });
     answer();
     await page.waitForTimeout(300);
     expect(await page.locator(".toast").count()).toBe(0);
+  });
+
+  it("an export shows how far it has come, and can be given up on the way", async () => {
+    const { tablet, address } = await workshop.fresh(PHONE);
+    const { page } = tablet;
+    await workshop.act(address, [{ kind: "grow", steps: 10 }]);
+    await tablet.untilQuiet();
+    const network = await page.context().newCDPSession(page);
+    await network.send("Network.enable");
+    const throttle = (downloadThroughput: number) =>
+      network.send("Network.emulateNetworkConditions", {
+        offline: false,
+        latency: 0,
+        downloadThroughput,
+        uploadThroughput: -1,
+      });
+    let files = 0;
+    page.on("download", () => files++);
+    await throttle(60_000);
+    const download = async () => {
+      await tablet.tap("More");
+      await page.getByRole("button", { name: "Download as glTF" }).tap();
+    };
+    await download();
+    const moving = page.getByRole("progressbar", { name: /^Loading the glTF file, \d+\.\d of \d+\.\d MB$/ });
+    await moving.waitFor();
+    const first = Number(await moving.getAttribute("value"));
+    await until("more of it has come", async () => Number(await moving.getAttribute("value")) > first);
+    const chip = await boxOf(page.locator(".chip"));
+    expect(chip.x >= 0 && chip.x + chip.width <= PHONE.width, "all of it is on the glass").toBe(true);
+    await tablet.glimpse("export");
+    await page.getByRole("button", { name: "Cancel" }).tap();
+    await moving.waitFor({ state: "detached" });
+    await throttle(-1);
+    await page.waitForTimeout(500);
+    expect([files, await page.locator(".toast").count()], "no file, and no failure").toEqual([0, 0]);
+    await download();
+    await until("the next one comes", () => files === 1);
   });
 });
 
@@ -444,5 +483,36 @@ describe("without a server", () => {
     await workshop.server.start();
     await tablet.untilReady();
     expect(await tablet.page.getByRole("alert").count()).toBe(0);
+  });
+});
+
+describe("a picture that the device drops", () => {
+  it("is spoken of until it is back, also when another tree is opened", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    const { page } = tablet;
+    const card = page.getByRole("heading", { name: "The picture is gone" });
+    const context = (act: "loseContext" | "restoreContext") =>
+      page.evaluate((act) => {
+        const canvas = document.querySelector<HTMLCanvasElement>("#workspace")!;
+        const loss = globalThis as { loss?: WEBGL_lose_context | null };
+        // A context that is lost gives out no more extensions.
+        loss.loss ??= canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context");
+        loss.loss![act]();
+      }, act);
+    await context("loseContext");
+    await page.waitForTimeout(400);
+    expect(await card.count(), "most devices give it back at once").toBe(0);
+    await card.waitFor();
+    await page.getByRole("alert").getByRole("button", { name: "Reload" }).waitFor();
+    const gone = await tablet.glimpse("picture-gone");
+    const before = page.url();
+    await tablet.tap("New tree");
+    await until("another tree is open", () => page.url() !== before);
+    await tablet.untilReady();
+    expect(await card.count(), "there is no picture of it either").toBe(1);
+    await context("restoreContext");
+    await card.waitFor({ state: "detached" });
+    const beside = { x: 690, y: 120, width: 150, height: 300 };
+    expect(changed(gone, await tablet.photograph("picture-back"), beside), "it is drawn again").toBeGreaterThan(0.5);
   });
 });

@@ -60,6 +60,16 @@ async function substitute(route: Route, folder: string): Promise<void> {
   await (existsSync(path) ? route.fulfill({ path }) : route.continue());
 }
 
+/** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
+const PATIENCE = 150_000;
+/**
+ * So long the browser may take to answer a touch, in milliseconds. It now and then leaves one unanswered that another
+ * follows at once; what has come of it, the page tells.
+ */
+const TOUCHED = 10_000;
+/** And so long two frames. */
+const FRAMES = 5000;
+
 /** One tablet with the page open: real touch points in, screenshots out. */
 export class Tablet {
   readonly page: Page;
@@ -144,14 +154,16 @@ export class Tablet {
   /** All commands are durable, all growth is done. */
   async untilQuiet(): Promise<Facts> {
     // A command is acknowledged before the figures tell of it, so quiet must last to count.
-    for (;;) {
+    for (const end = Date.now() + PATIENCE; ; ) {
       const facts = await this.until(
         "the growth ends",
         (facts) => facts.connection === "connected" && facts.sent === facts.acknowledged && facts.pending === 0,
       );
       await this.page.waitForTimeout(400);
       const later = await this.facts();
-      if (JSON.stringify(later) === JSON.stringify(facts)) return later;
+      const [before, after] = [JSON.stringify(facts), JSON.stringify(later)];
+      if (before === after) return later;
+      if (Date.now() > end) throw new Error(`the page does not come to rest: ${before}, then ${after}`);
     }
   }
 
@@ -183,7 +195,16 @@ export class Tablet {
   /** One real touch event with all fingers that are down. */
   async touch(type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Point[]): Promise<void> {
     const touchPoints = fingers.map(({ x, y }, id) => ({ x, y, id, radiusX: 8, radiusY: 8, force: 0.5 }));
-    await this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+    const answer = this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+    await atMost(TOUCHED, answer);
+  }
+
+  /** Two frames of the page's; one that draws nothing is not waited for. */
+  async frames(): Promise<void> {
+    const drawn = this.page.evaluate(
+      () => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))),
+    );
+    await atMost(FRAMES, drawn);
   }
 
   /** One event of a pen on the glass. */
@@ -240,13 +261,25 @@ export class Tablet {
 
   /** What is on the screen once it is at rest, kept under a name for people to look at. */
   async photograph(name: string): Promise<Picture> {
-    // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
-    await this.page.evaluate(
-      () => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null)))),
-    );
-    await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
+    await this.untilStill();
     return this.glimpse(name);
   }
+
+  /** The picture is at rest: nothing in it moves, nor does the view. */
+  async untilStill(): Promise<void> {
+    // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
+    await this.frames();
+    await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
+  }
+}
+
+/** Waits for an answer, for so many milliseconds at most. */
+async function atMost(limit: number, answer: Promise<unknown>): Promise<void> {
+  let timer: NodeJS.Timeout | undefined;
+  const enough = new Promise<void>((resolve) => {
+    timer = setTimeout(resolve, limit);
+  });
+  await Promise.race([answer, enough]).finally(() => clearTimeout(timer));
 }
 
 /** Points on a straight way, ends included. */

@@ -212,7 +212,7 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   const { page } = tablet;
   const before = await tablet.photograph("59-before-the-cut");
   await tablet.tap("Prune");
-  await page.getByLabel("What if?").check();
+  await page.getByLabel("What if?", { exact: true }).check();
   await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
   await tablet.until("the ghost is there", (facts) => facts.ghost === "10");
   const ghost = await tablet.photograph("60-prediction");
@@ -220,7 +220,7 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   const { operations } = await tablet.facts();
   expect([operations, (await tablet.facts()).metamers]).toEqual(["stroke stroke", metamers]);
 
-  await page.getByLabel("Steps to look ahead").focus();
+  await page.getByLabel("Steps ahead", { exact: true }).focus();
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("ArrowLeft");
   await tablet.until("it looks less far", (facts) => facts.ghost === "8");
@@ -248,10 +248,10 @@ test("PD2: whatever else is done ends a prediction, also one in the making", asy
   const bar = page.getByRole("region", { name: "Prediction" });
   const ask = () => tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
   await tablet.tap("Prune");
-  await page.getByLabel("What if?").check();
+  await page.getByLabel("What if?", { exact: true }).check();
   await ask();
   await tablet.until("the ghost is there", (facts) => facts.ghost === "10");
-  await page.getByLabel("Steps to look ahead").focus();
+  await page.getByLabel("Steps ahead", { exact: true }).focus();
   await page.keyboard.press("End");
   await tablet.tap("Undo");
   await bar.waitFor({ state: "detached" });

@@ -87,19 +87,23 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
   }
   const { bytes, total } = progress;
   const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
-  const megabytes = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  const megabytes = (count: number) => figures.format(count / 1e6);
   const text =
     bytes === 0
       ? say(`sheets.${name}`)
       : percent === 100
         ? say(`sheets.${name}.read`)
-        : say(`sheets.${name}.moving`, { megabytes: megabytes.format(bytes / 1e6) });
+        : total === null
+          ? say(`sheets.${name}.moving`, { megabytes: megabytes(bytes) })
+          : say(`sheets.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
   return (
     <p class="chip">
+      {/* Where nobody knows how long it takes, the bar only moves. */}
       {percent === null ? (
-        <i class="spinner" aria-hidden="true" />
+        <progress aria-label={text} key="some" />
       ) : (
-        <progress aria-label={text} max={100} value={percent} />
+        <progress {...{ max: 100, value: percent }} aria-label={text} key="part" />
       )}
       {text}
       <button type="button" class="chip-stop" onClick={() => transfer.cancel()}>

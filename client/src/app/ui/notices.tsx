@@ -9,7 +9,7 @@ export function HindranceCard({ studio }: { studio: Studio }) {
     return null;
   }
   return (
-    <section class="panel hindrance" role="alert">
+    <section class="panel hindrance" role="alert" data-hindrance={hindrance}>
       <h2>{say(`notices.${hindrance}`)}</h2>
       <p>{say(`notices.${hindrance}.text`)}</p>
       {hindrance === "unknown-session" && (

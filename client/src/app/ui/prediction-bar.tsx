@@ -1,8 +1,9 @@
 import { useMemo, useRef } from "preact/hooks";
 import type { Point } from "../ports";
-import { MOST_STEPS } from "../prediction";
+import { FIRST_STEPS, MOST_STEPS } from "../prediction";
 import type { Studio } from "../studio";
 import { say } from "../words";
+import { Slider } from "./controls/slider";
 import { stepsOf } from "./timeline-strip";
 import { useFrames } from "./use-frames";
 
@@ -21,10 +22,15 @@ export function PredictionBar({ studio }: { studio: Studio }) {
   const steps = prediction.steps.value;
   const grown = prediction.grown.value;
   const waiting = grown !== steps;
+  const look = (to: number) => {
+    if (to !== steps) {
+      prediction.look(to);
+    }
+  };
   return (
-    <section class="panel prediction" aria-label={say("tools.prediction")}>
-      <label class="prediction-steps">
-        <span class="number-head">
+    <section class="panel prediction single-line" aria-label={say("tools.prediction")}>
+      <div class="prediction-steps">
+        <p class="prediction-what">
           <span>
             {say(rows.length === 1 ? "tools.prediction.one" : "tools.prediction.many", {
               count: rows.length,
@@ -32,18 +38,19 @@ export function PredictionBar({ studio }: { studio: Studio }) {
             })}
           </span>
           {waiting && <i class="spinner" role="status" aria-label={say("tools.prediction.growing")} />}
-        </span>
-        <input
-          type="range"
-          aria-label={say("tools.prediction.steps")}
-          min={1}
-          max={MOST_STEPS}
+        </p>
+        <Slider
+          label={say("tools.prediction.steps")}
+          help={say("tools.prediction.steps.help")}
+          least={1}
+          most={MOST_STEPS}
           step={1}
           value={steps}
-          style={{ "--place": `${(100 * (steps - 1)) / (MOST_STEPS - 1)}%` }}
-          onInput={(event) => prediction.look(Number(event.currentTarget.value))}
+          standard={FIRST_STEPS}
+          onDrag={look}
+          onCommit={look}
         />
-      </label>
+      </div>
       <div class="prediction-choice">
         <button
           type="button"

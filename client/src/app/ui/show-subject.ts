@@ -18,7 +18,12 @@ export function showSubject(studio: Studio, subject: Subject): void {
     studio.tour.start();
   } else if ("tool" in subject) {
     studio.tools.choose(subject.tool);
-    point(() => document.querySelector('.side-bar .tool[aria-pressed="true"], .side-bar .tool.folded'));
+    const { control } = subject;
+    point(() =>
+      control
+        ? controlNamed(control)
+        : document.querySelector('.side-bar .tool[aria-pressed="true"], .side-bar .tool.folded'),
+    );
   } else if ("place" in subject) {
     if (subject.place === "timeline") {
       studio.settings.timelineOpen.value = true;
@@ -40,9 +45,9 @@ function placeNamed(place: PlaceName): Element | null {
   return document.querySelector(`[data-place="${place}"]`) ?? document.querySelector('[data-place="more"]');
 }
 
-/** A control of the panel that is pulled down: its name, which unfolds its sentence. */
+/** A control of the panel that is pulled down or of the tool at hand: its name, which unfolds its sentence. */
 function controlNamed({ label }: Control): Element | null {
-  const names = [...document.querySelectorAll(".drawer .field-name > span:first-child")];
+  const names = [...document.querySelectorAll(":is(.drawer, .tool-options) .field-name > span:first-child")];
   const name = names.find(({ firstChild }) => firstChild?.textContent?.trim() === softly(say(label)));
   return name?.parentElement ?? null;
 }

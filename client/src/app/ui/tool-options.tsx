@@ -2,6 +2,8 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import type { Studio } from "../studio";
 import { say } from "../words";
+import { Slider } from "./controls/slider";
+import { Switch } from "./controls/switch";
 import { CloseIcon } from "./icons";
 
 /** What the tool at hand can be told, in one line at the bottom. */
@@ -24,36 +26,37 @@ export function ToolOptions({ studio }: { studio: Studio }) {
 
 function Options({ label, children }: { label: string; children: ComponentChildren }) {
   return (
-    <section class="panel tool-options" aria-label={label}>
+    <section class="panel tool-options single-line" aria-label={label}>
       {children}
     </section>
   );
 }
 
+/** How far a branch stretches before anyone has said so, in percent. */
+const USUAL_STRETCH = 30;
+
 function BendOptions({ studio }: { studio: Studio }) {
   const { stretch } = studio.settings;
   const bend = studio.tools.shaping.value?.bend;
   const marked = bend?.base.value != null;
-  const percent = Math.round(100 * stretch.value);
+  const set = (percent: number) => {
+    stretch.value = percent / 100;
+  };
   return (
     <Options label={say("tools.bending")}>
       <p class="tool-hint">{say(marked ? "tools.bending.marked" : "tools.bending.unmarked")}</p>
-      <label class="tool-slider ends">
-        <span>{say("tools.stretch.stiff")}</span>
-        <input
-          type="range"
-          aria-label={say("tools.stretch")}
-          aria-valuetext={percent === 0 ? say("tools.stretch.none") : say("tools.stretch.value", { percent })}
-          min={0}
-          max={100}
-          value={percent}
-          style={{ "--place": `${percent}%` }}
-          onInput={(event) => {
-            stretch.value = Number(event.currentTarget.value) / 100;
-          }}
-        />
-        <span>{say("tools.stretch.stretchy")}</span>
-      </label>
+      <Slider
+        label={say("tools.stretch")}
+        help={say("tools.stretch.help")}
+        unit="%"
+        least={0}
+        most={100}
+        step={1}
+        value={Math.round(100 * stretch.value)}
+        standard={USUAL_STRETCH}
+        onDrag={set}
+        onCommit={set}
+      />
       {marked && (
         <button
           type="button"
@@ -84,65 +87,66 @@ function WidthOptions({ studio }: { studio: Studio }) {
   );
 }
 
-/** Below this share of full light is the dark; the slider's whole way. */
-const BRIGHTEST = 0.6;
+/** Below this share of full light, in percent, is the dark; the slider's whole way. */
+const BRIGHTEST = 60;
 
 function PruneOptions({ studio }: { studio: Studio }) {
   const prune = studio.tools.shaping.value?.prune;
-  const [exposure, setExposure] = useState(0);
+  const [percent, setPercent] = useState(0);
   const [count, setCount] = useState(0);
+  const exposure = percent / 100;
   const revision = studio.revision.value;
   // What is marked follows the tree, and is unmarked with the tool.
   useEffect(() => {
     setCount(prune?.markDim(exposure > 0 ? exposure : null) ?? 0);
   }, [prune, exposure, revision]);
   useEffect(() => () => void prune?.markDim(null), [prune]);
-  const percent = Math.round(100 * exposure);
   return (
     <Options label={say("tools.pruning")}>
-      <p class="tool-hint">{say("tools.pruning.hint")}</p>
-      <label class="switch" title={say("tools.what-if.title")}>
-        <input
-          type="checkbox"
-          checked={prune?.foresees.value === true}
-          onChange={(event) => {
-            if (prune) {
-              prune.foresees.value = event.currentTarget.checked;
-            }
-          }}
-        />
-        <span>{say("tools.what-if")}</span>
-      </label>
-      <label class="tool-slider">
-        <span>{say("tools.dim")}</span>
-        <input
-          type="range"
-          aria-label={say("tools.dim.label")}
-          aria-valuetext={
-            exposure === 0
-              ? say("tools.dim.none")
-              : say(count === 1 ? "tools.dim.one" : "tools.dim.many", { percent, count })
+      <div class="tool-lead">
+        <p class="tool-hint">{say("tools.pruning.hint")}</p>
+        {percent > 0 && (
+          <button
+            type="button"
+            class="primary danger"
+            disabled={count === 0}
+            onClick={() => {
+              prune?.cutDim(exposure);
+              setPercent(0);
+            }}
+          >
+            {say(count === 0 ? "tools.cut.none" : count === 1 ? "tools.cut.one" : "tools.cut.many", { count })}
+          </button>
+        )}
+      </div>
+      <Switch
+        label={say("tools.what-if")}
+        help={say("tools.what-if.help")}
+        value={prune?.foresees.value === true}
+        standard={false}
+        onCommit={(on) => {
+          if (prune) {
+            prune.foresees.value = on;
           }
-          min={0}
-          max={100 * BRIGHTEST}
-          value={percent}
-          style={{ "--place": `${(100 * exposure) / BRIGHTEST}%` }}
-          onInput={(event) => setExposure(Number(event.currentTarget.value) / 100)}
-        />
-      </label>
-      {exposure > 0 && (
-        <button
-          type="button"
-          class="primary danger"
-          disabled={count === 0}
-          onClick={() => {
-            prune?.cutDim(exposure);
-            setExposure(0);
-          }}
-        >
-          {say(count === 0 ? "tools.cut.none" : count === 1 ? "tools.cut.one" : "tools.cut.many", { count })}
-        </button>
-      )}
+        }}
+      />
+      <Slider
+        label={say("tools.dim")}
+        help={say("tools.dim.help")}
+        unit="%"
+        least={0}
+        most={BRIGHTEST}
+        step={1}
+        value={percent}
+        standard={0}
+        inWords={(percent) =>
+          percent === 0
+            ? say("tools.dim.none")
+            : say(count === 1 ? "tools.dim.one" : "tools.dim.many", { percent, count })
+        }
+        onDrag={setPercent}
+        onCommit={setPercent}
+      />
     </Options>
   );
 }

@@ -40,9 +40,17 @@ export const SHEETS = {
   ],
   "sheets.export": ["Making the glTF file…", "Die glTF-Datei entsteht…"],
   "sheets.export.moving": ["Loading the glTF file, {megabytes} MB", "Die glTF-Datei wird geladen, {megabytes} MB"],
+  "sheets.export.part": [
+    "Loading the glTF file, {done} of {megabytes} MB",
+    "Die glTF-Datei wird geladen, {done} von {megabytes} MB",
+  ],
   "sheets.export.read": ["The glTF file is there", "Die glTF-Datei ist da"],
   "sheets.import": ["Sending the model…", "Das Modell wird gesendet…"],
   "sheets.import.moving": ["Sending the model, {megabytes} MB", "Das Modell wird gesendet, {megabytes} MB"],
+  "sheets.import.part": [
+    "Sending the model, {done} of {megabytes} MB",
+    "Das Modell wird gesendet, {done} von {megabytes} MB",
+  ],
   "sheets.import.read": ["The server reads the model…", "Der Server liest das Modell…"],
   "sheets.parted": [
     "What the server has not got yet of the other tree is kept; it is sent when you open that tree again in this tab.",
