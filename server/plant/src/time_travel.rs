@@ -35,6 +35,15 @@ struct Journey {
     is_edited: bool,
 }
 
+impl Journey {
+    /// Notes an axis, once for all metamers of a shoot: they follow each other.
+    fn note_axis(&mut self, axis: AxisId) {
+        if self.axes.last() != Some(&axis) {
+            self.axes.push(axis);
+        }
+    }
+}
+
 impl Plant {
     /// Goes to a step that is recorded: back, or forth again.
     ///
@@ -87,7 +96,7 @@ impl Plant {
                 self.living = self.living.wrapping_sub(1);
             }
             self.unlink(id);
-            journey.axes.push(self.metamers.axis(id));
+            journey.note_axis(self.metamers.axis(id));
         }
         self.note_axes(before, end, now, journey);
         self.timeline.now = now - 1;
@@ -139,7 +148,7 @@ impl Plant {
         for index in before.metamers..end.metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
-            journey.axes.push(self.metamers.axis(id));
+            journey.note_axis(self.metamers.axis(id));
             journey.came.push(id);
             if !self.is_seed(id) {
                 self.living = self.living.wrapping_add(1);
