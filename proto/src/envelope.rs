@@ -188,7 +188,7 @@ mod tests {
             let sealed = seal(FrameKind::MeshDelta, header, &body[..length]);
             assert_eq!(sealed[2], CODEC_DEFLATE);
             let (_, opened) = open(&sealed, FrameKind::MeshDelta).expect("it was sealed");
-            assert!(opened == body[..length], "{length}");
+            assert!(*opened == body[..length], "{length}");
         }
     }
 }
