@@ -9,7 +9,7 @@ mod slots;
 mod waves;
 mod wood;
 
-use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
+use espalier_plant::{Appearance, AxisId, MetamerId, Plant, make_room};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -143,7 +143,7 @@ impl Canopy {
         let more = plant.metamer_count() - self.slots.len();
         self.slots.reserve(more);
         self.wood.reserve(more);
-        reserve(&mut self.nodes, more);
+        make_room(&mut self.nodes, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
             if !plant.is_alive(id) {
@@ -176,8 +176,8 @@ impl Canopy {
             self.wood.push(slot as usize, id, parent, plant);
             self.nodes.push(Node { bits, propensity });
         }
-        reserve(&mut self.light, more);
-        reserve(&mut self.flows, more);
+        make_room(&mut self.light, more);
+        make_room(&mut self.flows, more);
         self.light.resize(self.nodes.len(), 0.0);
         self.flows.resize(self.nodes.len(), Flow::default());
     }
@@ -219,7 +219,7 @@ impl Canopy {
         let wood = self.wood.of(plant);
         let place = |slot: usize| plant.metamers().end(wood.id(slot));
         let new = self.spots.len()..self.nodes.len();
-        reserve(&mut self.spots, new.len());
+        make_room(&mut self.spots, new.len());
         self.spots.extend(new.map(|slot| shadows.spot(place(slot))));
         if !obstacles.is_empty() {
             let new = self.sky.len()..self.nodes.len();
@@ -428,13 +428,6 @@ impl Canopy {
             let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor) };
             plant.set_appearance(id, appearance);
         }
-    }
-}
-
-/// Makes room for more and a sixteenth beyond: doubling would leave a large plant's columns half empty.
-fn reserve<T>(column: &mut Vec<T>, more: usize) {
-    if column.len() + more > column.capacity() {
-        column.reserve_exact(more + column.len() / 16);
     }
 }
 

@@ -5,6 +5,7 @@ use glam::Vec3;
 use crate::{
     id::{AxisId, MetamerId},
     metamers::ALIVE,
+    room::make_room,
 };
 
 /// Axes as parallel columns; each is the bud at its tip and the metamers behind it.
@@ -33,16 +34,15 @@ impl Axes {
         id
     }
 
-    /// Makes room for a sixteenth more: doubling would leave a large plant's columns half empty.
+    /// Makes room for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        let more = self.bearer.len() / 16 + 64;
-        self.bearer.reserve_exact(more);
-        self.first.reserve_exact(more);
-        self.last.reserve_exact(more);
-        self.direction.reserve_exact(more);
-        self.order.reserve_exact(more);
-        self.death.reserve_exact(more);
+        make_room(&mut self.bearer, 1);
+        make_room(&mut self.first, 1);
+        make_room(&mut self.last, 1);
+        make_room(&mut self.direction, 1);
+        make_room(&mut self.order, 1);
+        make_room(&mut self.death, 1);
     }
 
     /// The axis that will be laid down next.

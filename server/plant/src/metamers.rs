@@ -2,7 +2,10 @@
 
 use glam::Vec3;
 
-use crate::id::{AxisId, MetamerId};
+use crate::{
+    id::{AxisId, MetamerId},
+    room::make_room,
+};
 
 /// The step of death of what is alive.
 pub(crate) const ALIVE: u32 = u32::MAX;
@@ -62,18 +65,17 @@ impl Metamers {
         id
     }
 
-    /// Makes room for a sixteenth more: doubling would leave a large plant's columns half empty.
+    /// Makes room for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        let more = self.parent.len() / 16 + 64;
-        self.parent.reserve_exact(more);
-        self.axis.reserve_exact(more);
-        self.death.reserve_exact(more);
-        self.end.reserve_exact(more);
-        self.normal.reserve_exact(more);
-        self.tips.reserve_exact(more);
-        self.appearance.reserve_exact(more);
-        self.lateral.reserve_exact(more);
+        make_room(&mut self.parent, 1);
+        make_room(&mut self.axis, 1);
+        make_room(&mut self.death, 1);
+        make_room(&mut self.end, 1);
+        make_room(&mut self.normal, 1);
+        make_room(&mut self.tips, 1);
+        make_room(&mut self.appearance, 1);
+        make_room(&mut self.lateral, 1);
     }
 
     /// Cuts the columns off at a row and returns the rest.

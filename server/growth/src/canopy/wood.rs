@@ -1,8 +1,8 @@
 //! Which metamer stands in each slot of the canopy, and where its parent stands.
 
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{MetamerId, Plant, make_room};
 
-use super::{NOWHERE, reserve};
+use super::NOWHERE;
 
 /// The metamers of all slots. As long as each stands in the slot of its own number, the plant says all there is to
 /// say, and none is written down.
@@ -29,7 +29,7 @@ impl Wood {
     /// Makes room for more.
     pub(super) fn reserve(&mut self, more: usize) {
         if !self.written.is_empty() {
-            reserve(&mut self.written, more);
+            make_room(&mut self.written, more);
         }
     }
 
