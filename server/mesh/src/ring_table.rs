@@ -244,13 +244,15 @@ impl RingTable {
         let told = plant.columns(rows.clone());
         let now = plant.step();
         let (mut drawn, mut differing) = ([0; CHUNK_ROWS], [0; CHUNK_ROWS]);
+        for (drawn, &parent) in drawn.iter_mut().zip(told.parent) {
+            *drawn = u8::from(parent != Columns::NO_PARENT);
+        }
+        for (drawn, &death) in drawn.iter_mut().zip(told.death) {
+            *drawn &= u8::from(death > now);
+        }
         let tips = self.tips[rows.clone()].iter().zip(told.tips);
-        for ((((differs, drawn), (&held, &tips)), &parent), &death) in
-            differing.iter_mut().zip(&mut drawn).zip(tips).zip(told.parent).zip(told.death)
-        {
-            let is_drawn = (parent != Columns::NO_PARENT) & (death > now);
-            *differs = u8::from(held != if is_drawn { tips } else { NO_TIPS });
-            *drawn = u8::from(is_drawn);
+        for ((differs, drawn), (&held, &tips)) in differing.iter_mut().zip(drawn).zip(tips) {
+            *differs = u8::from(held != if drawn != 0 { tips } else { NO_TIPS });
         }
         let looks = self.looks[rows].iter().zip(told.appearance);
         for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
@@ -362,8 +364,8 @@ impl Pass<'_> {
     }
 
     fn tips(&self, row: usize) -> u32 {
-        let Columns { parent, death, tips, .. } = self.all;
-        let is_drawn = parent[row] != Columns::NO_PARENT && death[row] > self.plant.step();
+        let Columns { parent, tips, .. } = self.all;
+        let is_drawn = parent[row] != Columns::NO_PARENT && self.all.lives(row, self.plant.step());
         if is_drawn { tips[row] } else { NO_TIPS }
     }
 

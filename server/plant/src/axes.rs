@@ -3,8 +3,8 @@
 use glam::Vec3;
 
 use crate::{
+    deaths::Deaths,
     id::{AxisId, MetamerId},
-    metamers::ALIVE,
     room::make_room,
 };
 
@@ -16,7 +16,7 @@ pub struct Axes {
     pub(crate) last: Vec<MetamerId>,
     pub(crate) direction: Vec<Vec3>,
     pub(crate) order: Vec<u16>,
-    pub(crate) death: Vec<u32>,
+    pub(crate) death: Deaths,
 }
 
 impl Axes {
@@ -30,7 +30,6 @@ impl Axes {
         self.last.push(MetamerId::NONE);
         self.direction.push(direction);
         self.order.push(stored_order(order));
-        self.death.push(ALIVE);
         id
     }
 
@@ -42,7 +41,6 @@ impl Axes {
         make_room(&mut self.last, 1);
         make_room(&mut self.direction, 1);
         make_room(&mut self.order, 1);
-        make_room(&mut self.death, 1);
     }
 
     /// The axis that will be laid down next.
@@ -64,12 +62,12 @@ impl Axes {
 
     /// Puts rows behind these.
     pub(crate) fn append(&mut self, mut more: Self) {
+        self.death.append(self.bearer.len(), more.death);
         self.bearer.append(&mut more.bearer);
         self.first.append(&mut more.first);
         self.last.append(&mut more.last);
         self.direction.append(&mut more.direction);
         self.order.append(&mut more.order);
-        self.death.append(&mut more.death);
     }
 
     /// The metamer whose node bears this axis; none for a trunk, which begins with its seed.

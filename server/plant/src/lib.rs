@@ -9,6 +9,7 @@ pub mod axes;
 pub mod bend;
 pub mod checks;
 pub mod columns;
+mod deaths;
 pub mod edits;
 pub mod future;
 pub mod girth;

@@ -3,12 +3,10 @@
 use glam::Vec3;
 
 use crate::{
+    deaths::Deaths,
     id::{AxisId, MetamerId},
     room::make_room,
 };
-
-/// The step of death of what is alive.
-pub(crate) const ALIVE: u32 = u32::MAX;
 
 /// How a metamer looks beyond its form: written by whatever grows the plant, read by whatever draws it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -29,7 +27,7 @@ impl Appearance {
 pub struct Metamers {
     pub(crate) parent: Vec<MetamerId>,
     pub(crate) axis: Vec<AxisId>,
-    pub(crate) death: Vec<u32>,
+    pub(crate) death: Deaths,
     pub(crate) end: Vec<Vec3>,
     pub(crate) normal: Vec<Vec3>,
     pub(crate) tips: Vec<u32>,
@@ -56,7 +54,6 @@ impl Metamers {
         }
         self.parent.push(row.parent);
         self.axis.push(row.axis);
-        self.death.push(ALIVE);
         self.end.push(row.end);
         self.normal.push(row.normal);
         self.tips.push(0);
@@ -70,7 +67,6 @@ impl Metamers {
     fn reserve(&mut self) {
         make_room(&mut self.parent, 1);
         make_room(&mut self.axis, 1);
-        make_room(&mut self.death, 1);
         make_room(&mut self.end, 1);
         make_room(&mut self.normal, 1);
         make_room(&mut self.tips, 1);
@@ -94,9 +90,9 @@ impl Metamers {
 
     /// Puts rows behind these.
     pub(crate) fn append(&mut self, mut more: Self) {
+        self.death.append(self.parent.len(), more.death);
         self.parent.append(&mut more.parent);
         self.axis.append(&mut more.axis);
-        self.death.append(&mut more.death);
         self.end.append(&mut more.end);
         self.normal.append(&mut more.normal);
         self.tips.append(&mut more.tips);

@@ -186,7 +186,7 @@ impl Plant {
     fn note_axes(&self, before: StepEnd, end: StepEnd, step: u32, journey: &mut Journey) {
         journey.axes.extend((before.axes..end.axes).map(|index| AxisId::new(index as usize)));
         if end.edits > before.edits {
-            let died = (0..before.axes as usize).filter(|&index| self.axes.death[index] == step);
+            let died = (0..before.axes as usize).filter(|&index| self.axes.death.of(index) == step);
             journey.axes.extend(died.map(AxisId::new));
         }
     }
@@ -203,7 +203,7 @@ impl Plant {
         });
         let Some(first) = first.min() else { return Vec::new() };
         let rows = (first.index()..before.metamers as usize).map(MetamerId::new);
-        rows.filter(|id| self.metamers.death[id.index()] == step).collect()
+        rows.filter(|id| self.metamers.death.of(id.index()) == step).collect()
     }
 
     /// What a journey comes to: who came and went again need not be told.
