@@ -86,7 +86,10 @@ impl Space {
             let more = index + 1 - self.stands.len();
             make_room(&mut self.stands, more);
             self.stands.resize(index + 1, Stand::NOWHERE);
-            self.moved.resize(index / 64 + 1, 0);
+            let words = index / 64 + 1;
+            let more = words - self.moved.len();
+            make_room(&mut self.moved, more);
+            self.moved.resize(words, 0);
         }
         self.moved[index / 64] |= 1 << (index % 64);
         self.stands[index] = self.buds.insert(axis.raw(), bud.position, bud.direction);
