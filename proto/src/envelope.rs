@@ -1,11 +1,8 @@
 //! What all binary frames have in common: a header of 16 bytes and a body that may be deflated (`FR`).
 
-use std::{
-    borrow::Cow,
-    io::{Read, Write},
-};
+use std::{borrow::Cow, io::Read};
 
-use flate2::{Compression, read::DeflateDecoder, write::DeflateEncoder};
+use flate2::{Compress, Compression, FlushCompress, read::DeflateDecoder};
 
 /// Bytes before the body.
 pub const HEADER_BYTES: usize = 16;
@@ -19,6 +16,12 @@ const CODEC_DEFLATE: u8 = 1;
 pub(crate) const FLAG_CATCH_UP: u8 = 1;
 /// Bodies shorter than this travel raw: the compressor's overhead would eat the gain.
 const MIN_COMPRESSED_BYTES: usize = 64;
+/// A body from this length on is worth two threads, and loses less than one in a hundred bytes by being cut in two.
+const MIN_HALVED_BYTES: usize = 32 * 1024;
+/// Room for the end of a stream at least.
+const SPARE_BYTES: usize = 64;
+/// Level 4 saves 3 in 100 bytes more and takes a third longer.
+const LEVEL: Compression = Compression::new(2);
 
 /// What a frame is about; each kind counts its sequences by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -133,10 +136,33 @@ pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [
     Ok((Header { flags, epoch: word(4), sequence: word(8) }, body))
 }
 
+/// A long body is deflated in halves, side by side: the first ends at a whole byte, the second does not look back.
 fn deflate(body: &[u8]) -> Option<Vec<u8>> {
-    let mut encoder = DeflateEncoder::new(Vec::with_capacity(body.len() / 2), Compression::new(4));
-    encoder.write_all(body).ok()?;
-    encoder.finish().ok()
+    if body.len() < MIN_HALVED_BYTES {
+        return deflate_part(body, FlushCompress::Finish);
+    }
+    let (first, second) = body.split_at(body.len() / 2);
+    let (first, second) = rayon::join(
+        || deflate_part(first, FlushCompress::Sync),
+        || deflate_part(second, FlushCompress::Finish),
+    );
+    let mut packed = first?;
+    packed.extend_from_slice(&second?);
+    Some(packed)
+}
+
+fn deflate_part(part: &[u8], flush: FlushCompress) -> Option<Vec<u8>> {
+    let mut packer = Compress::new(LEVEL, false);
+    let mut packed = Vec::with_capacity(part.len() / 2 + SPARE_BYTES);
+    loop {
+        let left = part.get(packer.total_in() as usize..)?;
+        packer.compress_vec(left, &mut packed, flush).ok()?;
+        // As long as there was no room to spare, there may be more to come.
+        if packer.total_in() as usize == part.len() && packed.len() < packed.capacity() {
+            return Some(packed);
+        }
+        packed.reserve(packed.len() / 2 + SPARE_BYTES);
+    }
 }
 
 fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
@@ -147,4 +173,27 @@ fn inflate(payload: &[u8], length: usize) -> Result<Vec<u8>, FrameError> {
         .read_to_end(&mut out)
         .map_err(|_| FrameError::Length)?;
     Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LENGTHS: [usize; 5] = [1000, MIN_HALVED_BYTES - 1, MIN_HALVED_BYTES, MIN_HALVED_BYTES + 1, 300_000];
+
+    #[test]
+    fn a_long_body_is_one_deflate_stream() {
+        // The more bits of each byte are noise, the less is gained.
+        let noise = |bits: u32| {
+            (0..300_000u32).map(move |i| (i.wrapping_mul(0x9e37_79b1).wrapping_pow(3) >> (32 - bits)) as u8)
+        };
+        for (bits, length) in (1..7).flat_map(|bits| LENGTHS.map(|length| (bits, length))) {
+            let body: Vec<u8> = noise(bits).take(length).collect();
+            let header = Header { flags: 0, epoch: 1, sequence: 2 };
+            let sealed = seal(FrameKind::MeshDelta, header, &body);
+            assert_eq!(sealed[2], CODEC_DEFLATE);
+            let (_, opened) = open(&sealed, FrameKind::MeshDelta).expect("it was sealed");
+            assert!(*opened == body, "{length} bytes, {bits} bits");
+        }
+    }
 }

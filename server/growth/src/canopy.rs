@@ -7,8 +7,9 @@
 mod priority;
 mod slots;
 mod waves;
+mod wood;
 
-use espalier_plant::{Appearance, AxisId, MetamerId, Plant};
+use espalier_plant::{Appearance, AxisId, MetamerId, Plant, make_room};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -23,6 +24,7 @@ use crate::{
 };
 use slots::Slots;
 use waves::Waves;
+use wood::Wood;
 
 /// Work smaller than this is not worth handing to other threads.
 const PARALLEL_FROM: usize = 8192;
@@ -37,6 +39,8 @@ const NOWHERE: u32 = u32::MAX;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Canopy {
     nodes: Vec<Node>,
+    /// The metamer of each node, and the node of its parent.
+    wood: Wood,
     waves: Waves,
     /// How many of the nodes are dead.
     dead: usize,
@@ -73,9 +77,6 @@ pub(crate) struct Surroundings<'a> {
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    id: MetamerId,
-    /// Slot of the parent.
-    parent: u32,
     /// Which of the plants it belongs to, shifted, and below that [`Node::MAIN`], [`Node::TIP`] and [`Node::DEAD`].
     bits: u32,
     /// Propensities of the lateral buds here that have not grown (TreeSketch Figure 10), added up.
@@ -141,7 +142,8 @@ impl Canopy {
         let metamers = plant.metamers();
         let more = plant.metamer_count() - self.slots.len();
         self.slots.reserve(more);
-        reserve(&mut self.nodes, more);
+        self.wood.reserve(more);
+        make_room(&mut self.nodes, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
             if !plant.is_alive(id) {
@@ -153,11 +155,12 @@ impl Canopy {
             let (mut is_main, mut of_plant) = (true, self.plants.len());
             if let Some(below) = self.nodes.get_mut(parent as usize) {
                 of_plant = below.plant();
-                is_main = metamers.axis(below.id) == metamers.axis(id);
+                let below_id = self.wood.of(plant).id(parent as usize);
+                is_main = metamers.axis(below_id) == metamers.axis(id);
                 if is_main {
                     below.set_tip(false);
                 } else {
-                    below.propensity = propensity_of_buds(plant, below.id, parameters);
+                    below.propensity = propensity_of_buds(plant, below_id, parameters);
                 }
             }
             if of_plant == self.plants.len() {
@@ -170,10 +173,11 @@ impl Canopy {
             let kind = tip | if is_main { Node::MAIN } else { 0 };
             let bits = (of_plant as u32) << Node::PLANT_SHIFT | kind;
             self.waves.add(slot, parent);
-            self.nodes.push(Node { id, parent, bits, propensity });
+            self.wood.push(slot as usize, id, parent, plant);
+            self.nodes.push(Node { bits, propensity });
         }
-        reserve(&mut self.light, more);
-        reserve(&mut self.flows, more);
+        make_room(&mut self.light, more);
+        make_room(&mut self.flows, more);
         self.light.resize(self.nodes.len(), 0.0);
         self.flows.resize(self.nodes.len(), Flow::default());
     }
@@ -185,24 +189,26 @@ impl Canopy {
         if self.outdated || self.has_left_out || count > self.slots.len() {
             return self.forget();
         }
-        let kept = self.nodes.partition_point(|node| node.id.index() < count);
-        let orphaned: Vec<u32> = self.nodes[kept..]
-            .iter()
-            .map(|node| node.parent)
+        let wood = self.wood.of(plant);
+        let kept = wood.partition(self.nodes.len(), |id| id.index() < count);
+        let orphaned: Vec<u32> = (kept..self.nodes.len())
+            .map(|slot| wood.parent(slot))
             .filter(|&parent| (parent as usize) < kept)
             .collect();
         self.dead -= self.nodes[kept..].iter().filter(|node| node.is_dead()).count();
         self.nodes.truncate(kept);
+        self.wood.truncate(kept);
         self.waves.truncate(kept as u32);
         self.spots.truncate(kept);
         self.sky.truncate(kept);
         self.slots.truncate(count);
         self.plants.retain(|(seed, _)| seed.index() < count);
         for parent in orphaned {
+            let id = self.wood.of(plant).id(parent as usize);
             let node = &mut self.nodes[parent as usize];
-            let axis = plant.metamers().axis(node.id);
-            node.set_tip(plant.axes().last(axis) == Some(node.id) && plant.is_axis_alive(axis));
-            node.propensity = propensity_of_buds(plant, node.id, parameters);
+            let axis = plant.metamers().axis(id);
+            node.set_tip(plant.axes().last(axis) == Some(id) && plant.is_axis_alive(axis));
+            node.propensity = propensity_of_buds(plant, id, parameters);
         }
     }
 
@@ -210,17 +216,18 @@ impl Canopy {
     pub(crate) fn read_light(&mut self, surroundings: &Surroundings<'_>, changed: &[Vec3]) {
         let &Surroundings { plant, space, shadows, obstacles } = surroundings;
         let is_new = self.spots.is_empty();
-        let new = &self.nodes[self.spots.len()..];
-        let place = |node: &Node| plant.metamers().end(node.id);
-        reserve(&mut self.spots, new.len());
-        self.spots.extend(new.iter().map(|node| shadows.spot(place(node))));
+        let wood = self.wood.of(plant);
+        let place = |slot: usize| plant.metamers().end(wood.id(slot));
+        let new = self.spots.len()..self.nodes.len();
+        make_room(&mut self.spots, new.len());
+        self.spots.extend(new.map(|slot| shadows.spot(place(slot))));
         if !obstacles.is_empty() {
-            let new = &self.nodes[self.sky.len()..];
-            self.sky.extend(new.iter().map(|node| obstacles.sky_share(place(node))));
+            let new = self.sky.len()..self.nodes.len();
+            self.sky.extend(new.map(|slot| obstacles.sky_share(place(slot))));
         }
         let (nodes, spots, sky) = (&self.nodes, &self.spots, &self.sky);
         let read = |slot: usize, spot: Spot| {
-            let exposure = shadows.exposure_at(spot, || place(&nodes[slot]));
+            let exposure = shadows.exposure_at(spot, || place(slot));
             sky.get(slot).map_or(exposure, |sky| exposure * sky)
         };
         if !is_new && changed.len() * NODES_IN_SHADOW < nodes.len() {
@@ -260,8 +267,8 @@ impl Canopy {
         }
         self.bud_vigors.clear();
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
-        let Self { nodes, flows, plants, waves, .. } = self;
-        waves.share_out(nodes, flows, plants, gain);
+        let Self { nodes, wood, flows, plants, waves, .. } = self;
+        waves.share_out(nodes, wood.of(plant), flows, plants, gain);
     }
 
     /// Tips before bases. Returns how many nodes no light flows through.
@@ -271,22 +278,24 @@ impl Canopy {
         self.sizes.resize(if counts_size { self.nodes.len() } else { 0 }, 0);
         self.flows.fill(Flow::default());
         let mut dark = 0;
+        let wood = self.wood.of(plant);
         for slot in (0..self.nodes.len()).rev() {
             let node = self.nodes[slot];
-            let response = response(self.light[slot], parameters.of(plant.metamers().axis(node.id)));
+            let response = response(self.light[slot], parameters.of(plant.metamers().axis(wood.id(slot))));
             let flow = &mut self.flows[slot];
             flow.main += if node.is_tip() { vigor::quantised(response) } else { 0 };
             flow.lateral += vigor::quantised(response * node.propensity);
             let through = flow.light();
             dark += usize::from(through == 0);
-            if node.parent == NOWHERE {
+            let parent = wood.parent(slot);
+            if parent == NOWHERE {
                 continue;
             }
-            let below = &mut self.flows[node.parent as usize];
+            let below = &mut self.flows[parent as usize];
             *(if node.is_main() { &mut below.main } else { &mut below.lateral }) += through;
             if counts_size {
                 self.sizes[slot] += u32::from(!node.is_dead());
-                self.sizes[node.parent as usize] += self.sizes[slot];
+                self.sizes[parent as usize] += self.sizes[slot];
             }
         }
         dark
@@ -311,21 +320,24 @@ impl Canopy {
     /// Keeps the nodes for which `stays` holds; what they bear stays only with them.
     fn pack(&mut self, plant: &Plant, stays: impl Fn(&Node, &Flow) -> bool) {
         let mut kept = 0;
+        self.wood.write_down(self.nodes.len(), plant);
         self.waves.clear();
         self.dead = 0;
         for slot in 0..self.nodes.len() {
             let (node, flow) = (self.nodes[slot], self.flows[slot]);
+            let id = self.wood.of(plant).id(slot);
             if !stays(&node, &flow) {
                 if !node.is_dead() {
-                    self.slots.set(node.id, NOWHERE);
-                    self.darkened.push(node.id);
+                    self.slots.set(id, NOWHERE);
+                    self.darkened.push(id);
                 }
                 continue;
             }
-            let parent = plant.metamers().parent(node.id).map_or(NOWHERE, |parent| self.slots.of(parent));
-            self.slots.set(node.id, kept as u32);
+            let parent = plant.metamers().parent(id).map_or(NOWHERE, |parent| self.slots.of(parent));
+            self.slots.set(id, kept as u32);
             self.waves.add(kept as u32, parent);
-            self.nodes[kept] = Node { parent, ..node };
+            self.wood.set(kept, id, parent);
+            self.nodes[kept] = node;
             self.spots[kept] = self.spots[slot];
             if let Some(&sky) = self.sky.get(slot) {
                 self.sky[kept] = sky;
@@ -335,6 +347,7 @@ impl Canopy {
             kept += 1;
         }
         self.nodes.truncate(kept);
+        self.wood.truncate(kept);
         self.spots.truncate(kept);
         self.sky.truncate(kept);
         self.light.truncate(kept);
@@ -382,13 +395,14 @@ impl Canopy {
         is_old: impl Fn(MetamerId) -> bool,
         threshold: impl Fn(AxisId) -> f64,
     ) -> Vec<AxisId> {
-        let old = self.nodes.partition_point(|node| is_old(node.id));
-        let rows = self.nodes[..old].iter().zip(&self.flows).zip(&self.sizes);
-        let starve = |((node, flow), &size): ((&Node, &Flow), &u32)| {
-            let axis = plant.metamers().axis(node.id);
-            (flow.vigor < threshold(axis) * f64::from(size)).then_some(axis)
+        let wood = self.wood.of(plant);
+        let old = wood.partition(self.nodes.len(), is_old);
+        let starve = |slot: usize| {
+            let axis = plant.metamers().axis(wood.id(slot));
+            let (vigor, size) = (self.flows[slot].vigor, self.sizes[slot]);
+            (vigor < threshold(axis) * f64::from(size)).then_some(axis)
         };
-        rows.filter(|((node, _), _)| !node.is_main()).filter_map(starve).collect()
+        (0..old).filter(|&slot| !self.nodes[slot].is_main()).filter_map(starve).collect()
     }
 
     /// Hands light and vigor on to whoever draws the plant.
@@ -397,28 +411,23 @@ impl Canopy {
         for id in self.darkened.drain(..).filter(|id| id.index() < count) {
             plant.set_appearance(id, Appearance { light: 0, vigor: 0 });
         }
-        let per_tip = |plant: &Plant, node: &Node, flow: &Flow| {
-            flow.vigor as f32 / plant.metamers().tips(node.id).max(1) as i32 as f32
+        let per_tip = |plant: &Plant, id: MetamerId, flow: &Flow| {
+            flow.vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
         };
-        let pairs = self.nodes.iter().zip(&self.flows);
-        let greatest = pairs.map(|(node, flow)| per_tip(plant, node, flow)).fold(0.0, f32::max);
+        let wood = self.wood.of(plant);
+        let flows = self.flows.iter().enumerate();
+        let greatest = flows.map(|(slot, flow)| per_tip(plant, wood.id(slot), flow)).fold(0.0, f32::max);
         let scale = if greatest > 0.0 { 255.0 / greatest } else { 0.0 };
-        for ((node, flow), light) in self.nodes.iter().zip(&self.flows).zip(&self.light) {
+        for (slot, (flow, light)) in self.flows.iter().zip(&self.light).enumerate() {
+            let id = self.wood.of(plant).id(slot);
             // By way of i32: LLVM 22 crashes on a vectorised conversion of floats to bytes.
             let byte = |x: f32| x as i32 as u8;
-            let vigor = per_tip(plant, node, flow) * scale;
+            let vigor = per_tip(plant, id, flow) * scale;
             // Wood that bears only buds in the dark is drawn as what has been left out, which it soon will be.
             let light = if flow.light() > 0 { *light } else { 0.0 };
             let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor) };
-            plant.set_appearance(node.id, appearance);
+            plant.set_appearance(id, appearance);
         }
-    }
-}
-
-/// Makes room for more and a sixteenth beyond: doubling would leave a large plant's columns half empty.
-fn reserve<T>(column: &mut Vec<T>, more: usize) {
-    if column.len() + more > column.capacity() {
-        column.reserve_exact(more + column.len() / 16);
     }
 }
 

@@ -1,5 +1,6 @@
 //! Chunks of space that exist where something was written.
 
+use espalier_plant::make_room;
 use glam::{Vec3, Vec4};
 
 const ABSENT: u32 = u32::MAX;
@@ -86,10 +87,7 @@ impl<C> Directory<C> {
     fn append(&mut self, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> u32 {
         let slot = self.slot(at).unwrap_or_else(|| self.widen(at));
         let chunk = self.chunks.len();
-        if chunk == self.chunks.capacity() {
-            // Chunks are large: a quarter more at a time wastes less than the doubling of a vector.
-            self.chunks.reserve_exact(4 + chunk / 4);
-        }
+        make_room(&mut self.chunks, 1);
         self.table[slot] = chunk as u32;
         self.chunks.push(make(at));
         chunk as u32
@@ -117,26 +115,29 @@ impl<C> Directory<C> {
     /// Widens the table's box to hold a chunk, with room to spare, and returns the chunk's slot.
     #[cold]
     fn widen(&mut self, at: [i32; 3]) -> usize {
-        let mut wider = Self::new();
+        let before = Self { chunks: Vec::new(), table: self.table.clone(), ..*self };
         for (i, &at) in at.iter().enumerate() {
-            let empty = self.size[i] == 0;
-            let low = if empty { at } else { self.origin[i].min(at) };
-            let high = if empty { at } else { (self.origin[i] + self.size[i] - 1).max(at) };
-            wider.origin[i] = low - 1;
-            wider.size[i] = high - low + 3;
+            let empty = before.size[i] == 0;
+            let low = if empty { at } else { before.origin[i].min(at) };
+            let high = if empty { at } else { (before.origin[i] + before.size[i] - 1).max(at) };
+            self.origin[i] = low - 1;
+            self.size[i] = high - low + 3;
         }
-        wider.table = vec![ABSENT; wider.size.iter().map(|n| *n as usize).product()];
-        for y in 0..self.size[1] {
-            for z in 0..self.size[2] {
-                for x in 0..self.size[0] {
-                    let at = [x + self.origin[0], y + self.origin[1], z + self.origin[2]];
-                    if let (Some(old), Some(new)) = (self.slot(at), wider.slot(at)) {
-                        wider.table[new] = self.table[old];
+        // In its own room, for it outlives whatever else is in use just now.
+        self.table.clear();
+        let slots = self.size.iter().map(|n| *n as usize).product();
+        make_room(&mut self.table, slots);
+        self.table.resize(slots, ABSENT);
+        for y in 0..before.size[1] {
+            for z in 0..before.size[2] {
+                for x in 0..before.size[0] {
+                    let at = [x + before.origin[0], y + before.origin[1], z + before.origin[2]];
+                    if let (Some(old), Some(new)) = (before.slot(at), self.slot(at)) {
+                        self.table[new] = before.table[old];
                     }
                 }
             }
         }
-        (self.table, self.origin, self.size) = (wider.table, wider.origin, wider.size);
         self.slot(at).unwrap_or_else(|| unreachable!("the box was widened to hold the chunk"))
     }
 }

@@ -94,20 +94,30 @@ impl ShadowGrid {
 
     /// Adds the shadows of many: those of the same voxel that follow each other two at a time.
     pub(crate) fn cast_all(&mut self, positions: impl Iterator<Item = Vec3>) {
+        self.spread_all(positions, u32::wrapping_add);
+    }
+
+    /// Takes the shadows of many back.
+    pub(crate) fn uncast_all(&mut self, positions: impl Iterator<Item = Vec3>) {
+        self.spread_all(positions, u32::wrapping_sub);
+    }
+
+    #[inline(always)]
+    fn spread_all(&mut self, positions: impl Iterator<Item = Vec3>, change: impl Fn(u32, u32) -> u32 + Copy) {
         let mut waiting: Option<Vec3> = None;
         for position in positions {
             waiting = match waiting {
                 Some(one) if voxel_of(one) == voxel_of(position) => {
-                    self.spread(one, |value, shadow| value.wrapping_add(shadow).wrapping_add(shadow));
+                    self.spread(one, |value, shadow| change(change(value, shadow), shadow));
                     None
                 }
                 other => {
-                    other.into_iter().for_each(|one| self.cast(one));
+                    other.into_iter().for_each(|one| self.spread(one, change));
                     Some(position)
                 }
             };
         }
-        waiting.into_iter().for_each(|one| self.cast(one));
+        waiting.into_iter().for_each(|one| self.spread(one, change));
     }
 
     /// Takes the same shadow back.

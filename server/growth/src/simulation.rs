@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_plant::{AxisId, MetamerId, Plant, TimeShift};
 use glam::Vec3;
 
 use crate::{
@@ -14,6 +14,7 @@ use crate::{
     lasso::Envelope,
     light::ShadowGrid,
     markers::{Marker, MarkerSource, Markers},
+    nearby_order::nearby_order,
     observer::{NoObserver, Observer, Phase},
     obstacles::{CLEARANCE, Obstacle, Obstacles},
     parameter_table::ParameterTable,
@@ -257,16 +258,7 @@ impl Simulation {
         self.field = None;
         let before = self.plant.metamer_count();
         let shift = self.plant.go_to(step);
-        for &(id, place) in shift.metamers_out.iter().chain(&shift.moved) {
-            self.leave(id, place);
-        }
-        let moved = shift.moved.iter().map(|&(id, _)| id);
-        for id in shift.metamers_in.iter().copied().chain(moved) {
-            self.enter(id);
-        }
-        for &axis in &shift.axes {
-            self.replace_bud(axis);
-        }
+        self.follow_in_time(&shift);
         if shift.is_edited {
             self.canopy.forget();
         } else if self.plant.metamer_count() < before {
@@ -276,6 +268,29 @@ impl Simulation {
         let changed: Vec<Vec3> =
             gone.chain(shift.metamers_in.iter().map(|&id| self.plant.metamers().end(id))).collect();
         self.see_light(&changed, &mut NoObserver);
+    }
+
+    /// Tells shadows and space, side by side, of what has come, gone and moved.
+    fn follow_in_time(&mut self, shift: &TimeShift) {
+        let Self { plant, space, shadows, obstacles, .. } = self;
+        let plant = &*plant;
+        let moved = shift.moved.iter().map(|&(id, _)| (id, plant.metamers().end(id)));
+        let came = shift.metamers_in.iter().map(|&id| (id, plant.metamers().end(id)));
+        // In the order of their places, for the same reason as what has grown (see `settle`).
+        let went = nearest_together(shift.metamers_out.iter().chain(&shift.moved).copied());
+        let came = nearest_together(came.chain(moved));
+        came.iter().for_each(|&(_, node)| obstacles.survey_sky(node));
+        let is_wood = |&&(id, _): &&(MetamerId, Vec3)| !plant.is_seed(id);
+        let tell_shadows = || {
+            shadows.uncast_all(went.iter().filter(is_wood).map(|&(_, node)| node));
+            shadows.cast_all(came.iter().filter(is_wood).map(|&(_, node)| node));
+        };
+        let tell_space = || {
+            went.iter().for_each(|&(id, node)| space.vacate(id, node));
+            came.iter().for_each(|&(id, node)| space.occupy(id, node));
+            shift.axes.iter().for_each(|&axis| replace_bud(plant, space, axis));
+        };
+        rayon::join(tell_shadows, tell_space);
     }
 
     /// Makes light and vigor those of the present, after shadows have come or gone at these nodes. Where the
@@ -336,12 +351,23 @@ impl Simulation {
 
     /// Puts the bud of an axis where the plant says it is now, or nowhere.
     pub(crate) fn replace_bud(&mut self, axis: AxisId) {
-        let is_present = axis.index() < self.plant.axis_count() && self.plant.is_axis_alive(axis);
-        if is_present {
-            let (position, direction) = (self.plant.bud_position(axis), self.plant.bud_direction(axis));
-            self.space.place_bud(axis, Bud { position, direction });
-        } else {
-            self.space.remove_bud(axis);
-        }
+        replace_bud(&self.plant, &mut self.space, axis);
     }
+}
+
+/// Puts the bud of an axis where the plant says it is now, or nowhere.
+fn replace_bud(plant: &Plant, space: &mut Space, axis: AxisId) {
+    if axis.index() < plant.axis_count() && plant.is_axis_alive(axis) {
+        let (position, direction) = (plant.bud_position(axis), plant.bud_direction(axis));
+        space.place_bud(axis, Bud { position, direction });
+    } else {
+        space.remove_bud(axis);
+    }
+}
+
+/// Nodes in the order of their places.
+fn nearest_together(nodes: impl Iterator<Item = (MetamerId, Vec3)>) -> Vec<(MetamerId, Vec3)> {
+    let nodes: Vec<(MetamerId, Vec3)> = nodes.collect();
+    let order = nearby_order(nodes.iter().enumerate().map(|(i, &(_, node))| (i, node)));
+    order.into_iter().map(|i| nodes[i as usize]).collect()
 }

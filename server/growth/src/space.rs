@@ -3,7 +3,7 @@
 //! The paper gives the occupancy zone to buds. Here every living node has one: a bud sits at a node, so each
 //! bud has its zone, and wood whose buds have all grown out does not offer its place to others again.
 
-use espalier_plant::{AxisId, MetamerId};
+use espalier_plant::{AxisId, MetamerId, make_room};
 use glam::Vec3;
 
 use crate::{
@@ -83,11 +83,13 @@ impl Space {
         }
         self.remove_bud(axis);
         if index >= self.stands.len() {
-            if index >= self.stands.capacity() {
-                self.stands.reserve_exact(index + 1 - self.stands.len() + index / 16);
-            }
+            let more = index + 1 - self.stands.len();
+            make_room(&mut self.stands, more);
             self.stands.resize(index + 1, Stand::NOWHERE);
-            self.moved.resize(index / 64 + 1, 0);
+            let words = index / 64 + 1;
+            let more = words - self.moved.len();
+            make_room(&mut self.moved, more);
+            self.moved.resize(words, 0);
         }
         self.moved[index / 64] |= 1 << (index % 64);
         self.stands[index] = self.buds.insert(axis.raw(), bud.position, bud.direction);

@@ -11,7 +11,7 @@ mod changes;
 
 use std::ops::Range;
 
-use espalier_plant::{Appearance, AxisId, Columns, MetamerId, Plant, Widths};
+use espalier_plant::{Appearance, AxisId, Columns, MetamerId, Plant, Widths, make_room};
 use glam::Vec3;
 
 pub use self::changes::Changes;
@@ -209,8 +209,12 @@ impl RingTable {
     fn update(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
         let moved = self.update_ends(pass, rows.clone());
         let is_as_wide = pass.radii.is_empty() || self.radii[rows.clone()] == pass.radii[rows.clone()];
-        let is_as_drawn = pass.former.is_none() && is_as_wide && self.is_as_drawn(pass.plant, rows.clone());
-        let redrawn = !is_as_drawn && self.update_drawing(pass, rows);
+        let redrawn = if pass.former.is_none() && is_as_wide {
+            let differing = self.drawn_otherwise(pass.plant, rows.clone());
+            self.update_drawing(pass, rows.start, marked(&differing))
+        } else {
+            self.update_drawing(pass, rows.start, 0..rows.len())
+        };
         moved || redrawn
     }
 
@@ -235,37 +239,44 @@ impl RingTable {
         pass.changes.position.len() > before
     }
 
-    /// Whether nothing of how these rows are drawn has changed so far that it should be told.
-    fn is_as_drawn(&self, plant: &Plant, rows: Range<usize>) -> bool {
+    /// Marks those rows of a chunk that are drawn so differently that it should be told.
+    fn drawn_otherwise(&self, plant: &Plant, rows: Range<usize>) -> [u8; CHUNK_ROWS] {
         let told = plant.columns(rows.clone());
         let now = plant.step();
-        let mut differs = 0;
-        let mut drawn = [0; CHUNK_ROWS];
-        let tips = self.tips[rows.clone()].iter().zip(told.tips);
-        for (((drawn, (&held, &tips)), &parent), &death) in
-            drawn.iter_mut().zip(tips).zip(told.parent).zip(told.death)
-        {
-            let is_drawn = (parent != Columns::NO_PARENT) & (death > now);
-            differs |= held ^ if is_drawn { tips } else { NO_TIPS };
-            *drawn = u8::from(is_drawn);
+        let (mut drawn, mut differing) = ([0; CHUNK_ROWS], [0; CHUNK_ROWS]);
+        for (drawn, &parent) in drawn.iter_mut().zip(told.parent) {
+            *drawn = u8::from(parent != Columns::NO_PARENT);
         }
-        let mut looks_differ = 0;
-        for ((drawn, held), look) in drawn.iter().zip(&self.looks[rows]).zip(told.appearance) {
+        for (drawn, &death) in drawn.iter_mut().zip(told.death) {
+            *drawn &= u8::from(death > now);
+        }
+        let tips = self.tips[rows.clone()].iter().zip(told.tips);
+        for ((differs, drawn), (&held, &tips)) in differing.iter_mut().zip(drawn).zip(tips) {
+            *differs = u8::from(held != if drawn != 0 { tips } else { NO_TIPS });
+        }
+        let looks = self.looks[rows].iter().zip(told.appearance);
+        for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
             let light = look.light.abs_diff(held.light) >= LIGHT_HYSTERESIS;
             let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= VIGOR_HYSTERESIS;
-            looks_differ |= drawn & u8::from(light | vigor);
+            *differs |= drawn & u8::from(light | vigor);
         }
-        differs == 0 && looks_differ == 0
+        differing
     }
 
-    fn update_drawing(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
+    /// Takes over how some rows are drawn, given by how far they lie behind `first`; returns whether clients will see
+    /// anything of it.
+    fn update_drawing(
+        &mut self,
+        pass: &mut Pass<'_>,
+        first: usize,
+        rows: impl Iterator<Item = usize>,
+    ) -> bool {
         let style = pass.style;
         let former = pass.former.unwrap_or(style);
-        let told = pass.plant.columns(rows.clone());
         let mut seen = false;
-        for (i, row) in rows.enumerate() {
+        for row in rows.map(|i| first + i) {
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
-            let (held, look) = (self.looks[row], told.appearance[i]);
+            let (held, look) = (self.looks[row], pass.all.appearance[row]);
             // What is not drawn keeps its looks: a change would only cost bytes.
             let steady = |held: u8, told: u8, hysteresis: u8| {
                 if tips == NO_TIPS || told.abs_diff(held) < hysteresis { held } else { told }
@@ -308,6 +319,11 @@ impl RingTable {
 
     fn append(&mut self, pass: &Pass<'_>, rows: Range<usize>, generation: u32) {
         let new = pass.plant.columns(rows.clone());
+        make_room(&mut self.links, rows.len());
+        make_room(&mut self.axes, rows.len());
+        make_room(&mut self.ends, rows.len());
+        make_room(&mut self.tips, rows.len());
+        make_room(&mut self.looks, rows.len());
         self.links.extend(rows.clone().map(|row| pass.link(row)));
         self.axes.extend_from_slice(new.axis);
         self.ends.extend_from_slice(new.end);
@@ -348,8 +364,8 @@ impl Pass<'_> {
     }
 
     fn tips(&self, row: usize) -> u32 {
-        let Columns { parent, death, tips, .. } = self.all;
-        let is_drawn = parent[row] != Columns::NO_PARENT && death[row] > self.plant.step();
+        let Columns { parent, tips, .. } = self.all;
+        let is_drawn = parent[row] != Columns::NO_PARENT && self.all.lives(row, self.plant.step());
         if is_drawn { tips[row] } else { NO_TIPS }
     }
 
@@ -361,6 +377,18 @@ impl Pass<'_> {
         };
         (0..self.all.parent.len()).map(code).collect()
     }
+}
+
+/// Which rows of a chunk are marked, in ascending order. Mostly few are, so eight are passed over at once.
+fn marked(marks: &[u8; CHUNK_ROWS]) -> impl Iterator<Item = usize> + '_ {
+    let words = marks.as_chunks::<8>().0.iter().map(|bytes| u64::from_le_bytes(*bytes));
+    words.enumerate().flat_map(|(word, mut left)| {
+        std::iter::from_fn(move || {
+            let bit = (left != 0).then(|| left.trailing_zeros() as usize)?;
+            left &= left - 1;
+            Some(word * 8 + bit / 8)
+        })
+    })
 }
 
 fn radius(tips: u32, style: &Style) -> u16 {

@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use crate::{
+    deaths::Deaths,
     id::{AxisId, MetamerId},
-    metamers::ALIVE,
+    room::make_room,
 };
 
 /// Axes as parallel columns; each is the bud at its tip and the metamers behind it.
@@ -15,7 +16,7 @@ pub struct Axes {
     pub(crate) last: Vec<MetamerId>,
     pub(crate) direction: Vec<Vec3>,
     pub(crate) order: Vec<u16>,
-    pub(crate) death: Vec<u32>,
+    pub(crate) death: Deaths,
 }
 
 impl Axes {
@@ -29,20 +30,17 @@ impl Axes {
         self.last.push(MetamerId::NONE);
         self.direction.push(direction);
         self.order.push(stored_order(order));
-        self.death.push(ALIVE);
         id
     }
 
-    /// Makes room for a sixteenth more: doubling would leave a large plant's columns half empty.
+    /// Makes room for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        let more = self.bearer.len() / 16 + 64;
-        self.bearer.reserve_exact(more);
-        self.first.reserve_exact(more);
-        self.last.reserve_exact(more);
-        self.direction.reserve_exact(more);
-        self.order.reserve_exact(more);
-        self.death.reserve_exact(more);
+        make_room(&mut self.bearer, 1);
+        make_room(&mut self.first, 1);
+        make_room(&mut self.last, 1);
+        make_room(&mut self.direction, 1);
+        make_room(&mut self.order, 1);
     }
 
     /// The axis that will be laid down next.
@@ -64,12 +62,12 @@ impl Axes {
 
     /// Puts rows behind these.
     pub(crate) fn append(&mut self, mut more: Self) {
+        self.death.append(self.bearer.len(), more.death);
         self.bearer.append(&mut more.bearer);
         self.first.append(&mut more.first);
         self.last.append(&mut more.last);
         self.direction.append(&mut more.direction);
         self.order.append(&mut more.order);
-        self.death.append(&mut more.death);
     }
 
     /// The metamer whose node bears this axis; none for a trunk, which begins with its seed.

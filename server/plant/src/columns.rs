@@ -10,7 +10,7 @@ use crate::{
     plant::Plant,
 };
 
-/// What is known of some neighbouring metamers; all columns have the same length.
+/// What is known of some neighbouring metamers; all columns but deaths have the same length.
 #[derive(Clone, Copy, Debug)]
 pub struct Columns<'a> {
     /// The metamer each grows from; [`Columns::NO_PARENT`] for a seed.
@@ -23,11 +23,17 @@ pub struct Columns<'a> {
     pub tips: &'a [u32],
     /// How each looks.
     pub appearance: &'a [Appearance],
-    /// Steps of death; who lives has one that lies beyond the present step.
+    /// Steps of death, as far as any is known; who lives has none, or one that lies beyond the present step.
     pub death: &'a [u32],
 }
 
 impl Columns<'_> {
+    /// Whether a metamer of these lives in a step.
+    #[inline]
+    pub fn lives(&self, row: usize, step: u32) -> bool {
+        self.death.get(row).is_none_or(|&death| death > step)
+    }
+
     /// Stands in for the parent of a seed.
     pub const NO_PARENT: MetamerId = MetamerId::NONE;
 }
@@ -43,7 +49,7 @@ impl Plant {
             end: &metamers.end[rows.clone()],
             tips: &metamers.tips[rows.clone()],
             appearance: &metamers.appearance[rows.clone()],
-            death: &metamers.death[rows],
+            death: metamers.death.within(rows),
         }
     }
 }

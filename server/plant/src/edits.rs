@@ -91,7 +91,7 @@ impl Plant {
         self.timeline.edits.extend(roots.iter().map(|&root| Edit::Shed(self.metamers.axis(root))));
         for &bud in axes {
             if self.axes.first(bud).is_none() && self.is_axis_alive(bud) {
-                self.axes.death[bud.index()] = self.timeline.now;
+                self.axes.death.set(bud.index(), self.timeline.now);
                 self.timeline.edits.push(Edit::Shed(bud));
                 dead.push(bud);
             }
@@ -124,7 +124,7 @@ impl Plant {
         let mut waiting = vec![(self.metamers.axis(root), Some(root))];
         while let Some((axis, lowest)) = waiting.pop() {
             if self.is_axis_alive(axis) {
-                self.axes.death[axis.index()] = now;
+                self.axes.death.set(axis.index(), now);
                 fallen.axes.push(axis);
             }
             let Some(lowest) = lowest else { continue };
@@ -132,7 +132,7 @@ impl Plant {
             while let Some(id) = next {
                 // The top of an axis may have been cut off before.
                 if self.is_alive(id) {
-                    self.metamers.death[id.index()] = now;
+                    self.metamers.death.set(id.index(), now);
                     fallen.metamers.push(id);
                     let standing = self.laterals(id).filter(|&lateral| self.is_standing(lateral));
                     waiting.extend(standing.map(|lateral| (lateral, self.axes.first(lateral))));
@@ -262,7 +262,7 @@ impl Plant {
             let order = self.axes.order(self.metamers.axis(bearer)) + 1;
             let copy = self.axes.push(bearer, motion.turn(self.axes.direction(axis)), order);
             if !self.is_axis_alive(axis) {
-                self.axes.death[copy.index()] = self.timeline.now;
+                self.axes.death.set(copy.index(), self.timeline.now);
             }
             if self.is_graft(axis) {
                 self.timeline.edits.push(Edit::Grafted(copy));
@@ -270,7 +270,7 @@ impl Plant {
             }
         }
         if !self.is_axis_alive(self.metamers.axis(source)) {
-            self.axes.death[root.index()] = self.timeline.now;
+            self.axes.death.set(root.index(), self.timeline.now);
         }
         for index in first_row..self.metamers.parent.len() {
             self.link(MetamerId::new(index));

@@ -7,9 +7,10 @@ use glam::Vec3;
 
 use crate::{
     axes::{Axes, stored_order},
+    deaths::Deaths,
     edits::Edit,
     id::{AxisId, MetamerId},
-    metamers::{ALIVE, Appearance, Metamers},
+    metamers::{Appearance, Metamers},
     parts::{BrokenPlant, check_edit, from_ends, id_of, to_ends},
     plant::Plant,
     timeline::StepEnd,
@@ -94,14 +95,14 @@ impl Future {
             edits: self.edits.clone(),
             parent: m.parent.iter().map(|id| id.raw()).collect(),
             axis: m.axis.iter().map(|id| id.raw()).collect(),
-            death: m.death.clone(),
+            death: m.death.to_rows(m.parent.len()),
             end: m.end.clone(),
             normal: m.normal.clone(),
             lateral: m.lateral.iter().map(|id| id.raw()).collect(),
             bearer: a.bearer.iter().map(|id| id.raw()).collect(),
             direction: a.direction.clone(),
             order: a.order.iter().map(|&order| u32::from(order)).collect(),
-            axis_death: a.death.clone(),
+            axis_death: a.death.to_rows(a.bearer.len()),
             deaths: self.deaths.iter().map(|&(id, step)| (id.raw(), step)).collect(),
             axis_deaths: self.axis_deaths.iter().map(|&(id, step)| (id.raw(), step)).collect(),
         }
@@ -126,7 +127,7 @@ impl Future {
             metamers: Metamers {
                 parent: parts.parent.into_iter().map(metamer).collect(),
                 axis: parts.axis.into_iter().map(axis).collect(),
-                death: parts.death,
+                death: Deaths::from_rows(parts.death),
                 end: parts.end,
                 normal: parts.normal,
                 tips: vec![0; metamers],
@@ -139,7 +140,7 @@ impl Future {
                 last: vec![MetamerId::NONE; axes],
                 direction: parts.direction,
                 order: parts.order.iter().map(|&order| stored_order(order)).collect(),
-                death: parts.axis_death,
+                death: Deaths::from_rows(parts.axis_death),
             },
             ends: ends.collect(),
             edits: parts.edits,
@@ -234,8 +235,8 @@ impl Plant {
         let edits = self.timeline.edits.split_off(from.edits as usize);
         let loses = edits.iter().any(|edit| matches!(edit, Edit::Shed(_) | Edit::Pruned(_)));
         // Rows of the present that die in this future live on without it.
-        let deaths = if loses { take_deaths(&mut self.metamers.death, now) } else { Vec::new() };
-        let axis_deaths = if loses { take_deaths(&mut self.axes.death, now) } else { Vec::new() };
+        let deaths = if loses { self.metamers.death.take_after(now) } else { Vec::new() };
+        let axis_deaths = if loses { self.axes.death.take_after(now) } else { Vec::new() };
         Future {
             from,
             step: now,
@@ -262,21 +263,11 @@ impl Plant {
         self.timeline.ends.extend(ends);
         self.timeline.edits.extend(edits);
         for (id, step) in deaths {
-            self.metamers.death[id.index()] = step;
+            self.metamers.death.set(id.index(), step);
         }
         for (id, step) in axis_deaths {
-            self.axes.death[id.index()] = step;
+            self.axes.death.set(id.index(), step);
         }
         Ok(())
     }
-}
-
-/// Takes out the deaths that come after a step.
-fn take_deaths(deaths: &mut [u32], now: u32) -> Vec<(usize, u32)> {
-    let mut taken = Vec::new();
-    for (row, death) in deaths.iter_mut().enumerate().filter(|(_, death)| **death > now && **death != ALIVE) {
-        taken.push((row, *death));
-        *death = ALIVE;
-    }
-    taken
 }

@@ -2,10 +2,11 @@
 
 use glam::Vec3;
 
-use crate::id::{AxisId, MetamerId};
-
-/// The step of death of what is alive.
-pub(crate) const ALIVE: u32 = u32::MAX;
+use crate::{
+    deaths::Deaths,
+    id::{AxisId, MetamerId},
+    room::make_room,
+};
 
 /// How a metamer looks beyond its form: written by whatever grows the plant, read by whatever draws it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -26,7 +27,7 @@ impl Appearance {
 pub struct Metamers {
     pub(crate) parent: Vec<MetamerId>,
     pub(crate) axis: Vec<AxisId>,
-    pub(crate) death: Vec<u32>,
+    pub(crate) death: Deaths,
     pub(crate) end: Vec<Vec3>,
     pub(crate) normal: Vec<Vec3>,
     pub(crate) tips: Vec<u32>,
@@ -53,7 +54,6 @@ impl Metamers {
         }
         self.parent.push(row.parent);
         self.axis.push(row.axis);
-        self.death.push(ALIVE);
         self.end.push(row.end);
         self.normal.push(row.normal);
         self.tips.push(0);
@@ -62,18 +62,16 @@ impl Metamers {
         id
     }
 
-    /// Makes room for a sixteenth more: doubling would leave a large plant's columns half empty.
+    /// Makes room for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        let more = self.parent.len() / 16 + 64;
-        self.parent.reserve_exact(more);
-        self.axis.reserve_exact(more);
-        self.death.reserve_exact(more);
-        self.end.reserve_exact(more);
-        self.normal.reserve_exact(more);
-        self.tips.reserve_exact(more);
-        self.appearance.reserve_exact(more);
-        self.lateral.reserve_exact(more);
+        make_room(&mut self.parent, 1);
+        make_room(&mut self.axis, 1);
+        make_room(&mut self.end, 1);
+        make_room(&mut self.normal, 1);
+        make_room(&mut self.tips, 1);
+        make_room(&mut self.appearance, 1);
+        make_room(&mut self.lateral, 1);
     }
 
     /// Cuts the columns off at a row and returns the rest.
@@ -92,9 +90,9 @@ impl Metamers {
 
     /// Puts rows behind these.
     pub(crate) fn append(&mut self, mut more: Self) {
+        self.death.append(self.parent.len(), more.death);
         self.parent.append(&mut more.parent);
         self.axis.append(&mut more.axis);
-        self.death.append(&mut more.death);
         self.end.append(&mut more.end);
         self.normal.append(&mut more.normal);
         self.tips.append(&mut more.tips);

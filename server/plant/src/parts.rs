@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::{
     axes::Axes,
     checks,
+    deaths::Deaths,
     edits::Edit,
     id::{AxisId, MetamerId},
     metamers::{Appearance, Metamers},
@@ -58,12 +59,12 @@ impl Plant {
             widths: self.widths.iter().map(|(id, &diameter)| (id.raw(), diameter)).collect(),
             parent: self.metamers.parent.iter().map(|id| id.raw()).collect(),
             axis: self.metamers.axis.iter().map(|id| id.raw()).collect(),
-            death: self.metamers.death.clone(),
+            death: self.metamers.death.to_rows(self.metamers.parent.len()),
             end: self.metamers.end.clone(),
             normal: self.metamers.normal.clone(),
             bearer: self.axes.bearer.iter().map(|id| id.raw()).collect(),
             direction: self.axes.direction.clone(),
-            axis_death: self.axes.death.clone(),
+            axis_death: self.axes.death.to_rows(self.axes.bearer.len()),
         }
     }
 
@@ -92,7 +93,7 @@ impl Plant {
             metamers: Metamers {
                 parent: parts.parent.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),
                 axis: parts.axis.iter().map(|&raw| AxisId::new(raw as usize)).collect(),
-                death: parts.death,
+                death: Deaths::from_rows(parts.death),
                 end: parts.end,
                 normal: parts.normal,
                 tips: vec![0; metamers],
@@ -105,7 +106,7 @@ impl Plant {
                 last: vec![MetamerId::NONE; axes],
                 direction: parts.direction,
                 order,
-                death: parts.axis_death,
+                death: Deaths::from_rows(parts.axis_death),
             },
             timeline: Timeline {
                 ends: from_ends(&parts.ends),

@@ -6,9 +6,10 @@ use glam::Vec3;
 
 use crate::{
     axes::Axes,
+    deaths::ALIVE,
     hash::StableHash,
     id::{AxisId, MetamerId},
-    metamers::{ALIVE, Appearance, Metamers, Row},
+    metamers::{Appearance, Metamers, Row},
     timeline::{StepEnd, Timeline},
 };
 
@@ -128,7 +129,7 @@ impl Plant {
 
     /// Whether a metamer of the present is alive.
     pub fn is_alive(&self, id: MetamerId) -> bool {
-        self.metamers.death[id.index()] > self.timeline.now
+        self.metamers.death.of(id.index()) > self.timeline.now
     }
 
     /// Steps of growth that a metamer of the present has lived through; edits take no time.
@@ -151,7 +152,7 @@ impl Plant {
 
     /// Whether the bud of an axis of the present is alive. Of an axis that was cut, wood without a bud remains.
     pub fn is_axis_alive(&self, id: AxisId) -> bool {
-        self.axes.death[id.index()] > self.timeline.now
+        self.axes.death.of(id.index()) > self.timeline.now
     }
 
     /// Whether a metamer is a seed: a point where a trunk begins.
@@ -405,7 +406,7 @@ impl Plant {
             let id = MetamerId::new(index);
             let m = &self.metamers;
             hash.word(u64::from(m.parent[index].raw()) | u64::from(m.axis[index].raw()) << 32);
-            let death = if self.is_alive(id) { ALIVE } else { m.death[index] };
+            let death = if self.is_alive(id) { ALIVE } else { m.death.of(index) };
             hash.word(u64::from(self.birth(id)) | u64::from(death) << 32);
             hash.vector(m.end[index]);
             hash.vector(m.normal[index]);

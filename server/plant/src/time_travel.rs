@@ -35,6 +35,15 @@ struct Journey {
     is_edited: bool,
 }
 
+impl Journey {
+    /// Notes an axis, once for all metamers of a shoot: they follow each other.
+    fn note_axis(&mut self, axis: AxisId) {
+        if self.axes.last() != Some(&axis) {
+            self.axes.push(axis);
+        }
+    }
+}
+
 impl Plant {
     /// Goes to a step that is recorded: back, or forth again.
     ///
@@ -87,7 +96,7 @@ impl Plant {
                 self.living = self.living.wrapping_sub(1);
             }
             self.unlink(id);
-            journey.axes.push(self.metamers.axis(id));
+            journey.note_axis(self.metamers.axis(id));
         }
         self.note_axes(before, end, now, journey);
         self.timeline.now = now - 1;
@@ -139,7 +148,7 @@ impl Plant {
         for index in before.metamers..end.metamers {
             let id = MetamerId::new(index as usize);
             self.link(id);
-            journey.axes.push(self.metamers.axis(id));
+            journey.note_axis(self.metamers.axis(id));
             journey.came.push(id);
             if !self.is_seed(id) {
                 self.living = self.living.wrapping_add(1);
@@ -177,7 +186,7 @@ impl Plant {
     fn note_axes(&self, before: StepEnd, end: StepEnd, step: u32, journey: &mut Journey) {
         journey.axes.extend((before.axes..end.axes).map(|index| AxisId::new(index as usize)));
         if end.edits > before.edits {
-            let died = (0..before.axes as usize).filter(|&index| self.axes.death[index] == step);
+            let died = (0..before.axes as usize).filter(|&index| self.axes.death.of(index) == step);
             journey.axes.extend(died.map(AxisId::new));
         }
     }
@@ -194,7 +203,7 @@ impl Plant {
         });
         let Some(first) = first.min() else { return Vec::new() };
         let rows = (first.index()..before.metamers as usize).map(MetamerId::new);
-        rows.filter(|id| self.metamers.death[id.index()] == step).collect()
+        rows.filter(|id| self.metamers.death.of(id.index()) == step).collect()
     }
 
     /// What a journey comes to: who came and went again need not be told.

@@ -17,6 +17,10 @@ const MOVE_LENGTH: f32 = 2.0;
 const MOST_ADDED: u32 = 500;
 
 fn main() {
+    support::on_the_pool(bench);
+}
+
+fn bench() {
     let tree = Followed::tree(METAMERS);
     for radius in [3.0, 6.0, 10.0] {
         let (mut rounds, mut added, mut kept) = (Vec::new(), Vec::new(), 0);

@@ -13,6 +13,10 @@ const METAMERS: u32 = 100_000;
 const ROUNDS: usize = 8;
 
 fn main() {
+    support::on_the_pool(bench);
+}
+
+fn bench() {
     bend_events();
     let mut tree = Followed::tree(METAMERS);
     edits(&mut tree);

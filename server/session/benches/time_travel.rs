@@ -11,6 +11,10 @@ const STEPS: u32 = 8;
 const ROUNDS: u32 = 12;
 
 fn main() {
+    support::on_the_pool(bench);
+}
+
+fn bench() {
     let mut tree = Followed::tree(METAMERS);
     let each = Action::Ungrow { steps: 1 };
     travel(&mut tree, "ungrow, one step", STEPS, &each, &Action::Redo);

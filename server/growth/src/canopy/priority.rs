@@ -29,7 +29,8 @@ impl Canopy {
         self.bud_vigors.clear();
         self.bud_vigors.resize(plant.axis_count(), 0.0);
         // An axis is born after the one that bears it, and its nodes stand in order.
-        let axis_of = |slot: usize| plant.metamers().axis(self.nodes[slot].id);
+        let wood = self.wood.of(plant);
+        let axis_of = |slot: usize| plant.metamers().axis(wood.id(slot));
         let mut slots: Vec<usize> = (0..self.nodes.len()).collect();
         slots.sort_by_key(|&slot| axis_of(slot));
         let gain = f64::from(parameters.scene().vigor_gain) / vigor::UNIT;
@@ -37,8 +38,9 @@ impl Canopy {
         let axes: Vec<Vec<usize>> =
             slots.chunk_by(|&a, &b| axis_of(a) == axis_of(b)).map(<[usize]>::to_vec).collect();
         for slots in axes {
-            let (first, axis) = (slots[0], plant.metamers().axis(self.nodes[slots[0]].id));
-            if self.nodes[first].parent == NOWHERE {
+            let wood = self.wood.of(plant);
+            let (first, axis) = (slots[0], plant.metamers().axis(wood.id(slots[0])));
+            if wood.parent(first) == NOWHERE {
                 self.bud_vigors[axis.index()] = gain * self.flows[first].light() as f64;
             }
             let vigor = self.bud_vigors[axis.index()];
@@ -68,11 +70,13 @@ impl Canopy {
 
     /// Living buds from each node on upwards.
     fn count_buds(&self, plant: &Plant) -> Vec<u32> {
+        let wood = self.wood.of(plant);
         let mut buds = vec![0; self.nodes.len()];
         for (slot, node) in self.nodes.iter().enumerate().rev() {
-            buds[slot] += u32::from(node.is_tip()) + dormant(plant, node.id).count() as u32;
-            if node.parent != NOWHERE {
-                buds[node.parent as usize] += buds[slot];
+            buds[slot] += u32::from(node.is_tip()) + dormant(plant, wood.id(slot)).count() as u32;
+            let parent = wood.parent(slot);
+            if parent != NOWHERE {
+                buds[parent as usize] += buds[slot];
             }
         }
         buds
@@ -87,7 +91,7 @@ impl Canopy {
         terminal_first: bool,
         claimants: &mut Vec<Claimant>,
     ) {
-        let id = self.nodes[slot].id;
+        let id = self.wood.of(plant).id(slot);
         for axis in plant.laterals(id).filter(|&axis| plant.is_standing(axis)) {
             let (light, buds) = match plant.axes().first(axis) {
                 Some(first) => {

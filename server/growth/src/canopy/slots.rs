@@ -1,8 +1,8 @@
 //! Where each metamer of a plant stands in the canopy.
 
-use espalier_plant::MetamerId;
+use espalier_plant::{MetamerId, make_room};
 
-use super::{NOWHERE, reserve};
+use super::NOWHERE;
 
 /// A slot for each metamer. As long as none has been left out, that is the metamer's own number, and none is written
 /// down.
@@ -29,7 +29,7 @@ impl Slots {
     /// Makes room for more.
     pub(super) fn reserve(&mut self, more: usize) {
         if !self.written.is_empty() {
-            reserve(&mut self.written, more);
+            make_room(&mut self.written, more);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use espalier_plant::MetamerId;
 
-use super::{NOWHERE, Node};
+use super::{NOWHERE, Node, wood::Slotted};
 use crate::vigor::{Flow, Split};
 
 /// Waves smaller than this are not worth handing to other threads.
@@ -41,6 +41,7 @@ impl Waves {
     pub(super) fn share_out(
         &self,
         nodes: &[Node],
+        wood: Slotted<'_>,
         flows: &mut [Flow],
         plants: &[(MetamerId, f64)],
         gain: f64,
@@ -49,7 +50,7 @@ impl Waves {
         while let Some(start) = starts.next() {
             let end = starts.peek().copied().unwrap_or(nodes.len());
             let (below, wave) = flows[..end].split_at_mut(start);
-            Wave { nodes, plants, gain, below }.share_out(wave, start);
+            Wave { nodes, wood, plants, gain, below }.share_out(wave, start);
         }
     }
 }
@@ -58,6 +59,7 @@ impl Waves {
 #[derive(Clone, Copy)]
 struct Wave<'a> {
     nodes: &'a [Node],
+    wood: Slotted<'a>,
     plants: &'a [(MetamerId, f64)],
     gain: f64,
     /// Flows of all nodes before the wave.
@@ -70,7 +72,7 @@ impl Wave<'_> {
         let nodes = &self.nodes[first..first + flows.len()];
         if flows.len() >= PARALLEL_FROM {
             // Not amid a shoot.
-            let begins = |at: &usize| nodes[*at].parent as usize != first + at - 1;
+            let begins = |at: &usize| self.wood.parent(first + at) as usize != first + at - 1;
             if let Some(middle) = (flows.len() / 2..flows.len()).find(begins) {
                 let (left, right) = flows.split_at_mut(middle);
                 rayon::join(|| self.share_out(left, first), || self.share_out(right, first + middle));
@@ -79,7 +81,7 @@ impl Wave<'_> {
         }
         for (at, node) in nodes.iter().enumerate() {
             let light = flows[at].light();
-            let parent = match node.parent {
+            let parent = match self.wood.parent(first + at) {
                 NOWHERE => None,
                 parent => self.below.get(parent as usize).or_else(|| flows.get(at.wrapping_sub(1))),
             };

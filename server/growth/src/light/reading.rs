@@ -14,8 +14,9 @@ use crate::directory;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spot {
     /// Where the least of its eight voxels stands among all chunks' values, with [`Spot::SPLIT`] if they lie in
-    /// several; [`NOWHERE`] if the least had no chunk yet.
-    at: u32,
+    /// several; [`NOWHERE`] if the least had no chunk yet. The lower half comes first: a number of four bytes would
+    /// have the spot rounded up to twelve.
+    at: [u16; 2],
     /// Where it lies between the centres of the eight, in steps of 1/[`Spot::STEPS`].
     fraction: [u16; 3],
 }
@@ -41,16 +42,17 @@ impl ShadowGrid {
             let at = chunk * VALUES as u32 + offset(low) as u32;
             if is_split { at | Spot::SPLIT } else { at }
         });
-        Spot { at, fraction: fraction(position) }
+        Spot { at: [at as u16, (at >> 16) as u16], fraction: fraction(position) }
     }
 
     /// Light at a place with this spot, 0 to 1, as if the metamer whose node is there cast no shadow.
     #[inline]
     pub(crate) fn exposure_at(&self, spot: Spot, place: impl FnOnce() -> Vec3) -> f32 {
-        let octet = if spot.at & Spot::SPLIT == 0 {
-            self.octet(spot.at)
-        } else if spot.at != NOWHERE {
-            self.split_octet(spot.at & !Spot::SPLIT)
+        let at = u32::from(spot.at[0]) | u32::from(spot.at[1]) << 16;
+        let octet = if at & Spot::SPLIT == 0 {
+            self.octet(at)
+        } else if at != NOWHERE {
+            self.split_octet(at & !Spot::SPLIT)
         } else {
             self.octet_around(least_voxel(place()))
         };

@@ -37,7 +37,7 @@ mod tests {
     #[test]
     fn life_on_dead_wood_fails() {
         let mut plant = checks::tests_support::sapling();
-        plant.metamers.death[1] = 1;
+        plant.metamers.death.set(1, 1);
         assert_eq!(checks::all(&plant).map_err(|f| f.check), Err("death_reaches_tips"));
     }
 }

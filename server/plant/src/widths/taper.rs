@@ -15,7 +15,8 @@ pub(super) fn rise(
     if !tapers.contains(&true) {
         return Vec::new();
     }
-    let Columns { parent, end, death, .. } = plant.columns(first..plant.metamer_count());
+    let columns = plant.columns(first..plant.metamer_count());
+    let Columns { parent, end, .. } = columns;
     // The row below, if it is in a subtree that tapers. That of a seed lies beyond all rows.
     let bearer = |row: usize| {
         let below = parent[row].index().checked_sub(first)?;
@@ -24,7 +25,7 @@ pub(super) fn rise(
     // Lengths of the wood from each metamer's node to the farthest leaf, and of its own.
     let (mut above, mut own) = (vec![0.0f32; subtrees.len()], vec![0.0f32; subtrees.len()]);
     for row in (0..subtrees.len()).rev() {
-        if let Some(below) = bearer(row).filter(|_| death[row] > plant.step()) {
+        if let Some(below) = bearer(row).filter(|_| columns.lives(row, plant.step())) {
             let is_leaf = subtrees[row] != subtrees[below];
             own[row] = end[row].distance(end[below]);
             let farthest = own[row] + if is_leaf { 0.0 } else { above[row] };

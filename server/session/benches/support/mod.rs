@@ -8,6 +8,12 @@ use std::{
 use espalier_mesh::{RingTable, Style};
 use espalier_session::{Action, Document, delta, style_options};
 
+/// Runs a bench where the server simulates: on a thread of the pool. From outside, each task would first have to wake
+/// one.
+pub fn on_the_pool(bench: impl FnOnce() + Send) {
+    rayon::scope(|_| bench());
+}
+
 const AUTHOR: &str = "bench";
 
 /// A document whose every change a client is told.
