@@ -4,11 +4,14 @@ import { LEVELS, levelFor } from "./branch-levels";
 const FAR = 5;
 const NEAR = 40;
 
+const levelOf = (radius: number, internode: number, before: number) =>
+  levelFor(Float64Array.of(radius, internode), before);
+
 describe("the level of a metamer", () => {
   it("gets finer as it gets larger on the screen", () => {
     let before = LEVELS.length;
     for (let radius = 0.2; radius < 300; radius *= 1.1) {
-      const level = levelFor(radius, radius * 8, -1);
+      const level = levelOf(radius, radius * 8, -1);
       expect(level).toBeLessThanOrEqual(before);
       before = level;
     }
@@ -16,17 +19,17 @@ describe("the level of a metamer", () => {
   });
 
   it("is a strip while it is thin, with a curve where that can be seen", () => {
-    expect(LEVELS[levelFor(1, FAR, -1)]).toMatchObject({ sides: 0, segments: 1 });
-    expect(LEVELS[levelFor(1, NEAR, -1)]).toMatchObject({ sides: 0, segments: 3 });
-    expect(LEVELS[levelFor(3, NEAR, -1)]!.sides).toBeGreaterThan(0);
+    expect(LEVELS[levelOf(1, FAR, -1)]).toMatchObject({ sides: 0, segments: 1 });
+    expect(LEVELS[levelOf(1, NEAR, -1)]).toMatchObject({ sides: 0, segments: 3 });
+    expect(LEVELS[levelOf(3, NEAR, -1)]!.sides).toBeGreaterThan(0);
   });
 
   it.each(LEVELS.slice(0, 4).map(({ from }) => from))("does not flicker about %s pixels", (from) => {
-    const first = levelFor(from, NEAR, -1);
-    for (const wobble of [0.92, 1.08, 0.9, 1.1]) expect(levelFor(from * wobble, NEAR, first)).toBe(first);
-    const below = levelFor(from * 0.99, NEAR, -1);
+    const first = levelOf(from, NEAR, -1);
+    for (const wobble of [0.92, 1.08, 0.9, 1.1]) expect(levelOf(from * wobble, NEAR, first)).toBe(first);
+    const below = levelOf(from * 0.99, NEAR, -1);
     expect(below).toBe(first + 1);
-    for (const wobble of [0.92, 1.08, 0.9, 1.1]) expect(levelFor(from * wobble, NEAR, below)).toBe(below);
+    for (const wobble of [0.92, 1.08, 0.9, 1.1]) expect(levelOf(from * wobble, NEAR, below)).toBe(below);
   });
 
   it("changes in the end, whatever it was before", () => {
@@ -39,7 +42,7 @@ describe("the level of a metamer", () => {
         [30, NEAR],
         [200, NEAR],
       ] as const) {
-        expect(levelFor(radius, internode, before)).toBe(levelFor(radius, internode, -1));
+        expect(levelOf(radius, internode, before)).toBe(levelOf(radius, internode, -1));
       }
     }
   });

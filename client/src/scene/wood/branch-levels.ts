@@ -25,19 +25,26 @@ const STRAIGHT_STRIP = LEVELS.length - 1;
 const SHORT = 18;
 /** A metamer keeps its level until it is so much larger or smaller than the level is for: none flickers between two. */
 const SLACK = 1.15;
+/** The radii between which a metamer keeps each level. */
+const LEAST = Float64Array.from(LEVELS, ({ from }) => from / SLACK);
+const MOST = Float64Array.from(LEVELS, (_, i) =>
+  i === 0 ? Number.POSITIVE_INFINITY : LEVELS[Math.min(i, CURVED_STRIP) - 1]!.from * SLACK,
+);
 
-/** The level for a metamer of this radius and internodes of this length, in pixels, that was on level `before`, or −1. */
-export function levelFor(radius: number, internode: number, before: number): number {
-  if (before >= 0 && fits(radius, internode, before)) return before;
+/** How large a metamer is seen, in pixels: its radius, and the length of an internode. Numbers in an array make no garbage. */
+export type Seen = Float64Array;
+
+/** The level for a metamer seen like this that was on level `before`, or −1. */
+export function levelFor(seen: Seen, before: number): number {
+  if (before >= 0 && fits(seen, before)) return before;
+  const [radius, internode] = [seen[0]!, seen[1]!];
   let level = 0;
   while (level < CURVED_STRIP && radius < LEVELS[level]!.from) level += 1;
   return level === CURVED_STRIP && internode < SHORT ? STRAIGHT_STRIP : level;
 }
 
-function fits(radius: number, internode: number, level: number): boolean {
-  const least = level === STRAIGHT_STRIP ? 0 : LEVELS[level]!.from / SLACK;
-  const most = (level === 0 ? Number.POSITIVE_INFINITY : LEVELS[Math.min(level, CURVED_STRIP) - 1]!.from) * SLACK;
-  if (radius < least || radius >= most) return false;
-  if (level === CURVED_STRIP) return internode >= SHORT / SLACK;
-  return level !== STRAIGHT_STRIP || internode < SHORT * SLACK;
+function fits(seen: Seen, level: number): boolean {
+  if (seen[0]! < LEAST[level]! || seen[0]! >= MOST[level]!) return false;
+  if (level < CURVED_STRIP) return true;
+  return level === CURVED_STRIP ? seen[1]! >= SHORT / SLACK : seen[1]! < SHORT * SLACK;
 }

@@ -6,7 +6,7 @@ import type { TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
 import type { Bark } from "./bark";
 import { BranchBin } from "./branch-bin";
-import { LEVELS, levelFor } from "./branch-levels";
+import { LEVELS, levelFor, type Seen } from "./branch-levels";
 import { face, ribbon, tube } from "./branch-shapes";
 
 const BEGINS_LIMB = 1;
@@ -80,6 +80,7 @@ export class Branches {
   /** Whether it may be another by now. */
   private changed = false;
   private onlooker: Onlooker | null = null;
+  private readonly seen: Seen = new Float64Array(2);
   private nextSeen = 0;
   private unseen = 0;
 
@@ -314,21 +315,21 @@ export class Branches {
   }
 
   private fitting(table: TreeTable, row: number): number {
-    const { onlooker } = this;
-    let pixels = UNSEEN_PIXELS;
+    const { onlooker, seen } = this;
+    const { radius: drawn } = table.girth;
+    let radius = drawn[row]!;
+    // A twig that goes on from a limb begins with the limb's end.
+    if (table.limbs.begins[row] !== 1) radius = Math.max(radius, 0.5 * drawn[table.parent[row]!]!);
+    seen[1] = UNSEEN_PIXELS;
     if (onlooker) {
       const { position } = table;
       const dx = position[3 * row]! - onlooker.eye[0];
       const dy = position[3 * row + 1]! - onlooker.eye[1];
       const dz = position[3 * row + 2]! - onlooker.eye[2];
-      pixels = onlooker.pixels / Math.max(NEAREST, Math.sqrt(dx * dx + dy * dy + dz * dz));
+      seen[1] = onlooker.pixels / Math.max(NEAREST, Math.sqrt(dx * dx + dy * dy + dz * dz));
     }
-    // A twig that goes on from a limb begins with the limb's end.
-    const { radius: drawn } = table.girth;
-    const below = table.limbs.begins[row] === 1 ? 0 : 0.5 * drawn[table.parent[row]!]!;
-    const radius = Math.max(drawn[row]!, below);
-    const level = levelFor(radius * pixels, pixels, this.level[row]!);
-    return Math.min(level, this.coarsest);
+    seen[0] = radius * seen[1];
+    return Math.min(levelFor(seen, this.level[row]!), this.coarsest);
   }
 }
 
