@@ -18,6 +18,8 @@ declare global {
   interface Window {
     /** Frames in which something was drawn. */
     measured: FrameRecord[];
+    /** When the first frame that drew a tree ended, in milliseconds since the navigation. */
+    firstTree: Promise<number>;
     /** What is drawn is counted but not passed on, so that script never waits for the graphics card. */
     blind: boolean;
     /** When the first rows came, in milliseconds since the navigation. */
@@ -28,6 +30,12 @@ declare global {
 /** Counts what a page draws and times its script; runs in the page before anything else. */
 export function instrument(): void {
   const shadowMap = 2048;
+  /** A tree is seen once so many triangles of it are drawn. */
+  const aTree = 50_000;
+  let seen: (at: number) => void = () => {};
+  window.firstTree = new Promise((resolve) => {
+    seen = resolve;
+  });
   window.measured = [];
   window.blind = false;
   window.rowsAt = Number.NaN;
@@ -97,6 +105,7 @@ export function instrument(): void {
       if (frame) {
         frame.script += ended - began;
         frame.at = ended;
+        if (frame.camera.triangles > aTree) seen(ended);
       }
     });
 }

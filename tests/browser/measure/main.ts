@@ -15,7 +15,10 @@ const WARMING = 40;
 /** A tree is seen once so many triangles of it are drawn. */
 const A_TREE = 50_000;
 
-const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, script99: 4, gzip: 300_000, first: 1000 };
+/** What the browser calls all callbacks of one animation frame in its traces. */
+const ALL_CALLBACKS = "PageAnimator::serviceScriptedAnimations";
+
+const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, gzip: 300_000, first: 1000 };
 
 /** Measures the client with a large tree and prints what it costs; `--metamers N` for another size. Gives the exit code: 0 if every goal was kept. */
 export async function main(words: readonly string[]): Promise<number> {
@@ -33,19 +36,21 @@ export async function main(words: readonly string[]): Promise<number> {
     await perform(blank, session, ['{"kind":"set_parameters","parameters":{"leaves_per_node":4}}']);
     const tree = await grow(blank, browser, address, session, metamers);
     const page = await openMeasured(browser, address);
-    const first = await firstTree(page);
+    // Asked once: a page that is asked again and again takes longer.
+    const first = await page.evaluate(() => window.firstTree);
     const rows = await page.evaluate(() => window.rowsAt);
-    const size = await scriptSize(page);
     const still = await atRest(page);
-    const { frames: script, processor } = await turning(page);
+    const size = await scriptSize(page);
+    const { clock, processor } = await turning(browser, page);
     const figures: Figure[] = [
       { what: "draw calls of the camera", value: still.camera.calls, most: BUDGET.calls, print: String },
       { what: "draw calls of the shadow map", value: still.shadow.calls, print: String },
       { what: "triangles of the camera", value: still.camera.triangles, most: BUDGET.triangles, print: thousands },
       { what: "triangles of the shadow map", value: still.shadow.triangles, print: thousands },
-      { what: "script a frame, median, ms", value: quantile(script, 0.5), most: BUDGET.script, print: hundredths },
-      { what: "script a frame, 99 %, ms", value: quantile(script, 0.99), most: BUDGET.script99, print: hundredths },
-      { what: "script a frame, processor time, mean, ms", value: processor, most: BUDGET.script, print: hundredths },
+      { what: "script a frame, median, ms", value: quantile(processor, 0.5), most: BUDGET.script, print: hundredths },
+      { what: "script a frame, 99 %, ms", value: quantile(processor, 0.99), most: BUDGET.script, print: hundredths },
+      { what: "by the clock, median, ms", value: quantile(clock, 0.5), most: BUDGET.script, print: hundredths },
+      { what: "by the clock, 99 %, ms", value: quantile(clock, 0.99), print: hundredths },
       { what: "JavaScript, gzip, bytes", value: size, most: BUDGET.gzip, print: thousands },
       { what: "its rows received, ms", value: rows, print: whole },
       { what: "first tree handed to the graphics card, ms", value: first, most: BUDGET.first, print: whole },
@@ -117,17 +122,6 @@ async function openMeasured(browser: Browser, address: string): Promise<Page> {
   return page;
 }
 
-/** Milliseconds from the navigation to the first frame that drew a tree. */
-async function firstTree(page: Page): Promise<number> {
-  let first: FrameRecord | undefined;
-  await until("a tree is drawn", async () => {
-    const frames = await page.evaluate(() => window.measured ?? []).catch(() => []);
-    first = frames.find(({ camera }) => camera.triangles > A_TREE);
-    return first !== undefined;
-  });
-  return first?.at ?? Number.NaN;
-}
-
 /** Bytes of the scripts loaded so far, each compressed as a server would. */
 async function scriptSize(page: Page): Promise<number> {
   const scripts = await page.evaluate(() =>
@@ -163,23 +157,32 @@ async function atRest(page: Page): Promise<FrameRecord> {
 }
 
 /**
- * Script of each frame while the tree is turned by its strip: by the clock, which a busy machine stretches, and the mean of
- * the processor's time for all of the page's script, events and layout of the interface aside.
+ * Milliseconds of script in each frame while the tree is turned by its strip: what the processor needed for it, and by the
+ * clock, which also counts the time that the browser's other processes and the server had the processor.
  */
-async function turning(page: Page): Promise<{ frames: number[]; processor: number }> {
-  const session = await page.context().newCDPSession(page);
-  await session.send("Performance.enable", { timeDomain: "threadTicks" });
-  const used = async () => {
-    const { metrics } = await session.send("Performance.getMetrics");
-    return 1000 * (metrics.find(({ name }) => name === "ScriptDuration")?.value ?? Number.NaN);
-  };
+async function turning(browser: Browser, page: Page): Promise<{ clock: number[]; processor: number[] }> {
   await page.evaluate(() => {
     window.blind = true;
   });
   await turn(page, WARMING);
-  const before = await used();
-  const frames = await turn(page, FRAMES);
-  return { frames, processor: ((await used()) - before) / frames.length };
+  const clock = await turn(page, FRAMES);
+  const session = await browser.newBrowserCDPSession();
+  const processor: number[] = [];
+  session.on("Tracing.dataCollected", ({ value }) => {
+    for (const event of value as readonly { name?: string; tdur?: number }[]) {
+      if (event.name === ALL_CALLBACKS && event.tdur !== undefined) processor.push(event.tdur / 1000);
+    }
+  });
+  await session.send("Tracing.start", {
+    transferMode: "ReportEvents",
+    traceConfig: { includedCategories: ["blink"] },
+  });
+  await turn(page, FRAMES);
+  const complete = new Promise((resolve) => session.once("Tracing.tracingComplete", resolve));
+  await session.send("Tracing.end");
+  await complete;
+  if (processor.length < FRAMES) throw new Error("this browser does not say what frames cost");
+  return { clock, processor };
 }
 
 /** Turns a little in each frame until so many were drawn; gives the script of each. */
