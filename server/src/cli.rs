@@ -151,6 +151,9 @@ pub struct Results {
     /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
     #[arg(long, value_name = "FORMAT")]
     pub stats: Option<Stats>,
+    /// Make no mesh deltas: time and memory are those of growth alone.
+    #[arg(long)]
+    pub no_deltas: bool,
     /// Threads of the simulation; one for each core if not given. The plants do not depend on it.
     #[arg(long)]
     pub threads: Option<NonZeroUsize>,

@@ -264,6 +264,8 @@ function subjectOf(label: Key): Subject | undefined {
     case "scene":
       return { panel: "scene" };
     case "tools":
+      // What is ahead is asked for while something is cut, in a bar of its own.
+      if (name === "prediction") return { tool: "prune" };
       return { tool: name === "stretch" ? "bend" : "prune", control };
     default:
       return undefined;

@@ -25,6 +25,7 @@ export class Stage {
   /** What a picture made later begins with. */
   #appearance: Appearance | null = null;
   #mode: DrawMode = "lit";
+  /** What it is to show once it is made. */
   #look: View | null = null;
   #holds = new Holds((held) => this.#view?.hold(held));
 
@@ -48,6 +49,7 @@ export class Stage {
     }
     if (this.#look) {
       view.look(this.#look);
+      this.#look = null;
     }
   }
 
@@ -103,8 +105,11 @@ export class Stage {
   }
 
   look(view: View): void {
-    this.#look = view;
-    this.#view?.look(view);
+    if (this.#view) {
+      this.#view.look(view);
+    } else {
+      this.#look = view;
+    }
   }
 
   /** Turns the tree around the vertical, by radians: above 0 its front goes to the right. */

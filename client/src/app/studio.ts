@@ -369,7 +369,7 @@ export class Studio {
             this.tools.shaping.peek()?.poses.receive(aside.frame);
           }
         },
-        widths: (widths) => this.tools.shaping.peek()?.width.receive(widths),
+        widths: (widths) => this.tools.receiveWidths(widths),
         timeline: (timeline) => this.time.receive(timeline),
         problem: (problem, command) => refused(this, problem, command),
         rows: () => this.#onRows(),
@@ -422,10 +422,12 @@ export class Studio {
     if (!this.#framed && this.table.rows > 0) {
       this.#framed = true;
       // A page opens with a view that suits a seed; a tree that is there already is shown as a whole.
-      const grown = this.#moved || this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0);
-      const view = viewIn(location.search) ?? (grown ? WHOLE : null);
+      const grown = this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0);
+      const view = viewIn(location.search) ?? (grown && !this.#moved ? WHOLE : null);
       if (view) {
         this.stage.look(view);
+      } else if (this.#moved) {
+        this.stage.frameTree();
       }
     }
   }

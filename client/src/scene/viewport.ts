@@ -100,13 +100,17 @@ export class Viewport {
       this.draw,
       () => this.frames.control.quality.scale < 1 || this.shadowStale || this.tree.ripe,
       // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
-      (still) => canvas.toggleAttribute("data-still", still && !this.lost && !this.tree.unfinished),
+      (still) =>
+        canvas.toggleAttribute("data-still", still && !this.lost && this.rehearsal.prepared && !this.tree.unfinished),
     );
     this.frames.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
     const essential = [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
-    this.rehearsal = new Rehearsal(this.renderer, essential, () => this.frames.invalidate());
+    this.rehearsal = new Rehearsal(this.renderer, essential, () => {
+      this.frames.control.open(performance.now());
+      this.frames.invalidate();
+    });
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.resize();

@@ -15,6 +15,8 @@ pub struct Bench {
     document: Document,
     table: RingTable,
     style: Style,
+    /// Whether a client is in step.
+    followed: bool,
     sequence: u32,
     started: Instant,
     /// Memory held before anything grew.
@@ -33,6 +35,7 @@ impl Bench {
             style: Style::new(style_options(&document.parameters())),
             document,
             table: RingTable::new(),
+            followed: true,
             sequence: 0,
             started: Instant::now(),
             held_before: stats::resident_memory_bytes(),
@@ -42,6 +45,12 @@ impl Bench {
             steps: 0,
             last_step: Duration::ZERO,
         }
+    }
+
+    /// With nobody to make deltas for: what is held and how long it takes are those of growth alone.
+    pub fn unfollowed(mut self) -> Self {
+        self.followed = false;
+        self
     }
 
     /// The document.
@@ -74,12 +83,17 @@ impl Bench {
     }
 
     /// The figures up to now.
-    pub fn stats(&self) -> Stats {
+    pub fn stats(&mut self) -> Stats {
+        let seconds_total = self.started.elapsed().as_secs_f64();
+        let held = stats::resident_memory_bytes().zip(self.held_before);
+        if !self.followed {
+            // Leaves are counted where they are drawn.
+            self.table.sync(self.document.portrait(), &self.style, self.sequence);
+        }
         let figures = self.document.figures();
         let plant = self.document.plant();
         // Seeds are rows as well, but nothing that grew.
         let seeds = (0..self.table.rows() as u32).filter(|&row| self.table.parent(row).is_none()).count();
-        let held = stats::resident_memory_bytes().zip(self.held_before);
         let tree_memory_bytes = held.map(|(now, before)| now.saturating_sub(before));
         let metamers = f64::from(figures.metamers.max(1));
         let of = |phase: Phase| self.phases.total(phase).as_secs_f64();
@@ -89,7 +103,7 @@ impl Bench {
             axes: figures.axes,
             leaves: self.table.leaves(),
             steps: self.steps,
-            seconds_total: self.started.elapsed().as_secs_f64(),
+            seconds_total,
             seconds_last_step: self.last_step.as_secs_f64(),
             seconds: PhaseSeconds {
                 space: of(Phase::Space),
@@ -114,6 +128,9 @@ impl Bench {
         let options = style_options(&self.document.parameters());
         if options != *self.style.options() {
             self.style = Style::new(options);
+        }
+        if !self.followed {
+            return;
         }
         let sequence = self.sequence + 1;
         let changes = self.table.sync(self.document.portrait(), &self.style, sequence);
@@ -165,13 +182,24 @@ mod tests {
 
     #[test]
     fn what_was_grown_is_counted() {
-        let bench = grown(12);
+        let mut bench = grown(12);
         let stats = bench.stats();
         assert_eq!(stats.steps, 12);
         assert!(stats.metamers_alive > 12 && stats.metamers_grown >= stats.metamers_alive);
         assert!(stats.leaves > 0 && stats.axes > 0);
         // A row travels in some bytes, even compressed.
         assert!(stats.delta_bytes > u64::from(stats.metamers_alive), "{}", stats.delta_bytes);
+    }
+
+    #[test]
+    fn without_deltas_the_same_grows() {
+        let mut alone = Bench::new(Document::new(3)).unfollowed();
+        alone.act("me", &Action::Grow { steps: 12, gesture: None, bud: None }).unwrap();
+        let (alone, followed) = (alone.stats(), grown(12).stats());
+        assert_eq!((alone.delta_bytes, alone.seconds.delta), (0, 0.0));
+        assert!(followed.delta_bytes > 0 && followed.seconds.delta > 0.0);
+        assert_eq!(alone.plant_hash, followed.plant_hash);
+        assert_eq!((alone.leaves, alone.metamers_grown), (followed.leaves, followed.metamers_grown));
     }
 
     #[test]

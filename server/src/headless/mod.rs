@@ -80,7 +80,8 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
     // All lines are read before the first is done: a typo at the end should not cost the time of the rest.
     let script = script::parse(&name, &bytes)?;
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
-        let mut bench = Bench::new(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?);
+        let mut bench =
+            bench(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?, &options.results);
         for (line, action) in &script {
             bench.act(AUTHOR, action).map_err(|problem| ScriptError {
                 name: name.clone(),
@@ -100,11 +101,11 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         let mut bench = match options.species {
             Some(species) => {
                 let budget = Start { parameters: Vec::new(), budget: options.start.budget };
-                let mut bench = Bench::new(started(options.seed, &budget, u32::MAX)?);
+                let mut bench = bench(started(options.seed, &budget, u32::MAX)?, &options.results);
                 species::raise(&mut bench, species, &options.start.parameters)?;
                 bench
             }
-            None => Bench::new(started(options.seed, &options.start, u32::MAX)?),
+            None => bench(started(options.seed, &options.start, u32::MAX)?, &options.results),
         };
         let wanted = options.metamers.unwrap_or(0);
         let (mut most, mut idle) = (0, 0);
@@ -131,6 +132,11 @@ fn started(seed: u32, start: &Start, budget: u32) -> Result<Document, HeadlessEr
     let mut document = Document::with_parameters(seed, &wanted).map_err(HeadlessError::Parameters)?;
     document.set_metamer_budget(start.budget.unwrap_or(budget));
     Ok(document)
+}
+
+fn bench(document: Document, results: &Results) -> Bench {
+    let bench = Bench::new(document);
+    if results.no_deltas { bench.unfollowed() } else { bench }
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {

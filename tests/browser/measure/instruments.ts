@@ -27,11 +27,12 @@ declare global {
   }
 }
 
+/** A tree is seen once so many triangles of it are drawn. */
+export const A_TREE = 50_000;
+
 /** Counts what a page draws and times its script; runs in the page before anything else. */
-export function instrument(): void {
+export function instrument(aTree: number): void {
   const shadowMap = 2048;
-  /** A tree is seen once so many triangles of it are drawn. */
-  const aTree = 50_000;
   let seen: (at: number) => void = () => {};
   window.firstTree = new Promise((resolve) => {
     seen = resolve;

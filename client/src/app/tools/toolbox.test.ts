@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
-import type { Command } from "../../wire/generated";
+import type { Command, WidthConstraint } from "../../wire/generated";
 import { ChosenBud } from "../chosen-bud";
 import { ObstacleList } from "../obstacle-list";
 import type { Point } from "../ports";
@@ -52,7 +52,7 @@ function setUp() {
     unsettledMoves: () => 0,
     unsettled: () => 0,
     girth: () => ({ exponent: 2.5, twigDiameter: 0.07 }),
-    branch: { release: () => {} } as unknown as BranchHand,
+    branch: { release: () => {}, cancelTurn: () => {}, cancelPlacing: () => {} } as unknown as BranchHand,
     predict: () => {},
     hold: () => {
       world.held += 1;
@@ -75,7 +75,7 @@ function setUp() {
     begin(points);
     tools.gesture({ kind: "stroke-end" });
   };
-  return { tools, sent, world, toasts, obstacles, begin, draw };
+  return { tools, view, sent, world, toasts, obstacles, begin, draw };
 }
 
 const kinds = (commands: Command[]) => commands.map(({ kind }) => kind);
@@ -98,6 +98,19 @@ describe("toolbox", () => {
     begin(ring);
     tools.abandon();
     expect(world.held).toBe(0);
+  });
+
+  it("widths that come before the tools are not lost", () => {
+    const { tools, view } = setUp();
+    tools.detach();
+    const widths = [{ row: 3, diameter: 0.5 }] as unknown as WidthConstraint[];
+    tools.receiveWidths(widths);
+    tools.attach(view);
+    expect(tools.shaping.value?.width.widths.value).toEqual(widths);
+    tools.detach();
+    tools.clear();
+    tools.attach(view);
+    expect(tools.shaping.value?.width.widths.value, "another session has its own").toEqual([]);
   });
 
   it("a pen's pressure reaches what is sent", () => {

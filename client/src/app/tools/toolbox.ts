@@ -3,7 +3,7 @@ import { Bend } from "../../scene/bend/bend";
 import type { Girth } from "../../scene/guise/swollen";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
-import type { Command } from "../../wire/generated";
+import type { Command, WidthConstraint } from "../../wire/generated";
 import { BendPoses } from "../bend-poses";
 import type { ChosenBud } from "../chosen-bud";
 import type { Gesture, Grip, StrokePoint } from "../gestures";
@@ -86,6 +86,7 @@ export class Toolbox {
   readonly seed = signal<Point | null>(null);
   /** Those with something to show beside the picture; null without a view. */
   readonly shaping = signal<Shaping | null>(null);
+  #widths: readonly WidthConstraint[] = [];
 
   #workshop: Workshop;
   #view: Viewport | null = null;
@@ -110,6 +111,7 @@ export class Toolbox {
     const row = () => bud.row.peek();
     this.#view = view;
     const shaping = this.#shaping(view);
+    shaping.width.receive(this.#widths);
     this.shaping.value = shaping;
     this.#tools = {
       bend: shaping.bend,
@@ -162,6 +164,12 @@ export class Toolbox {
       },
       preview: (moved) => obstacles.preview(moved),
     });
+  }
+
+  /** The widths that are set; they may come before the tool that shows them. */
+  receiveWidths(widths: readonly WidthConstraint[]): void {
+    this.#widths = widths;
+    this.shaping.peek()?.width.receive(widths);
   }
 
   detach(): void {
@@ -342,6 +350,7 @@ export class Toolbox {
 
   /** Another session is opened: what all tools hold and have marked is of the old one. */
   clear(): void {
+    this.#widths = [];
     this.abandon();
     for (const tool of Object.values(this.#tools ?? {})) {
       if ("abandon" in tool) {

@@ -26,6 +26,7 @@ export class FrameLoop {
   private restTimer = 0;
   private held = false;
   private still = false;
+  private disposed = false;
 
   /**
    * `draw` says whether more is to move by itself; `lacking` whether the last frame was less than the one at rest;
@@ -56,12 +57,13 @@ export class FrameLoop {
   }
 
   dispose(): void {
+    this.disposed = true;
     cancelAnimationFrame(this.request);
     clearTimeout(this.restTimer);
   }
 
   private schedule(): void {
-    if (this.request !== 0) return;
+    if (this.request !== 0 || this.disposed) return;
     this.settle(false);
     this.requested = performance.now();
     this.request = requestAnimationFrame(this.frame);

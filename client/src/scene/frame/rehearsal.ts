@@ -1,14 +1,15 @@
 import { InstancedBufferGeometry, type Mesh, PerspectiveCamera, type WebGLRenderer } from "three";
 
 /**
- * Sees to it that nobody waits for programs. It says when all are linked; and it has one instance of everything drawn
- * before there is anything to draw, in a corner of one pixel: a linked program is not yet one that the graphics card can
+ * Sees to it that nobody waits for programs. It says when all are linked; and it has one instance of everything essential
+ * drawn before there is anything to draw, where nobody sees it: a linked program is not yet one that the graphics card can
  * run. Drivers finish it when it is first drawn with, and whatever they are asked next waits for that.
  */
 export class Rehearsal {
+  /** Whether anything may have been drawn. */
+  prepared = false;
   /** Whether every program is linked; drawing would wait for that. */
   private linked = false;
-  private prepared = false;
   private played = false;
 
   /** `told` hears when every program is linked. */

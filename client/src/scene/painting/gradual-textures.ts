@@ -29,8 +29,9 @@ interface Options {
 }
 
 /**
- * Pictures of one kind as textures: blank ones until the painter begins, coarse ones the moment they are drawn with, and the whole ones in their place once
- * they have been painted and the time is right. A restored context gets them from memory again.
+ * Pictures of one kind as textures: blank ones until the painter begins, coarse ones the moment they are drawn with, and
+ * the whole ones in their place once they have been painted and the time is right. A restored context gets them from
+ * memory again.
  */
 export class GradualTextures<S extends Sort> {
   readonly drawn: readonly Drawn[];

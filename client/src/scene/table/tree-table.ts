@@ -134,7 +134,7 @@ export class TreeTable implements Skeleton {
       throw new FrameError(`Frame ${frame.sequence} does not follow frame ${this.sequence}.`);
     }
     const cascade = new Cascade(this.rows);
-    this.reserve(rowsOf(frame));
+    this.reserve(rowsAfter(frame, this.rows));
     for (const change of frame.changes) {
       this.change(change, frame.sequence);
       cascade.shrinkTo(this.rows);
@@ -464,13 +464,15 @@ export class TreeTable implements Skeleton {
   }
 }
 
-/** How many rows a frame leaves at most in a table, as far as it adds any. */
-function rowsOf({ changes }: Frame): number {
-  let rows = 0;
+/** How many rows there are at most once a frame has been applied to so many; never more than it brings along. */
+function rowsAfter({ changes }: Frame, rows: number): number {
+  let [end, brought] = [rows, 0];
   for (const change of changes) {
-    const first = "chunk" in change ? change.chunk * CHUNK_ROWS : 0;
-    if (change.change === "replace") rows = Math.max(rows, first + change.rows.parent.length);
-    if (change.change === "append") rows = Math.max(rows, first + change.start + change.rows.parent.length);
+    if (change.change !== "replace" && change.change !== "append") continue;
+    const first = change.chunk * CHUNK_ROWS + (change.change === "append" ? change.start : 0);
+    const { length } = change.rows.parent;
+    end = Math.max(end, first + length);
+    brought += length;
   }
-  return rows;
+  return Math.min(end, rows + brought);
 }
