@@ -1,7 +1,7 @@
 import { defineConfig } from "vitest/config";
 
-/** Files that take minutes and concern panels and pictures alone; `BROWSER_TESTS=quick` leaves them out. */
-const LONG = ["architecture", "controls", "gallery", "light", "looks"].map((name) => `src/${name}.test.ts`);
+/** Files that take minutes and concern what a tree looks like alone; `BROWSER_TESTS=quick` leaves them out. */
+const LONG = ["light", "looks"].map((name) => `src/${name}.test.ts`);
 
 // The browser draws with the processor: one page at a time, and time-outs that only guard against hanging.
 export default defineConfig({
