@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Screen, type Tablet, way } from "./tablet";
+import { LANDSCAPE, type Point, type Screen, type Tab, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -10,23 +10,21 @@ const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
 const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
 /** One with the panel of architecture pulled down and one of its tabs shown. */
-async function opened(
-  tab: "Species" | "Form" | "Growth",
-  screen?: Screen,
-): Promise<{ tablet: Tablet; address: string }> {
+async function opened(tab: Tab, screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
   const { tablet, address } = await workshop.fresh(screen);
   await pullDown(tablet, tab);
   return { tablet, address };
 }
 
-async function pullDown(tablet: Tablet, tab: string): Promise<void> {
+async function pullDown(tablet: Tablet, tab: Tab): Promise<void> {
   await tablet.tap("Architecture");
-  await tablet.page.getByRole("tab", { name: tab }).tap();
-  await tablet.page.locator('.schematic[data-grown="true"]').waitFor();
+  await tablet.turnTo(tab);
+  await sketch(tablet);
 }
 
-/** The lines of the schematic tree. */
-function sketch(tablet: Tablet): Promise<string> {
+/** The lines of the schematic tree that has grown with the parameters as they are. */
+async function sketch(tablet: Tablet): Promise<string> {
+  await tablet.page.locator('.schematic[data-grown="true"]').waitFor();
   return tablet.page
     .locator(".schematic-wood")
     .evaluateAll((paths) => paths.map((path) => path.getAttribute("d")).join());
@@ -62,7 +60,7 @@ async function untilTyped(tablet: Tablet, name: string, wanted: (value: string) 
 async function drag(tablet: Tablet, grip: string, by: Point, lift = true): Promise<void> {
   const knob = tablet.page.getByRole("slider", { name: grip, exact: true });
   await knob.scrollIntoViewIfNeeded();
-  const box = (await knob.boundingBox())!;
+  const box = await tablet.boxOf(knob);
   expect(Math.min(box.width, box.height), "a grip is as large as a fingertip").toBeGreaterThan(43.9);
   const from = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   const [first, ...rest] = way(from, { x: from.x + by.x, y: from.y + by.y }, 14);
@@ -140,7 +138,7 @@ test("a species is picked by its picture, and undone as one", async () => {
     async () => (await witness.page.locator(".origin").innerText()) === "Weeping willow",
   );
 
-  await tablet.page.getByRole("tab", { name: "Form" }).tap();
+  await tablet.turnTo("Form");
   await drag(tablet, "Branching angle", { x: 0, y: 40 });
   await until("it is changed", async () => (await tablet.page.locator(".origin").innerText()).endsWith("changed"));
   await tablet.tap("Reset Branching");
@@ -148,7 +146,7 @@ test("a species is picked by its picture, and undone as one", async () => {
     "it is the species again",
     async () => !(await tablet.page.locator(".origin").innerText()).endsWith("changed"),
   );
-  expect(await otherSketch(tablet, "")).toBe(willowy);
+  await until("the sketch is the species' again", async () => (await sketch(tablet)) === willowy);
 
   for (let operations = (await tablet.untilQuiet()).done; operations > 0; operations--) {
     await tablet.tap("Undo");
@@ -193,7 +191,7 @@ test("keys and typed values do what fingers do", async () => {
 test("a slider is dragged as one operation too", async () => {
   const { tablet } = await opened("Growth", LANDSCAPE);
   const slider = tablet.page.getByRole("slider", { name: "Apical dominance", exact: true });
-  const box = (await slider.boundingBox())!;
+  const box = await tablet.boxOf(slider);
   const drawn = await sketch(tablet);
   const y = box.y + box.height / 2;
   await tablet.swipe([way({ x: box.x + 0.4 * box.width, y }, { x: box.x + 0.85 * box.width, y })]);

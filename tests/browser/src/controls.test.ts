@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import type { Screen, Tablet } from "./tablet";
+import type { Screen, Tab, Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -11,7 +11,7 @@ const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 /** A panel with all that can be in it. */
 interface Part {
   readonly panel: string;
-  readonly tab?: string;
+  readonly tab?: Tab;
   /** What is picked so that more controls appear. */
   readonly picks?: readonly string[];
   /** How many controls there are at least. */
@@ -32,7 +32,7 @@ const PARTS: readonly Part[] = [
 async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part): Promise<void> {
   const { page } = tablet;
   if (!(await page.getByRole("region", { name: panel, exact: true }).isVisible())) await tablet.tap(panel);
-  if (tab) await page.getByRole("tab", { name: tab }).tap();
+  if (tab) await tablet.turnTo(tab);
   await unfold(tablet);
   for (const pick of picks) {
     await page.getByRole("radio", { name: pick, exact: true }).tap();
@@ -173,7 +173,7 @@ test("a species that is picked is what resets go back to", async () => {
   const { tablet } = await workshop.fresh(SMALL);
   const { page } = tablet;
   await tablet.tap("Architecture");
-  await page.getByRole("tab", { name: "Species" }).tap();
+  await tablet.turnTo("Species");
   await page.locator('[data-species="birch"]').tap();
   await tablet.untilQuiet();
   for (const part of PARTS.filter(({ picks }) => picks === undefined || picks.includes("Rosette"))) {

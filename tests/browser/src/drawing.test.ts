@@ -111,7 +111,7 @@ test("undo takes the stroke back and redo gives it again", async () => {
 
 test("the grow control grows and ungrows", async () => {
   const { tablet, metamers } = await workshop.drawn();
-  const box = (await tablet.page.getByLabel("Grow", { exact: true }).boundingBox())!;
+  const box = await tablet.boxOf(tablet.page.getByLabel("Grow", { exact: true }));
   const middle = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
   const hold = async (y: number, what: string, done: (metamers: number) => boolean) => {
     await tablet.touch("touchStart", [middle]);
@@ -129,7 +129,7 @@ test("the grow control grows and ungrows", async () => {
 test("the brush radius changes in the middle of a stroke", async () => {
   const { tablet } = await workshop.fresh();
   const slider = tablet.page.getByLabel("Brush radius", { exact: true });
-  const box = (await slider.boundingBox())!;
+  const box = await tablet.boxOf(slider);
   const before = Number(await slider.getAttribute("aria-valuenow"));
   const finger = { x: base.x, y: 600 };
   await tablet.touch("touchStart", [base]);
@@ -180,8 +180,7 @@ test("the page fits an upright tablet", async () => {
   const after = await tablet.photograph("13-upright");
   expect(changed(before, after)).toBeGreaterThan(0.01);
   for (const label of ["Brush radius", "Grow", "Undo", "Redo", "New tree", "Save", "Library", "Share", "Help"]) {
-    const box = await tablet.page.getByLabel(label, { exact: true }).first().boundingBox();
-    expect(box, label).not.toBeNull();
-    expect(box!.x >= 0 && box!.y >= 0 && box!.x + box!.width <= 834 && box!.y + box!.height <= 1194, label).toBe(true);
+    const box = await tablet.boxOf(tablet.page.getByLabel(label, { exact: true }).first());
+    expect(box.x >= 0 && box.y >= 0 && box.x + box.width <= 834 && box.y + box.height <= 1194, label).toBe(true);
   }
 });

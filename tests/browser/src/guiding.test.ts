@@ -184,7 +184,7 @@ test("parameters are set in the architecture panel, for everyone", async () => {
   const second = await workshop.open(address);
   const priority = async (on: Tablet) => {
     await on.tap("Architecture");
-    await on.page.getByRole("tab", { name: "Growth" }).tap();
+    await on.turnTo("Growth");
     await on.page.getByText("How vigor is shared", { exact: true }).tap();
     return on.page.getByRole("radio", { name: "Priority", exact: true });
   };

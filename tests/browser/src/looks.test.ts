@@ -39,8 +39,7 @@ function slider(tablet: Tablet, label: string) {
 async function pull(tablet: Tablet, label: string, part: number): Promise<void> {
   const input = slider(tablet, label);
   await input.scrollIntoViewIfNeeded();
-  const frame = await input.boundingBox();
-  if (!frame) throw new Error(`there is no slider ${label}`);
+  const frame = await tablet.boxOf(input);
   const [least, most, now] = await input.evaluate((element: HTMLInputElement) => [
     Number(element.min),
     Number(element.max),
@@ -173,8 +172,7 @@ test("background: ground, sky, sun by dial and by time", async () => {
   const before = await tablet.photograph("looks-meadow");
 
   const dial = tablet.page.getByRole("slider", { name: "Direction", exact: true });
-  const frame = await dial.boundingBox();
-  if (!frame) throw new Error("there is no dial");
+  const frame = await tablet.boxOf(dial);
   const middle = { x: frame.x + frame.width / 2, y: frame.y + frame.height / 2 };
   const around = Array.from({ length: 16 }, (_, i) => ({
     x: middle.x + Math.sin(-0.9 + i * 0.15) * frame.width * 0.36,

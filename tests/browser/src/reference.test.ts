@@ -47,7 +47,7 @@ describe("pictures as they are known", () => {
       await tablet.tap(panel);
       if (panel === "Architecture") {
         // Pictures of species come when they come.
-        await tablet.page.getByRole("tab", { name: "Form" }).tap();
+        await tablet.turnTo("Form");
         await tablet.page.locator('.schematic[data-grown="true"]').waitFor();
       }
       await expectKnown(tablet, panel.toLowerCase());

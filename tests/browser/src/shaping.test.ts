@@ -164,7 +164,7 @@ test("a mouse pulls the ring around a limb, and a width can be typed", async () 
   const ring = tablet.page.getByLabel("Diameter in internodes");
   await ring.waitFor();
   const slim = Number(await ring.inputValue());
-  const knob = (await tablet.page.locator(".width-knob.right").boundingBox())!;
+  const knob = await tablet.boxOf(tablet.page.locator(".width-knob.right"));
   const grip = { x: knob.x + knob.width / 2, y: knob.y + knob.height / 2 };
   await mouse.move(grip.x, grip.y);
   await mouse.down();
@@ -222,7 +222,7 @@ test("a pen bends, widens and prunes", async () => {
   await tablet.draw([onStem(580)]);
   const ring = tablet.page.getByLabel("Diameter in internodes");
   const slim = Number(await ring.inputValue());
-  const knob = (await tablet.page.locator(".width-knob.right").boundingBox())!;
+  const knob = await tablet.boxOf(tablet.page.locator(".width-knob.right"));
   const grip = { x: knob.x + knob.width / 2, y: knob.y + knob.height / 2 };
   await tablet.draw(way(grip, { x: grip.x + 30, y: grip.y }, 10));
   await tablet.untilQuiet();
@@ -239,7 +239,7 @@ test("a width shows under the fingers before the server answers, and Escape take
   await tablet.page.keyboard.press("w");
   const { mouse, keyboard } = tablet.page;
   await mouse.click(SEED.x, 580);
-  const knob = (await tablet.page.locator(".width-knob.right").boundingBox())!;
+  const knob = await tablet.boxOf(tablet.page.locator(".width-knob.right"));
   const grip = { x: knob.x + knob.width / 2, y: knob.y + knob.height / 2 };
   const before = await tablet.photograph("43-before-the-ring");
   const trunk: Box = { x: SEED.x - 30, y: 556, width: 60, height: 16 };
@@ -329,7 +329,7 @@ test("an upright tablet has room for every tool", async () => {
     await tablet.tap(label);
     if (label !== "Prune") await tablet.hold({ x: 417, y: 800 }, 30);
     await tablet.photograph(`50-upright-${label.toLowerCase()}`);
-    const options = (await tablet.page.locator(".tool-options").boundingBox())!;
+    const options = await tablet.boxOf(tablet.page.locator(".tool-options"));
     expect(options.x >= 0 && options.x + options.width <= 834 && options.y + options.height <= 1194, label).toBe(true);
     for (const target of await tablet.page.locator(".side-bar button, .tool-options button, .width-box button").all()) {
       const box = (await target.boundingBox())!;
@@ -359,11 +359,11 @@ test("what a tool can be told has a name, help, a typed value and a reset", asyn
     await told.getByRole("button", { name: new RegExp(`^${name}`) }).tap();
     expect((await help.textContent())!.length).toBeGreaterThan(30);
     expect(await help.isVisible(), `and unfolds`).toBe(true);
-    const before = (await slider.boundingBox())!;
+    const before = await tablet.boxOf(slider);
     await box.fill(typed);
     await page.keyboard.press("Enter");
     await until("what was typed is taken", async () => (await slider.inputValue()) === taken);
-    expect(await slider.boundingBox(), "the slider stays under the finger").toEqual(before);
+    expect(await tablet.boxOf(slider), "the slider stays under the finger").toEqual(before);
     await reset.tap();
     await until("it is as it was", async () => (await slider.inputValue()) === usual);
     expect(await reset.count()).toBe(0);

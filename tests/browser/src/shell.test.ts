@@ -1,7 +1,6 @@
-import type { Locator } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { gridModel } from "./grid-model";
-import { changed } from "./picture";
+import { type Box, changed } from "./picture";
 import { until } from "./server";
 import { COARSE, type Point, type Screen, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
@@ -13,20 +12,7 @@ const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 /** For tests in which nothing is looked at. */
 const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 
-interface Box {
-  readonly x: number;
-  readonly y: number;
-  readonly width: number;
-  readonly height: number;
-}
-
 const labelled = (tablet: Tablet, label: string) => tablet.page.getByLabel(label, { exact: true });
-
-async function boxOf(place: Locator): Promise<Box> {
-  const box = await place.boundingBox();
-  if (!box) throw new Error(`${place} is not on the page`);
-  return box;
-}
 
 const middle = ({ x, y, width, height }: Box): Point => ({ x: x + width / 2, y: y + height / 2 });
 
@@ -35,9 +21,9 @@ const apart = (a: Box, b: Box) =>
 
 /** The canvas, once it has taken its place beside a panel or alone. */
 async function canvas(tablet: Tablet, wanted: (box: Box) => boolean): Promise<Box> {
-  let box = await boxOf(tablet.page.locator("#workspace"));
+  let box = await tablet.boxOf(tablet.page.locator("#workspace"));
   await until("the workspace takes its place", async () => {
-    box = await boxOf(tablet.page.locator("#workspace"));
+    box = await tablet.boxOf(tablet.page.locator("#workspace"));
     return wanted(box);
   });
   return box;
@@ -45,7 +31,7 @@ async function canvas(tablet: Tablet, wanted: (box: Box) => boolean): Promise<Bo
 
 /** Where the seedling stands on the glass. */
 async function seedling(tablet: Tablet): Promise<Point> {
-  const { x, y, width, height } = await boxOf(tablet.page.locator(".seedling").first());
+  const { x, y, width, height } = await tablet.boxOf(tablet.page.locator(".seedling").first());
   return { x: x + width / 2, y: y + 0.9 * height };
 }
 
@@ -76,7 +62,7 @@ describe("panels", () => {
       const panel = tablet.page.getByRole("region", { name, exact: true });
       await panel.waitFor();
       const shrunk = await canvas(tablet, ({ width }) => width < 900);
-      expect(apart(shrunk, await boxOf(panel)), name).toBe(true);
+      expect(apart(shrunk, await tablet.boxOf(panel)), name).toBe(true);
       expect(shrunk.height).toBe(COARSE.height);
     }
     const { x, y, width } = await canvas(tablet, ({ width }) => width < 900);
@@ -94,7 +80,7 @@ describe("panels", () => {
     await panel.waitFor();
     const shrunk = await canvas(tablet, ({ height }) => height < 900);
     expect(shrunk.width).toBe(UPRIGHT.width);
-    expect((await boxOf(panel)).y).toBeGreaterThanOrEqual(shrunk.y + shrunk.height - 1);
+    expect((await tablet.boxOf(panel)).y).toBeGreaterThanOrEqual(shrunk.y + shrunk.height - 1);
   });
 
   it("hide with everything else, and come back", async () => {
@@ -119,7 +105,7 @@ describe("the strip that turns", () => {
 
   it("turns by a finger, and by keys", async () => {
     const { tablet } = await workshop.fresh();
-    const strip = await boxOf(labelled(tablet, "Turn the tree"));
+    const strip = await tablet.boxOf(labelled(tablet, "Turn the tree"));
     const { x, y } = middle(strip);
     await tablet.swipe([way({ x, y }, { x: x + strip.width / 4, y })]);
     await until("a quarter of the strip is a quarter turn", async () => Math.abs((await turned(tablet)) - 90) <= 3);
@@ -135,7 +121,7 @@ describe("the strip that turns", () => {
     const sent = overheard(tablet);
     await tablet.page.reload();
     await tablet.untilReady();
-    const strip = await boxOf(labelled(tablet, "Turn the tree"));
+    const strip = await tablet.boxOf(labelled(tablet, "Turn the tree"));
     const [left, y] = [strip.x + 12, strip.y + strip.height / 2];
     const seed = await seedling(tablet);
     const drawing = { x: seed.x + 60, y: seed.y - 40 };
@@ -201,7 +187,7 @@ describe("settings", () => {
     await tablet.tap("Settings");
     await choose(tablet, "right");
     await tablet.page.keyboard.press("Escape");
-    expect((await boxOf(tablet.page.getByRole("navigation"))).x).toBeGreaterThan(COARSE.width / 2);
+    expect((await tablet.boxOf(tablet.page.getByRole("navigation"))).x).toBeGreaterThan(COARSE.width / 2);
     await tablet.tap("Leaves");
     expect((await canvas(tablet, ({ width }) => width < 900)).x).toBeGreaterThan(200);
   });
@@ -218,10 +204,10 @@ describe("a first run", () => {
     const seed = await seedling(tablet);
     await tablet.swipe([way(seed, { x: seed.x, y: seed.y - 200 })]);
     await card.getByText("2 of 3").waitFor();
-    const strip = await boxOf(labelled(tablet, "Turn the tree"));
+    const strip = await tablet.boxOf(labelled(tablet, "Turn the tree"));
     await tablet.swipe([way(middle(strip), { x: strip.x + strip.width, y: strip.y + 20 })]);
     await card.getByText("3 of 3").waitFor();
-    const lever = await boxOf(labelled(tablet, "Grow"));
+    const lever = await tablet.boxOf(labelled(tablet, "Grow"));
     await tablet.swipe([way(middle(lever), { x: middle(lever).x, y: middle(lever).y - 12 }, 4)]);
     await card.waitFor({ state: "detached" });
     await tablet.untilQuiet();
@@ -290,7 +276,7 @@ describe("a phone", () => {
   it("has all bars on its glass, none over another", async () => {
     const { tablet } = await workshop.fresh(PHONE);
     const bars = await Promise.all(
-      [".tool-bar", ".side-bar", ".rotation"].map((bar) => boxOf(tablet.page.locator(bar))),
+      [".tool-bar", ".side-bar", ".rotation"].map((bar) => tablet.boxOf(tablet.page.locator(bar))),
     );
     for (const [i, bar] of bars.entries()) {
       expect(bar.x).toBeGreaterThanOrEqual(0);
@@ -375,7 +361,7 @@ describe("long work", () => {
     await moving.waitFor();
     const first = Number(await moving.getAttribute("value"));
     await until("more of it has come", async () => Number(await moving.getAttribute("value")) > first);
-    const chip = await boxOf(page.locator(".chip"));
+    const chip = await tablet.boxOf(page.locator(".chip"));
     expect(chip.x >= 0 && chip.x + chip.width <= PHONE.width, "all of it is on the glass").toBe(true);
     await tablet.glimpse("export");
     await page.getByRole("button", { name: "Cancel" }).tap();

@@ -9,8 +9,7 @@ const sun = (tablet: Tablet) => tablet.page.getByRole("slider", { name: "Sun", e
 
 /** Where the sun is on the glass. */
 async function placeOf(tablet: Tablet): Promise<Point> {
-  const box = await sun(tablet).boundingBox();
-  if (!box) throw new Error("there is no sun");
+  const box = await tablet.boxOf(sun(tablet));
   return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
 }
 

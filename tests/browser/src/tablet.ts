@@ -1,9 +1,9 @@
 import { existsSync } from "node:fs";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
-import type { Browser, BrowserContext, CDPSession, Page, Route } from "playwright-core";
+import type { Browser, BrowserContext, CDPSession, Locator, Page, Route } from "playwright-core";
 import { screenshots } from "./browser";
-import type { Darkroom, Picture } from "./picture";
+import type { Box, Darkroom, Picture } from "./picture";
 import { until } from "./server";
 
 export interface Point {
@@ -44,6 +44,9 @@ export interface Screen {
   /** Device pixels per pixel of the page. */
   readonly detail: number;
 }
+
+/** A tab of the panel of architecture. */
+export type Tab = "Species" | "Form" | "Growth";
 
 /** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
 export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
@@ -265,11 +268,43 @@ export class Tablet {
     return this.glimpse(name);
   }
 
-  /** The picture is at rest: nothing in it moves, nor does the view. */
+  /** Shows one of the tabs of the panel of architecture, with all that is on it. */
+  async turnTo(tab: Tab): Promise<void> {
+    await this.page.getByRole("tab", { name: tab }).tap();
+    await this.page.getByRole("tab", { name: tab, selected: true }).waitFor();
+  }
+
+  /** The picture is at rest: nothing in it moves, nor does the view, nor what stands beside it. */
   async untilStill(): Promise<void> {
     // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
     await this.frames();
     await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
+    await this.untilSettled();
+  }
+
+  /** Where something of the page is, once it stays there. */
+  async boxOf(place: Locator): Promise<Box> {
+    await this.untilSettled();
+    const box = await place.boundingBox();
+    if (!box) throw new Error(`${place} is not on the page`);
+    return box;
+  }
+
+  /** Bars and panels stand where they will: what slides in has come, and nothing of the page changes any more. */
+  async untilSettled(): Promise<void> {
+    let before = "";
+    await until("the page comes to rest", async () => {
+      await this.frames();
+      const now = await this.page.evaluate(() => {
+        const moving = document.getAnimations().filter(({ effect, playState }) => {
+          return playState === "running" && effect?.getComputedTiming().endTime !== Number.POSITIVE_INFINITY;
+        });
+        return moving.length > 0 ? null : document.body.outerHTML;
+      });
+      const settled = now !== null && now === before;
+      before = now ?? "";
+      return settled;
+    });
   }
 }
 

@@ -24,7 +24,7 @@ async function limbed(screen?: Screen): Promise<Grown> {
 
 /** Drags along the strip of time, from one share of its length to another. */
 async function scrub(tablet: Tablet, from: number, to: number, lift = true): Promise<void> {
-  const track = (await tablet.page.getByRole("slider", { name: "Time" }).boundingBox())!;
+  const track = await tablet.boxOf(tablet.page.getByRole("slider", { name: "Time" }));
   const at = (share: number) => ({ x: track.x + track.width * share, y: track.y + track.height / 2 });
   const [first, ...rest] = way(at(from), at(to), 16);
   await tablet.touch("touchStart", [first!]);
@@ -77,7 +77,7 @@ test("keys, taps and buttons travel through time", async () => {
   await page.keyboard.press("PageUp");
   const first = await tablet.until("the first stroke", (facts) => facts.present > 0 && facts.present < lastStep);
   expect(await slider.getAttribute("aria-valuetext")).toBe(`Step ${first.present} of ${lastStep}, Stroke`);
-  const track = (await slider.boundingBox())!;
+  const track = await tablet.boxOf(slider);
   await tapAt(tablet, { x: track.x + track.width - 8, y: track.y + 16 });
   await tablet.until("the end of what was tapped", (facts) => facts.present === lastStep);
 });
@@ -129,7 +129,7 @@ test("the strip and its targets fit an upright tablet", async () => {
   await tablet.untilQuiet();
   await tablet.photograph("53-upright-strip");
   for (const label of ["Hide the timeline", "One step back", "Time", "One step forth"]) {
-    const box = (await tablet.page.getByLabel(label, { exact: true }).boundingBox())!;
+    const box = await tablet.boxOf(tablet.page.getByLabel(label, { exact: true }));
     expect(box.x >= 0 && box.x + box.width <= 834 && box.y + box.height <= 1194, label).toBe(true);
     expect(Math.min(box.width, box.height), label).toBeGreaterThanOrEqual(44);
   }

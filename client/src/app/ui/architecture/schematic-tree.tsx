@@ -26,14 +26,14 @@ const ARROW = { share: 0.36, most: 84 };
 /** A small flat tree that the server grows as the hand changes what trees grow by, and on it the arrow of tropism. */
 export function SchematicTree({ studio }: WidgetProps) {
   const frame = useRef<HTMLDivElement>(null);
+  const now = studio.parameters.value;
   const { width, height } = useSize(frame);
-  const { picture, failed } = useSketch(studio);
+  const { picture, of, failed } = useSketch(studio);
   const wanted = layoutOf(picture, width, height);
   const scale = useEased(wanted.scale, false);
   const ground = useEased(wanted.ground, false);
-  const now = studio.parameters.value;
   return (
-    <div class="schematic" ref={frame} data-grown={picture !== SEEDLING} data-metamers={picture.wood.length}>
+    <div class="schematic" ref={frame} data-grown={of !== null && of === now} data-metamers={picture.wood.length}>
       {width > 0 && (
         <svg width={width} height={height} role="img" aria-label={say("architecture.sketch")}>
           <path class="schematic-ground" d={`M${width * 0.08} ${short(ground)}H${width * 0.92}`} />
@@ -102,16 +102,25 @@ function Arrow({ studio, now: { setpoint_angle: theta }, width, height }: ArrowP
   );
 }
 
+/** What the server has grown last. */
+interface Sketch {
+  readonly picture: SchematicPicture;
+  /** The parameters it grew with; none for the seedling. */
+  readonly of: Parameters | null;
+  /** That it was asked for a newer one and grew none. */
+  readonly failed: boolean;
+}
+
 /** The tree of the parameters as the hand has them; the old one stays until the new one is there. */
-function useSketch(studio: WidgetProps["studio"]): { readonly picture: SchematicPicture; readonly failed: boolean } {
-  const [sketch, setSketch] = useState({ picture: SEEDLING, failed: false });
+function useSketch(studio: WidgetProps["studio"]): Sketch {
+  const [sketch, setSketch] = useState<Sketch>({ picture: SEEDLING, of: null, failed: false });
   useEffect(() => {
     let retry: ReturnType<typeof setTimeout> | undefined;
     const gardener = new NewestOnly(
-      growSchematic,
-      (schematic) => setSketch({ picture: pictureOf(schematic), failed: false }),
+      async (of: Parameters) => ({ picture: pictureOf(await growSchematic(of)), of, failed: false }),
+      setSketch,
       () => {
-        setSketch(({ picture }) => ({ picture, failed: true }));
+        setSketch((sketch) => ({ ...sketch, failed: true }));
         // A server that is busy, or comes back, is asked again.
         clearTimeout(retry);
         retry = setTimeout(ask, RETRY_AFTER);
