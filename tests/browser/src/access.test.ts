@@ -4,7 +4,7 @@ import type { AxeResults } from "axe-core";
 import { describe, expect, it } from "vitest";
 import { inTime } from "./server";
 import { COARSE, type Screen, type Tablet, way } from "./tablet";
-import { atWork, folded, PANELS, SHEETS } from "./visits";
+import { atWork, PANELS, pullDown, SHEETS, unfolded } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -17,8 +17,8 @@ const PHONE: Screen = { width: 390, height: 844, detail: 0.2 };
 
 /** What a person with an aid could not use: findings of axe that are serious or worse, each with what it is about. */
 async function findings(tablet: Tablet, where: string, within = "body"): Promise<string[]> {
-  // What slides in is judged once it has come; nothing slides for long here.
-  await tablet.page.waitForTimeout(150);
+  // What slides in is judged once it has come.
+  await tablet.untilCome();
   if (!(await tablet.page.evaluate(() => "axe" in globalThis))) await tablet.page.evaluate(axe);
   const judged = tablet.page.evaluate(async (within) => {
     const { axe } = globalThis as unknown as { axe: { run(within: string): Promise<AxeResults> } };
@@ -43,13 +43,32 @@ async function phone(): Promise<Tablet> {
   return tablet;
 }
 
+/** On a phone, has the tools unfold. */
+async function unfoldTools(tablet: Tablet): Promise<void> {
+  await tablet.page.getByLabel("All tools", { exact: false }).tap();
+  await tablet.page.getByRole("button", { name: "Prune", exact: true }).waitFor();
+}
+
+/** Has the tool marked what is darker than so many hundredths. */
+async function markDark(tablet: Tablet, percent: string): Promise<void> {
+  await tablet.page.getByLabel("Darker than: value").fill(percent);
+  await tablet.page.keyboard.press("Enter");
+  await tablet.page.locator(".tool-options .danger").waitFor();
+}
+
+/** Has the tour begin from the sheet of help. */
+async function tourFromHelp(tablet: Tablet): Promise<void> {
+  await tablet.page.getByRole("button", { name: "Take the tour" }).tap();
+  await tablet.page.getByText("1 of 3").waitFor();
+}
+
 describe.each(["light", "dark"] as const)("in the %s theme", (theme) => {
   it("axe has nothing serious against the workspace and its panels", async () => {
     const { tablet } = await workshop.drawn(TABLET);
     await wear(tablet, theme);
     const found = await findings(tablet, "workspace");
     for (const panel of PANELS) {
-      await tablet.tap(panel);
+      await pullDown(tablet, panel);
       found.push(...(await findings(tablet, panel, ".drawer")));
     }
     expect(found).toEqual([]);
@@ -81,16 +100,16 @@ describe.each(["light", "dark"] as const)("in the %s theme", (theme) => {
     const tablet = await phone();
     await wear(tablet, theme);
     const found: string[] = [];
-    await tablet.page.getByLabel("All tools", { exact: false }).tap();
+    await unfoldTools(tablet);
     found.push(...(await findings(tablet, "all tools")));
-    await tablet.tap("Prune");
-    await tablet.page.getByLabel("Darker than: value").fill("50");
-    await tablet.page.keyboard.press("Enter");
+    await tablet.take("Prune");
+    await markDark(tablet, "50");
     found.push(...(await findings(tablet, "Prune", "main")));
     await tablet.tap("More");
+    await tablet.page.getByRole("list", { name: "More" }).waitFor();
     found.push(...(await findings(tablet, "menu", "main")));
     await tablet.page.getByRole("button", { name: "Help" }).tap();
-    await tablet.page.getByRole("button", { name: "Take the tour" }).tap();
+    await tourFromHelp(tablet);
     found.push(...(await findings(tablet, "tour", "main")));
     expect(found).toEqual([]);
   });
@@ -98,7 +117,7 @@ describe.each(["light", "dark"] as const)("in the %s theme", (theme) => {
 
 /** Controls within a part of the page that a finger 22 pixels off their middle would miss. */
 async function small(tablet: Tablet, where: string, within = "main"): Promise<string[]> {
-  await tablet.page.waitForTimeout(150);
+  await tablet.untilCome();
   const found = await tablet.page.locator(within).evaluate((part) => {
     const FINGER = 44;
     const wide = (element: Element | null | undefined) => {
@@ -136,10 +155,9 @@ describe.each([
   ["a tablet", TABLET],
   ["a phone", PHONE],
 ] as const)("a finger on %s finds every control 44 pixels wide and high", (_, screen) => {
-  /** Taps what stands in the bar, or on a phone perhaps in its menu. */
+  /** Taps what stands in the bar, or on a phone in its menu. */
   const open = async (tablet: Tablet, label: string) => {
-    const button = tablet.page.getByLabel(label, { exact: true }).first();
-    if (!(await button.isVisible())) await tablet.tap("More");
+    if (screen === PHONE) await tablet.tap("More");
     await tablet.page.getByRole("button", { name: label, exact: true }).first().tap();
   };
 
@@ -148,16 +166,20 @@ describe.each([
     const { page } = tablet;
     const found = await small(tablet, "bars");
     for (const panel of PANELS) {
-      await tablet.tap(panel);
+      await pullDown(tablet, panel);
       const tabs = await page.locator(".drawer [role=tab]").all();
-      if (panel === "Scene") await page.locator(".kinds button").first().tap();
+      if (panel === "Scene") {
+        await page.locator(".kinds button").first().tap();
+        await tablet.until("it has what can be told of a thing", ({ obstacles }) => obstacles === 1);
+      }
       if (tabs.length === 0) {
-        await folded(tablet);
+        await unfolded(tablet);
         found.push(...(await small(tablet, panel, ".drawer")));
       }
       for (const tab of tabs) {
         await tab.tap();
-        await folded(tablet);
+        await expect.poll(() => tab.getAttribute("aria-selected")).toBe("true");
+        await unfolded(tablet);
         found.push(...(await small(tablet, `${panel}, ${await tab.textContent()}`, ".drawer")));
       }
     }
@@ -181,12 +203,15 @@ describe.each([
             .getByLabel(/^Rename /)
             .first()
             .tap();
+          // Where the key is pressed too soon it closes the sheet.
+          await dialog.locator("input:focus").waitFor();
           found.push(...(await small(tablet, "renaming", "dialog")));
           await page.keyboard.press("Escape");
           await dialog
             .getByLabel(/^Delete /)
             .first()
             .tap();
+          await dialog.getByRole("button", { name: "Keep" }).waitFor();
           found.push(...(await small(tablet, "deleting", "dialog")));
         }
         await page.keyboard.press("Escape");
@@ -195,11 +220,14 @@ describe.each([
     }
     if (screen === PHONE) {
       await tablet.tap("More");
+      const menu = page.getByRole("list", { name: "More" });
+      await menu.waitFor();
       found.push(...(await small(tablet, "menu")));
       await tablet.tap("More");
+      await menu.waitFor({ state: "detached" });
     }
     await open(tablet, "Help");
-    await page.getByRole("button", { name: "Take the tour" }).tap();
+    await tourFromHelp(tablet);
     found.push(...(await small(tablet, "tour")));
     expect(found).toEqual([]);
   });
@@ -215,14 +243,13 @@ it("a finger finds every control of the tools at work 44 pixels wide and high", 
 it("and on a phone those of what the tools can be told", async () => {
   const tablet = await phone();
   const found: string[] = [];
-  for (const tool of ["Bend", "Width", "Prune"]) {
-    await tablet.page.getByLabel("All tools", { exact: false }).tap();
+  for (const tool of ["Bend", "Width", "Prune"] as const) {
+    await unfoldTools(tablet);
     if (tool === "Bend") found.push(...(await small(tablet, "all tools")));
-    await tablet.tap(tool);
+    await tablet.take(tool);
     found.push(...(await small(tablet, tool)));
   }
-  await tablet.page.getByLabel("Darker than: value").fill("50");
-  await tablet.page.keyboard.press("Enter");
+  await markDark(tablet, "50");
   found.push(...(await small(tablet, "what is dark")));
   expect(found).toEqual([]);
 });

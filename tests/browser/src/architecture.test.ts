@@ -1,13 +1,12 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Screen, type Tab, type Tablet, way } from "./tablet";
+import { LANDSCAPE, PHONE, type Point, type Screen, type Tab, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 
-/** A tablet held upright, and a phone. */
+/** A tablet held upright. */
 const UPRIGHT: Screen = { width: 834, height: 1194, detail: 0.5 };
-const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
 /** One with the panel of architecture pulled down and one of its tabs shown. */
 async function opened(tab: Tab, screen?: Screen): Promise<{ tablet: Tablet; address: string }> {
@@ -63,12 +62,7 @@ async function drag(tablet: Tablet, grip: string, by: Point, lift = true): Promi
   const box = await tablet.boxOf(knob);
   expect(Math.min(box.width, box.height), "a grip is as large as a fingertip").toBeGreaterThan(43.9);
   const from = { x: box.x + box.width / 2, y: box.y + box.height / 2 };
-  const [first, ...rest] = way(from, { x: from.x + by.x, y: from.y + by.y }, 14);
-  await tablet.touch("touchStart", [first!]);
-  for (const point of rest) {
-    await tablet.touch("touchMove", [point]);
-    await tablet.page.waitForTimeout(20);
-  }
+  await tablet.lead([way(from, { x: from.x + by.x, y: from.y + by.y }, 14)], 20);
   if (lift) await tablet.touch("touchEnd", []);
 }
 
@@ -127,7 +121,7 @@ test("a species is picked by its picture, and undone as one", async () => {
   await until("its picture is there", async () => (await willow.locator('[data-state="there"]').count()) > 0);
   await willow.tap();
   await tablet.until("one operation", (facts) => facts.done === 1);
-  expect(await willow.getAttribute("aria-pressed")).toBe("true");
+  await expect.poll(() => willow.getAttribute("aria-pressed")).toBe("true");
   const willowy = await otherSketch(tablet, drawn);
   await tablet.photograph("82-architecture-species");
 
@@ -164,11 +158,11 @@ test("species are found by their names in any language", async () => {
       .locator(".species-card")
       .evaluateAll((cards) => cards.map((card) => (card as HTMLElement).dataset.species));
   await search.fill("eiche");
-  expect(await found()).toEqual(["oak"]);
+  await expect.poll(found).toEqual(["oak"]);
   await search.fill("Betula");
-  expect(await found()).toEqual(["birch"]);
+  await expect.poll(found).toEqual(["birch"]);
   await search.fill("no such tree");
-  expect(await found()).toEqual([]);
+  await expect.poll(found).toEqual([]);
 });
 
 test("keys and typed values do what fingers do", async () => {
@@ -177,7 +171,7 @@ test("keys and typed values do what fingers do", async () => {
   await arrow.focus();
   for (let i = 0; i < 5; i++) await tablet.page.keyboard.press("ArrowUp");
   await untilTyped(tablet, "Set-point angle", (value) => value === "5");
-  expect(await arrow.getAttribute("aria-valuetext")).toBe("5°");
+  await expect.poll(() => arrow.getAttribute("aria-valuetext")).toBe("5°");
   await tablet.page.keyboard.press("End");
   await untilTyped(tablet, "Set-point angle", (value) => value === "180");
 
@@ -185,7 +179,7 @@ test("keys and typed values do what fingers do", async () => {
   await box.fill("0.6");
   await box.press("Enter");
   await untilTyped(tablet, "Straight on", (value) => value === "0.27");
-  expect(await typed(tablet, "Free space")).toBe("0.13");
+  await untilTyped(tablet, "Free space", (value) => value === "0.13");
 });
 
 test("a slider is dragged as one operation too", async () => {
@@ -209,12 +203,12 @@ test("the panel of the brush says what the brush does", async () => {
   await tablet.page.locator(".tool-bar").getByRole("button", { name: "Brush", exact: true }).tap();
   const panel = tablet.page.locator(".drawer");
   const says = () => panel.locator(".brush-does").innerText();
-  expect(await says()).toMatch(/^Fills its sweep/);
+  await expect.poll(says).toMatch(/^Fills its sweep/);
   await tablet.photograph("84-brush-panel");
   await drag(tablet, "Rim of the brush", { x: -200, y: 0 });
-  expect(await says()).toMatch(/^Sketches one limb/);
+  await expect.poll(says).toMatch(/^Sketches one limb/);
   await drag(tablet, "Rim of the brush", { x: 12, y: 0 });
-  expect(await says()).toMatch(/^Leads one limb/);
+  await expect.poll(says).toMatch(/^Leads one limb/);
 
   const density = panel.getByLabel("Marker density: value");
   await density.fill("0.4");

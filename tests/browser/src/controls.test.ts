@@ -1,12 +1,10 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import type { Screen, Tab, Tablet } from "./tablet";
+import { SMALL, type Tab, type Tablet } from "./tablet";
+import { unfolded } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
-
-/** Nothing is looked at here but what panels say of themselves. */
-const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 
 /** A panel with all that can be in it. */
 interface Part {
@@ -31,25 +29,17 @@ const PARTS: readonly Part[] = [
 /** Pulls down a panel with all its sections open and everything in it that depends on a choice. */
 async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part): Promise<void> {
   const { page } = tablet;
-  if (!(await page.getByRole("region", { name: panel, exact: true }).isVisible())) await tablet.tap(panel);
+  const shown = page.getByRole("region", { name: panel, exact: true });
+  if (!(await shown.isVisible())) await tablet.tap(panel);
+  await shown.waitFor();
   if (tab) await tablet.turnTo(tab);
-  await unfold(tablet);
+  await unfolded(tablet);
   for (const pick of picks) {
     await page.getByRole("radio", { name: pick, exact: true }).tap();
-    await unfold(tablet);
+    await page.getByRole("radio", { name: pick, exact: true, checked: true }).waitFor();
+    await unfolded(tablet);
   }
-}
-
-async function unfold(tablet: Tablet): Promise<void> {
-  await tablet.page.evaluate(() => {
-    for (const summary of document.querySelectorAll<HTMLElement>(".drawer details:not([open]) > summary")) {
-      summary.click();
-    }
-  });
-  await until(
-    "every section is open",
-    async () => (await tablet.page.locator(".drawer details:not([open])").count()) === 0,
-  );
+  await tablet.untilSettled();
 }
 
 /** The names of all fields of the panel, and what is wrong with what can be used in it. */
@@ -178,11 +168,13 @@ test("a species that is picked is what resets go back to", async () => {
   await tablet.untilQuiet();
   for (const part of PARTS.filter(({ picks }) => picks === undefined || picks.includes("Rosette"))) {
     await openPart(tablet, { panel: part.panel, ...(part.tab ? { tab: part.tab } : {}), least: 0 });
-    expect(await page.locator(".drawer .field-reset").count(), part.panel).toBe(0);
+    const resets = () => page.locator(".drawer .field-reset").count();
+    await expect.poll(resets, { message: part.panel }).toBe(0);
   }
   await openPart(tablet, { panel: "Branches", least: 0 });
-  expect(await page.getByRole("radio", { name: "Papery" }).isChecked()).toBe(true);
+  const papery = () => page.getByRole("radio", { name: "Papery" }).isChecked();
+  await expect.poll(papery).toBe(true);
   expect(await change(tablet, "Kind of bark")).toBe(true);
   await tablet.tap("Reset Kind of bark");
-  await until("it is the birch’s bark", () => page.getByRole("radio", { name: "Papery" }).isChecked());
+  await until("it is the birch’s bark", papery);
 });

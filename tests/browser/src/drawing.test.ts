@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { type Box, becameTree, changed, colours } from "./picture";
-import { LANDSCAPE, way } from "./tablet";
+import { type Facts, LANDSCAPE, way } from "./tablet";
 import { SEED as base, Workshop } from "./workshop";
 
 /** Where a stroke up from the seed goes. */
@@ -17,12 +17,7 @@ test("a finger draws a tree that grows during the stroke", async () => {
   const before = await tablet.photograph("1-seedling");
   expect(colours(before), "ground and sky are there").toBeGreaterThan(8);
 
-  const path = way(base, top, 40);
-  await tablet.touch("touchStart", [path[0]!]);
-  for (const point of path.slice(1)) {
-    await tablet.touch("touchMove", [point]);
-    await tablet.page.waitForTimeout(25);
-  }
+  await tablet.lead([way(base, top, 40)], 25);
   const during = await tablet.until("it grows while the finger is down", (facts) => facts.metamers > 10);
   await tablet.touch("touchEnd", []);
   const after = await tablet.untilQuiet();
@@ -69,16 +64,14 @@ test("the tree is there after loading the page again", async () => {
 test("killing the server in the middle of a stroke loses nothing", async () => {
   const { tablet } = await workshop.fresh();
   const path = way(base, top, 40);
-  await tablet.touch("touchStart", [path[0]!]);
-  for (const [i, point] of path.entries()) {
-    if (i === 20) {
-      await server.kill();
-      await tablet.until("the page notices", (facts) => facts.connection !== "connected");
-    }
-    // The finger goes on while the server is away.
-    if (i > 0) await tablet.touch("touchMove", [point]);
+  await tablet.lead([path.slice(0, 20)], 25);
+  await server.kill();
+  await tablet.until("the page notices", (facts) => facts.connection !== "connected");
+  // The finger goes on while the server is away.
+  for (const [i, point] of path.slice(20).entries()) {
+    await tablet.touch("touchMove", [point]);
     await tablet.page.waitForTimeout(25);
-    if (i === 30) await server.start();
+    if (i === 10) await server.start();
   }
   await tablet.touch("touchEnd", []);
   const facts = await tablet.untilQuiet();
@@ -95,10 +88,10 @@ test("a second tablet sees the same growth and may draw", async () => {
   await second.until("it sees the tree", (facts) => facts.metamers === metamers && facts.rows > 0);
   await second.swipe([way({ x: 597, y: 550 }, { x: 780, y: 400 })]);
   await second.untilQuiet();
-  const [one, two] = [await first.untilQuiet(), await second.facts()];
+  const two = await second.facts();
   expect(two.metamers).toBeGreaterThan(metamers);
-  await first.until("both see the same", (facts) => facts.metamers === two.metamers && facts.rows === two.rows);
-  expect(one.step).toBe(two.step);
+  const same = ({ metamers, rows, step }: Facts) => metamers === two.metamers && rows === two.rows && step === two.step;
+  await first.until("both see the same", same);
 });
 
 test("undo takes the stroke back and redo gives it again", async () => {
@@ -130,20 +123,19 @@ test("the brush radius changes in the middle of a stroke", async () => {
   const { tablet } = await workshop.fresh();
   const slider = tablet.page.getByLabel("Brush radius", { exact: true });
   const box = await tablet.boxOf(slider);
-  const before = Number(await slider.getAttribute("aria-valuenow"));
+  const radius = async () => Number(await slider.getAttribute("aria-valuenow"));
+  const before = await radius();
   const finger = { x: base.x, y: 600 };
-  await tablet.touch("touchStart", [base]);
-  for (const point of way(base, finger, 12)) await tablet.touch("touchMove", [point]);
+  await tablet.lead([way(base, finger, 12)]);
   const thumb = { x: box.x + box.width / 2, y: box.y + 10 };
   await tablet.touch("touchStart", [finger, thumb]);
   await tablet.touch("touchMove", [{ x: finger.x, y: finger.y - 12 }, thumb]);
-  await tablet.page.waitForTimeout(200);
+  await expect.poll(radius).toBeGreaterThan(before);
   const { sent } = await tablet.facts();
   await tablet.touch("touchMove", [{ x: finger.x, y: finger.y - 40 }, thumb]);
   await tablet.until("the stroke goes on", (facts) => facts.sent > sent);
   await tablet.touch("touchEnd", []);
-  const after = Number(await slider.getAttribute("aria-valuenow"));
-  expect(after).toBeGreaterThan(before);
+  expect(await radius()).toBeGreaterThan(before);
   expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(0);
 });
 

@@ -3,9 +3,6 @@ import { type Box, becameTree, changed } from "./picture";
 import { LANDSCAPE, loop, type Point, type Tablet, way } from "./tablet";
 import { SEED as base, Workshop } from "./workshop";
 
-/** Longer than a branch has to be held. */
-const LONG = 700;
-
 const workshop = Workshop.forThisFile();
 const { server } = workshop;
 
@@ -18,13 +15,11 @@ async function widen(tablet: Tablet): Promise<void> {
 test("a lasso grows a crown that fills its outline", async () => {
   const { tablet, metamers } = await workshop.stem(LANDSCAPE);
   const before = await tablet.photograph("20-stem");
-  await tablet.tap("Lasso");
-  expect((await tablet.facts()).tool).toBe("lasso");
+  await tablet.take("Lasso");
 
-  const outline = loop({ x: 597, y: 330 }, { x: 210, y: 170 });
-  await tablet.touch("touchStart", [outline[0]!]);
-  for (const point of outline.slice(1)) await tablet.touch("touchMove", [point]);
-  expect(await tablet.page.locator(".outline-body").getAttribute("d"), "it shows while it is drawn").toContain("L");
+  await tablet.lead([loop({ x: 597, y: 330 }, { x: 210, y: 170 })]);
+  const shown = tablet.page.locator('.outline[data-stage="drawing"] .outline-body');
+  await expect.poll(() => shown.getAttribute("d"), { message: "it shows while it is drawn" }).toContain("L");
   await tablet.glimpse("21-outline");
   expect((await tablet.facts()).metamers, "nothing grows before the finger lifts").toBe(metamers);
   await tablet.touch("touchEnd", []);
@@ -43,13 +38,13 @@ test("a lasso grows a crown that fills its outline", async () => {
 
 test("an outline is cancelled with Escape, and a small one is a slip", async () => {
   const { tablet } = await workshop.stem();
-  await tablet.tap("Lasso");
+  await tablet.take("Lasso");
   const { sent } = await tablet.facts();
-  const outline = loop({ x: 597, y: 330 }, { x: 210, y: 170 });
-  await tablet.touch("touchStart", [outline[0]!]);
-  for (const point of outline.slice(1)) await tablet.touch("touchMove", [point]);
+  const shown = tablet.page.locator(".outline");
+  await tablet.lead([loop({ x: 597, y: 330 }, { x: 210, y: 170 })]);
+  await shown.waitFor();
   await tablet.page.keyboard.press("Escape");
-  expect(await tablet.page.locator(".outline").count()).toBe(0);
+  await shown.waitFor({ state: "detached" });
   await tablet.touch("touchEnd", []);
   await tablet.swipe([loop({ x: 900, y: 300 }, { x: 8, y: 8 }, 12)]);
   await tablet.page.getByText("Draw a larger outline").waitFor();
@@ -62,7 +57,7 @@ test("a long growth can be stopped, and what has grown stays", async () => {
   for (let pinch = 0; pinch < 3; pinch++) {
     await tablet.swipe([way({ x: 350, y: 420 }, { x: 510, y: 420 }), way({ x: 850, y: 420 }, { x: 690, y: 420 })]);
   }
-  await tablet.tap("Lasso");
+  await tablet.take("Lasso");
   const outline = loop({ x: 620, y: 400 }, { x: 430, y: 330 }, 60);
   // The server pauses until the button is pressed: it might be done before a test's finger gets there.
   server.pause();
@@ -88,11 +83,9 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
   const limbed = await tablet.untilQuiet();
   expect(limbed.metamers).toBeGreaterThan(metamers + 3);
 
-  const limb = { x: 745, y: 542 };
-  await tablet.touch("touchStart", [limb]);
-  await tablet.page.locator(".hold-fill").waitFor();
-  const chosen = await tablet.until("a branch is chosen", ({ bud }) => bud !== "");
-  await tablet.touch("touchEnd", []);
+  const filled = await tablet.watchFor(".hold-fill");
+  const chosen = await tablet.hold({ x: 745, y: 542 }, "a branch is chosen", ({ bud }) => bud !== "");
+  await filled();
   expect(chosen.sent, "holding draws nothing").toBe(limbed.sent);
   await tablet.page.getByText("Only this branch grows").waitFor();
   await tablet.glimpse("23-chosen");
@@ -109,7 +102,7 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
   await tablet.photograph("24-grew-alone");
 
   await tablet.tap("Let every branch grow");
-  expect((await tablet.facts()).bud).toBe("");
+  await tablet.until("it is let go", ({ bud }) => bud === "");
   await tablet.swipe(aroundTip);
   expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(followed.metamers);
 });
@@ -117,14 +110,10 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
 test("a chosen branch is let go by holding elsewhere, by Escape, and when it is gone", async () => {
   const { tablet } = await workshop.stem();
   const onStem = { x: base.x, y: 560 };
-  const choose = async () => {
-    await tablet.hold(onStem, LONG);
-    await tablet.until("it is chosen", (facts) => facts.bud !== "");
-  };
+  const choose = () => tablet.hold(onStem, "it is chosen", (facts) => facts.bud !== "");
   const { sent } = await tablet.facts();
   await choose();
-  await tablet.hold({ x: 980, y: 300 }, LONG);
-  await tablet.until("held elsewhere", (facts) => facts.bud === "");
+  await tablet.hold({ x: 980, y: 300 }, "held elsewhere", (facts) => facts.bud === "");
   await choose();
   await tablet.page.keyboard.press("Escape");
   await tablet.until("Escape", (facts) => facts.bud === "");
@@ -138,15 +127,16 @@ test("a chosen branch is let go by holding elsewhere, by Escape, and when it is 
 test("a seed is planted where the ground is tapped, and grows", async () => {
   const { tablet } = await workshop.fresh(LANDSCAPE);
   const before = await tablet.facts();
-  await tablet.tap("Plant a seed");
-  await tablet.hold({ x: 860, y: 790 }, 30);
+  await tablet.take("Plant a seed");
+  await tablet.tapAt({ x: 860, y: 790 });
   const planted = await tablet.until("there are two seeds", (facts) => facts.rows === before.rows + 1);
   expect(planted.tool, "the brush is at hand again").toBe("brush");
-  expect(await tablet.page.locator(".seedling").count()).toBe(2);
+  const seedlings = () => tablet.page.locator(".seedling").count();
+  await expect.poll(seedlings).toBe(2);
   await tablet.photograph("25-two-seeds");
   await tablet.swipe([way({ x: 860, y: 745 }, { x: 860, y: 460 })]);
   expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(5);
-  expect(await tablet.page.locator(".seedling").count()).toBe(1);
+  await expect.poll(seedlings).toBe(1);
 });
 
 test("what is placed in the scene is seen by all, and moves with the finger", async () => {
@@ -170,11 +160,12 @@ test("what is placed in the scene is seen by all, and moves with the finger", as
   await tablet.swipe([way({ x: 587, y: 575 }, { x: 252, y: 575 })]);
   const moved = await tablet.untilQuiet();
   expect(moved.metamers, "the finger moved it and drew nothing").toBe(0);
-  expect(await place()).toBeLessThan(from - 5);
+  await expect.poll(place).toBeLessThan(from - 5);
   const dragged = await tablet.photograph("28-box-moved");
   expect(changed(before, dragged, left)).toBeGreaterThan(0.2);
   await tablet.tap("Undo");
-  await tablet.until("moving is undone", (facts) => facts.obstacles === 1);
+  const undone = await tablet.until("moving is undone", (facts) => facts.done === moved.done - 1);
+  expect(undone.obstacles).toBe(1);
   await tablet.tap("Undo");
   await second.until("and placing", (facts) => facts.obstacles === 0);
 });
@@ -193,5 +184,6 @@ test("parameters are set in the architecture panel, for everyone", async () => {
   await tablet.page.keyboard.press("Space");
   await tablet.page.getByText("Least weight").first().waitFor();
   await tablet.untilQuiet();
-  expect(await (await priority(second)).isChecked()).toBe(true);
+  const there = await priority(second);
+  await expect.poll(() => there.isChecked()).toBe(true);
 });

@@ -103,6 +103,7 @@ test("far leaves give way to sprigs, and the crown keeps its look", { timeout: 2
   const session = address.slice(address.lastIndexOf("/") + 1);
   const parameters = '{"kind":"set_parameters","parameters":{"leaves_per_node":4}}';
   await perform(page, session, [parameters, '{"kind":"grow","steps":20}']);
+  await tablet.until("it has grown", ({ metamers }) => metamers > 8000);
   const { metamers } = await tablet.untilQuiet();
   expect(metamers).toBeGreaterThan(8000);
   // The same view, on glass of few pixels and of many.
@@ -110,7 +111,8 @@ test("far leaves give way to sprigs, and the crown keeps its look", { timeout: 2
     const looking = await workshop.open(address, { width: 900, height: 640, detail });
     await looking.page.addInitScript(watchInstances);
     await looking.page.goto(`${address}?zoom=0.9`);
-    await looking.untilReady();
+    await looking.until("all of it is there", ({ rows }) => rows >= metamers);
+    await looking.untilQuiet();
     const picture = await looking.photograph(`leaves-${detail}`);
     const instances = await looking.page.evaluate(() => (window as unknown as { instances: number[] }).instances);
     return { colour: crown(picture), most: Math.max(...instances) };

@@ -52,7 +52,8 @@ async function looking(): Promise<Tablet> {
   if (metamers >= 20) return tablet;
   // The view that an address asks for is of the tree that was there.
   await tablet.page.reload({ waitUntil: "commit" });
-  await tablet.untilReady();
+  await tablet.until("all of it is back", ({ metamers, rows }) => metamers >= 20 && rows >= metamers);
+  await tablet.untilQuiet();
   return tablet;
 }
 

@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import { type Box, changed, colours, type Picture } from "./picture";
 import { until } from "./server";
 import { COARSE, type Point, type Screen, type Tablet, way } from "./tablet";
+import { pullDown } from "./visits";
 import { type Grown, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -16,7 +17,7 @@ const TREE: Box = { x: 160, y: 130, width: 660, height: 600 };
 /** A tablet with a tree on it, and a panel pulled down. */
 async function withPanel(panel: string): Promise<Grown> {
   const grown = await workshop.drawn(SCREEN);
-  await grown.tablet.tap(panel);
+  await pullDown(grown.tablet, panel);
   return grown;
 }
 
@@ -55,16 +56,18 @@ async function pull(tablet: Tablet, label: string, part: number): Promise<void> 
 
 async function pick(tablet: Tablet, name: string): Promise<void> {
   await tablet.page.getByRole("radio", { name, exact: true }).tap();
+  await tablet.page.getByRole("radio", { name, exact: true, checked: true }).waitFor();
 }
 
 async function unfold(tablet: Tablet, title: string): Promise<void> {
   await tablet.page.locator("summary", { hasText: title }).tap();
+  await tablet.page.locator("details[open] > summary", { hasText: title }).waitFor();
 }
 
 test("a leaf’s shape is picked, seen by all and taken back", async () => {
   const { tablet, address } = await withPanel("Leaves");
   const other = await workshop.open(address, SMALL);
-  await other.tap("Leaves");
+  await pullDown(other, "Leaves");
   const before = await tablet.photograph("looks-leaves");
   const seenBefore = await other.photograph("looks-leaves-other");
   await pick(tablet, "Palmate");
@@ -75,14 +78,15 @@ test("a leaf’s shape is picked, seen by all and taken back", async () => {
   expect(changed(seenBefore, await other.photograph("looks-palmate-other")), "so do theirs").toBeGreaterThan(0.02);
   await tablet.tap("Undo");
   await until("it is taken back", () => other.page.getByRole("radio", { name: "Ovate" }).isChecked());
-  expect(await tablet.page.getByRole("radio", { name: "Ovate" }).isChecked()).toBe(true);
+  await expect.poll(() => tablet.page.getByRole("radio", { name: "Ovate" }).isChecked()).toBe(true);
+  await tablet.untilQuiet();
   expect(differs(before, await tablet.photograph("looks-ovate-again")), "as it was").toBeLessThan(SAME);
 });
 
 test("AP2: a slider that is dragged is one undo", async () => {
   const { tablet, address } = await withPanel("Leaves");
   const other = await workshop.open(address, SMALL);
-  await other.tap("Leaves");
+  await pullDown(other, "Leaves");
   const before = await tablet.photograph("looks-summer");
   const { sent } = await tablet.facts();
   await pull(tablet, "Season", 0.7);
@@ -96,13 +100,15 @@ test("AP2: a slider that is dragged is one undo", async () => {
   await tablet.tap("Undo");
   await until("one undo takes all of it back", async () => (await valueAt(tablet, "Season")) === 1);
   await until("for everybody", async () => (await valueAt(other, "Season")) === 1);
+  await tablet.untilQuiet();
   expect(differs(before, await tablet.photograph("looks-summer-again")), "as it was").toBeLessThan(SAME);
 
   await slider(tablet, "Season").focus();
   for (let i = 0; i < 5; i++) await tablet.page.keyboard.down("ArrowRight");
   await tablet.page.keyboard.up("ArrowRight");
   await tablet.untilQuiet();
-  expect(await valueAt(tablet, "Season"), "by the keyboard as well").toBeCloseTo(1.1);
+  const keyed = { message: "by the keyboard as well" };
+  await expect.poll(() => valueAt(tablet, "Season"), keyed).toBeCloseTo(1.1);
   await tablet.tap("Undo");
   await until("a key that is held is one undo", async () => (await valueAt(tablet, "Season")) === 1);
 });
@@ -120,7 +126,7 @@ test("leaves: colour, number, flowers, all reset", async () => {
   await any.fill("#3355aa");
   await until("any other colour is possible", () => page.locator('.any-colour[data-chosen="true"]').isVisible());
   await tablet.untilQuiet();
-  expect(await any.inputValue(), "the server’s colour is the very one").toBe("#3355aa");
+  await expect.poll(() => any.inputValue(), { message: "the server’s colour is the very one" }).toBe("#3355aa");
   await tablet.tap("Copper");
 
   await unfold(tablet, "Flowers");
@@ -132,16 +138,16 @@ test("leaves: colour, number, flowers, all reset", async () => {
   await page.getByLabel("Leaves at a node: value").fill("0");
   await page.keyboard.press("Enter");
   await tablet.untilQuiet();
-  expect(await valueAt(tablet, "Leaves at a node")).toBe(0);
+  await expect.poll(() => valueAt(tablet, "Leaves at a node")).toBe(0);
   expect(differs(flowering, await tablet.photograph("looks-bare")), "leaves go").toBeGreaterThan(0.02);
 
   await page.getByRole("button", { name: "Reset all" }).tap();
   await tablet.untilQuiet();
-  expect(await valueAt(tablet, "Leaves at a node")).toBe(4);
+  await expect.poll(() => valueAt(tablet, "Leaves at a node")).toBe(4);
   expect(differs(before, await tablet.photograph("looks-reset")), "all as at first").toBeLessThan(SAME);
   await tablet.tap("Undo");
   await until("resetting all is one undo", async () => (await valueAt(tablet, "Leaves at a node")) === 0);
-  expect(await page.getByRole("radio", { name: "Rosette" }).isChecked()).toBe(true);
+  await expect.poll(() => page.getByRole("radio", { name: "Rosette" }).isChecked()).toBe(true);
 });
 
 test("branches: bark, its colour, the trunk’s foot", async () => {
@@ -149,7 +155,7 @@ test("branches: bark, its colour, the trunk’s foot", async () => {
   const thin = await tablet.photograph("looks-thin");
   await pull(tablet, "Twigs", 1);
   await tablet.untilQuiet();
-  expect(await valueAt(tablet, "Twigs"), "a parameter of growth").toBeCloseTo(0.3);
+  await expect.poll(() => valueAt(tablet, "Twigs"), { message: "a parameter of growth" }).toBeCloseTo(0.3);
   const thick = await tablet.photograph("looks-furrowed");
   expect(differs(thin, thick), "all wood is thicker").toBeGreaterThan(0.005);
   await pick(tablet, "Papery");
@@ -159,7 +165,7 @@ test("branches: bark, its colour, the trunk’s foot", async () => {
   expect(differs(thick, papery), "the bark changes").toBeGreaterThan(0.005);
   await tablet.tap("Reset Twigs");
   await tablet.untilQuiet();
-  expect(await valueAt(tablet, "Twigs")).toBeCloseTo(0.07);
+  await expect.poll(() => valueAt(tablet, "Twigs")).toBeCloseTo(0.07);
   for (const name of ["Kind of bark", "Colour of bark"]) await tablet.tap(`Reset ${name}`);
   await tablet.untilQuiet();
   expect(differs(thin, await tablet.photograph("looks-thin-again")), "as at first").toBeLessThan(SAME);
@@ -168,7 +174,7 @@ test("branches: bark, its colour, the trunk’s foot", async () => {
 test("background: ground, sky, sun by dial and by time", async () => {
   const { tablet, address } = await withPanel("Background");
   const other = await workshop.open(address, SMALL);
-  await other.tap("Background");
+  await pullDown(other, "Background");
   const before = await tablet.photograph("looks-meadow");
 
   const dial = tablet.page.getByRole("slider", { name: "Direction", exact: true });
@@ -213,7 +219,7 @@ test("background: ground, sky, sun by dial and by time", async () => {
 test("AP1: two who pull at one section both get what they set", async () => {
   const { tablet, address } = await workshop.fresh(SMALL);
   const other = await workshop.open(address, SMALL);
-  for (const one of [tablet, other]) await one.tap("Leaves");
+  for (const one of [tablet, other]) await pullDown(one, "Leaves");
   await Promise.all([pull(tablet, "Season", 0.8), pull(other, "Hue by vigor", 0.9)]);
   await Promise.all([tablet.untilQuiet(), other.untilQuiet()]);
   const [season, hue] = [await valueAt(tablet, "Season"), await valueAt(other, "Hue by vigor")];
@@ -284,17 +290,19 @@ test("long German names fit, upright and on a phone", async () => {
       ["Äste", []],
       ["Hintergrund", []],
     ] as const) {
-      await tablet.tap(panel);
+      await pullDown(tablet, panel);
       for (const section of folded) await unfold(tablet, section);
       if (panel === "Laub") {
         await pick(tablet, "Rispe");
         await pick(tablet, "Geflügelt");
       }
       for (const help of await tablet.page.locator(".drawer .field-name[aria-expanded]").all()) await help.tap();
+      await tablet.untilSettled();
       expect(await overflowing(tablet), `${panel} at ${screen.width}`).toEqual([]);
       expect(await tooSmall(tablet), `${panel} at ${screen.width}`).toEqual([]);
       await tablet.photograph(`looks-${panel}-${screen.width}`);
       await tablet.tap(panel);
+      await tablet.page.locator(".drawer").waitFor({ state: "detached" });
     }
   }
 });

@@ -1,6 +1,8 @@
 import { beforeAll, describe, expect, test } from "vitest";
 import { compare, distance, keep, TOLERANCE, within, writes } from "./reference";
+import { until } from "./server";
 import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
+import { pullDown } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -23,7 +25,8 @@ beforeAll(async () => {
 /** A tablet that looks at the tree. */
 async function looking(screen: Screen): Promise<Tablet> {
   const tablet = await workshop.open(address + VIEW, screen);
-  await tablet.until("the tree is there", ({ metamers }) => metamers > 100);
+  await tablet.until("the tree is there", ({ metamers, rows }) => metamers > 100 && rows >= metamers);
+  await tablet.untilQuiet();
   return tablet;
 }
 
@@ -35,6 +38,16 @@ async function expectKnown(tablet: Tablet, name: string): Promise<void> {
   expect(within(apart), `${name} differs by ${JSON.stringify(apart)}, of ${JSON.stringify(TOLERANCE)}`).toBe(true);
 }
 
+/** The barks of the panel have been painted, one after the other. */
+async function untilPainted(tablet: Tablet): Promise<void> {
+  const barks = tablet.page.locator(".bark-picture canvas");
+  await until("all barks are painted", () =>
+    barks.evaluateAll((canvases: HTMLCanvasElement[]) =>
+      canvases.every((canvas) => canvas.getContext("2d")!.getImageData(0, 0, 1, 1).data[3] === 255),
+    ),
+  );
+}
+
 describe("pictures as they are known", () => {
   test("the workspace with a tree, upright too", async () => {
     await expectKnown(await looking(LANDSCAPE), "landscape");
@@ -44,14 +57,16 @@ describe("pictures as they are known", () => {
   test("each panel beside the tree", async () => {
     const tablet = await looking(LANDSCAPE);
     for (const panel of ["Architecture", "Brush", "Leaves", "Branches", "Background"]) {
-      await tablet.tap(panel);
+      await pullDown(tablet, panel);
       if (panel === "Architecture") {
         // Pictures of species come when they come.
         await tablet.turnTo("Form");
         await tablet.page.locator('.schematic[data-grown="true"]').waitFor();
       }
+      await untilPainted(tablet);
       await expectKnown(tablet, panel.toLowerCase());
       await tablet.tap(panel);
+      await tablet.page.locator(".drawer").waitFor({ state: "detached" });
     }
   });
 
@@ -64,6 +79,7 @@ describe("pictures as they are known", () => {
     ] as const) {
       await tablet.tap("Way of drawing");
       await tablet.page.getByRole("button", { name: mode, exact: true }).tap();
+      await tablet.page.getByRole("region", { name: mode, exact: true }).waitFor();
       await expectKnown(tablet, name);
     }
   });

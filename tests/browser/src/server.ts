@@ -84,19 +84,24 @@ export class Server {
   }
 }
 
-/** Asks again and again until the answer is yes. */
-export async function until(what: string, check: () => Promise<boolean> | boolean): Promise<void> {
-  const end = Date.now() + GUARD;
-  while (!(await inTime(what, check(), end - Date.now()))) {
+/** Asks again and again until the answer is yes, for so many milliseconds at most. */
+export async function until(what: string, check: () => Promise<boolean> | boolean, limit = GUARD): Promise<void> {
+  const end = Date.now() + limit;
+  while (!(await inTime(what, check(), limit, end - Date.now()))) {
     await new Promise((resolve) => setTimeout(resolve, 50));
   }
 }
 
-/** The answer, if it comes within so many milliseconds: a page that hangs never gives one. */
-export async function inTime<Answer>(what: string, answer: Promise<Answer> | Answer, limit = GUARD): Promise<Answer> {
+/** The answer, if it comes within so many milliseconds, of which some are `left`: a page that hangs never gives one. */
+export async function inTime<Answer>(
+  what: string,
+  answer: Promise<Answer> | Answer,
+  limit = GUARD,
+  left = limit,
+): Promise<Answer> {
   let timer: NodeJS.Timeout | undefined;
   const late = new Promise<never>((_, reject) => {
-    timer = setTimeout(() => reject(new Error(`${what}: not within ${GUARD / 1000} s`)), Math.max(0, limit));
+    timer = setTimeout(() => reject(new Error(`${what}: not within ${limit / 1000} s`)), Math.max(0, left));
   });
   try {
     return await Promise.race([answer, late]);

@@ -20,7 +20,7 @@ export interface Facts {
   readonly acknowledged: number;
   readonly pending: number;
   readonly step: number;
-  /** The tool at hand: brush, lasso or seed. */
+  /** The tool at hand, by the page's name for it. */
   readonly tool: string;
   /** The row of the branch that alone grows; empty if all do. */
   readonly bud: string;
@@ -48,10 +48,26 @@ export interface Screen {
 /** A tab of the panel of architecture. */
 export type Tab = "Species" | "Form" | "Growth";
 
+/** What the page calls the tools that buttons take up. */
+const TOOLS = {
+  Lasso: "lasso",
+  "Plant a seed": "seed",
+  Bend: "bend",
+  Width: "width",
+  Prune: "prune",
+  Branch: "branch",
+} as const;
+
+export type Tool = keyof typeof TOOLS;
+
 /** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
 export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
 /** The same with still coarser ones, for tests that are not about looks. */
 export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
+
+/** For tests in which nothing is looked at. */
+export const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
+export const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
 /** A folder with another build of the client than the one that is part of the program; for work on the client alone. */
 const client = process.env.ESPALIER_CLIENT;
@@ -72,6 +88,10 @@ const PATIENCE = 150_000;
 const TOUCHED = 10_000;
 /** And so long two frames. */
 const FRAMES = 5000;
+/** The canvas once its picture is at rest. */
+const STILL = "canvas[data-still]";
+/** A finger that has gone so far, in pixels, is no longer where it came down. */
+const LEAVES = 12;
 
 /** One tablet with the page open: real touch points in, screenshots out. */
 export class Tablet {
@@ -138,12 +158,13 @@ export class Tablet {
     });
   }
 
-  async until(what: string, check: (facts: Facts) => boolean): Promise<Facts> {
+  async until(what: string, check: (facts: Facts) => boolean, limit?: number): Promise<Facts> {
     let facts = await this.facts();
-    await until(what, async () => {
+    const holds = async () => {
       facts = await this.facts();
       return check(facts);
-    }).catch((error) => {
+    };
+    await until(what, holds, limit).catch((error) => {
       throw new Error(`${error}; the page says ${JSON.stringify(facts)}`);
     });
     return facts;
@@ -161,6 +182,7 @@ export class Tablet {
       const facts = await this.until(
         "the growth ends",
         (facts) => facts.connection === "connected" && facts.sent === facts.acknowledged && facts.pending === 0,
+        PATIENCE,
       );
       await this.page.waitForTimeout(400);
       const later = await this.facts();
@@ -172,27 +194,67 @@ export class Tablet {
 
   /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
   async swipe(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
-    const length = Math.max(...paths.map((path) => path.length));
-    for (let i = 0; i < length; i++) {
-      await this.touch(
-        i === 0 ? "touchStart" : "touchMove",
-        paths.map((path) => path[Math.min(i, path.length - 1)]!),
-      );
-      await this.page.waitForTimeout(pause);
-    }
+    await this.lead(paths, pause);
+    await this.page.waitForTimeout(pause);
     await this.touch("touchEnd", []);
   }
 
-  /** One finger that presses on each place for so long, one after the other, however long the page takes to answer. */
-  async press(places: readonly Point[], milliseconds: number): Promise<void> {
-    const answers: Promise<void>[] = [];
-    for (const place of places) {
-      answers.push(this.touch("touchStart", [place]));
-      await this.page.waitForTimeout(milliseconds);
-      answers.push(this.touch("touchEnd", []));
-      await this.page.waitForTimeout(milliseconds);
+  /** The same, but they stay down. */
+  async lead(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
+    const steps = Math.max(...paths.map((path) => path.length));
+    const fingers = (step: number) => paths.map((path) => path[Math.min(step, path.length - 1)]!);
+    const away = Array.from({ length: steps }, (_, step) => step).find((step) =>
+      fingers(step).some(({ x, y }, i) => Math.hypot(x - paths[i]![0]!.x, y - paths[i]![0]!.y) > LEAVES),
+    );
+    const leaving = away ?? steps - 1;
+    // A finger that the machine keeps waiting where it came down would not draw but hold what is there.
+    await this.inNoTime(async () => {
+      await this.touch("touchStart", fingers(0));
+      for (let step = 1; step <= leaving; step++) await this.touch("touchMove", fingers(step));
+    });
+    for (let step = leaving + 1; step < steps; step++) {
+      await this.page.waitForTimeout(pause);
+      await this.touch("touchMove", fingers(step));
     }
-    await Promise.all(answers);
+  }
+
+  /** One finger that taps on a place, however long the page takes to answer. */
+  async tapAt(place: Point): Promise<void> {
+    await this.inNoTime(() => this.#tapped(place));
+  }
+
+  /** One finger that taps on a place twice. */
+  async doubleTap({ x, y }: Point): Promise<void> {
+    await this.inNoTime(async () => {
+      await this.#tapped({ x, y });
+      await this.#tapped({ x: x + 3, y: y - 2 });
+    });
+  }
+
+  /** One finger that is held still on a place until something has come of it. */
+  async hold(place: Point, what: string, check: (facts: Facts) => boolean): Promise<Facts> {
+    await this.touch("touchStart", [place]);
+    const facts = await this.until(what, check);
+    await this.touch("touchEnd", []);
+    return facts;
+  }
+
+  async #tapped(place: Point): Promise<void> {
+    await this.touch("touchStart", [place]);
+    await this.touch("touchEnd", []);
+  }
+
+  /** Does something while the page's clock stands, which tells taps from holds: no machine is too slow for a tap then. */
+  async inNoTime(act: () => Promise<void>): Promise<void> {
+    await this.page.evaluate(() => {
+      const now = performance.now();
+      performance.now = () => now;
+    });
+    try {
+      await act();
+    } finally {
+      await this.page.evaluate(() => Reflect.deleteProperty(performance, "now"));
+    }
   }
 
   /** One real touch event with all fingers that are down. */
@@ -234,24 +296,14 @@ export class Tablet {
     await this.pen("mouseReleased", path[path.length - 1]!);
   }
 
-  /** One finger pressed on a place and held still. */
-  async hold(place: Point, milliseconds: number): Promise<void> {
-    await this.press([place], milliseconds);
-  }
-
-  /** One finger that taps on a place twice. */
-  async doubleTap({ x, y }: Point): Promise<void> {
-    await this.press(
-      [
-        { x, y },
-        { x: x + 3, y: y - 2 },
-      ],
-      50,
-    );
-  }
-
   async tap(label: string): Promise<void> {
     await this.page.getByLabel(label, { exact: true }).first().tap();
+  }
+
+  /** Takes up a tool by what its button is called. */
+  async take(button: Tool): Promise<void> {
+    await this.tap(button);
+    await this.until(`“${button}” is at hand`, ({ tool }) => tool === TOOLS[button]);
   }
 
   /** What is on the screen this moment, at rest or not: while the server is silent something always moves. */
@@ -276,10 +328,15 @@ export class Tablet {
 
   /** The picture is at rest: nothing in it moves, nor does the view, nor what stands beside it. */
   async untilStill(): Promise<void> {
-    // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
-    await this.frames();
-    await this.page.waitForSelector("canvas[data-still]", { state: "attached" });
-    await this.untilSettled();
+    const still = async () => {
+      // What was touched last is seen by the picture within two frames, and is part of its movement from then on.
+      await this.frames();
+      await this.page.waitForSelector(STILL, { state: "attached", timeout: PATIENCE });
+      await this.untilSettled();
+      // What has settled beside it may have changed its size.
+      return (await this.page.locator(STILL).count()) > 0;
+    };
+    await until("the picture comes to rest", still, PATIENCE);
   }
 
   /** Where something of the page is, once it stays there. */
@@ -294,17 +351,47 @@ export class Tablet {
   async untilSettled(): Promise<void> {
     let before = "";
     await until("the page comes to rest", async () => {
-      await this.frames();
-      const now = await this.page.evaluate(() => {
-        const moving = document.getAnimations().filter(({ effect, playState }) => {
-          return playState === "running" && effect?.getComputedTiming().endTime !== Number.POSITIVE_INFINITY;
-        });
-        return moving.length > 0 ? null : document.body.outerHTML;
-      });
-      const settled = now !== null && now === before;
-      before = now ?? "";
+      await this.untilCome();
+      const now = await this.page.evaluate(() => document.body.outerHTML);
+      const settled = now === before;
+      before = now;
       return settled;
     });
+  }
+
+  /** What slides or fades in has come; what it says may go on changing. */
+  async untilCome(): Promise<void> {
+    await until("all that slides in has come", async () => {
+      await this.frames();
+      return this.page.evaluate(() =>
+        document.getAnimations().every(({ effect, playState }) => {
+          return playState !== "running" || effect?.getComputedTiming().endTime === Number.POSITIVE_INFINITY;
+        }),
+      );
+    });
+  }
+
+  /** Notes from now on what comes, if only for a moment: what this gives waits until it has, and says its text. */
+  async watchFor(selector: string): Promise<() => Promise<string>> {
+    const noted = await this.page.evaluateHandle((selector) => {
+      const noted: { text: string | null } = { text: null };
+      const watcher = new MutationObserver(() => {
+        const found = document.querySelector(selector);
+        if (found === null) return;
+        noted.text = found.textContent ?? "";
+        watcher.disconnect();
+      });
+      watcher.observe(document, { subtree: true, childList: true, attributes: true });
+      return noted;
+    }, selector);
+    return async () => {
+      let text: string | null = null;
+      await until(`${selector} comes`, async () => {
+        text = await noted.evaluate((noted) => noted.text);
+        return text !== null;
+      });
+      return text ?? "";
+    };
   }
 }
 
@@ -315,6 +402,10 @@ async function atMost(limit: number, answer: Promise<unknown>): Promise<void> {
     timer = setTimeout(resolve, limit);
   });
   await Promise.race([answer, enough]).finally(() => clearTimeout(timer));
+}
+
+export function middle({ x, y, width, height }: Box): Point {
+  return { x: x + width / 2, y: y + height / 2 };
 }
 
 /** Points on a straight way, ends included. */

@@ -26,18 +26,8 @@ async function limbed(screen?: Screen): Promise<Grown> {
 async function scrub(tablet: Tablet, from: number, to: number, lift = true): Promise<void> {
   const track = await tablet.boxOf(tablet.page.getByRole("slider", { name: "Time" }));
   const at = (share: number) => ({ x: track.x + track.width * share, y: track.y + track.height / 2 });
-  const [first, ...rest] = way(at(from), at(to), 16);
-  await tablet.touch("touchStart", [first!]);
-  for (const point of rest) {
-    await tablet.touch("touchMove", [point]);
-    await tablet.page.waitForTimeout(16);
-  }
+  await tablet.lead([way(at(from), at(to), 16)]);
   if (lift) await tablet.touch("touchEnd", []);
-}
-
-async function tapAt(tablet: Tablet, place: Point): Promise<void> {
-  await tablet.touch("touchStart", [place]);
-  await tablet.touch("touchEnd", []);
 }
 
 test("the strip scrubs back through growth and forth again", async () => {
@@ -54,7 +44,8 @@ test("the strip scrubs back through growth and forth again", async () => {
   await scrub(tablet, 0.3, 0);
   await tablet.until("nothing has grown", (facts) => facts.present === 0 && facts.metamers === 0);
   await scrub(tablet, 0, 1);
-  const after = await tablet.until("all has grown", (facts) => facts.present === before.lastStep);
+  await tablet.until("all has grown", (facts) => facts.present === before.lastStep);
+  const after = await tablet.untilQuiet();
   expect([after.metamers, after.operations]).toEqual([metamers, before.operations]);
 });
 
@@ -73,12 +64,13 @@ test("keys, taps and buttons travel through time", async () => {
   await slider.focus();
   await page.keyboard.press("Home");
   await tablet.until("the beginning", (facts) => facts.present === 0);
-  expect(await slider.getAttribute("aria-valuetext")).toBe(`Step 0 of ${lastStep}`);
+  const says = () => slider.getAttribute("aria-valuetext");
+  await expect.poll(says).toBe(`Step 0 of ${lastStep}`);
   await page.keyboard.press("PageUp");
   const first = await tablet.until("the first stroke", (facts) => facts.present > 0 && facts.present < lastStep);
-  expect(await slider.getAttribute("aria-valuetext")).toBe(`Step ${first.present} of ${lastStep}, Stroke`);
+  await expect.poll(says).toBe(`Step ${first.present} of ${lastStep}, Stroke`);
   const track = await tablet.boxOf(slider);
-  await tapAt(tablet, { x: track.x + track.width - 8, y: track.y + 16 });
+  await tablet.tapAt({ x: track.x + track.width - 8, y: track.y + 16 });
   await tablet.until("the end of what was tapped", (facts) => facts.present === lastStep);
 });
 
@@ -88,9 +80,10 @@ test("another future stays reachable from where it branched off", async () => {
   const one = await tablet.facts();
   await tablet.tap("Undo");
   await tablet.until("the limb is gone", (facts) => facts.metamers < metamers);
-  await tablet.swipe([way({ x: SEED.x - 30, y: 560 }, { x: 360, y: 470 })]);
   await tablet.untilQuiet();
-  const two = await tablet.until("a future is kept", (facts) => facts.futures === 1);
+  await tablet.swipe([way({ x: SEED.x - 30, y: 560 }, { x: 360, y: 470 })]);
+  await tablet.until("a future is kept", (facts) => facts.futures === 1);
+  const two = await tablet.untilQuiet();
 
   const other = await workshop.open(address);
   await other.until("others know of it", (facts) => facts.futures === 1);
@@ -99,7 +92,8 @@ test("another future stays reachable from where it branched off", async () => {
   await page.getByText("1 operation,").waitFor();
   await tablet.photograph("52-futures");
   await page.getByText("1 operation,").tap();
-  const back = await tablet.until("the first future is back", (facts) => facts.metamers === metamers);
+  await tablet.until("the first future is back", (facts) => facts.metamers === metamers);
+  const back = await tablet.untilQuiet();
   expect([back.lastStep, back.futures]).toEqual([one.lastStep, 1]);
 
   await page.getByRole("button", { name: "Another future" }).tap();
@@ -137,19 +131,14 @@ test("the strip and its targets fit an upright tablet", async () => {
 
 test("one finger turns a branch about its base, and undo turns it back", async () => {
   const { tablet, metamers } = await limbed(LANDSCAPE);
-  await tablet.tap("Branch");
-  await tapAt(tablet, tip);
+  await tablet.take("Branch");
+  await tablet.tapAt(tip);
   const held = await tablet.until("the limb is held", (facts) => facts.branch !== "");
   const before = await tablet.photograph("54-branch-held");
   // The server answers nothing until the picture has been looked at.
   workshop.server.pause();
   const up: Point = { x: 660, y: 330 };
-  const [first, ...rest] = way(tip, up);
-  await tablet.touch("touchStart", [first!]);
-  for (const point of rest) {
-    await tablet.touch("touchMove", [point]);
-    await tablet.page.waitForTimeout(16);
-  }
+  await tablet.lead([way(tip, up)]);
   let during = before;
   await until("it turns before the server knows", async () => {
     during = await tablet.glimpse("55-branch-turning");
@@ -162,14 +151,15 @@ test("one finger turns a branch about its base, and undo turns it back", async (
   expect([turned.operations, turned.branch, turned.metamers]).toEqual(["stroke stroke turn", held.branch, metamers]);
   await tablet.tap("Undo");
   await tablet.until("it is undone", (facts) => facts.done === 2);
+  await tablet.untilQuiet();
   const undone = await tablet.photograph("56-turned-back");
   expect(changed(before, undone), "nothing is left of the turn").toBeLessThan(changed(before, during) / 4);
 });
 
 test("a second finger twists a branch about itself", async () => {
   const { tablet } = await limbed();
-  await tablet.tap("Branch");
-  await tapAt(tablet, tip);
+  await tablet.take("Branch");
+  await tablet.tapAt(tip);
   await tablet.until("the limb is held", (facts) => facts.branch !== "");
   const round = way({ x: 0, y: 0 }, { x: Math.PI / 2, y: 0 }).map(({ x: angle }) => ({
     x: tip.x + 120 * Math.cos(angle),
@@ -185,35 +175,33 @@ test("a second finger twists a branch about itself", async () => {
 test("a branch is copied to another limb, and moved there", async () => {
   const { tablet, metamers } = await limbed(LANDSCAPE);
   const { page } = tablet;
-  await tablet.tap("Branch");
-  await tapAt(tablet, tip);
+  await tablet.take("Branch");
+  await tablet.tapAt(tip);
   await tablet.until("the limb is held", (facts) => facts.branch !== "");
   await page.getByRole("button", { name: "Copy" }).tap();
   const onto: Point = { x: SEED.x, y: 470 };
-  const [first, ...rest] = way(onto, { x: 420, y: 430 });
-  await tablet.touch("touchStart", [first!]);
-  for (const point of rest) await tablet.touch("touchMove", [point]);
+  await tablet.lead([way(onto, { x: 420, y: 430 })]);
   await tablet.glimpse("57-copy-on-its-way");
   await tablet.touch("touchEnd", []);
-  const copied = await tablet.until("the copy is there", (facts) => facts.operations === "stroke stroke graft");
-  expect(copied.metamers).toBeGreaterThan(metamers);
+  await tablet.until("the copy is there", (facts) => facts.operations === "stroke stroke graft");
   const held = await tablet.untilQuiet();
+  expect(held.metamers).toBeGreaterThan(metamers);
   await tablet.photograph("58-copied");
 
   await page.getByRole("button", { name: "Move" }).tap();
-  await tapAt(tablet, { x: SEED.x, y: 640 });
-  const moved = await tablet.until("it is moved", (facts) => facts.operations === "stroke stroke graft graft");
-  expect((await tablet.untilQuiet()).metamers).toBe(held.metamers);
-  expect(moved.futures).toBe(0);
+  await tablet.tapAt({ x: SEED.x, y: 640 });
+  await tablet.until("it is moved", (facts) => facts.operations === "stroke stroke graft graft");
+  const moved = await tablet.untilQuiet();
+  expect([moved.metamers, moved.futures]).toEqual([held.metamers, 0]);
 });
 
 test("a prediction grows beside the tree and is kept as it was seen", async () => {
   const { tablet, metamers } = await limbed(LANDSCAPE);
   const { page } = tablet;
   const before = await tablet.photograph("59-before-the-cut");
-  await tablet.tap("Prune");
+  await tablet.take("Prune");
   await page.getByLabel("What if?", { exact: true }).check();
-  await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.tapAt({ x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
   await tablet.until("the ghost is there", (facts) => facts.ghost === "10");
   const ghost = await tablet.photograph("60-prediction");
   expect(changed(before, ghost), "a ghost is seen").toBeGreaterThan(0.01);
@@ -231,7 +219,7 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   const after = await tablet.photograph("61-discarded");
   expect(changed(before, after, workspace), "everything is as it was").toBeLessThan(0.01);
 
-  await tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.tapAt({ x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
   await tablet.until("it is there again", (facts) => facts.ghost === "8");
   await page.getByRole("button", { name: "Keep this" }).tap();
   await tablet.until("it is done", (facts) => facts.operations === "stroke stroke prune" && facts.ghost === "");
@@ -246,8 +234,8 @@ test("PD2: whatever else is done ends a prediction, also one in the making", asy
   const { tablet } = await limbed();
   const { page } = tablet;
   const bar = page.getByRole("region", { name: "Prediction" });
-  const ask = () => tapAt(tablet, { x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
-  await tablet.tap("Prune");
+  const ask = () => tablet.tapAt({ x: (fork.x + tip.x) / 2, y: (fork.y + tip.y) / 2 });
+  await tablet.take("Prune");
   await page.getByLabel("What if?", { exact: true }).check();
   await ask();
   await tablet.until("the ghost is there", (facts) => facts.ghost === "10");

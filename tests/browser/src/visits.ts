@@ -5,8 +5,20 @@ import { SEED } from "./workshop";
 export const PANELS = ["Architecture", "Brush", "Leaves", "Branches", "Background", "Scene"];
 export const SHEETS = ["Save", "Library", "Share", "Settings", "Help"];
 
+/** Where the seedling stands on the glass. */
+export async function seedling(tablet: Tablet): Promise<Point> {
+  const { x, y, width, height } = await tablet.boxOf(tablet.page.locator(".seedling").first());
+  return { x: x + width / 2, y: y + 0.9 * height };
+}
+
+/** Pulls down a panel. */
+export async function pullDown(tablet: Tablet, panel: string): Promise<void> {
+  await tablet.tap(panel);
+  await tablet.page.getByRole("region", { name: panel, exact: true }).waitFor();
+}
+
 /** Has every section of the panel unfolded. */
-export async function folded(tablet: Tablet): Promise<void> {
+export async function unfolded(tablet: Tablet): Promise<void> {
   const closed = tablet.page.locator(".drawer details:not([open])");
   await tablet.page.evaluate(() => {
     for (const summary of document.querySelectorAll<HTMLElement>(".drawer details:not([open]) > summary")) {
@@ -33,27 +45,27 @@ export async function atWork(tablet: Tablet, look: (where: string) => Promise<vo
   await under(tablet, way(onStem(620), LIMB), () => look("a stroke under way"));
   await tablet.untilQuiet();
 
-  await tablet.tap("Lasso");
+  await tablet.take("Lasso");
   const outline = loop({ x: 800, y: 350 }, { x: 90, y: 90 }).slice(0, 30);
   await under(tablet, outline, () => escaped("an outline under way"));
-  await tablet.tap("Plant a seed");
+  await tablet.take("Plant a seed");
   await look("Plant a seed");
 
-  await tablet.tap("Bend");
-  await tablet.hold(onStem(600), 30);
+  await tablet.take("Bend");
+  await tablet.tapAt(onStem(600));
   await page.getByLabel("Let go of the base").waitFor();
   await under(tablet, way(onStem(440), { x: 720, y: 480 }), () => look("a bend under way"));
   await tablet.untilQuiet();
   await tablet.tap("Undo");
   await tablet.untilQuiet();
 
-  await tablet.tap("Width");
+  await tablet.take("Width");
   await look("Width");
-  await tablet.hold(onStem(580), 30);
+  await tablet.tapAt(onStem(580));
   await page.getByLabel("Diameter in internodes").waitFor();
   await look("a width chosen");
 
-  await tablet.tap("Prune");
+  await tablet.take("Prune");
   await page.getByLabel("Darker than: value").fill("60");
   await page.keyboard.press("Enter");
   await page.locator(".tool-options .danger").waitFor();
@@ -71,8 +83,8 @@ export async function atWork(tablet: Tablet, look: (where: string) => Promise<vo
   await tablet.until("it is discarded", ({ ghost }) => ghost === "");
   await tablet.untilStill();
 
-  await tablet.tap("Branch");
-  await tablet.hold({ x: 745, y: 542 }, 30);
+  await tablet.take("Branch");
+  await tablet.tapAt({ x: 745, y: 542 });
   await page.getByRole("toolbar", { name: "This branch" }).waitFor();
   await look("a branch held");
   await page.getByRole("button", { name: "Copy" }).tap();
@@ -81,10 +93,7 @@ export async function atWork(tablet: Tablet, look: (where: string) => Promise<vo
 
 /** One finger drawn along a way; what it does is looked at before it lifts. */
 async function under(tablet: Tablet, path: readonly Point[], look: () => Promise<void>): Promise<void> {
-  for (const [i, point] of path.entries()) {
-    await tablet.touch(i === 0 ? "touchStart" : "touchMove", [point]);
-    await tablet.page.waitForTimeout(16);
-  }
+  await tablet.lead([path]);
   await look();
   await tablet.touch("touchEnd", []);
 }
