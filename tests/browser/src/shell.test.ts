@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Box } from "./picture";
 import { until } from "./server";
-import { COARSE, middle, PHONE, type Screen, type Tablet, way } from "./tablet";
+import { COARSE, middle, PHONE, type Screen, SMALL, type Tablet, way } from "./tablet";
 import { seedling } from "./visits";
 import { Workshop } from "./workshop";
 
@@ -85,6 +85,36 @@ describe("panels", () => {
     await labelled(tablet, "Show everything").waitFor();
     await tablet.page.keyboard.press("Escape");
     await labelled(tablet, "Undo").waitFor();
+  });
+});
+
+describe("a bar that comes", () => {
+  it("rises in its place, and does not slide in from beside", async () => {
+    const { tablet } = await workshop.fresh(SMALL);
+    await tablet.take("Bend");
+    const bar = tablet.page.locator(".tool-options");
+    await bar.waitFor();
+    await tablet.untilSettled();
+    const { stands, begins, comes } = await bar.evaluate((bar: HTMLElement) => {
+      const place = () => {
+        const { left, width, top } = bar.getBoundingClientRect();
+        return { middle: left + width / 2, top };
+      };
+      const stands = place();
+      // It comes once more, and is looked at as it begins to.
+      bar.style.animation = "none";
+      void bar.offsetWidth;
+      bar.style.animation = "";
+      const animations = bar.getAnimations();
+      for (const animation of animations) {
+        animation.pause();
+        animation.currentTime = 0;
+      }
+      return { stands, begins: place(), comes: animations.length };
+    });
+    expect(comes, "it is animated").toBeGreaterThan(0);
+    expect(begins.top, "from below").toBeGreaterThan(stands.top + 2);
+    expect(begins.middle).toBeCloseTo(stands.middle, 0);
   });
 });
 
