@@ -18,7 +18,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
 
   const save = async (event: Event) => {
     event.preventDefault();
-    const session = studio.session.peek();
+    const session = studio.link.session.peek();
     if (session === null || trimmed === "" || saving) {
       return;
     }
