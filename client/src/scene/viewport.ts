@@ -8,6 +8,7 @@ import { pixelsPerInternode, Sight } from "./camera/sight";
 import type { View } from "./camera/view";
 import type { Fineness } from "./frame/fineness";
 import { FrameLoop, type FrameTime } from "./frame/frame-loop";
+import { followPixelRatio } from "./frame/pixel-ratio";
 import { OPENING } from "./frame/quality";
 import { Rehearsal } from "./frame/rehearsal";
 import { Screen } from "./frame/screen";
@@ -52,6 +53,7 @@ export class Viewport {
   private readonly frames: FrameLoop;
   private readonly rehearsal: Rehearsal;
   private readonly resizing: ResizeObserver;
+  private readonly unfollow: () => void;
   private readonly eye = new Vector4();
   private drawMode: DrawMode = "lit";
   /** Whether there has been no tree yet. */
@@ -108,6 +110,7 @@ export class Viewport {
     });
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
+    this.unfollow = followPixelRatio(() => this.resize());
     this.resize();
   }
 
@@ -333,6 +336,7 @@ export class Viewport {
   dispose(): void {
     this.frames.dispose();
     this.resizing.disconnect();
+    this.unfollow();
     this.canvas.removeEventListener("webglcontextlost", this.lose);
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
     for (const part of [
