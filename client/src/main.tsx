@@ -26,6 +26,6 @@ if (!root) {
 }
 const studio = new Studio();
 // The server is asked first: it answers while the browser makes its picture ready.
-void studio.start();
+void studio.link.start();
 render(<App studio={studio} />, root);
 keepShell();

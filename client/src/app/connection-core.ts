@@ -13,6 +13,7 @@ import {
   type Timeline,
   type WidthConstraint,
 } from "../wire/generated";
+import { Outbox, type OutboxRecord } from "./outbox";
 
 /** Silence after which the server is asked whether it is there, in milliseconds. */
 export const PING_AFTER = 3000;
@@ -30,20 +31,9 @@ const GARBLED_FOR = 120_000;
 export type Phase = "idle" | "opening" | "greeting" | "connected" | "waiting" | "stopped";
 export type StopReason = "unknown-session" | "version";
 
-/** A command that is not yet known to be durable. */
-export interface PendingCommand {
-  readonly id: number;
-  readonly command: Command;
-  /** The server has said no; the number stays taken until an acknowledgement passes it (`CM3`). */
-  refused: boolean;
-}
-
-/** What outlives a page: the key, its numbering, and what the server may not have yet. */
-export interface ClientRecord {
+/** What outlives a page: the key, and what was sent under it. */
+export interface ClientRecord extends OutboxRecord {
   readonly key: string;
-  readonly next: number;
-  readonly acknowledged: number;
-  readonly pending: readonly { readonly id: number; readonly command: Command }[];
 }
 
 /** What the shell must do, in order. */
@@ -90,9 +80,7 @@ export interface AsideHead {
 export class ConnectionCore {
   #options: CoreOptions;
   #key: string;
-  #next = 1;
-  #acknowledged = 0;
-  #pending: PendingCommand[] = [];
+  #outbox: Outbox;
   #phase: Phase = "idle";
   #stopReason: StopReason | null = null;
   #attempts = 0;
@@ -110,11 +98,7 @@ export class ConnectionCore {
   constructor(options: CoreOptions) {
     this.#options = options;
     this.#key = options.record?.key ?? options.newKey();
-    if (options.record) {
-      this.#next = options.record.next;
-      this.#acknowledged = options.record.acknowledged;
-      this.#pending = options.record.pending.map(({ id, command }) => ({ id, command, refused: false }));
-    }
+    this.#outbox = new Outbox(options.record);
   }
 
   get phase(): Phase {
@@ -142,24 +126,22 @@ export class ConnectionCore {
 
   /** The number the next command gets. */
   get next(): number {
-    return this.#next;
+    return this.#outbox.next;
   }
 
   /** The highest number up to which every command is durable or refused. */
   get settled(): number {
-    const open = this.#pending.find((entry) => !entry.refused);
-    return (open?.id ?? this.#next) - 1;
+    return this.#outbox.settled;
   }
 
   /** How many commands of a kind the server has neither acknowledged nor refused. */
   unsettled(kind: Command["kind"]): number {
-    return this.#pending.reduce((count, entry) => count + (entry.command.kind === kind && !entry.refused ? 1 : 0), 0);
+    return this.#outbox.unsettled(kind);
   }
 
   /** What a later page of this tab needs to go on. */
   record(): ClientRecord {
-    const pending = this.#pending.map(({ id, command }) => ({ id, command }));
-    return { key: this.#key, next: this.#next, acknowledged: this.#acknowledged, pending };
+    return { key: this.#key, ...this.#outbox.record() };
   }
 
   /** Takes the effects that have come up since the last call. */
@@ -175,12 +157,11 @@ export class ConnectionCore {
 
   /** Numbers a command and sends it as soon as there is a server to take it (`CM1`). */
   submit(command: Command): number {
-    const entry = { id: this.#next++, command, refused: false };
-    this.#pending.push(entry);
+    const id = this.#outbox.put(command);
     if (this.#phase === "connected") {
-      this.#send({ type: "command", id: entry.id, command });
+      this.#send({ type: "command", id, command });
     }
-    return entry.id;
+    return id;
   }
 
   /** The socket is open: say hello (`HS1`). */
@@ -203,7 +184,7 @@ export class ConnectionCore {
         this.#welcome(now, message);
         break;
       case "acknowledged":
-        this.#acknowledge(message.id);
+        this.#outbox.acknowledge(message.id);
         break;
       case "refused":
         this.#refuse(message.id, message.problem);
@@ -377,8 +358,7 @@ export class ConnectionCore {
       this.#effects.push({ kind: "close" }, { kind: "reload" });
       return;
     }
-    const first = this.#pending[0]?.id ?? this.#next;
-    if (welcome.acknowledged + 1 < first) {
+    if (!this.#outbox.follows(welcome.acknowledged)) {
       // The server knows less of this key than it once acknowledged; a gap would be refused for ever.
       this.#rekey();
       this.#effects.push({ kind: "close" });
@@ -393,48 +373,27 @@ export class ConnectionCore {
     if (!welcome.resumed) {
       this.#effects.push({ kind: "forget-rows" });
     }
-    this.#next = Math.max(this.#next, welcome.acknowledged + 1);
-    this.#acknowledge(welcome.acknowledged);
+    this.#outbox.acknowledge(welcome.acknowledged);
     this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
     this.#effects.push({ kind: "state", state: welcome.state });
     // The lists follow only if there is something on them.
     this.#effects.push({ kind: "obstacles", obstacles: [] }, { kind: "widths", widths: [] });
-    for (const { id, command } of this.#pending) {
+    for (const { id, command } of this.#outbox.pending) {
       this.#send({ type: "command", id, command });
     }
   }
 
-  #acknowledge(id: number): void {
-    this.#acknowledged = Math.max(this.#acknowledged, id);
-    const keep = this.#pending.findIndex((entry) => entry.id > id);
-    this.#pending.splice(0, keep === -1 ? this.#pending.length : keep);
-  }
-
   #refuse(id: number, problem: Problem): void {
-    const entry = this.#pending.find((candidate) => candidate.id === id);
-    if (entry?.refused) {
-      return;
+    const command = this.#outbox.commandOf(id);
+    if (this.#outbox.refuse(id)) {
+      this.#effects.push(command ? { kind: "problem", problem, command } : { kind: "problem", problem });
     }
-    if (entry) {
-      entry.refused = true;
-    }
-    this.#effects.push(entry ? { kind: "problem", problem, command: entry.command } : { kind: "problem", problem });
   }
 
-  /** Goes on under a new key, with numbers from 1; a stroke or bend whose beginning is gone cannot be continued there. */
+  /** Goes on under a new key. */
   #rekey(): void {
-    const begun = new Set<string>();
-    const kept = this.#pending.filter(({ command, refused }) => {
-      const name = "stroke" in command ? `stroke ${command.stroke}` : "bend" in command ? `bend ${command.bend}` : null;
-      if (name !== null && command.kind.endsWith("_begin")) {
-        begun.add(name);
-      }
-      return !refused && (name === null || begun.has(name));
-    });
     this.#key = this.#options.newKey();
-    this.#acknowledged = 0;
-    this.#pending = kept.map(({ command }, index) => ({ id: index + 1, command, refused: false }));
-    this.#next = this.#pending.length + 1;
+    this.#outbox.startAnew();
     this.#effects.push({ kind: "rekeyed" });
   }
 

@@ -6,9 +6,9 @@ export function publishFacts(studio: Studio): void {
   const state = studio.document.value;
   const timeline = studio.time.told.value;
   const facts = {
-    connection: studio.phase.value,
-    sent: studio.sent.value,
-    acknowledged: studio.settled.value,
+    connection: studio.link.phase.value,
+    sent: studio.link.sent.value,
+    acknowledged: studio.link.settled.value,
     rows: studio.rows.value,
     metamers: state?.metamers ?? 0,
     step: state?.step ?? 0,

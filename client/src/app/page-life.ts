@@ -13,10 +13,12 @@ export interface PageEvents {
 export function followPageLife(events: PageEvents): () => void {
   const stop = new AbortController();
   const options = { signal: stop.signal };
-  addEventListener("pagehide", events.leaving, options);
-  addEventListener("pageshow", events.returning, options);
-  addEventListener("online", events.online, options);
-  document.addEventListener("visibilitychange", () => (document.hidden ? events.leaving : events.returning)(), options);
-  addEventListener("popstate", events.navigated, options);
+  const leaving = () => events.leaving();
+  const returning = () => events.returning();
+  addEventListener("pagehide", leaving, options);
+  addEventListener("pageshow", returning, options);
+  addEventListener("online", () => events.online(), options);
+  document.addEventListener("visibilitychange", () => (document.hidden ? leaving : returning)(), options);
+  addEventListener("popstate", () => events.navigated(), options);
   return () => stop.abort();
 }

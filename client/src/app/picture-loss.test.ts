@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import type { Hindrance } from "./hindrance";
 import { PictureLoss } from "./picture-loss";
-import type { Hindrance } from "./studio";
 
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());

@@ -1,5 +1,5 @@
 import { effect, type Signal, signal } from "@preact/signals";
-import type { Hindrance } from "./studio";
+import type { Hindrance } from "./hindrance";
 
 /** For so long nothing is said, in milliseconds: most devices give the picture back within a moment. */
 const PATIENCE = 2500;

@@ -13,4 +13,14 @@ describe("reload guard", () => {
     expect(mayReload(store, 1_050_000)).toBe(false);
     expect(mayReload(store, 1_100_000)).toBe(true);
   });
+
+  it("HS1: leaves it to the person where nothing can be remembered", () => {
+    const store = {
+      getItem: () => null,
+      setItem: () => {
+        throw new DOMException("full", "QuotaExceededError");
+      },
+    } as unknown as Storage;
+    expect(mayReload(store, 1_000_000)).toBe(false);
+  });
 });

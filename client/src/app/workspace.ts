@@ -5,6 +5,7 @@ import { stepRadius } from "./brush-radius";
 import { deflectionFor, KEY_RATE } from "./grow-pacer";
 import { listenToKeys } from "./keyboard";
 import { publishFacts } from "./page-facts";
+import { followPageLife } from "./page-life";
 import { PictureLoss } from "./picture-loss";
 import { listenToPointers } from "./pointer-source";
 import type { Studio } from "./studio";
@@ -44,7 +45,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     const chosen = studio.panel.value === "scene" ? studio.obstacles.chosen.value : null;
     viewport.showObstacles(studio.obstacles.drawn.value, chosen);
   });
-  const stopLife = studio.followPageLife();
+  const stopLife = followPageLife(studio.link);
   return () => {
     stopLife();
     stopScene();
@@ -54,7 +55,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     stopPublishing();
     stopPointers();
     keys.stop();
-    studio.leave();
+    studio.link.leave();
     studio.tools.detach();
     studio.branches.detach();
     studio.stage.detach();

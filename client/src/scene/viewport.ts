@@ -2,11 +2,13 @@ import { Scene, Vector4, WebGLRenderer } from "three";
 import type { Appearance, DrawingPlane } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
 import { type Box, CameraRig, fitted, union } from "./camera/camera-rig";
+import { extent } from "./camera/extent";
 import { type Pick, pickBranch } from "./camera/picking";
 import { pixelsPerInternode, Sight } from "./camera/sight";
 import type { View } from "./camera/view";
 import type { Fineness } from "./frame/fineness";
 import { FrameLoop, type FrameTime } from "./frame/frame-loop";
+import { followPixelRatio } from "./frame/pixel-ratio";
 import { OPENING } from "./frame/quality";
 import { Rehearsal } from "./frame/rehearsal";
 import { Screen } from "./frame/screen";
@@ -14,6 +16,7 @@ import { encodePicture } from "./frame/thumbnail";
 import { Ghost, type GhostPose } from "./guise/ghost";
 import type { Guise } from "./guise/guises";
 import { Environment } from "./light/environment";
+import { ShadowDue } from "./light/shadow-due";
 import { Sun } from "./light/sun";
 import { type Materials, makeMaterials, type Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
@@ -27,10 +30,6 @@ import type { Vec3 } from "./vector";
 const MAX_PIXEL_RATIO = 2;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
-/** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
-const SHADOW_REACH = 40;
-/** Shadows are drawn anew once so many more or fewer of the leaves are drawn as sprigs. */
-const MERGED_STEP = 0.125;
 /** A line's width in pixels of the page. */
 const LINE = 1.2;
 
@@ -54,6 +53,7 @@ export class Viewport {
   private readonly frames: FrameLoop;
   private readonly rehearsal: Rehearsal;
   private readonly resizing: ResizeObserver;
+  private readonly unfollow: () => void;
   private readonly eye = new Vector4();
   private drawMode: DrawMode = "lit";
   /** Whether there has been no tree yet. */
@@ -62,10 +62,7 @@ export class Viewport {
   private unsettled = false;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
   private lost = false;
-  private shadowStale = true;
-  private shadowDrawn = Number.NEGATIVE_INFINITY;
-  /** How far leaves had given way to sprigs then. */
-  private mergedShadow = 0;
+  private readonly shadow = new ShadowDue();
 
   /** `told` hears when there is no picture any more (true), and when there is one again. */
   constructor(
@@ -98,7 +95,7 @@ export class Viewport {
     this.sun.casters.add(this.tree.casters, this.obstacles.casters);
     this.frames = new FrameLoop(
       this.draw,
-      () => this.frames.control.quality.scale < 1 || this.shadowStale || this.tree.ripe,
+      () => this.frames.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
       // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
       (still) =>
         canvas.toggleAttribute("data-still", still && !this.lost && this.rehearsal.prepared && !this.tree.unfinished),
@@ -113,6 +110,7 @@ export class Viewport {
     });
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
+    this.unfollow = followPixelRatio(() => this.resize());
     this.resize();
   }
 
@@ -131,7 +129,7 @@ export class Viewport {
   setAppearance(appearance: Appearance): void {
     this.environment.setBackground(appearance.background);
     this.tree.setAppearance(appearance);
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.stir();
   }
 
@@ -140,7 +138,7 @@ export class Viewport {
     this.drawMode = mode;
     this.tree.setMode(mode);
     this.environment.setNeutral(mode !== "lit");
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.stir();
   }
 
@@ -154,7 +152,7 @@ export class Viewport {
   setLeafSize(size: number): void {
     if (this.uniforms.uLeafSize!.value === size) return;
     this.uniforms.uLeafSize!.value = size;
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.frames.invalidate();
   }
 
@@ -257,7 +255,7 @@ export class Viewport {
   /** What a guise that is worn shows has changed. */
   guiseChanged(): void {
     this.tree.guiseChanged();
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.stir();
   }
 
@@ -280,7 +278,7 @@ export class Viewport {
   showObstacles(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
     this.obstacles.show(obstacles, chosen);
     this.rig.keep(this.reach());
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.stir();
   }
 
@@ -327,7 +325,7 @@ export class Viewport {
     this.sync();
     this.sight.aim(pose, this.rig.eye(pose), width / height);
     this.refine(height, 0, pose.distance);
-    if (this.shadowStale) this.drawShadow();
+    if (this.shadow.stale) this.drawShadow();
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
     for (const object of passing) object.visible = true;
     if (mode !== "lit") this.setDrawMode(mode);
@@ -338,6 +336,7 @@ export class Viewport {
   dispose(): void {
     this.frames.dispose();
     this.resizing.disconnect();
+    this.unfollow();
     this.canvas.removeEventListener("webglcontextlost", this.lose);
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
     for (const part of [
@@ -381,7 +380,7 @@ export class Viewport {
     const over = finer || (control.resting && this.screen.improves(quality.scale, quality.smooth));
     if (over) this.screen.remember(this.scene, camera);
     if (finer) this.tree.ripen();
-    this.shadowStale ||= finer;
+    this.shadow.stale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
     this.unsettled = this.refine(this.screen.size.y, quality.detailed ? 1 : 0);
     if (this.empty)
@@ -389,16 +388,7 @@ export class Viewport {
         this.drawShadow();
         this.drawScene();
       });
-    // Shadows are those of the leaves that are drawn, near enough.
-    const { merged } = this.tree;
-    this.shadowStale ||= growing || Math.abs(merged - this.mergedShadow) > MERGED_STEP;
-    if (this.shadowStale && began - this.shadowDrawn >= quality.shadowEvery) {
-      this.drawShadow();
-      this.shadowDrawn = began;
-      this.mergedShadow = merged;
-      // One more frame after the last growth shows everything full grown.
-      this.shadowStale = growing;
-    }
+    if (this.shadow.take(began, quality.shadowEvery, growing, this.tree.merged)) this.drawShadow();
     this.screen.draw(this.scene, camera, over);
     return growing || moving || over || this.unsettled;
   };
@@ -421,7 +411,7 @@ export class Viewport {
   private sync(): void {
     this.aimed();
     if (!this.tree.sync(this.fineness(this.screen.size.y, 1))) return;
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.environment.update(this.table);
     this.rig.keep(this.reach());
   }
@@ -435,16 +425,9 @@ export class Viewport {
     this.renderer.render(this.scene, this.sight.camera);
   }
 
-  /** The tree with what stands around it; what stands far off has no shadow worth the map's pixels. */
+  /** The tree with what stands around it. */
   private extent(): Box {
-    const tree = this.table.bounds();
-    const around = this.obstacles.bounds();
-    if (!around) return tree;
-    const reach = SHADOW_REACH + Math.max(...tree.max.map((high, axis) => high - tree.min[axis]!));
-    const axes = [0, 1, 2] as const;
-    const low = (axis: 0 | 1 | 2) => Math.min(tree.min[axis], Math.max(around.min[axis], tree.min[axis] - reach));
-    const high = (axis: 0 | 1 | 2) => Math.max(tree.max[axis], Math.min(around.max[axis], tree.max[axis] + reach));
-    return { min: axes.map(low) as [number, number, number], max: axes.map(high) as [number, number, number] };
+    return extent(this.table.bounds(), this.obstacles.bounds());
   }
 
   /** What the camera keeps in reach. */
@@ -466,7 +449,7 @@ export class Viewport {
     this.sight.height = height;
     const ratio = Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO);
     this.screen.resize(width, height, ratio);
-    if (this.sun.fit(Math.max(width, height) * ratio)) this.shadowStale = true;
+    if (this.sun.fit(Math.max(width, height) * ratio)) this.shadow.stale = true;
     this.frames.invalidate();
   }
 
@@ -484,7 +467,7 @@ export class Viewport {
     this.screen.restored();
     this.tree.restored();
     this.ghost.restored();
-    this.shadowStale = true;
+    this.shadow.stale = true;
     this.frames.invalidate();
     this.told(false);
   };

@@ -54,7 +54,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
   const outline = studio.tools.outline.shown.value?.stage === "growing";
   const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
   const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
-  const shown = useLasting(growing && studio.phase.value === "connected");
+  const shown = useLasting(growing && studio.link.phase.value === "connected");
   const share = useRef(new GrowthShare()).current.of(pending);
   if (!shown) {
     return null;

@@ -47,7 +47,7 @@ export function GrowJog({ studio }: { studio: Studio }) {
       style={{ "--deflection": deflection }}
       title={say("bars.grow.title")}
       onPointerDown={(event) => {
-        if (held.current === null) {
+        if (held.current === null && event.button === 0) {
           held.current = event.pointerId;
           event.currentTarget.setPointerCapture(event.pointerId);
           follow(event);

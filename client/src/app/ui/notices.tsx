@@ -71,7 +71,7 @@ function hint(studio: Studio): string | null {
   const { tools, settings } = studio;
   const usable =
     studio.hindrance.value === null &&
-    studio.phase.value === "connected" &&
+    studio.link.phase.value === "connected" &&
     !tools.drawing.value &&
     // A legend has its place, and its lesson.
     studio.drawMode.value === "lit" &&

@@ -21,7 +21,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
 
   const follow = (event: PointerEvent) => {
     const frame = track.current?.getBoundingClientRect();
-    if (frame && (event.type === "pointerdown" || event.buttons > 0)) {
+    if (frame && (event.type === "pointerdown" || event.buttons % 2 === 1)) {
       studio.stage.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
     }
   };
@@ -57,8 +57,10 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
         }
         style={{ "--place": place }}
         onPointerDown={(event) => {
-          event.currentTarget.setPointerCapture(event.pointerId);
-          follow(event);
+          if (event.button === 0) {
+            event.currentTarget.setPointerCapture(event.pointerId);
+            follow(event);
+          }
         }}
         onPointerMove={follow}
         onKeyDown={onKeyDown}

@@ -18,7 +18,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
 
   const save = async (event: Event) => {
     event.preventDefault();
-    const session = studio.session.peek();
+    const session = studio.link.session.peek();
     if (session === null || trimmed === "" || saving) {
       return;
     }
@@ -27,7 +27,10 @@ export function SaveSheet({ studio }: { studio: Studio }) {
       const thumbnail = await picture(studio);
       await saveTree({ session, name: trimmed, ...(thumbnail === undefined ? {} : { thumbnail }) });
       studio.toasts.show(say("sheets.save.done", { name: trimmed }));
-      studio.sheet.value = null;
+      // Whoever has waved the card away meanwhile may have another one open.
+      if (studio.sheet.peek() === "save") {
+        studio.sheet.value = null;
+      }
     } catch (error) {
       studio.toasts.show(sentence(error));
       setSaving(false);

@@ -6,7 +6,7 @@ import { Sheet } from "./sheet";
 /** Gives the link under which others see and draw the same tree. */
 export function ShareSheet({ studio }: { studio: Studio }) {
   const field = useRef<HTMLInputElement>(null);
-  const link = `${location.origin}/s/${encodeURIComponent(studio.session.value ?? "")}`;
+  const link = `${location.origin}/s/${encodeURIComponent(studio.link.session.value ?? "")}`;
   const onlyHere = /^(localhost|127\.|\[::1\])/.test(location.host);
 
   const copy = async () => {

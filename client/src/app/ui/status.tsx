@@ -5,13 +5,13 @@ import { PeopleIcon } from "./icons";
 /** How things stand, in as few words as possible. */
 export function Status({ studio }: { studio: Studio }) {
   const document = studio.document.value;
-  const phase = studio.phase.value;
-  const attempts = studio.attempts.value;
+  const phase = studio.link.phase.value;
+  const attempts = studio.link.attempts.value;
   const people = document?.people ?? 1;
   const full = document?.budget_reached === true;
-  const away = phase !== "connected" && studio.hindrance.value === null && studio.session.value !== null;
-  const garbled = studio.garbled.value > 1;
-  const unsent = studio.sent.value - studio.settled.value;
+  const away = phase !== "connected" && studio.hindrance.value === null && studio.link.session.value !== null;
+  const garbled = studio.link.garbled.value > 1;
+  const unsent = studio.link.sent.value - studio.link.settled.value;
   return (
     <div class="status" role="status">
       {away && (

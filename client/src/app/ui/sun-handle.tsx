@@ -1,9 +1,9 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Studio } from "../studio";
+import { type Dome, domeOf } from "../sun-dome";
 import {
   around,
   azimuthOfEye,
-  type DomePlace,
   HIGHEST_SUN,
   LOWEST_SUN,
   type ScreenAxes,
@@ -16,10 +16,6 @@ import { say } from "../words";
 import { Icon } from "./icons";
 import { useFrames } from "./use-frames";
 
-/** The dome's radius, as a share of the workspace's smaller side, and how far the sun stays from the edges, in pixels. */
-const DOME = 0.4;
-const EDGE = 34;
-const TOP_EDGE = 84;
 /** How far an arrow key moves the sun, and with shift, in degrees. */
 const KEY_STEP = 3;
 const BIG_STEP = 15;
@@ -101,7 +97,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
 
   useFrames(true, () => {
     const axes = studio.stage.screenAxes();
-    const dome = host.current && domeOf(host.current);
+    const dome = host.current && domeOver(host.current);
     if (!axes || !dome) {
       return;
     }
@@ -196,7 +192,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
         title={say("sun.title")}
         onPointerDown={(event) => {
           const axes = studio.stage.screenAxes();
-          const dome = host.current && domeOf(host.current);
+          const dome = host.current && domeOver(host.current);
           if (hand.current === null && event.button === 0 && axes && dome) {
             const shown = shownAt(now(), axes);
             const [right, up] = dome.place(event.clientX, event.clientY);
@@ -209,7 +205,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
         }}
         onPointerMove={(event) => {
           const axes = studio.stage.screenAxes();
-          const dome = host.current && domeOf(host.current);
+          const dome = host.current && domeOver(host.current);
           if (
             hand.current?.id === event.pointerId &&
             axes &&
@@ -242,24 +238,10 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   );
 }
 
-/** The dome on the glass: around the middle of the workspace. */
-interface Dome {
-  pixels(place: DomePlace): readonly [x: number, y: number];
-  place(clientX: number, clientY: number): readonly [right: number, up: number];
-}
-
-function domeOf(host: HTMLElement): Dome {
-  const { left, top, width, height } = host.getBoundingClientRect();
-  const radius = DOME * Math.min(width, height);
-  const [middleX, middleY] = [width / 2, height / 2 + 0.06 * height];
-  const within = (value: number, low: number, high: number) => Math.min(Math.max(value, low), high);
-  return {
-    pixels: ({ right, up }) => [
-      within(middleX + radius * right, EDGE, width - EDGE),
-      within(middleY - radius * up, TOP_EDGE, height - EDGE),
-    ],
-    place: (x, y) => [(x - left - middleX) / radius, (middleY - (y - top)) / radius],
-  };
+/** The dome over the workspace as it is laid out now. */
+function domeOver(host: HTMLElement): Dome {
+  const bar = host.parentElement?.querySelector(".side-bar");
+  return domeOf(host.getBoundingClientRect(), bar?.getBoundingClientRect() ?? null);
 }
 
 /** The way the sun takes around the tree at an elevation: what of it is before the tree, and what behind. */

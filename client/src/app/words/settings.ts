@@ -7,8 +7,8 @@ export const SETTINGS = {
   "settings.theme.system": ["As the system", "Wie das System"],
   "settings.theme.light": ["Light", "Hell"],
   "settings.theme.dark": ["Dark", "Dunkel"],
-  "settings.side": ["Tools at the", "Werkzeuge"],
-  "settings.side.left": ["left", "links"],
-  "settings.side.right": ["right", "rechts"],
+  "settings.side": ["Tools", "Werkzeuge"],
+  "settings.side.left": ["Left", "Links"],
+  "settings.side.right": ["Right", "Rechts"],
   "settings.pressure": ["Pen pressure widens the brush", "Stiftdruck verbreitert den Pinsel"],
 } as const;

@@ -67,8 +67,10 @@ export function Polar(props: PolarProps) {
       aria-valuenow={Math.round(value)}
       aria-valuetext={`${numberText(value, step)}${unitText(unit)}`}
       onPointerDown={(event) => {
-        event.currentTarget.setPointerCapture(event.pointerId);
-        follow(event);
+        if (event.button === 0) {
+          event.currentTarget.setPointerCapture(event.pointerId);
+          follow(event);
+        }
       }}
       onPointerMove={(event) => {
         if (event.currentTarget.hasPointerCapture(event.pointerId)) {

@@ -1,0 +1,2 @@
+/** What keeps the workspace from being used, with a way on. */
+export type Hindrance = "unknown-session" | "version" | "no-server" | "no-webgl" | "no-picture";
