@@ -97,6 +97,7 @@ export class Studio {
   readonly bud = new ChosenBud(this.table);
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
+    newGesture: () => this.newGesture(),
     session: () => this.session.peek(),
     failed: (error) => this.toasts.show(sentence(error)),
   });
@@ -366,7 +367,7 @@ export class Studio {
           if (aside.kind === FrameKind.Ghost) {
             this.branches.prediction.receive(aside.frame);
           } else {
-            this.tools.shaping.peek()?.poses.receive(aside.frame);
+            this.tools.receivePose(aside.frame);
           }
         },
         widths: (widths) => this.tools.receiveWidths(widths),
@@ -390,7 +391,7 @@ export class Studio {
 
   #onPhase(phase: Phase, attempts: number, stopped: StopReason | null): void {
     if (phase !== "connected" && this.phase.peek() === "connected") {
-      this.tools.shaping.peek()?.poses.clear();
+      this.tools.losePoses();
       this.branches.prediction.lost();
     }
     batch(() => {
