@@ -141,6 +141,10 @@ pub enum Command {
     PlaceObstacle {
         /// What, and where.
         obstacle: Obstacle,
+        /// Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
     },
     /// Put an obstacle elsewhere.
     MoveObstacle {
@@ -148,11 +152,19 @@ pub enum Command {
         id: u32,
         /// Where it goes.
         pose: Pose,
+        /// Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
     },
     /// Take an obstacle away.
     RemoveObstacle {
         /// Its id, as in `obstacles`.
         id: u32,
+        /// Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
     },
     /// Fingers take hold of a branch to bend it; one bend, begin to end, is one operation for undo (`BE1`).
     BendBegin {

@@ -1,6 +1,14 @@
 //! What all binary frames have in common: a header of 16 bytes and a body that may be deflated (`FR`).
 
-use std::{borrow::Cow, io::Read};
+use std::{
+    borrow::Cow,
+    io::Read,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
+};
 
 use flate2::{Compress, Compression, FlushCompress, read::DeflateDecoder};
 
@@ -137,16 +145,33 @@ pub(crate) fn open(bytes: &[u8], wanted: FrameKind) -> Result<(Header, Cow<'_, [
 }
 
 /// A long body is deflated in halves, side by side: the first ends at a whole byte, the second does not look back.
+///
+/// A thread that waits in [`rayon::join`] takes up other work of the pool meanwhile, such as the growth of another
+/// session, and would come back to its frame only after that. So the second half is offered to the pool, and done
+/// here unless another thread has begun it; what has begun waits for nothing, and is waited for without other work.
 fn deflate(body: &[u8]) -> Option<Vec<u8>> {
     if body.len() < MIN_HALVED_BYTES {
         return deflate_part(body, FlushCompress::Finish);
     }
     let (first, second) = body.split_at(body.len() / 2);
-    let (first, second) = rayon::join(
-        || deflate_part(first, FlushCompress::Sync),
-        || deflate_part(second, FlushCompress::Finish),
-    );
-    let mut packed = first?;
+    let offered: Arc<[u8]> = second.into();
+    let is_begun = Arc::new(AtomicBool::new(false));
+    let (answer, answered) = mpsc::sync_channel(1);
+    rayon::spawn({
+        let is_begun = Arc::clone(&is_begun);
+        move || {
+            if !is_begun.swap(true, Ordering::Relaxed) {
+                // It is waited for.
+                let _ = answer.send(deflate_part(&offered, FlushCompress::Finish));
+            }
+        }
+    });
+    let mut packed = deflate_part(first, FlushCompress::Sync)?;
+    let second = if is_begun.swap(true, Ordering::Relaxed) {
+        answered.recv().ok()?
+    } else {
+        deflate_part(second, FlushCompress::Finish)
+    };
     packed.extend_from_slice(&second?);
     Some(packed)
 }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Command, PlacedObstacle } from "../wire/generated";
-import { ObstacleList } from "./obstacle-list";
+import { Hand, ObstacleList } from "./obstacle-list";
 
 const mesh = { positions: new Float32Array(9), triangles: new Uint32Array(3) };
 
@@ -9,6 +9,7 @@ function setUp() {
   const world = { fetched: [] as number[], failures: [] as unknown[], fail: false };
   const list = new ObstacleList({
     submit: (command) => sent.push(command),
+    newGesture: () => sent.length + 1,
     session: () => "glade",
     fetchMesh: async (_, id) => {
       world.fetched.push(id);
@@ -47,7 +48,7 @@ describe("obstacle list", () => {
     const { list, sent } = setUp();
     list.receive([box(1), box(2, 5)]);
     list.move(2, { position: [7, 0, 0] });
-    expect(sent).toEqual([{ kind: "move_obstacle", id: 2, pose: { position: [7, 0, 0] } }]);
+    expect(sent).toEqual([{ kind: "move_obstacle", id: 2, pose: { position: [7, 0, 0] }, gesture: 1 }]);
     expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 7]);
     list.receive([box(1), box(2, 6)]);
     expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 6]);
@@ -98,10 +99,11 @@ describe("obstacle list", () => {
     list.receive([box(1, 4)]);
     list.chosen.value = 1;
     list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    const placed = { kind: "place_obstacle", obstacle: { shape: wide, pose: { position: [4, 0, 0] } } };
+    const obstacle = { shape: wide, pose: { position: [4, 0, 0] } };
+    const placed = { kind: "place_obstacle", obstacle, gesture: 1 };
     expect(sent, "the old one stays until the new one stands").toEqual([placed]);
     list.receive([box(1, 4), wideAt4(2)]);
-    expect(sent).toEqual([placed, { kind: "remove_obstacle", id: 1 }]);
+    expect(sent, "OB2: both are one for undo").toEqual([placed, { kind: "remove_obstacle", id: 1, gesture: 1 }]);
     expect(list.chosen.value).toBe(2);
     list.receive([box(1, 4), wideAt4(2)]);
     expect(list.list.value, "never both").toEqual([wideAt4(2)]);
@@ -130,7 +132,7 @@ describe("obstacle list", () => {
     list.clear();
     list.receive([box(1, 4)]);
     list.receive([box(1, 4), wideAt4(2)]);
-    expect(sent.slice(1)).toEqual([{ kind: "remove_obstacle", id: 1 }]);
+    expect(sent.slice(1)).toEqual([{ kind: "remove_obstacle", id: 1, gesture: 1 }]);
   });
 
   it("another's obstacle is no answer to a new shape", () => {
@@ -140,7 +142,7 @@ describe("obstacle list", () => {
     list.receive([box(1, 4), box(2, 30)]);
     expect(sent.length).toBe(1);
     list.receive([box(1, 4), box(2, 30), wideAt4(3)]);
-    expect(sent.at(-1)).toEqual({ kind: "remove_obstacle", id: 1 });
+    expect(sent.at(-1)).toEqual({ kind: "remove_obstacle", id: 1, gesture: 1 });
   });
 
   it("of shapes asked for one after the other the last counts", () => {
@@ -153,6 +155,36 @@ describe("obstacle list", () => {
     list.receive([box(1, 4), wideAt4(2)]);
     const last = { kind: "place_obstacle", obstacle: { shape: { kind: "box", size: [8, 8, 8] } } };
     expect(sent.slice(1)).toMatchObject([{ kind: "remove_obstacle", id: 1 }, last]);
+  });
+
+  it("OB2: what a hand does without letting go has one gesture", () => {
+    const { list, sent } = setUp();
+    const hand = new Hand();
+    list.receive([box(1, 4)]);
+    list.move(1, { position: [5, 0, 0] }, hand);
+    list.receive([box(1, 5)]);
+    list.move(1, { position: [4, 0, 0] }, hand);
+    list.receive([box(1, 4)]);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] }, hand);
+    list.reshape(1, { kind: "box", size: [8, 8, 8] }, hand);
+    list.receive([box(1, 4), wideAt4(2)]);
+    list.remove(2);
+    const gestures = sent.map((command) => "gesture" in command && command.gesture);
+    expect(gestures, "the last was another hand").toEqual([1, 1, 1, 1, 1, 6]);
+  });
+
+  it("a shape that was undone is at hand as the other was", () => {
+    const { list } = setUp();
+    list.receive([box(1, 4)]);
+    list.chosen.value = 1;
+    list.reshape(1, { kind: "box", size: [9, 9, 9] });
+    list.receive([box(1, 4), wideAt4(2)]);
+    expect([list.chosen.value, list.list.value.length]).toEqual([2, 1]);
+    // The server may have been done with both before it told anything.
+    list.receive([box(1, 4)]);
+    expect([list.chosen.value, list.list.value]).toEqual([1, [box(1, 4)]]);
+    list.receive([wideAt4(2)]);
+    expect(list.chosen.value, "and redone").toBe(2);
   });
 
   it("remembers how one was through all its shapes", () => {

@@ -8,6 +8,8 @@ import { Transfer } from "./transfer";
 
 export interface ObstacleListOptions {
   readonly submit: (command: Command) => void;
+  /** A number that no other gesture of this client has, if it is sent at once. */
+  readonly newGesture: () => number;
   readonly session: () => string | null;
   readonly fetchMesh?: typeof fetchMesh;
   readonly uploadModel?: typeof uploadModel;
@@ -17,12 +19,19 @@ export interface ObstacleListOptions {
 
 type Placing = Extract<Command, { kind: "place_obstacle" }>;
 
+/** What a hand does without letting go is one operation for undo (`OB2`). */
+export class Hand {
+  /** Its number, once something of it was sent. */
+  gesture: number | null = null;
+}
+
 /** An obstacle of this hand that is to appear, and the one it takes the place of, if any. */
 interface Awaited {
   readonly command: Placing;
   readonly instead: number | null;
+  readonly hand: Hand;
   /** Yet another shape that was asked for meanwhile. */
-  afterwards: Shape | null;
+  afterwards: { readonly shape: Shape; readonly hand: Hand } | null;
 }
 
 /** What stands in the way of growth, as the server has it and as this hand is moving it. */
@@ -48,8 +57,8 @@ export class ObstacleList {
   #fetching = new Set<number>();
   /** What this hand has placed is chosen when it appears. */
   #awaited: Awaited[] = [];
-  /** Those whose other shape stands, until the server's list is without them. */
-  #replaced = new Set<number>();
+  /** Those whose other shape stands, and that one, until the server's list is without either. */
+  #replaced = new Map<number, number>();
   /** Each as this page first saw it: what its measures are put back to. */
   #first = new Map<number, PlacedObstacle>();
 
@@ -59,7 +68,8 @@ export class ObstacleList {
 
   /** The server's list has changed. */
   receive(told: readonly PlacedObstacle[]): void {
-    for (const id of [...this.#replaced].filter((replaced) => !told.some(({ id }) => id === replaced))) {
+    const standing = new Set(told.map(({ id }) => id));
+    for (const [id] of [...this.#replaced].filter((pair) => !pair.every((id) => standing.has(id)))) {
       this.#replaced.delete(id);
     }
     const obstacles = told.filter(({ id }) => !this.#replaced.has(id));
@@ -69,8 +79,12 @@ export class ObstacleList {
     for (const obstacle of obstacles.filter(({ id }) => !known.has(id))) {
       this.#appeared(obstacle);
     }
-    if (!this.list.peek().some(({ id }) => id === this.chosen.peek())) {
-      this.chosen.value = null;
+    const chosen = this.chosen.peek();
+    if (chosen !== null && !this.list.peek().some(({ id }) => id === chosen)) {
+      // The shape that undo brings back is at hand as the other one was.
+      const origin = this.#first.get(chosen)?.id;
+      const former = obstacles.find(({ id }) => !known.has(id) && this.#first.get(id)?.id === origin);
+      this.chosen.value = former?.id ?? null;
     }
     for (const { id, shape } of obstacles) {
       if (shape.kind === "mesh") {
@@ -104,7 +118,7 @@ export class ObstacleList {
   }
 
   place(shape: Shape, pose: Pose): void {
-    this.#place(shape, pose, null);
+    this.#place(shape, pose, new Hand(), null);
   }
 
   /** How one was when this page first saw it, through all shapes it was given since; null where there is none. */
@@ -112,28 +126,28 @@ export class ObstacleList {
     return this.#first.get(id) ?? null;
   }
 
-  move(id: number, pose: Pose): void {
+  move(id: number, pose: Pose, hand = new Hand()): void {
     this.preview({ id, pose });
-    this.#options.submit({ kind: "move_obstacle", id, pose });
+    this.#options.submit({ kind: "move_obstacle", id, pose, gesture: this.#gesture(hand) });
   }
 
-  remove(id: number): void {
-    this.#options.submit({ kind: "remove_obstacle", id });
+  remove(id: number, hand = new Hand()): void {
+    this.#options.submit({ kind: "remove_obstacle", id, gesture: this.#gesture(hand) });
   }
 
   /**
    * Gives one another shape: the wire knows this as another obstacle in the same place. The old one goes once the
    * other stands there, for it may be refused long after it was taken on.
    */
-  reshape(id: number, shape: Shape): void {
+  reshape(id: number, shape: Shape, hand = new Hand()): void {
     const underWay = this.#awaited.find(({ instead }) => instead === id);
     if (underWay) {
-      underWay.afterwards = shape;
+      underWay.afterwards = { shape, hand };
       return;
     }
     const pose = this.poseOf(id);
     if (pose) {
-      this.#place(shape, pose, id);
+      this.#place(shape, pose, hand, id);
     }
   }
 
@@ -162,10 +176,16 @@ export class ObstacleList {
     }
   }
 
-  #place(shape: Shape, pose: Pose, instead: number | null): void {
-    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose } };
-    this.#awaited.push({ command, instead, afterwards: null });
+  #place(shape: Shape, pose: Pose, hand: Hand, instead: number | null): void {
+    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose }, gesture: this.#gesture(hand) };
+    this.#awaited.push({ command, hand, instead, afterwards: null });
     this.#options.submit(command);
+  }
+
+  /** The number of a hand that is about to send something. */
+  #gesture(hand: Hand): number {
+    hand.gesture ??= this.#options.newGesture();
+    return hand.gesture;
   }
 
   /** One more stands in the scene. */
@@ -186,12 +206,12 @@ export class ObstacleList {
       this.chosen.value = added.id;
     }
     if (instead !== null && this.list.peek().some(({ id }) => id === instead)) {
-      this.#replaced.add(instead);
+      this.#replaced.set(instead, added.id);
       this.list.value = this.list.peek().filter(({ id }) => id !== instead);
-      this.remove(instead);
+      this.remove(instead, awaited.hand);
     }
     if (awaited.afterwards !== null) {
-      this.reshape(added.id, awaited.afterwards);
+      this.reshape(added.id, awaited.afterwards.shape, awaited.afterwards.hand);
     }
   }
 

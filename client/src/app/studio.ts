@@ -92,6 +92,7 @@ export class Studio {
   readonly bud = new ChosenBud(this.table);
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
+    newGesture: () => this.newGesture(),
     session: () => this.link.session.peek(),
     failed: (error) => this.toasts.show(sentence(error)),
   });
@@ -289,7 +290,7 @@ export class Studio {
         if (aside.kind === FrameKind.Ghost) {
           this.branches.prediction.receive(aside.frame);
         } else {
-          this.tools.shaping.peek()?.poses.receive(aside.frame);
+          this.tools.receivePose(aside.frame);
         }
       },
       widths: (widths) => this.tools.receiveWidths(widths),
@@ -302,7 +303,7 @@ export class Studio {
         this.tools.outline.clear();
       },
       lost: () => {
-        this.tools.shaping.peek()?.poses.clear();
+        this.tools.losePoses();
         this.branches.prediction.lost();
       },
       leaving: () => {

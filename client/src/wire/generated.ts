@@ -889,7 +889,11 @@ position: [number, number, number], } | { "kind": "place_obstacle",
 /**
  * What, and where.
  */
-obstacle: Obstacle, } | { "kind": "move_obstacle", 
+obstacle: Obstacle, 
+/**
+ * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+ */
+gesture?: number, } | { "kind": "move_obstacle", 
 /**
  * Its id, as in `obstacles`.
  */
@@ -897,11 +901,19 @@ id: number,
 /**
  * Where it goes.
  */
-pose: Pose, } | { "kind": "remove_obstacle", 
+pose: Pose, 
+/**
+ * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+ */
+gesture?: number, } | { "kind": "remove_obstacle", 
 /**
  * Its id, as in `obstacles`.
  */
-id: number, } | { "kind": "bend_begin", 
+id: number, 
+/**
+ * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+ */
+gesture?: number, } | { "kind": "bend_begin", 
 /**
  * The client's own number for this bend.
  */

@@ -25,6 +25,8 @@ const WIDTH_BITS: i32 = 5;
 const DEPTH_BITS: i32 = 4;
 const WIDTH: i32 = 1 << WIDTH_BITS;
 const DEPTH: i32 = 1 << DEPTH_BITS;
+/// By how many voxels those of the first chunk begin before the origin.
+const SHIFT: [i32; 3] = [WIDTH / 2, DEPTH / 4, DEPTH / 2];
 /// Voxels a row of a pyramid is padded to, and the one that its axis goes through.
 const ROW: usize = 8;
 const MIDDLE: i32 = 4;
@@ -246,11 +248,12 @@ impl ShadowGrid {
     }
 }
 
-/// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk.
+/// The voxel a point lies in, counted so that the axis of a tree at the origin runs amid a chunk, which begins as far
+/// below the ground as shadows reach there: a small tree then has one chunk.
 #[inline]
 fn voxel_of(place: Vec3) -> [i32; 3] {
     let [x, y, z] = directory::voxel_of(place * (1.0 / VOXEL));
-    [x + WIDTH / 2, y, z + DEPTH / 2]
+    [x + SHIFT[0], y + SHIFT[1], z + SHIFT[2]]
 }
 
 #[inline]
@@ -373,7 +376,7 @@ mod tests {
                 let [x, y, z] = voxel_of(*caster);
                 let voxel = [x + near.0, y + near.1, z + near.2];
                 prop_assert_eq!(grid.shadow(voxel), shadow_by_definition(&grid, &casters, voxel));
-                let corner = Vec3::new((voxel[0] - WIDTH / 2) as f32, voxel[1] as f32, (voxel[2] - DEPTH / 2) as f32);
+                let corner = Vec3::from_array(core::array::from_fn(|axis| (voxel[axis] - SHIFT[axis]) as f32));
                 let place = (corner + 0.75) * VOXEL;
                 let spot = grid.spot(place);
                 let octet = grid.octet_around(reading::least_voxel(place));

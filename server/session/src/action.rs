@@ -105,18 +105,27 @@ pub enum Action {
         position: Vec3,
     },
     /// Something that stands in the way.
-    PlaceObstacle(Box<Obstacle>),
+    PlaceObstacle {
+        /// What, and where.
+        obstacle: Box<Obstacle>,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
     /// An obstacle elsewhere.
     MoveObstacle {
         /// Which.
         id: u32,
         /// Where to.
         pose: Pose,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
     },
     /// An obstacle gone.
     RemoveObstacle {
         /// Which.
         id: u32,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
     },
     /// A bend begins.
     BendBegin {
@@ -227,15 +236,15 @@ impl Action {
                 Self::SetAppearance { change, gesture: *gesture }
             }
             Command::PlantSeed { position } => Self::PlantSeed { position: parse_position(position)? },
-            Command::PlaceObstacle { obstacle } => {
+            Command::PlaceObstacle { obstacle, gesture } => {
                 let obstacle = Obstacle::parse(obstacle).map_err(|problem| problem.within("obstacle"))?;
-                Self::PlaceObstacle(Box::new(obstacle))
+                Self::PlaceObstacle { obstacle: Box::new(obstacle), gesture: *gesture }
             }
-            Command::MoveObstacle { id, pose } => {
+            Command::MoveObstacle { id, pose, gesture } => {
                 let pose = Pose::parse(pose).map_err(|problem| problem.within("pose"))?;
-                Self::MoveObstacle { id: *id, pose }
+                Self::MoveObstacle { id: *id, pose, gesture: *gesture }
             }
-            &Command::RemoveObstacle { id } => Self::RemoveObstacle { id },
+            &Command::RemoveObstacle { id, gesture } => Self::RemoveObstacle { id, gesture },
             Command::BendBegin { bend, base, touches, stretch, gesture } => {
                 shaping::bend_begin(*bend, *base, touches, *stretch, *gesture)?
             }

@@ -147,9 +147,9 @@ impl Document {
             Action::SetParameters { patch, gesture } => self.set_parameters(author, patch, *gesture),
             Action::SetAppearance { change, gesture } => self.set_appearance(author, change, *gesture),
             Action::PlantSeed { position } => self.plant_seed(author, *position),
-            Action::PlaceObstacle(obstacle) => self.place_obstacle(author, obstacle),
-            Action::MoveObstacle { id, pose } => self.move_obstacle(author, *id, *pose),
-            Action::RemoveObstacle { id } => self.remove_obstacle(author, *id),
+            Action::PlaceObstacle { obstacle, gesture } => self.place_obstacle(author, obstacle, *gesture),
+            Action::MoveObstacle { id, pose, gesture } => self.move_obstacle(author, *id, *pose, *gesture),
+            Action::RemoveObstacle { id, gesture } => self.remove_obstacle(author, *id, *gesture),
             Action::BendBegin { bend, base, touches, stretch, gesture } => {
                 self.begin_bend(author, *bend, *base, touches, *stretch, *gesture)
             }

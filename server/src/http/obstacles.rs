@@ -37,6 +37,7 @@ pub(super) async fn upload(
             shape: Shape::Mesh { mesh, scale: 1.0 / metres },
             pose: Pose { position: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0] },
         },
+        gesture: None,
     };
     match session.act(command).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(placed))),

@@ -49,10 +49,20 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
     let shape = Shape::Box { size: [1.0, 40.0, 40.0] };
-    first.send(Command::PlaceObstacle { obstacle: Obstacle { shape, pose: at(2.0, 20.0, 0.0) } }).await;
+    first
+        .send(Command::PlaceObstacle {
+            obstacle: Obstacle { shape, pose: at(2.0, 20.0, 0.0) },
+            gesture: None,
+        })
+        .await;
     let shape = Shape::Sphere { radius: 2.0 };
-    first.send(Command::PlaceObstacle { obstacle: Obstacle { shape, pose: at(-9.0, 2.0, 0.0) } }).await;
-    first.send(Command::MoveObstacle { id: 2, pose: at(-12.0, 2.0, 0.0) }).await;
+    first
+        .send(Command::PlaceObstacle {
+            obstacle: Obstacle { shape, pose: at(-9.0, 2.0, 0.0) },
+            gesture: None,
+        })
+        .await;
+    first.send(Command::MoveObstacle { id: 2, pose: at(-12.0, 2.0, 0.0), gesture: None }).await;
     first.send(Command::Grow { steps: 12, gesture: None, bud: None }).await;
     first.until_settled().await;
     let moved = |client: &Client| client.obstacles.get(1).is_some_and(|one| one.pose == at(-12.0, 2.0, 0.0));
@@ -66,9 +76,9 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     first.until("the list comes again", |client| !client.obstacles.is_empty()).await;
     assert_eq!(first.obstacles, told);
     first.until_form(&form).await;
-    first.send(Command::RemoveObstacle { id: 1 }).await;
+    first.send(Command::RemoveObstacle { id: 1, gesture: None }).await;
     first.send(Command::Undo {}).await;
-    first.send(Command::RemoveObstacle { id: 2 }).await;
+    first.send(Command::RemoveObstacle { id: 2, gesture: None }).await;
     first.until_settled().await;
     assert_eq!(first.obstacles.iter().map(|obstacle| obstacle.id).collect::<Vec<_>>(), [1]);
 }

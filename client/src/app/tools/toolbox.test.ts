@@ -1,7 +1,11 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
+import { SMALL, tableOf } from "../../../test/small-tree";
+import type { Bent } from "../../scene/guise/bent";
+import type { SlotWriter } from "../../scene/guise/guises";
 import { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
+import type { PoseFrame, RowMotion } from "../../wire/pose";
 import { ChosenBud } from "../chosen-bud";
 import { ObstacleList } from "../obstacle-list";
 import type { Point } from "../ports";
@@ -13,10 +17,10 @@ import { Toolbox } from "./toolbox";
 afterEach(() => vi.useRealTimers());
 
 /** A view in which a pixel is a tenth of an internode and y goes up from pixel 1000; a branch at x = 50, a box at 80. */
-function setUp() {
+function setUp(table = new TreeTable()) {
   vi.useFakeTimers();
   const sent: Command[] = [];
-  const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0 };
+  const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0, worn: new Set<Bent>() };
   const store = { getItem: () => null, setItem: () => {} } as unknown as Storage;
   const view = {
     pointOnPlane: (x: number, y: number, through: Point) => [x / 10, (1000 - y) / 10, through[2]],
@@ -25,9 +29,9 @@ function setUp() {
     pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
     placeOf: (row: number) => [50, row, 0],
     projector: () => (point: Point) => [10 * point[0], 1000 - 10 * point[1]],
-    wear: () => {},
-    doff: () => {},
-    wears: () => false,
+    wear: (bent: Bent) => world.worn.add(bent),
+    doff: (bent: Bent) => world.worn.delete(bent),
+    wears: (bent: Bent) => world.worn.has(bent),
     guiseChanged: () => {},
     pickObstacle: (x: number) => (Math.abs(x - 800) < 24 ? { id: 1, point: [80, 0, 0] } : null),
     depthBelow: () => null,
@@ -38,11 +42,11 @@ function setUp() {
   const submit = (command: Command) => {
     sent.push(command);
   };
-  const obstacles = new ObstacleList({ submit, session: () => null, failed: () => {} });
+  const obstacles = new ObstacleList({ submit, newGesture: () => 1, session: () => null, failed: () => {} });
   obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);
   const toasts = new Toasts();
   const tools = new Toolbox({
-    table: new TreeTable(),
+    table,
     settings: loadSettings(store),
     toasts,
     bud: new ChosenBud({ rows: 0, position: [], radiusCode: [] }),
@@ -111,6 +115,34 @@ describe("toolbox", () => {
     tools.clear();
     tools.attach(view);
     expect(tools.shaping.value?.width.widths.value, "another session has its own").toEqual([]);
+  });
+
+  it("BE5: poses that come before the tools are not lost", () => {
+    const { tools, view, world } = setUp(tableOf(SMALL));
+    const pose = (bend: number, rows: number[], x = 0): PoseFrame => {
+      const motions = rows.map((row): RowMotion => ({ row, rotation: [0, 0, 0, 1], to: [x, row, 0] }));
+      return { epoch: 1, sequence: 1, bend, motions };
+    };
+    const worn = () => [...world.worn].map(({ path }) => path);
+    tools.detach();
+    world.worn.clear();
+    for (const frame of [pose(7, [2, 6, 7]), pose(8, [3, 12]), pose(7, [2, 6, 7], 9), pose(8, [])]) {
+      tools.receivePose(frame);
+    }
+    tools.attach(view);
+    expect(worn(), "only that which is not over").toEqual([[2, 6, 7]]);
+    const motion = vi.fn();
+    const out = { plain: () => {}, frame: () => {}, motion } as unknown as SlotWriter;
+    [...world.worn][0]?.write(tableOf(SMALL), out);
+    expect(motion.mock.lastCall?.[3], "as it was told last").toEqual([9, 7, 0]);
+    tools.receivePose(pose(7, []));
+    expect(worn()).toEqual([]);
+    tools.receivePose(pose(9, [3, 12]));
+    tools.detach();
+    tools.losePoses();
+    world.worn.clear();
+    tools.attach(view);
+    expect(worn(), "another connection tells anew").toEqual([]);
   });
 
   it("a pen's pressure reaches what is sent", () => {

@@ -4,6 +4,7 @@ import type { Girth } from "../../scene/guise/swollen";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
+import type { PoseFrame } from "../../wire/pose";
 import { BendPoses } from "../bend-poses";
 import type { ChosenBud } from "../chosen-bud";
 import type { Gesture, Grip, StrokePoint } from "../gestures";
@@ -87,6 +88,8 @@ export class Toolbox {
   /** Those with something to show beside the picture; null without a view. */
   readonly shaping = signal<Shaping | null>(null);
   #widths: readonly WidthConstraint[] = [];
+  /** The newest pose of each bend that is under way. */
+  #poses = new Map<number, PoseFrame>();
 
   #workshop: Workshop;
   #view: Viewport | null = null;
@@ -112,6 +115,9 @@ export class Toolbox {
     this.#view = view;
     const shaping = this.#shaping(view);
     shaping.width.receive(this.#widths);
+    for (const pose of this.#poses.values()) {
+      shaping.poses.receive(pose);
+    }
     this.shaping.value = shaping;
     this.#tools = {
       bend: shaping.bend,
@@ -170,6 +176,22 @@ export class Toolbox {
   receiveWidths(widths: readonly WidthConstraint[]): void {
     this.#widths = widths;
     this.shaping.peek()?.width.receive(widths);
+  }
+
+  /** A branch that is being bent; it may be told before there is a view to show it (`BE5`). */
+  receivePose(pose: PoseFrame): void {
+    if (pose.motions.length > 0) {
+      this.#poses.set(pose.bend, pose);
+    } else {
+      this.#poses.delete(pose.bend);
+    }
+    this.shaping.peek()?.poses.receive(pose);
+  }
+
+  /** Poses end with the connection. */
+  losePoses(): void {
+    this.#poses.clear();
+    this.shaping.peek()?.poses.clear();
   }
 
   detach(): void {
@@ -351,6 +373,7 @@ export class Toolbox {
   /** Another session is opened: what all tools hold and have marked is of the old one. */
   clear(): void {
     this.#widths = [];
+    this.losePoses();
     this.abandon();
     for (const tool of Object.values(this.#tools ?? {})) {
       if ("abandon" in tool) {

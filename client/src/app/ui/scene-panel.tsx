@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
 import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../../wire/generated";
+import { Hand } from "../obstacle-list";
 import type { Studio } from "../studio";
 import { rotationOf, turningOf } from "../turning";
 import { say } from "../words";
@@ -127,14 +128,24 @@ function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }
 function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstacle }) {
   const { id, pose, shape } = obstacle;
   const [x, y, z] = pose.position;
+  const hand = useRef(new Hand());
+  const another = () => {
+    hand.current = new Hand();
+  };
   const turning = turningOf(pose.rotation);
-  const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to });
+  const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to }, hand.current);
+  const reshape = (to: Shape) => studio.obstacles.reshape(id, to, hand.current);
   const turn = (to: Partial<typeof turning>) => move({ rotation: rotationOf({ ...turning, ...to }) });
   const first = studio.obstacles.first(id) ?? obstacle;
   const [firstX, firstY, firstZ] = first.pose.position;
   const firstTurning = turningOf(first.pose.rotation);
   return (
-    <div class="measures">
+    <div
+      class="measures"
+      onPointerDownCapture={another}
+      // A key that is held down is one hand.
+      onKeyDownCapture={(event) => event.repeat || another()}
+    >
       <Measure
         name="scene.across"
         value={x}
@@ -188,7 +199,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
           first={first.shape.kind === "sphere" ? first.shape.radius : shape.radius}
           least={0.1}
           most={500}
-          onCommit={(radius) => studio.obstacles.reshape(id, { kind: "sphere", radius })}
+          onCommit={(radius) => reshape({ kind: "sphere", radius })}
         />
       )}
       {shape.kind === "box" &&
@@ -202,7 +213,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
             most={1000}
             onCommit={(value) => {
               const size = shape.size.map((side, i) => (i === axis ? value : side)) as typeof shape.size;
-              studio.obstacles.reshape(id, { kind: "box", size });
+              reshape({ kind: "box", size });
             }}
           />
         ))}

@@ -1,4 +1,4 @@
-//! Changes that make nothing grow at once: of parameters, and of looks (`AP`).
+//! Changes that make nothing grow at once: of parameters, of looks (`AP`), and of obstacles (`OB`).
 
 use std::sync::Arc;
 
@@ -47,13 +47,24 @@ impl Document {
         Ok(())
     }
 
-    /// Makes this setting that of an operation: of the last one if that is part of the same gesture (`AP2`).
-    fn change_setting(&mut self, kind: Kind, author: &str, gesture: Option<u32>, setting: Setting) {
+    /// Makes this setting that of an operation: of the last one if that is part of the same gesture (`AP2`, `OB2`).
+    pub(super) fn change_setting(
+        &mut self,
+        kind: Kind,
+        author: &str,
+        gesture: Option<u32>,
+        mut setting: Setting,
+    ) {
         let now = self.plant().step();
-        let continues = self.history.continues(&[Kind::Parameters, Kind::Appearance], author, gesture, now);
+        let kinds: &[Kind] = match kind {
+            Kind::Obstacle => &[Kind::Obstacle],
+            _ => &[Kind::Parameters, Kind::Appearance],
+        };
+        let continues = self.history.continues(kinds, author, gesture, now);
         if !continues {
             self.record(kind, author, gesture);
         }
+        self.history.share_former_obstacles(&mut setting);
         self.set(&setting);
         self.history.settle(setting);
         if continues {

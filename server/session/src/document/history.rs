@@ -6,7 +6,7 @@ use espalier_growth::{Parameters, appearance::Appearance};
 use espalier_plant::hash::StableHash;
 use glam::Quat;
 
-use super::obstacles::Standings;
+use super::obstacles::{Standings, stand_alike};
 
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -211,12 +211,26 @@ impl History {
 
     /// Whether the last operation has left the setting as it was before.
     pub fn changes_nothing(&self) -> bool {
-        let Some((last, before)) = self.operations.split_last() else { return false };
+        let Some(last) = self.operations.last() else { return false };
         let Setting { parameters, obstacles, appearance } = &last.after;
-        let former = before.last().map_or(&self.initial, |operation| &operation.after);
+        let former = self.former();
         Arc::ptr_eq(obstacles, &former.obstacles)
             && *parameters == former.parameters
             && *appearance == former.appearance
+    }
+
+    /// Obstacles that stand as they did before the operation in progress are the very same again.
+    pub fn share_former_obstacles(&self, setting: &mut Setting) {
+        let former = &self.former().obstacles;
+        if stand_alike(former, &setting.obstacles) {
+            setting.obstacles = Arc::clone(former);
+        }
+    }
+
+    /// The setting before the last operation.
+    fn former(&self) -> &Setting {
+        let earlier = self.operations.split_last().and_then(|(_, earlier)| earlier.last());
+        earlier.map_or(&self.initial, |operation| &operation.after)
     }
 
     /// The operation in progress keeps so many places of wood more.

@@ -1,4 +1,4 @@
-//! The obstacles of a document: placed, moved, removed, each an operation.
+//! The obstacles of a document: placed, moved, removed, by one gesture as one operation.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -80,7 +80,12 @@ impl Document {
         ObstaclesMark(Arc::clone(&self.obstacles.standing))
     }
 
-    pub(super) fn place_obstacle(&mut self, author: &str, obstacle: &Obstacle) -> Result<(), Problem> {
+    pub(super) fn place_obstacle(
+        &mut self,
+        author: &str,
+        obstacle: &Obstacle,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
         let standing = &self.obstacles.standing;
         if standing.len() >= MAX_OBSTACLES {
             return Err(refused(format!("the scene has {MAX_OBSTACLES} obstacles; remove one first")));
@@ -94,11 +99,17 @@ impl Document {
         self.obstacles.placed += 1;
         let mut after = standing.to_vec();
         after.push(Standing { id: self.obstacles.placed, obstacle: obstacle.clone() });
-        self.change_obstacles(author, after);
+        self.change_obstacles(author, gesture, after);
         Ok(())
     }
 
-    pub(super) fn move_obstacle(&mut self, author: &str, id: u32, pose: Pose) -> Result<(), Problem> {
+    pub(super) fn move_obstacle(
+        &mut self,
+        author: &str,
+        id: u32,
+        pose: Pose,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let now = &self.obstacles.standing[index].obstacle;
         if now.pose == pose {
@@ -107,15 +118,20 @@ impl Document {
         let moved = Obstacle::new(now.form.clone(), pose)?;
         let mut after = self.obstacles.standing.to_vec();
         after[index].obstacle = moved;
-        self.change_obstacles(author, after);
+        self.change_obstacles(author, gesture, after);
         Ok(())
     }
 
-    pub(super) fn remove_obstacle(&mut self, author: &str, id: u32) -> Result<(), Problem> {
+    pub(super) fn remove_obstacle(
+        &mut self,
+        author: &str,
+        id: u32,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let mut after = self.obstacles.standing.to_vec();
         after.remove(index);
-        self.change_obstacles(author, after);
+        self.change_obstacles(author, gesture, after);
         Ok(())
     }
 
@@ -139,11 +155,9 @@ impl Document {
         }
     }
 
-    fn change_obstacles(&mut self, author: &str, after: Vec<Standing>) {
-        self.record(Kind::Obstacle, author, None);
+    fn change_obstacles(&mut self, author: &str, gesture: Option<u32>, after: Vec<Standing>) {
         let setting = Setting { obstacles: Arc::new(after), ..self.setting() };
-        self.set(&setting);
-        self.history.settle(setting);
+        self.change_setting(Kind::Obstacle, author, gesture, setting);
     }
 
     fn held_triangles(&self) -> usize {
@@ -157,6 +171,14 @@ impl Document {
             .collect();
         meshes.values().sum()
     }
+}
+
+/// Whether the same obstacles stand in the same places: what shape one has never changes, and no number is another's.
+pub(super) fn stand_alike(some: &Standings, others: &Standings) -> bool {
+    fn poses(standings: &Standings) -> impl Iterator<Item = (u32, Pose)> {
+        standings.iter().map(|standing| (standing.id, standing.obstacle.pose))
+    }
+    poses(some).eq(poses(others))
 }
 
 /// The obstacles of a document at one time, to be compared.

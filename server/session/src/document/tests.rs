@@ -1,17 +1,16 @@
 //! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
 
+mod arranging;
 mod histories;
 mod looks;
 mod shaping;
+mod times;
 
-use espalier_proto::{ParametersPatch, Shape};
+use espalier_proto::ParametersPatch;
 use glam::{Quat, Vec2};
 
 use super::*;
-use crate::{
-    action::{Lasso, Sample},
-    obstacle::{Mesh, Obstacle, Pose},
-};
+use crate::action::{Lasso, Sample};
 
 fn sample(x: f32, y: f32, radius: f32) -> Sample {
     Sample { position: Vec3::new(x, y, 0.0), radius }
@@ -40,6 +39,59 @@ fn patch(apical_control: f32) -> Action {
 fn patch_in(gesture: Option<u32>, apical_control: f32) -> Action {
     let patch = ParametersPatch { apical_control: Some(apical_control), ..ParametersPatch::default() };
     Action::SetParameters { patch: Box::new(patch), gesture }
+}
+
+/// A tree with a few branches.
+fn tree() -> Document {
+    let mut document = Document::new(5);
+    document.apply("ann", &Action::Grow { steps: 9, gesture: None, bud: None }).expect("there is room");
+    document
+}
+
+fn apply(document: &mut Document, action: &Action) {
+    document.apply("ann", action).unwrap_or_else(|problem| panic!("{action:?}: {problem}"));
+}
+
+/// The problem an action is refused with; nothing changes.
+fn problem(document: &mut Document, action: &Action) -> Problem {
+    let before = document.hash();
+    let problem = document.apply("ann", action).expect_err("it is refused");
+    assert_eq!(document.hash(), before, "{action:?} is refused and changes something");
+    problem
+}
+
+fn refusal(document: &mut Document, action: &Action) -> (ProblemCode, String) {
+    let problem = problem(document, action);
+    assert!(!problem.message.is_empty());
+    (problem.code, problem.field.unwrap_or_default())
+}
+
+/// The way down from the youngest living metamer that stands this far from its trunk's foot, or farther.
+fn long_path(document: &Document, length: usize) -> Vec<MetamerId> {
+    let plant = document.plant();
+    let down = |id: MetamerId| {
+        let below = std::iter::successors(Some(id), |&id| plant.metamers().parent(id));
+        below.take_while(|&id| !plant.is_seed(id)).collect::<Vec<_>>()
+    };
+    let rows = (0..plant.metamer_count()).rev().map(MetamerId::new);
+    let living = rows.filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
+    living.map(down).find(|path| path.len() >= length).expect("the tree is tall enough")
+}
+
+/// The first metamers of lateral branches.
+fn laterals(document: &Document) -> Vec<MetamerId> {
+    let plant = document.plant();
+    let metamers = plant.metamers();
+    let rows = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+    rows.filter(|&id| {
+        let parent = metamers.parent(id).filter(|&parent| !plant.is_seed(parent));
+        parent.is_some_and(|parent| metamers.axis(parent) != metamers.axis(id))
+    })
+    .collect()
+}
+
+fn kinds(document: &Document) -> Vec<espalier_proto::OperationKind> {
+    document.timeline().operations.iter().map(|operation| operation.kind).collect()
 }
 
 #[test]
@@ -265,53 +317,4 @@ fn lasso(width: f32, height: f32) -> Action {
     let lasso =
         Lasso { outline: outline.to_vec(), origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, depth: 1.0 };
     Action::Lasso { lasso: Box::new(lasso), bud: None }
-}
-
-fn pose(x: f32) -> Pose {
-    Pose { position: Vec3::new(x, 3.0, 0.0), rotation: Quat::from_rotation_y(x) }
-}
-
-fn place(shape: &Shape, x: f32) -> Action {
-    let pose = espalier_proto::Pose { position: [x, 3.0, 0.0], rotation: pose(x).rotation.to_array() };
-    let obstacle = espalier_proto::Obstacle { shape: shape.clone(), pose };
-    Action::PlaceObstacle(Box::new(Obstacle::parse(&obstacle).expect("in range")))
-}
-
-#[test]
-fn no_seed_is_planted_in_an_obstacle() {
-    let mut document = Document::new(4);
-    let ball = place(&Shape::Sphere { radius: 4.0 }, 20.0);
-    document.apply("ann", &ball).expect("there is room");
-    let before = document.hash();
-    let plant = |x: f32| Action::PlantSeed { position: Vec3::X * x };
-    let problem = document.apply("ann", &plant(20.0)).expect_err("the ball reaches below the ground there");
-    assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::OutOfRange, Some("position")));
-    assert!(problem.message.contains("obstacle"), "{}", problem.message);
-    assert_eq!(document.hash(), before);
-    document.apply("ann", &plant(26.0)).expect("beside it the ground is free");
-}
-
-#[test]
-fn a_moved_mesh_is_not_made_again() {
-    let mut document = Document::new(4);
-    let made = |document: &Document, index: usize| match &document.simulation.obstacles()[index].shape() {
-        espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
-        other => panic!("{other:?}"),
-    };
-    document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
-    document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
-    let before = [made(&document, 0), made(&document, 1)];
-    document.apply("ann", &Action::MoveObstacle { id: 1, pose: pose(5.0) }).expect("it is there");
-    document.apply("ann", &place(&Shape::Sphere { radius: 1.0 }, 15.0)).expect("there is room");
-    for (index, before) in before.iter().enumerate() {
-        assert!(Arc::ptr_eq(before, &made(&document, index)), "{index}");
-    }
-}
-
-/// A sheet of two triangles.
-fn slab() -> Shape {
-    let corners = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.5], [-3.0, 3.0, 0.5]];
-    let mesh =
-        Mesh { vertices: corners.map(Vec3::from_array).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
-    Shape::Mesh { mesh: mesh.to_base64(), scale: 1.5 }
 }

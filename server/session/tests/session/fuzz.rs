@@ -62,12 +62,24 @@ fn command() -> impl Strategy<Value = Command> {
         1 => (0.5f32..5.0, 0.5f32..8.0, prop::option::of(0u32..40))
             .prop_map(|(width, height, bud)| lasso(width, height, bud)),
         1 => (1u32..6, 0u32..60).prop_map(|(steps, bud)| Command::Grow { steps, gesture: None, bud: Some(bud) }),
-        1 => (-6.0f32..6.0, 0.0f32..8.0, 0.0f32..3.0).prop_map(|(x, y, radius)| Command::PlaceObstacle {
-            obstacle: Obstacle { shape: Shape::Sphere { radius }, pose: pose(x, y) }
-        }),
-        1 => (0u32..4, -6.0f32..6.0).prop_map(|(id, x)| Command::MoveObstacle { id, pose: pose(x, 1.0) }),
-        1 => (0u32..4).prop_map(|id| Command::RemoveObstacle { id }),
+        3 => obstacle(),
         10 => shaping(),
+    ]
+}
+
+fn obstacle() -> impl Strategy<Value = Command> {
+    let gesture = || prop::option::of(0u32..2);
+    prop_oneof![
+        (-6.0f32..6.0, 0.0f32..8.0, 0.0f32..3.0, gesture()).prop_map(|(x, y, radius, gesture)| {
+            let obstacle = Obstacle { shape: Shape::Sphere { radius }, pose: pose(x, y) };
+            Command::PlaceObstacle { obstacle, gesture }
+        }),
+        (0u32..4, -6.0f32..6.0, gesture()).prop_map(|(id, x, gesture)| Command::MoveObstacle {
+            id,
+            pose: pose(x, 1.0),
+            gesture
+        }),
+        (0u32..4, gesture()).prop_map(|(id, gesture)| Command::RemoveObstacle { id, gesture }),
     ]
 }
 

@@ -13,7 +13,7 @@ fn at(x: f32, y: f32, z: f32) -> Pose {
 }
 
 fn place(shape: Shape, pose: Pose) -> Command {
-    Command::PlaceObstacle { obstacle: Obstacle { shape, pose } }
+    Command::PlaceObstacle { obstacle: Obstacle { shape, pose }, gesture: None }
 }
 
 fn ball(radius: f32, pose: Pose) -> Command {
@@ -76,8 +76,8 @@ fn ob2_obstacles_are_undone_and_redone_like_growth() {
     let client = world.join("birch-01");
     world.command(client, 1, ball(3.0, at(9.0, 3.0, 0.0)));
     world.command(client, 2, grow(3));
-    world.command(client, 3, Command::MoveObstacle { id: 1, pose: at(-9.0, 3.0, 0.0) });
-    world.command(client, 4, Command::RemoveObstacle { id: 1 });
+    world.command(client, 3, Command::MoveObstacle { id: 1, pose: at(-9.0, 3.0, 0.0), gesture: None });
+    world.command(client, 4, Command::RemoveObstacle { id: 1, gesture: None });
     world.settle();
     assert_eq!(told(&world, client), Some(vec![]));
     let grown = world.document().plant().hash();
@@ -155,8 +155,8 @@ fn ob2_who_is_not_there_is_refused() {
         world.document().hash()
     };
     let hash = before(&mut world);
-    world.command(client, 2, Command::RemoveObstacle { id: 0 });
-    world.command(client, 3, Command::MoveObstacle { id: 2, pose: at(0.0, 0.0, 0.0) });
+    world.command(client, 2, Command::RemoveObstacle { id: 0, gesture: None });
+    world.command(client, 3, Command::MoveObstacle { id: 2, pose: at(0.0, 0.0, 0.0), gesture: None });
     assert_eq!(before(&mut world), hash);
     for (_, problem) in world.peer(client).refused() {
         assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("id")));
@@ -184,9 +184,9 @@ fn lm6_the_scene_and_its_history_are_bounded() {
     let mut world = World::new();
     let client = world.join("birch-01");
     for number in 1..=8 {
-        let command = Box::new(Command::PlaceObstacle { obstacle: obstacle.clone() });
+        let command = Box::new(Command::PlaceObstacle { obstacle: obstacle.clone(), gesture: None });
         world.handle(Input::Act(ActId(number), command));
-        world.command(client, number as u32, Command::RemoveObstacle { id: number as u32 });
+        world.command(client, number as u32, Command::RemoveObstacle { id: number as u32, gesture: None });
         world.settle();
     }
     let outcomes: Vec<bool> = world.acts.iter().map(|(_, outcome)| outcome.is_ok()).collect();

@@ -1,13 +1,17 @@
 //! Random histories: back to the seedling, forth to the tree, written down and read again, bit for bit.
 
 use espalier_plant::checks;
+use espalier_proto::Shape;
 use proptest::prelude::*;
 
-use super::*;
+use super::{
+    arranging::{place_in, pose, slab},
+    *,
+};
 
 /// Something that happens. Rows are any numbers, from which a living metamer is found.
 #[derive(Clone, Debug)]
-enum Event {
+pub(super) enum Event {
     Stroke,
     Grow(u32),
     Ungrow(u32),
@@ -22,10 +26,10 @@ enum Event {
     End(u32),
     Lasso(f32, f32),
     Choose(u32),
-    Ball(f32, f32),
-    Mesh(f32),
-    Push(u32, f32),
-    Clear(u32),
+    Ball(f32, f32, Option<u32>),
+    Mesh(f32, Option<u32>),
+    Push(u32, f32, Option<u32>),
+    Clear(u32, Option<u32>),
     Hold {
         bend: u32,
         end: u32,
@@ -56,7 +60,7 @@ enum Event {
     GrowOn(u32, u32),
 }
 
-fn events() -> impl Strategy<Value = Vec<Event>> {
+pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
     let gesture = || prop::option::of(0u32..2);
     let event = prop_oneof![
         2 => Just(Event::Stroke),
@@ -73,10 +77,11 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => (90u32..92).prop_map(Event::End),
         1 => (0.5f32..6.0, 1f32..14.0).prop_map(|(w, h)| Event::Lasso(w, h)),
         1 => (0u32..200).prop_map(Event::Choose),
-        1 => (-9f32..9.0, 1f32..5.0).prop_map(|(x, r)| Event::Ball(x, r)),
-        1 => (-9f32..9.0).prop_map(Event::Mesh),
-        1 => (1u32..4, -9f32..9.0).prop_map(|(id, x)| Event::Push(id, x)),
-        1 => (1u32..4).prop_map(Event::Clear),
+        2 => (-9f32..9.0, 1f32..5.0, gesture()).prop_map(|(x, r, g)| Event::Ball(x, r, g)),
+        1 => (-9f32..9.0, gesture()).prop_map(|(x, g)| Event::Mesh(x, g)),
+        // Few places, so that things also come back to where they were.
+        3 => (1u32..4, -2i32..3, gesture()).prop_map(|(id, x, g)| Event::Push(id, 3.0 * x as f32, g)),
+        2 => (1u32..4, gesture()).prop_map(|(id, g)| Event::Clear(id, g)),
         4 => (0u32..2, any::<u32>(), 1u32..9, 1u32..4, 0f32..1.0)
             .prop_map(|(bend, end, length, touches, stretch)| Event::Hold { bend, end, length, touches, stretch }),
         2 => (0u32..2, prop::array::uniform3(-3f32..3.0)).prop_map(|(bend, shift)| Event::Drag { bend, shift }),
@@ -130,7 +135,7 @@ fn drag(document: &Document, bend: u32, shift: [f32; 3]) -> Action {
     Action::BendMove { bend, targets: open.map_or_else(|| vec![Vec3::ONE], wanted) }
 }
 
-fn happen(document: &mut Document, number: usize, event: &Event) {
+pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
     let turned = |angle: f32| Quat::from_xyzw(0.0, libm::sinf(angle), 0.0, libm::cosf(angle)).normalize();
     let found = |any: &u32| row(document, *any);
     let action = match event {
@@ -167,10 +172,10 @@ fn happen(document: &mut Document, number: usize, event: &Event) {
         Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
         Event::Lasso(w, h) => lasso(*w, *h),
         Event::Choose(row) => Action::Grow { steps: 2, gesture: None, bud: Some(*row) },
-        Event::Ball(x, radius) => place(&Shape::Sphere { radius: *radius }, *x),
-        Event::Mesh(x) => place(&slab(), *x),
-        Event::Push(id, x) => Action::MoveObstacle { id: *id, pose: pose(*x) },
-        Event::Clear(id) => Action::RemoveObstacle { id: *id },
+        Event::Ball(x, radius, gesture) => place_in(*gesture, &Shape::Sphere { radius: *radius }, *x),
+        Event::Mesh(x, gesture) => place_in(*gesture, &slab(), *x),
+        Event::Push(id, x, gesture) => Action::MoveObstacle { id: *id, pose: pose(*x), gesture: *gesture },
+        Event::Clear(id, gesture) => Action::RemoveObstacle { id: *id, gesture: *gesture },
         Event::Hold { bend, end, length, touches, stretch } => {
             hold(document, *bend, *end, *length, *touches, *stretch)
         }
@@ -205,10 +210,10 @@ fn happen(document: &mut Document, number: usize, event: &Event) {
     }
 }
 
-/// What undoing and redoing leads to.
-fn form(
-    document: &Document,
-) -> (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>, Appearance) {
+/// What undoing and redoing leads to: the plant's hash, what it grows by, what stands in its way, its looks.
+pub(super) type Form = (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>, Appearance);
+
+pub(super) fn form(document: &Document) -> Form {
     (document.plant().hash(), document.parameters(), document.obstacles(), *document.appearance())
 }
 

@@ -1,0 +1,201 @@
+//! Obstacles: what they keep out, and what one gesture does to them (`OB2`).
+
+use espalier_proto::{OperationKind, Shape};
+use proptest::prelude::*;
+
+use super::{
+    histories::{Event, Form, events, form, happen},
+    *,
+};
+use crate::obstacle::{Mesh, Obstacle, Pose};
+
+/// The gesture of the hand that is tried; no event has it.
+const HAND: Option<u32> = Some(70);
+
+pub(super) fn pose(x: f32) -> Pose {
+    Pose { position: Vec3::new(x, 3.0, 0.0), rotation: Quat::from_rotation_y(x) }
+}
+
+pub(super) fn place(shape: &Shape, x: f32) -> Action {
+    place_in(None, shape, x)
+}
+
+pub(super) fn place_in(gesture: Option<u32>, shape: &Shape, x: f32) -> Action {
+    let pose = espalier_proto::Pose { position: [x, 3.0, 0.0], rotation: pose(x).rotation.to_array() };
+    let obstacle = espalier_proto::Obstacle { shape: shape.clone(), pose };
+    let obstacle = Box::new(Obstacle::parse(&obstacle).expect("in range"));
+    Action::PlaceObstacle { obstacle, gesture }
+}
+
+#[test]
+fn no_seed_is_planted_in_an_obstacle() {
+    let mut document = Document::new(4);
+    let ball = place(&Shape::Sphere { radius: 4.0 }, 20.0);
+    document.apply("ann", &ball).expect("there is room");
+    let before = document.hash();
+    let plant = |x: f32| Action::PlantSeed { position: Vec3::X * x };
+    let problem = document.apply("ann", &plant(20.0)).expect_err("the ball reaches below the ground there");
+    assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::OutOfRange, Some("position")));
+    assert!(problem.message.contains("obstacle"), "{}", problem.message);
+    assert_eq!(document.hash(), before);
+    document.apply("ann", &plant(26.0)).expect("beside it the ground is free");
+}
+
+#[test]
+fn a_moved_mesh_is_not_made_again() {
+    let mut document = Document::new(4);
+    let made = |document: &Document, index: usize| match &document.simulation.obstacles()[index].shape() {
+        espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
+        other => panic!("{other:?}"),
+    };
+    document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
+    document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
+    let before = [made(&document, 0), made(&document, 1)];
+    document
+        .apply("ann", &Action::MoveObstacle { id: 1, pose: pose(5.0), gesture: None })
+        .expect("it is there");
+    document.apply("ann", &place(&Shape::Sphere { radius: 1.0 }, 15.0)).expect("there is room");
+    for (index, before) in before.iter().enumerate() {
+        assert!(Arc::ptr_eq(before, &made(&document, index)), "{index}");
+    }
+}
+
+fn ball() -> Shape {
+    Shape::Sphere { radius: 2.0 }
+}
+
+fn push(id: u32, x: f32, gesture: Option<u32>) -> Action {
+    Action::MoveObstacle { id, pose: pose(x), gesture }
+}
+
+#[test]
+fn ob2_another_shape_by_one_gesture_is_one_undo() {
+    let mut document = tree();
+    apply(&mut document, &place(&ball(), 9.0));
+    let before = form(&document);
+    let larger = Shape::Sphere { radius: 3.0 };
+    apply(&mut document, &place_in(Some(8), &larger, 9.0));
+    apply(&mut document, &push(2, 12.0, Some(8)));
+    apply(&mut document, &Action::RemoveObstacle { id: 1, gesture: Some(8) });
+    let after = form(&document);
+    assert_eq!(kinds(&document), [OperationKind::Growth, OperationKind::Obstacle, OperationKind::Obstacle]);
+    apply(&mut document, &Action::Undo);
+    assert_eq!(form(&document), before);
+    apply(&mut document, &Action::Redo);
+    assert_eq!(form(&document), after);
+}
+
+#[test]
+fn ob2_what_comes_between_parts_a_gesture() {
+    let mut document = tree();
+    apply(&mut document, &place_in(Some(1), &ball(), 9.0));
+    for (author, action) in [
+        ("ann", push(1, 3.0, Some(2))),
+        ("ann", push(1, 4.0, None)),
+        ("ann", push(1, 5.0, None)),
+        ("bob", push(1, 6.0, Some(2))),
+        ("ann", push(1, 7.0, Some(2))),
+        ("ann", Action::Grow { steps: 1, gesture: Some(2), bud: None }),
+        ("ann", push(1, 8.0, Some(2))),
+    ] {
+        let operations = document.timeline().operations.len();
+        document.apply(author, &action).expect("it can be done");
+        assert_eq!(document.timeline().operations.len(), operations + 1, "{author}: {action:?}");
+    }
+    // The same number for something of another kind is another operation as well.
+    let operations = document.timeline().operations.len();
+    apply(&mut document, &patch_in(Some(2), 0.6));
+    apply(&mut document, &push(1, 9.0, Some(2)));
+    assert_eq!(document.timeline().operations.len(), operations + 2);
+}
+
+#[test]
+fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
+    let mut document = tree();
+    apply(&mut document, &place(&ball(), 9.0));
+    grow(&mut document, 2, None);
+    apply(&mut document, &Action::Undo);
+    let (before, timeline) = (document.hash(), document.timeline());
+    apply(&mut document, &push(1, 4.0, HAND));
+    assert_eq!(document.timeline().futures.len(), 1, "TT3: the growth undone is another future");
+    apply(&mut document, &push(1, 9.0, HAND));
+    assert_eq!((document.hash(), document.timeline()), (before, timeline));
+    assert!(document.figures().can_redo);
+    // What was placed and taken away at once was never there; its number stays its own.
+    apply(&mut document, &place_in(HAND, &ball(), 4.0));
+    apply(&mut document, &Action::RemoveObstacle { id: 2, gesture: HAND });
+    assert!(document.figures().can_redo);
+    apply(&mut document, &place_in(HAND, &ball(), 4.0));
+    assert_eq!(document.obstacles().last().map(|obstacle| obstacle.id), Some(3));
+}
+
+/// What a hand does to obstacles, first found by any number.
+#[derive(Clone, Debug)]
+enum Deed {
+    Place(i32),
+    Push(u32, i32),
+    Clear(u32),
+}
+
+fn deeds() -> impl Strategy<Value = Vec<Deed>> {
+    let deed = prop_oneof![
+        (-2i32..3).prop_map(Deed::Place),
+        (any::<u32>(), -2i32..3).prop_map(|(any, x)| Deed::Push(any, x)),
+        any::<u32>().prop_map(Deed::Clear),
+    ];
+    prop::collection::vec(deed, 1..7)
+}
+
+fn arrange(document: &mut Document, deed: &Deed) {
+    let standing = document.obstacles();
+    let found = |any: u32| standing.get(any as usize % standing.len().max(1)).map_or(0, |one| one.id);
+    let action = match *deed {
+        Deed::Place(x) => place_in(HAND, &ball(), 3.0 * x as f32),
+        Deed::Push(any, x) => push(found(any), 3.0 * x as f32, HAND),
+        Deed::Clear(any) => Action::RemoveObstacle { id: found(any), gesture: HAND },
+    };
+    // Where nothing stands there is nothing to move.
+    let _ = document.apply("ann", &action);
+}
+
+fn check_gesture(seed: u32, earlier: &[Event], hand: &[Deed]) -> Result<(), TestCaseError> {
+    let mut document = Document::new(seed);
+    document.set_metamer_budget(2000);
+    for (number, event) in earlier.iter().enumerate() {
+        happen(&mut document, number, event);
+    }
+    let before: Form = form(&document);
+    let (timeline, figures) = (document.timeline(), document.figures());
+    for deed in hand {
+        arrange(&mut document, deed);
+    }
+    let after = form(&document);
+    if document.obstacles() == before.2 {
+        prop_assert_eq!((&after, document.timeline()), (&before, timeline));
+        prop_assert_eq!(document.figures(), figures);
+        return Ok(());
+    }
+    prop_assert!(!document.figures().can_redo, "what lay ahead is another future");
+    document.apply("ann", &Action::Undo).expect("there is the gesture");
+    prop_assert_eq!(&form(&document), &before);
+    document.apply("ann", &Action::Redo).expect("it was just undone");
+    prop_assert_eq!(&form(&document), &after);
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn ob2_one_undo_takes_a_whole_gesture_back(seed: u32, earlier in events(), hand in deeds()) {
+        check_gesture(seed, &earlier, &hand)?;
+    }
+}
+
+/// A sheet of two triangles.
+pub(super) fn slab() -> Shape {
+    let corners = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.5], [-3.0, 3.0, 0.5]];
+    let mesh =
+        Mesh { vertices: corners.map(Vec3::from_array).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
+    Shape::Mesh { mesh: mesh.to_base64(), scale: 1.5 }
+}
