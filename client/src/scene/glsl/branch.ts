@@ -232,6 +232,9 @@ in vec4 vBearing;
 in float vLight;
 in float vTrait;
 out vec4 colour;
+uniform int uGround;
+/** Moss of grass, soil, sand and snow, and how much of it; nothing comes from bare paper. */
+const vec4 AT_FOOT[5] = vec4[5](vec4(0.062, 0.066, 0.026, 0.7), vec4(0.105, 0.078, 0.055, 0.65), vec4(0.400, 0.310, 0.210, 0.6), vec4(0.800, 0.825, 0.860, 0.75), vec4(0));
 ${BARK}
 void main() {
   vec3 eye = cameraPosition - vWorld;
@@ -259,10 +262,10 @@ void main() {
   float exposure = mix(0.85, 1.35, abs(vLight));
   float facing = dot(normal, uSun);
   float sun = facing > 0.0 ? sunlit(vWorld, smoothed, 1.0) * smoothstep(-0.1, 0.2, dot(smoothed, uSun)) : 0.0;
-  // Soil and moss climb the foot of the trunk, and the ground keeps the sky from it.
+  // What the trunk stands on climbs its foot, and the ground keeps the sky from it.
   if (vWorld.y < 0.65) {
-    float soil = smoothstep(0.4, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
-    albedo = mix(albedo, vec3(0.062, 0.066, 0.026), soil * 0.7);
+    float rim = smoothstep(0.4, 0.0, vWorld.y - 0.25 * noise(vWorld * 3.0));
+    albedo = mix(albedo, AT_FOOT[uGround].rgb, rim * AT_FOOT[uGround].a);
   }
   float grounded = mix(0.45, 1.0, smoothstep(0.0, 1.4, vWorld.y));
   float open = mix(1.0, bark.cavity, 0.55);

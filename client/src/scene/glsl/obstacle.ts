@@ -25,6 +25,25 @@ centroid in vec3 vPlace;
 in vec3 vNormal;
 in vec3 vOwn;
 out vec4 colour;
+/** Turns a place out of the axes of boxes, or the lattice of noise would show on their faces. */
+const mat3 ASKEW = mat3(0.670, 0.470, -0.575, -0.662, 0.735, -0.170, 0.336, 0.489, 0.800);
+/** How high the clay stands, in internodes: marks of the hand that spread it, and its grain. Details finer than a pixel are left out. */
+float relief(vec3 at, float pixel) {
+  vec4 wave = vec4(0.9, 2.7, 6.7, 16.0);
+  vec4 shown = 1.0 - smoothstep(vec4(0.2), vec4(0.6), wave * pixel);
+  at = ASKEW * at;
+  vec4 parts = vec4(noise(at * wave.x + 3.0), noise(at * wave.y + 9.0), noise(at * wave.z + 5.0), noise(at * wave.w));
+  return dot(vec4(0.13, 0.065, 0.05, 0.022) * shown, parts - 0.5);
+}
+/** The normal of a surface that rises by so much over its pixels, after M. Mikkelsen. */
+vec3 raised(vec3 normal, vec3 place, float height) {
+  vec3 right = dFdx(place);
+  vec3 up = dFdy(place);
+  vec3 across = cross(up, normal);
+  float area = dot(right, across);
+  vec3 slope = sign(area) * (dFdx(height) * across + dFdy(height) * cross(normal, right));
+  return normalize(max(abs(area), 1e-9) * normal - slope);
+}
 void main() {
   vec3 toEye = cameraPosition - vPlace;
   float away = length(toEye);
@@ -35,8 +54,12 @@ void main() {
   normal *= dot(normal, face) < 0.0 ? -1.0 : 1.0;
   // Corner normals that are averaged over an edge say nothing of either side.
   normal = normalize(mix(face, normal, smoothstep(0.80, 0.90, dot(face, normal))));
-  float grain = noise(vWorld * 0.35) * 0.6 + noise(vWorld * 2.7 + 9.0) * 0.4;
-  vec3 albedo = vec3(0.335, 0.275, 0.225) * (0.86 + 0.28 * grain);
+  float pixel = 0.5 * (length(dFdx(vWorld)) + length(dFdy(vWorld)));
+  float height = relief(vOwn, pixel);
+  normal = raised(normal, vWorld, height);
+  float stain = noise(vOwn * 0.13 + 2.0) * 0.6 + noise(vOwn * 0.35) * 0.4;
+  // What lies low is darker: dust and wet stay there.
+  vec3 albedo = vec3(0.335, 0.275, 0.225) * (0.84 + 0.32 * stain) * clamp(1.0 + 1.7 * height, 0.7, 1.25);
 #ifdef PLANE
   float rim = length(vOwn.xz) / PLANE;
   float opacity = 1.0 - smoothstep(0.3, 1.0, rim);
