@@ -170,6 +170,45 @@ test("what is placed in the scene is seen by all, and moves with the finger", as
   await second.until("and placing", (facts) => facts.obstacles === 0);
 });
 
+test("OB2: another size, or a key held down, is one step back", async () => {
+  const { tablet } = await workshop.fresh();
+  const { keyboard } = tablet.page;
+  await tablet.tap("Scene");
+  await tablet.page.getByRole("button", { name: "Box", exact: true }).tap();
+  await tablet.until("a box stands", (facts) => facts.obstacles === 1);
+  const field = (name: string) => tablet.page.getByLabel(`${name}: value`, { exact: true });
+  const measure = async (name: string) => Number(await field(name).inputValue());
+  const becomes = (name: string, value: number) =>
+    expect.poll(() => measure(name), { message: name }).toBeCloseTo(value);
+  const width = await measure("Width");
+  await field("Width").fill("9");
+  await keyboard.press("Enter");
+  await tablet.until("it is another size", (facts) => facts.done === 2);
+  await tablet.untilQuiet();
+  await tablet.tap("Undo");
+  await becomes("Width", width);
+  expect((await tablet.untilQuiet()).obstacles, "the box as it was, and no other").toBe(1);
+  await tablet.tap("Redo");
+  await becomes("Width", 9);
+
+  const up = await measure("Up");
+  await field("Up").focus();
+  for (let notch = 0; notch < 8; notch++) await keyboard.down("ArrowUp");
+  await keyboard.up("ArrowUp");
+  await tablet.until("it has gone up", (facts) => facts.done === 3);
+  await tablet.untilQuiet();
+  expect(await measure("Up")).toBeCloseTo(up + 0.8);
+  for (const [name, value] of [
+    ["Up", up],
+    ["Width", width],
+  ] as const) {
+    await tablet.tap("Undo");
+    await becomes(name, value);
+  }
+  await tablet.tap("Undo");
+  await tablet.until("and placing", (facts) => facts.obstacles === 0);
+});
+
 test("parameters are set in the architecture panel, for everyone", async () => {
   const { tablet, address } = await workshop.fresh();
   const second = await workshop.open(address);
