@@ -5,7 +5,7 @@ use ts_rs::TS;
 
 use crate::{
     appearance::AppearancePatch,
-    obstacle::{Obstacle, Pose},
+    obstacle::{Obstacle, Pose, Shape},
     parameters::ParametersPatch,
 };
 
@@ -152,6 +152,17 @@ pub enum Command {
         id: u32,
         /// Where it goes.
         pose: Pose,
+        /// Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[ts(optional)]
+        gesture: Option<u32>,
+    },
+    /// Give an obstacle other measures, or make it another of the simple shapes (`OB2`).
+    ReshapeObstacle {
+        /// Its id, as in `obstacles`.
+        id: u32,
+        /// What it becomes.
+        shape: Shape,
         /// Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
         #[serde(default, skip_serializing_if = "Option::is_none")]
         #[ts(optional)]

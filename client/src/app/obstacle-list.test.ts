@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { Virtual } from "../../test/virtual-clock";
 import type { Command, PlacedObstacle } from "../wire/generated";
 import { Hand, ObstacleList } from "./obstacle-list";
 
@@ -7,9 +8,12 @@ const mesh = { positions: new Float32Array(9), triangles: new Uint32Array(3) };
 function setUp() {
   const sent: Command[] = [];
   const world = { fetched: [] as number[], failures: [] as unknown[], fail: false };
+  const clock = new Virtual();
   const list = new ObstacleList({
     submit: (command) => sent.push(command),
     newGesture: () => sent.length + 1,
+    ahead: () => ({ step: 0, pending: 0 }),
+    clock,
     session: () => "glade",
     fetchMesh: async (_, id) => {
       world.fetched.push(id);
@@ -19,7 +23,7 @@ function setUp() {
     uploadModel: async () => model(9),
     failed: (error) => world.failures.push(error),
   });
-  return { list, sent, world };
+  return { list, sent, world, clock };
 }
 
 const box = (id: number, x = 0): PlacedObstacle => ({
@@ -50,8 +54,49 @@ describe("obstacle list", () => {
     list.move(2, { position: [7, 0, 0] });
     expect(sent).toEqual([{ kind: "move_obstacle", id: 2, pose: { position: [7, 0, 0] }, gesture: 1 }]);
     expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 7]);
+    list.settle(1);
+    list.receive([box(1), box(2, 7)]);
     list.receive([box(1), box(2, 6)]);
-    expect(list.drawn.value.map(({ pose }) => pose.position[0])).toEqual([0, 6]);
+    expect(
+      list.drawn.value.map(({ pose }) => pose.position[0]),
+      "another hand was there",
+    ).toEqual([0, 6]);
+  });
+
+  it("an answer to an earlier move takes no later one back", () => {
+    const { list } = setUp();
+    list.receive([box(1)]);
+    for (const x of [1, 2, 3]) {
+      list.move(1, { position: [x, 0, 0] });
+    }
+    const x = () => list.poseOf(1)?.position[0];
+    list.settle(1);
+    list.receive([box(1, 1)]);
+    expect(x()).toBe(3);
+    list.settle(3);
+    list.receive([box(1, 2)]);
+    expect(x(), "its turn is still to come").toBe(3);
+    list.receive([box(1, 3)]);
+    expect(x()).toBe(3);
+  });
+
+  it("a move that comes to nothing is shown no longer after a while", () => {
+    const { list, clock } = setUp();
+    list.receive([box(1)]);
+    list.move(1, { position: [5, 0, 0] });
+    list.settle(1);
+    clock.pass(5000);
+    expect(list.poseOf(1)?.position).toEqual([0, 0, 0]);
+  });
+
+  it("a thing is where a finger holds it, whatever is told", () => {
+    const { list } = setUp();
+    list.receive([box(1)]);
+    list.preview({ id: 1, pose: { position: [4, 0, 0] } });
+    list.receive([box(1), box(2)]);
+    expect(list.poseOf(1)?.position).toEqual([4, 0, 0]);
+    list.preview(null);
+    expect(list.poseOf(1)?.position).toEqual([0, 0, 0]);
   });
 
   it("what this hand placed is at hand when it appears", () => {
@@ -91,70 +136,15 @@ describe("obstacle list", () => {
     expect(list.drawn.value[0]?.mesh).toBe(mesh);
   });
 
-  const wide = { kind: "box", size: [9, 9, 9] } as const;
-  const wideAt4 = (id: number): PlacedObstacle => ({ ...box(id, 4), shape: { kind: "box", size: [9, 9, 9] } });
-
-  it("another shape takes the old one's place", () => {
-    const { list, sent } = setUp();
-    list.receive([box(1, 4)]);
-    list.chosen.value = 1;
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    const obstacle = { shape: wide, pose: { position: [4, 0, 0] } };
-    const placed = { kind: "place_obstacle", obstacle, gesture: 1 };
-    expect(sent, "the old one stays until the new one stands").toEqual([placed]);
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(sent, "OB2: both are one for undo").toEqual([placed, { kind: "remove_obstacle", id: 1, gesture: 1 }]);
-    expect(list.chosen.value).toBe(2);
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(list.list.value, "never both").toEqual([wideAt4(2)]);
-    list.receive([wideAt4(2)]);
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(list.list.value.length, "undo brings the old one back").toBe(2);
-    list.receive([wideAt4(2)]);
-    expect(list.chosen.value).toBe(2);
-  });
-
-  it("LM6: a shape that is refused removes nothing", () => {
-    const { list, sent } = setUp();
-    list.receive([box(1, 4)]);
-    list.chosen.value = 1;
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.refused(sent[0]!);
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(sent.length, "someone else's alike is no answer").toBe(1);
-    expect(list.chosen.value, "and not taken up").toBe(1);
-  });
-
-  it("CM1: a new shape is awaited across a reconnection", () => {
+  it("OB2: another shape is shown at once, and sent by itself", () => {
     const { list, sent } = setUp();
     list.receive([box(1, 4)]);
     list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.clear();
-    list.receive([box(1, 4)]);
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(sent.slice(1)).toEqual([{ kind: "remove_obstacle", id: 1, gesture: 1 }]);
-  });
-
-  it("another's obstacle is no answer to a new shape", () => {
-    const { list, sent } = setUp();
-    list.receive([box(1, 4)]);
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.receive([box(1, 4), box(2, 30)]);
-    expect(sent.length).toBe(1);
-    list.receive([box(1, 4), box(2, 30), wideAt4(3)]);
-    expect(sent.at(-1)).toEqual({ kind: "remove_obstacle", id: 1, gesture: 1 });
-  });
-
-  it("of shapes asked for one after the other the last counts", () => {
-    const { list, sent } = setUp();
-    list.receive([box(1, 4)]);
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.reshape(1, { kind: "box", size: [7, 7, 7] });
-    list.reshape(1, { kind: "box", size: [8, 8, 8] });
-    expect(sent.length).toBe(1);
-    list.receive([box(1, 4), wideAt4(2)]);
-    const last = { kind: "place_obstacle", obstacle: { shape: { kind: "box", size: [8, 8, 8] } } };
-    expect(sent.slice(1)).toMatchObject([{ kind: "remove_obstacle", id: 1 }, last]);
+    expect(sent).toEqual([{ kind: "reshape_obstacle", id: 1, shape: { kind: "box", size: [9, 9, 9] }, gesture: 1 }]);
+    expect(list.drawn.value).toEqual([{ ...box(1, 4), shape: { kind: "box", size: [9, 9, 9] } }]);
+    expect(list.first(1), "how it was is remembered").toEqual(box(1, 4));
+    list.forget();
+    expect(list.first(1)).toBeNull();
   });
 
   it("OB2: what a hand does without letting go has one gesture", () => {
@@ -162,39 +152,28 @@ describe("obstacle list", () => {
     const hand = new Hand();
     list.receive([box(1, 4)]);
     list.move(1, { position: [5, 0, 0] }, hand);
-    list.receive([box(1, 5)]);
-    list.move(1, { position: [4, 0, 0] }, hand);
-    list.receive([box(1, 4)]);
     list.reshape(1, { kind: "box", size: [9, 9, 9] }, hand);
-    list.reshape(1, { kind: "box", size: [8, 8, 8] }, hand);
-    list.receive([box(1, 4), wideAt4(2)]);
-    list.remove(2);
+    list.move(1, { position: [4, 0, 0] }, hand);
+    list.remove(1);
     const gestures = sent.map((command) => "gesture" in command && command.gesture);
-    expect(gestures, "the last was another hand").toEqual([1, 1, 1, 1, 1, 6]);
+    expect(gestures, "the last was another hand").toEqual([1, 1, 1, 4]);
   });
 
-  it("a shape that was undone is at hand as the other was", () => {
-    const { list } = setUp();
-    list.receive([box(1, 4)]);
-    list.chosen.value = 1;
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect([list.chosen.value, list.list.value.length]).toEqual([2, 1]);
-    // The server may have been done with both before it told anything.
-    list.receive([box(1, 4)]);
-    expect([list.chosen.value, list.list.value]).toEqual([1, [box(1, 4)]]);
-    list.receive([wideAt4(2)]);
-    expect(list.chosen.value, "and redone").toBe(2);
+  it("LM6: what is refused is not awaited", () => {
+    const { list, sent } = setUp();
+    list.place({ kind: "sphere", radius: 3 }, { position: [0, 3, 0] });
+    list.refused(sent[0]!);
+    list.receive([{ id: 1, shape: { kind: "sphere", radius: 3 }, pose: { position: [0, 3, 0] } }]);
+    expect(list.chosen.value, "someone else's alike is not taken up").toBeNull();
   });
 
-  it("remembers how one was through all its shapes", () => {
+  it("CM1: what was placed is awaited across a reconnection", () => {
     const { list } = setUp();
-    list.receive([box(1, 4)]);
-    list.reshape(1, { kind: "box", size: [9, 9, 9] });
-    list.receive([box(1, 4), wideAt4(2)]);
-    expect(list.first(2)).toMatchObject({ shape: box(1).shape, pose: { position: [4, 0, 0] } });
-    list.forget();
-    expect(list.first(2)).toBeNull();
+    list.place({ kind: "sphere", radius: 3 }, { position: [0, 3, 0] });
+    list.clear();
+    list.receive([box(1)]);
+    list.receive([box(1), { id: 2, shape: { kind: "sphere", radius: 3 }, pose: { position: [0, 3, 0] } }]);
+    expect(list.chosen.value).toBe(2);
   });
 
   it("an imported model is at hand, a broken one is told of", async () => {

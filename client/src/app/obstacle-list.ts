@@ -1,15 +1,20 @@
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import type { DrawnObstacle, TriangleMesh } from "../scene/obstacle-meshes";
-import type { Command, PlacedObstacle, Pose, Shape } from "../wire/generated";
-import { alike } from "./draft";
+import type { Command, PlacedObstacle, PlacedShape, Pose, Shape } from "../wire/generated";
+import type { Clock } from "./connection";
+import { alike, Draft, type GrowthAhead } from "./draft";
 import { type NamedBytes, packedModel } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
 import { Transfer } from "./transfer";
 
 export interface ObstacleListOptions {
-  readonly submit: (command: Command) => void;
+  /** Sends a command and gives its number; 0 where there is nobody to send it to. */
+  readonly submit: (command: Command) => number;
   /** A number that no other gesture of this client has, if it is sent at once. */
   readonly newGesture: () => number;
+  /** What the server has still to grow, for what it has taken on is done only after that. */
+  readonly ahead: () => GrowthAhead;
+  readonly clock: Clock;
   readonly session: () => string | null;
   readonly fetchMesh?: typeof fetchMesh;
   readonly uploadModel?: typeof uploadModel;
@@ -18,20 +23,17 @@ export interface ObstacleListOptions {
 }
 
 type Placing = Extract<Command, { kind: "place_obstacle" }>;
+/** What an obstacle may become where it stands; a mesh stays what it is. */
+export type SimpleShape = Exclude<Shape, { kind: "mesh" }>;
+
+/** The pose or the shape of one obstacle. */
+type Field = `${"pose" | "shape"} ${number}`;
+type Fields = { [field in Field]?: Pose | PlacedShape };
 
 /** What a hand does without letting go is one operation for undo (`OB2`). */
 export class Hand {
   /** Its number, once something of it was sent. */
   gesture: number | null = null;
-}
-
-/** An obstacle of this hand that is to appear, and the one it takes the place of, if any. */
-interface Awaited {
-  readonly command: Placing;
-  readonly instead: number | null;
-  readonly hand: Hand;
-  /** Yet another shape that was asked for meanwhile. */
-  afterwards: { readonly shape: Shape; readonly hand: Hand } | null;
 }
 
 /** What stands in the way of growth, as the server has it and as this hand is moving it. */
@@ -43,61 +45,74 @@ export class ObstacleList {
   readonly transfer = new Transfer();
   /** The list as it is drawn. */
   readonly drawn = computed<readonly DrawnObstacle[]>(() => {
-    const [moved, meshes] = [this.#moved.value, this.#meshes.value];
-    return this.list.value.map((obstacle) => {
-      const mesh = meshes.get(obstacle.id);
-      const pose = moved?.id === obstacle.id ? moved.pose : obstacle.pose;
-      return mesh ? { ...obstacle, pose, mesh } : { ...obstacle, pose };
+    const [held, meshes, fields] = [this.#held.value, this.#meshes.value, this.#draft.value.value];
+    return this.list.value.map((told) => {
+      const mesh = meshes.get(told.id);
+      const own = (fields[`pose ${told.id}`] ?? told.pose) as Pose;
+      const pose = held?.id === told.id ? held.pose : own;
+      const shape = (fields[`shape ${told.id}`] ?? told.shape) as PlacedShape;
+      return { ...told, pose, shape, ...(mesh ? { mesh } : {}) };
     });
   });
 
   #options: ObstacleListOptions;
-  #moved = signal<{ readonly id: number; readonly pose: Pose } | null>(null);
+  /** Poses and shapes as this hand has set them, until the server has them so. */
+  #draft: Draft<Fields>;
+  #held = signal<{ readonly id: number; readonly pose: Pose } | null>(null);
   #meshes = signal<ReadonlyMap<number, TriangleMesh>>(new Map());
   #fetching = new Set<number>();
   /** What this hand has placed is chosen when it appears. */
-  #awaited: Awaited[] = [];
-  /** Those whose other shape stands, and that one, until the server's list is without either. */
-  #replaced = new Map<number, number>();
+  #awaited: Placing[] = [];
   /** Each as this page first saw it: what its measures are put back to. */
   #first = new Map<number, PlacedObstacle>();
 
   constructor(options: ObstacleListOptions) {
     this.#options = options;
+    const { newGesture, ahead, clock } = options;
+    this.#draft = new Draft<Fields>({
+      none: {},
+      submit: (fields, gesture) => this.#send(fields, gesture),
+      newGesture,
+      ahead,
+      clock,
+    });
   }
 
   /** The server's list has changed. */
   receive(told: readonly PlacedObstacle[]): void {
-    const standing = new Set(told.map(({ id }) => id));
-    for (const [id] of [...this.#replaced].filter((pair) => !pair.every((id) => standing.has(id)))) {
-      this.#replaced.delete(id);
-    }
-    const obstacles = told.filter(({ id }) => !this.#replaced.has(id));
     const known = new Set(this.list.peek().map(({ id }) => id));
-    this.list.value = obstacles;
-    this.#moved.value = null;
-    for (const obstacle of obstacles.filter(({ id }) => !known.has(id))) {
+    batch(() => {
+      this.list.value = told;
+      this.#draft.receive(fieldsOf(told));
+    });
+    for (const obstacle of told.filter(({ id }) => !known.has(id))) {
       this.#appeared(obstacle);
     }
-    const chosen = this.chosen.peek();
-    if (chosen !== null && !this.list.peek().some(({ id }) => id === chosen)) {
-      // The shape that undo brings back is at hand as the other one was.
-      const origin = this.#first.get(chosen)?.id;
-      const former = obstacles.find(({ id }) => !known.has(id) && this.#first.get(id)?.id === origin);
-      this.chosen.value = former?.id ?? null;
+    if (!told.some(({ id }) => id === this.chosen.peek())) {
+      this.chosen.value = null;
     }
-    for (const { id, shape } of obstacles) {
+    for (const { id, shape } of told) {
       if (shape.kind === "mesh") {
         void this.#fetch(id);
       }
     }
   }
 
+  /** The server has answered all commands up to this one. */
+  settle(settled: number): void {
+    this.#draft.settle(settled);
+  }
+
+  /** What was sent goes by other numbers now. */
+  letGo(): void {
+    this.#draft.letGo();
+  }
+
   /** Another session: nothing here is of it. */
   forget(): void {
     this.#awaited = [];
-    this.#replaced.clear();
     this.#first.clear();
+    this.#draft.clear();
     this.clear();
   }
 
@@ -112,52 +127,38 @@ export class ObstacleList {
     return this.drawn.peek().find((obstacle) => obstacle.id === id)?.pose ?? null;
   }
 
-  /** Shows one elsewhere than the server has it, until the next list; null for none. */
-  preview(moved: { readonly id: number; readonly pose: Pose } | null): void {
-    this.#moved.value = moved;
+  /** Shows one where a finger holds it; null for none. */
+  preview(held: { readonly id: number; readonly pose: Pose } | null): void {
+    this.#held.value = held;
   }
 
   place(shape: Shape, pose: Pose): void {
-    this.#place(shape, pose, new Hand(), null);
+    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose }, gesture: this.#gesture(new Hand()) };
+    this.#awaited.push(command);
+    this.#options.submit(command);
   }
 
-  /** How one was when this page first saw it, through all shapes it was given since; null where there is none. */
+  /** How one was when this page first saw it; null where there is none. */
   first(id: number): PlacedObstacle | null {
     return this.#first.get(id) ?? null;
   }
 
   move(id: number, pose: Pose, hand = new Hand()): void {
-    this.preview({ id, pose });
-    this.#options.submit({ kind: "move_obstacle", id, pose, gesture: this.#gesture(hand) });
+    this.#draft.commit({ [`pose ${id}`]: pose } as Fields, this.#gesture(hand));
+  }
+
+  /** Gives one other measures. */
+  reshape(id: number, shape: SimpleShape, hand = new Hand()): void {
+    this.#draft.commit({ [`shape ${id}`]: shape } as Fields, this.#gesture(hand));
   }
 
   remove(id: number, hand = new Hand()): void {
     this.#options.submit({ kind: "remove_obstacle", id, gesture: this.#gesture(hand) });
   }
 
-  /**
-   * Gives one another shape: the wire knows this as another obstacle in the same place. The old one goes once the
-   * other stands there, for it may be refused long after it was taken on.
-   */
-  reshape(id: number, shape: Shape, hand = new Hand()): void {
-    const underWay = this.#awaited.find(({ instead }) => instead === id);
-    if (underWay) {
-      underWay.afterwards = { shape, hand };
-      return;
-    }
-    const pose = this.poseOf(id);
-    if (pose) {
-      this.#place(shape, pose, hand, id);
-    }
-  }
-
-  /** The server would not do something: all stands as it was. */
+  /** The server would not do something: what was to be placed is not awaited. */
   refused(command: Command): void {
-    this.#awaited = this.#awaited.filter((awaited) => awaited.command !== command);
-    if (command.kind === "remove_obstacle") {
-      this.#replaced.delete(command.id);
-    }
-    this.preview(null);
+    this.#awaited = this.#awaited.filter((awaited) => awaited !== command);
   }
 
   async import(files: readonly NamedBytes[]): Promise<void> {
@@ -176,10 +177,19 @@ export class ObstacleList {
     }
   }
 
-  #place(shape: Shape, pose: Pose, hand: Hand, instead: number | null): void {
-    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose }, gesture: this.#gesture(hand) };
-    this.#awaited.push({ command, hand, instead, afterwards: null });
-    this.#options.submit(command);
+  /** Tells the server of fields the hand has set; gives the number of the last command. */
+  #send(fields: Partial<Fields>, gesture: number | undefined): number {
+    let command = 0;
+    for (const [field, value] of Object.entries(fields)) {
+      const [name, number] = field.split(" ");
+      const of = { id: Number(number), ...(gesture === undefined ? {} : { gesture }) };
+      command = this.#options.submit(
+        name === "pose"
+          ? { kind: "move_obstacle", ...of, pose: value as Pose }
+          : { kind: "reshape_obstacle", ...of, shape: value as SimpleShape },
+      );
+    }
+    return command;
   }
 
   /** The number of a hand that is about to send something. */
@@ -190,28 +200,15 @@ export class ObstacleList {
 
   /** One more stands in the scene. */
   #appeared(added: PlacedObstacle): void {
-    const awaited = this.#awaited.find(({ command: { obstacle } }) => {
+    if (!this.#first.has(added.id)) {
+      this.#first.set(added.id, added);
+    }
+    const awaited = this.#awaited.find(({ obstacle }) => {
       return alike(obstacle.shape, added.shape) && alike(obstacle.pose.position, added.pose.position);
     });
-    const instead = awaited?.instead ?? null;
-    if (!this.#first.has(added.id)) {
-      this.#first.set(added.id, (instead === null ? undefined : this.#first.get(instead)) ?? added);
-    }
-    if (!awaited) {
-      return;
-    }
-    this.#awaited = this.#awaited.filter((other) => other !== awaited);
-    // One that is no longer at hand is not taken up again by its new shape.
-    if (instead === null || this.chosen.peek() === instead) {
+    if (awaited) {
+      this.#awaited = this.#awaited.filter((other) => other !== awaited);
       this.chosen.value = added.id;
-    }
-    if (instead !== null && this.list.peek().some(({ id }) => id === instead)) {
-      this.#replaced.set(instead, added.id);
-      this.list.value = this.list.peek().filter(({ id }) => id !== instead);
-      this.remove(instead, awaited.hand);
-    }
-    if (awaited.afterwards !== null) {
-      this.reshape(added.id, awaited.afterwards.shape, awaited.afterwards.hand);
     }
   }
 
@@ -232,4 +229,13 @@ export class ObstacleList {
       this.#options.failed(error);
     }
   }
+}
+
+function fieldsOf(obstacles: readonly PlacedObstacle[]): Fields {
+  const fields: Fields = {};
+  for (const { id, pose, shape } of obstacles) {
+    fields[`pose ${id}`] = pose;
+    fields[`shape ${id}`] = shape;
+  }
+  return fields;
 }

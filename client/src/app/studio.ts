@@ -93,6 +93,8 @@ export class Studio {
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     newGesture: () => this.newGesture(),
+    ahead: () => this.#ahead(),
+    clock: browserClock,
     session: () => this.link.session.peek(),
     failed: (error) => this.toasts.show(sentence(error)),
   });
@@ -272,6 +274,7 @@ export class Studio {
       settled: (settled) => {
         this.growing.settle(settled);
         this.looks.settle(settled);
+        this.obstacles.settle(settled);
         this.tools.told();
         this.tools.outline.settled(settled);
       },
@@ -299,6 +302,7 @@ export class Studio {
       rekeyed: () => {
         this.growing.letGo();
         this.looks.letGo();
+        this.obstacles.letGo();
         this.tools.abandon();
         this.tools.outline.clear();
       },

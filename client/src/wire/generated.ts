@@ -905,6 +905,18 @@ pose: Pose,
 /**
  * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
  */
+gesture?: number, } | { "kind": "reshape_obstacle", 
+/**
+ * Its id, as in `obstacles`.
+ */
+id: number, 
+/**
+ * What it becomes.
+ */
+shape: Shape, 
+/**
+ * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
+ */
 gesture?: number, } | { "kind": "remove_obstacle", 
 /**
  * Its id, as in `obstacles`.

@@ -14,7 +14,7 @@ pub(crate) use self::shaping::{Prediction, parse_rotation};
 use crate::{
     appearance::AppearanceChange,
     malformed,
-    obstacle::{Obstacle, Pose},
+    obstacle::{Form, Obstacle, Pose},
 };
 
 /// The farthest a position may lie from the origin on any axis, in internodes (`LM2`).
@@ -117,6 +117,15 @@ pub enum Action {
         id: u32,
         /// Where to.
         pose: Pose,
+        /// Neighbours with the same gesture are one operation for undo.
+        gesture: Option<u32>,
+    },
+    /// An obstacle that becomes another one where it stands.
+    ReshapeObstacle {
+        /// Which.
+        id: u32,
+        /// What it becomes; no mesh.
+        form: Form,
         /// Neighbours with the same gesture are one operation for undo.
         gesture: Option<u32>,
     },
@@ -243,6 +252,10 @@ impl Action {
             Command::MoveObstacle { id, pose, gesture } => {
                 let pose = Pose::parse(pose).map_err(|problem| problem.within("pose"))?;
                 Self::MoveObstacle { id: *id, pose, gesture: *gesture }
+            }
+            Command::ReshapeObstacle { id, shape, gesture } => {
+                let form = Form::parse_simple(shape).map_err(|problem| problem.within("shape"))?;
+                Self::ReshapeObstacle { id: *id, form, gesture: *gesture }
             }
             &Command::RemoveObstacle { id, gesture } => Self::RemoveObstacle { id, gesture },
             Command::BendBegin { bend, base, touches, stretch, gesture } => {

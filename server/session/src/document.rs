@@ -149,6 +149,9 @@ impl Document {
             Action::PlantSeed { position } => self.plant_seed(author, *position),
             Action::PlaceObstacle { obstacle, gesture } => self.place_obstacle(author, obstacle, *gesture),
             Action::MoveObstacle { id, pose, gesture } => self.move_obstacle(author, *id, *pose, *gesture),
+            Action::ReshapeObstacle { id, form, gesture } => {
+                self.reshape_obstacle(author, *id, form, *gesture)
+            }
             Action::RemoveObstacle { id, gesture } => self.remove_obstacle(author, *id, *gesture),
             Action::BendBegin { bend, base, touches, stretch, gesture } => {
                 self.begin_bend(author, *bend, *base, touches, *stretch, *gesture)

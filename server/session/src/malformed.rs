@@ -201,8 +201,8 @@ fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
 
 /// Every kind of command.
 const KINDS: &str = "stroke_begin, stroke_move, stroke_end, grow, lasso, stop, ungrow, undo, redo, \
-     set_parameters, plant_seed, place_obstacle, move_obstacle, remove_obstacle, bend_begin, bend_move, \
-     bend_end, bend_cancel, set_width, prune, prune_dim, turn_branch, graft, go_to, take_future, set_appearance";
+     set_parameters, plant_seed, place_obstacle, move_obstacle, reshape_obstacle, remove_obstacle, \
+     bend_begin, bend_move, bend_end, bend_cancel, set_width, prune, prune_dim, turn_branch, graft, go_to, take_future, set_appearance";
 
 fn wrong_kind(kind: &Value) -> Option<Problem> {
     let known = kind.as_str().is_some_and(|kind| KINDS.split(", ").any(|known| known == kind));

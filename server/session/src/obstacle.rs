@@ -27,11 +27,28 @@ pub struct Mesh {
 /// What an obstacle is, around its own origin; lengths in internodes. Of a mesh growth's own, which is slow to
 /// make, stays with it wherever it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Form {
-    Box { size: Vec3 },
-    Sphere { radius: f32 },
+pub enum Form {
+    /// A box.
+    Box {
+        /// Its sides.
+        size: Vec3,
+    },
+    /// A sphere.
+    Sphere {
+        /// Its radius.
+        radius: f32,
+    },
+    /// Everything below it.
     Plane,
-    Mesh { mesh: Arc<Mesh>, scale: f32, solid: Arc<TriangleMesh> },
+    /// A body of triangles.
+    Mesh {
+        /// As it was given.
+        mesh: Arc<Mesh>,
+        /// What its coordinates are multiplied by.
+        scale: f32,
+        /// As growth has it.
+        solid: Arc<TriangleMesh>,
+    },
 }
 
 /// Where an obstacle stands.
@@ -144,6 +161,14 @@ impl Form {
                 Self::mesh(Arc::new(mesh), scale)?
             }
         })
+    }
+
+    /// A form that an obstacle may take on later; a mesh is what it was placed as (`OB2`).
+    pub(crate) fn parse_simple(wire: &Shape) -> Result<Self, Problem> {
+        match wire {
+            Shape::Mesh { .. } => Err(Problem::out_of_range("kind", "mesh", "box, sphere or plane")),
+            simple => Self::parse(simple),
+        }
     }
 
     /// A mesh in this scale.

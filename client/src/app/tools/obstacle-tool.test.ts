@@ -1,10 +1,10 @@
 import { describe, expect, it } from "vitest";
-import type { Command, Pose } from "../../wire/generated";
+import type { Pose } from "../../wire/generated";
 import { ObstacleTool } from "./obstacle-tool";
 
 /** One box of height 4 at (0, 5, 0), gripped anywhere; a pixel is an internode, y up. */
 function setUp() {
-  const sent: Command[] = [];
+  const sent: { readonly id: number; readonly pose: Pose }[] = [];
   const world = { there: true, above: false, preview: null as Pose | null, chosen: 0 };
   const pose: Pose = { position: [0, 5, 0], rotation: [0, 1, 0, 0] };
   const tool = new ObstacleTool({
@@ -15,7 +15,7 @@ function setUp() {
       pickObstacle: (x, y) => (world.there ? { id: 3, point: [x, world.above ? 7 : -y, world.above ? y : 2] } : null),
       depthBelow: () => 2,
     },
-    submit: (command) => sent.push(command),
+    move: (id, pose) => sent.push({ id, pose }),
     poseOf: (id) => (id === 3 ? pose : null),
     choose: (id) => {
       world.chosen = id;
@@ -37,7 +37,7 @@ describe("obstacle tool", () => {
     expect([sent, world.preview?.position, world.chosen]).toEqual([[], [2, 5, 0], 3]);
     tool.move([at(15, 8)]);
     tool.end();
-    expect(sent).toEqual([{ kind: "move_obstacle", id: 3, pose: { position: [5, 7, 0], rotation: [0, 1, 0, 0] } }]);
+    expect(sent).toEqual([{ id: 3, pose: { position: [5, 7, 0], rotation: [0, 1, 0, 0] } }]);
   });
 
   it("from above it slides over the ground", () => {

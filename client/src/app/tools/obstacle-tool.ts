@@ -1,4 +1,4 @@
-import type { Command, Pose } from "../../wire/generated";
+import type { Pose } from "../../wire/generated";
 import type { StrokePoint } from "../gestures";
 import type { Point } from "../ports";
 import { type Tool, tidy } from "./tool";
@@ -26,10 +26,11 @@ export interface ObstacleView {
 
 export interface ObstacleToolOptions {
   readonly view: ObstacleView;
-  readonly submit: (command: Command) => void;
   readonly poseOf: (id: number) => Pose | null;
   readonly choose: (id: number) => void;
-  /** Shows an obstacle elsewhere than the server has it; null to show it there again. */
+  /** Puts an obstacle elsewhere. */
+  readonly move: (id: number, pose: Pose) => void;
+  /** Shows one where the finger holds it; null once it is let go. */
   readonly preview: (moved: { readonly id: number; readonly pose: Pose } | null) => void;
 }
 
@@ -85,9 +86,9 @@ export class ObstacleTool implements Tool {
     const grip = this.#grip;
     this.#grip = null;
     if (grip?.moved) {
-      // The preview stays until the server's list says the same.
-      this.#options.submit({ kind: "move_obstacle", id: grip.id, pose: grip.moved });
+      this.#options.move(grip.id, grip.moved);
     }
+    this.#options.preview(null);
   }
 
   abandon(): void {

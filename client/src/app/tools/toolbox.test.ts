@@ -1,5 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { SMALL, tableOf } from "../../../test/small-tree";
+import { Virtual } from "../../../test/virtual-clock";
 import type { Bent } from "../../scene/guise/bent";
 import type { SlotWriter } from "../../scene/guise/guises";
 import { TreeTable } from "../../scene/table/tree-table";
@@ -39,10 +40,15 @@ function setUp(table = new TreeTable()) {
     showBrush: () => {},
     hideBrush: () => {},
   } as unknown as Viewport;
-  const submit = (command: Command) => {
-    sent.push(command);
-  };
-  const obstacles = new ObstacleList({ submit, newGesture: () => 1, session: () => null, failed: () => {} });
+  const submit = (command: Command) => sent.push(command);
+  const obstacles = new ObstacleList({
+    submit,
+    newGesture: () => 1,
+    ahead: () => ({ step: 0, pending: 0 }),
+    clock: new Virtual(),
+    session: () => null,
+    failed: () => {},
+  });
   obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);
   const toasts = new Toasts();
   const tools = new Toolbox({

@@ -163,8 +163,8 @@ export class Toolbox {
     };
     this.#mover = new ObstacleTool({
       view,
-      submit,
       poseOf: (id) => obstacles.poseOf(id),
+      move: (id, pose) => obstacles.move(id, pose),
       choose: (id) => {
         obstacles.chosen.value = id;
       },

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
 import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../../wire/generated";
-import { Hand } from "../obstacle-list";
+import { Hand, type SimpleShape } from "../obstacle-list";
 import type { Studio } from "../studio";
 import { rotationOf, turningOf } from "../turning";
 import { say } from "../words";
@@ -23,7 +23,6 @@ const KINDS: readonly (readonly [Kind, () => ComponentChildren])[] = [
 export function ScenePanel({ studio }: { studio: Studio }) {
   const { list, chosen, transfer } = studio.obstacles;
   const obstacles = studio.obstacles.drawn.value;
-  const keys = keysOf(studio, obstacles);
   const full = list.value.length >= MAX_OBSTACLES;
   return (
     <Panel studio={studio} title={say("panels.scene")}>
@@ -45,7 +44,7 @@ export function ScenePanel({ studio }: { studio: Studio }) {
       ) : (
         <ul class="obstacles">
           {obstacles.map((obstacle) => (
-            <li key={keys.get(obstacle.id)} data-chosen={obstacle.id === chosen.value}>
+            <li key={obstacle.id} data-chosen={obstacle.id === chosen.value}>
               <div class="obstacle-head">
                 <button
                   type="button"
@@ -75,19 +74,6 @@ export function ScenePanel({ studio }: { studio: Studio }) {
       )}
     </Panel>
   );
-}
-
-/** Keys by which an obstacle keeps its controls, and the focus in them, when it is given another shape. */
-function keysOf(studio: Studio, obstacles: readonly PlacedObstacle[]): ReadonlyMap<number, string> {
-  const taken = new Set<number>();
-  const keys = new Map<number, string>();
-  for (const { id } of obstacles) {
-    const origin = studio.obstacles.first(id)?.id ?? id;
-    // Undo can bring back one whose other shape still stands.
-    keys.set(id, taken.has(origin) ? `again ${id}` : `${origin}`);
-    taken.add(origin);
-  }
-  return keys;
 }
 
 /** Lets a model be chosen: one .glb, or a .gltf with its buffers. */
@@ -134,7 +120,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
   };
   const turning = turningOf(pose.rotation);
   const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to }, hand.current);
-  const reshape = (to: Shape) => studio.obstacles.reshape(id, to, hand.current);
+  const reshape = (to: SimpleShape) => studio.obstacles.reshape(id, to, hand.current);
   const turn = (to: Partial<typeof turning>) => move({ rotation: rotationOf({ ...turning, ...to }) });
   const first = studio.obstacles.first(id) ?? obstacle;
   const [firstX, firstY, firstZ] = first.pose.position;
@@ -145,6 +131,8 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
       onPointerDownCapture={another}
       // A key that is held down is one hand.
       onKeyDownCapture={(event) => event.repeat || another()}
+      // What was typed is sent as its field is left, and is not of the hand that went on to something else.
+      onFocusOut={another}
     >
       <Measure
         name="scene.across"

@@ -1,4 +1,4 @@
-//! The obstacles of a document: placed, moved, removed, by one gesture as one operation.
+//! The obstacles of a document: placed, moved, reshaped, removed, by one gesture as one operation.
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -11,7 +11,7 @@ use super::{
     history::{Kind, Setting},
     refused,
 };
-use crate::obstacle::{Mesh, Obstacle, Pose, Standing};
+use crate::obstacle::{Form, Mesh, Obstacle, Pose, Standing};
 
 /// All obstacles at one time, in order of their ids.
 pub(super) type Standings = Arc<Vec<Standing>>;
@@ -122,6 +122,29 @@ impl Document {
         Ok(())
     }
 
+    pub(super) fn reshape_obstacle(
+        &mut self,
+        author: &str,
+        id: u32,
+        form: &Form,
+        gesture: Option<u32>,
+    ) -> Result<(), Problem> {
+        let index = self.obstacles.find(id)?;
+        let now = &self.obstacles.standing[index].obstacle;
+        // The bytes of a mesh are asked for by its id, and stay what they are (`OB5`).
+        if matches!(now.form, Form::Mesh { .. }) {
+            return Err(refused(format!("obstacle {id} is a mesh; a mesh keeps its shape")));
+        }
+        if now.form == *form {
+            return Ok(());
+        }
+        let reshaped = Obstacle::new(form.clone(), now.pose)?;
+        let mut after = self.obstacles.standing.to_vec();
+        after[index].obstacle = reshaped;
+        self.change_obstacles(author, gesture, after);
+        Ok(())
+    }
+
     pub(super) fn remove_obstacle(
         &mut self,
         author: &str,
@@ -173,12 +196,13 @@ impl Document {
     }
 }
 
-/// Whether the same obstacles stand in the same places: what shape one has never changes, and no number is another's.
+/// Whether the same obstacles stand in the same places; a mesh keeps its shape, so its triangles are not compared.
 pub(super) fn stand_alike(some: &Standings, others: &Standings) -> bool {
-    fn poses(standings: &Standings) -> impl Iterator<Item = (u32, Pose)> {
-        standings.iter().map(|standing| (standing.id, standing.obstacle.pose))
-    }
-    poses(some).eq(poses(others))
+    let alike = |one: &Standing, other: &Standing| {
+        let (a, b) = (&one.obstacle, &other.obstacle);
+        one.id == other.id && a.pose == b.pose && (a.mesh().is_some() || a.form == b.form)
+    };
+    some.len() == others.len() && some.iter().zip(&**others).all(|(one, other)| alike(one, other))
 }
 
 /// The obstacles of a document at one time, to be compared.

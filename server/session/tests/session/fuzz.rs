@@ -79,6 +79,11 @@ fn obstacle() -> impl Strategy<Value = Command> {
             pose: pose(x, 1.0),
             gesture
         }),
+        (0u32..4, 0.0f32..3.0, gesture()).prop_map(|(id, radius, gesture)| Command::ReshapeObstacle {
+            id,
+            shape: Shape::Sphere { radius },
+            gesture
+        }),
         (0u32..4, gesture()).prop_map(|(id, gesture)| Command::RemoveObstacle { id, gesture }),
     ]
 }
@@ -315,6 +320,7 @@ proptest! {
             "lasso",
             "place_obstacle",
             "move_obstacle",
+            "reshape_obstacle",
             "bend_begin",
             "set_width",
             "graft",

@@ -96,9 +96,11 @@ fn every_kind_of_command_is_read() {
         r#"{"kind":"stop"}"#,
         r#"{"kind":"place_obstacle","obstacle":{"shape":{"kind":"plane"},"pose":{"position":[0,0,0]}}}"#,
         r#"{"kind":"move_obstacle","id":1,"pose":{"position":[0,0,0],"rotation":[0,1,0,0]}}"#,
+        r#"{"kind":"reshape_obstacle","id":1,"shape":{"kind":"sphere","radius":2}}"#,
         r#"{"kind":"remove_obstacle","id":1}"#,
         r#"{"kind":"place_obstacle","obstacle":{"shape":{"kind":"plane"},"pose":{"position":[0,0,0]}},"gesture":4}"#,
         r#"{"kind":"move_obstacle","id":1,"pose":{"position":[0,0,0]},"gesture":4}"#,
+        r#"{"kind":"reshape_obstacle","id":1,"shape":{"kind":"plane"},"gesture":4}"#,
         r#"{"kind":"remove_obstacle","id":1,"gesture":4}"#,
     ] {
         check(json, Ok(()));

@@ -1,13 +1,13 @@
 //! Obstacles: what they keep out, and what one gesture does to them (`OB2`).
 
-use espalier_proto::{OperationKind, Shape};
+use espalier_proto::{Command, OperationKind, PlacedShape, ProblemCode, Shape};
 use proptest::prelude::*;
 
 use super::{
     histories::{Event, Form, events, form, happen},
     *,
 };
-use crate::obstacle::{Mesh, Obstacle, Pose};
+use crate::obstacle::{self, Mesh, Obstacle, Pose};
 
 /// The gesture of the hand that is tried; no event has it.
 const HAND: Option<u32> = Some(70);
@@ -68,16 +68,35 @@ fn push(id: u32, x: f32, gesture: Option<u32>) -> Action {
     Action::MoveObstacle { id, pose: pose(x), gesture }
 }
 
+pub(super) fn swell(id: u32, radius: f32, gesture: Option<u32>) -> Action {
+    Action::ReshapeObstacle { id, form: obstacle::Form::Sphere { radius }, gesture }
+}
+
 #[test]
-fn ob2_another_shape_by_one_gesture_is_one_undo() {
+fn ob2_a_mesh_keeps_its_shape() {
+    let mut document = tree();
+    apply(&mut document, &place(&slab(), 9.0));
+    let before = document.hash();
+    let problem = document.apply("ann", &swell(1, 2.0, None)).expect_err("it is a mesh");
+    assert_eq!(problem.code, ProblemCode::Refused);
+    let problem = document.apply("ann", &swell(2, 2.0, None)).expect_err("nothing is there");
+    assert_eq!(problem.code, ProblemCode::NotFound);
+    assert_eq!(document.hash(), before);
+    let wire = Command::ReshapeObstacle { id: 1, shape: slab(), gesture: None };
+    let problem = Action::parse(&wire).expect_err("nothing becomes a mesh");
+    assert_eq!(problem.field.as_deref(), Some("shape.kind"));
+}
+
+#[test]
+fn ob2_another_shape_and_place_by_one_gesture_are_one_undo() {
     let mut document = tree();
     apply(&mut document, &place(&ball(), 9.0));
     let before = form(&document);
-    let larger = Shape::Sphere { radius: 3.0 };
-    apply(&mut document, &place_in(Some(8), &larger, 9.0));
-    apply(&mut document, &push(2, 12.0, Some(8)));
-    apply(&mut document, &Action::RemoveObstacle { id: 1, gesture: Some(8) });
+    apply(&mut document, &swell(1, 3.0, Some(8)));
+    apply(&mut document, &push(1, 12.0, Some(8)));
+    apply(&mut document, &swell(1, 4.0, Some(8)));
     let after = form(&document);
+    assert_eq!(document.obstacles()[0].shape, PlacedShape::Sphere { radius: 4.0 });
     assert_eq!(kinds(&document), [OperationKind::Growth, OperationKind::Obstacle, OperationKind::Obstacle]);
     apply(&mut document, &Action::Undo);
     assert_eq!(form(&document), before);
@@ -121,6 +140,11 @@ fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
     apply(&mut document, &push(1, 9.0, HAND));
     assert_eq!((document.hash(), document.timeline()), (before, timeline));
     assert!(document.figures().can_redo);
+    // So does one that swells and shrinks again.
+    for radius in [3.0, 2.0] {
+        apply(&mut document, &swell(1, radius, HAND));
+    }
+    assert!(document.figures().can_redo);
     // What was placed and taken away at once was never there; its number stays its own.
     apply(&mut document, &place_in(HAND, &ball(), 4.0));
     apply(&mut document, &Action::RemoveObstacle { id: 2, gesture: HAND });
@@ -134,6 +158,7 @@ fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
 enum Deed {
     Place(i32),
     Push(u32, i32),
+    Swell(u32, u8),
     Clear(u32),
 }
 
@@ -141,6 +166,7 @@ fn deeds() -> impl Strategy<Value = Vec<Deed>> {
     let deed = prop_oneof![
         (-2i32..3).prop_map(Deed::Place),
         (any::<u32>(), -2i32..3).prop_map(|(any, x)| Deed::Push(any, x)),
+        (any::<u32>(), 1u8..4).prop_map(|(any, radius)| Deed::Swell(any, radius)),
         any::<u32>().prop_map(Deed::Clear),
     ];
     prop::collection::vec(deed, 1..7)
@@ -152,6 +178,7 @@ fn arrange(document: &mut Document, deed: &Deed) {
     let action = match *deed {
         Deed::Place(x) => place_in(HAND, &ball(), 3.0 * x as f32),
         Deed::Push(any, x) => push(found(any), 3.0 * x as f32, HAND),
+        Deed::Swell(any, radius) => swell(found(any), f32::from(radius), HAND),
         Deed::Clear(any) => Action::RemoveObstacle { id: found(any), gesture: HAND },
     };
     // Where nothing stands there is nothing to move.

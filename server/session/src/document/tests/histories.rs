@@ -5,7 +5,7 @@ use espalier_proto::Shape;
 use proptest::prelude::*;
 
 use super::{
-    arranging::{place_in, pose, slab},
+    arranging::{place_in, pose, slab, swell},
     *,
 };
 
@@ -29,6 +29,7 @@ pub(super) enum Event {
     Ball(f32, f32, Option<u32>),
     Mesh(f32, Option<u32>),
     Push(u32, f32, Option<u32>),
+    Swell(u32, f32, Option<u32>),
     Clear(u32, Option<u32>),
     Hold {
         bend: u32,
@@ -81,6 +82,7 @@ pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => (-9f32..9.0, gesture()).prop_map(|(x, g)| Event::Mesh(x, g)),
         // Few places, so that things also come back to where they were.
         3 => (1u32..4, -2i32..3, gesture()).prop_map(|(id, x, g)| Event::Push(id, 3.0 * x as f32, g)),
+        2 => (1u32..4, 1u8..4, gesture()).prop_map(|(id, radius, g)| Event::Swell(id, radius.into(), g)),
         2 => (1u32..4, gesture()).prop_map(|(id, g)| Event::Clear(id, g)),
         4 => (0u32..2, any::<u32>(), 1u32..9, 1u32..4, 0f32..1.0)
             .prop_map(|(bend, end, length, touches, stretch)| Event::Hold { bend, end, length, touches, stretch }),
@@ -175,6 +177,7 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
         Event::Ball(x, radius, gesture) => place_in(*gesture, &Shape::Sphere { radius: *radius }, *x),
         Event::Mesh(x, gesture) => place_in(*gesture, &slab(), *x),
         Event::Push(id, x, gesture) => Action::MoveObstacle { id: *id, pose: pose(*x), gesture: *gesture },
+        Event::Swell(id, radius, gesture) => swell(*id, *radius, *gesture),
         Event::Clear(id, gesture) => Action::RemoveObstacle { id: *id, gesture: *gesture },
         Event::Hold { bend, end, length, touches, stretch } => {
             hold(document, *bend, *end, *length, *touches, *stretch)
