@@ -3,6 +3,7 @@
 use std::{
     borrow::Cow,
     io::Read,
+    panic::catch_unwind,
     sync::{
         Arc,
         atomic::{AtomicBool, Ordering},
@@ -161,8 +162,9 @@ fn deflate(body: &[u8]) -> Option<Vec<u8>> {
         let is_begun = Arc::clone(&is_begun);
         move || {
             if !is_begun.swap(true, Ordering::Relaxed) {
-                // It is waited for.
-                let _ = answer.send(deflate_part(&offered, FlushCompress::Finish));
+                // It is waited for; a panic in it is no answer, and the body goes as it is.
+                let packed = catch_unwind(|| deflate_part(&offered, FlushCompress::Finish));
+                let _ = answer.send(packed.ok().flatten());
             }
         }
     });
@@ -205,6 +207,18 @@ mod tests {
     use super::*;
 
     const LENGTHS: [usize; 5] = [1000, MIN_HALVED_BYTES - 1, MIN_HALVED_BYTES, MIN_HALVED_BYTES + 1, 300_000];
+
+    #[test]
+    fn a_long_body_is_the_same_on_any_threads() {
+        let body: Vec<u8> = (0..300_000u32).map(|i| (i.wrapping_mul(i) >> 13) as u8 & 15).collect();
+        let here = deflate(&body).expect("it can be deflated");
+        for threads in [1, 2, 4] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            for _ in 0..8 {
+                assert!(pool.install(|| deflate(&body)).as_ref() == Some(&here), "{threads} threads");
+            }
+        }
+    }
 
     #[test]
     fn a_long_body_is_one_deflate_stream() {

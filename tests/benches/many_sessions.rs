@@ -26,7 +26,8 @@ async fn main() {
     println!("{} kB with one session", server.resident_bytes() / 1000);
     for round in 1..=ROUNDS {
         let before = server.resident_bytes();
-        let told = |server: &Server| (server.resident_bytes() - before) as f64 / 1000.0 / SESSIONS as f64;
+        let told =
+            |server: &Server| (server.resident_bytes() as f64 - before as f64) / 1000.0 / SESSIONS as f64;
         let mut people: Vec<Client> = Vec::new();
         while people.len() < SESSIONS {
             let numbers = people.len()..SESSIONS.min(people.len() + AT_ONCE);

@@ -178,9 +178,11 @@ describe("obstacle list", () => {
 
   it("an imported model is at hand, a broken one is told of", async () => {
     const { list, world } = setUp();
-    await list.import([{ name: "a.glb", bytes: new Uint8Array(4) }]);
+    await list.import(Promise.resolve([{ name: "a.glb", bytes: new Uint8Array(4) }]));
     expect([list.chosen.value, list.transfer.progress.value]).toEqual([9, null]);
-    await list.import([{ name: "a.obj", bytes: new Uint8Array(4) }]);
+    await list.import(Promise.resolve([{ name: "a.obj", bytes: new Uint8Array(4) }]));
     expect([world.failures.length, list.transfer.progress.value]).toEqual([1, null]);
+    await list.import(Promise.reject(new Error("the file is gone")));
+    expect(world.failures.length, "a file that cannot be read as well").toBe(2);
   });
 });

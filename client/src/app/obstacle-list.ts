@@ -161,15 +161,16 @@ export class ObstacleList {
     this.#awaited = this.#awaited.filter((awaited) => awaited !== command);
   }
 
-  async import(files: readonly NamedBytes[]): Promise<void> {
+  async import(files: Promise<readonly NamedBytes[]>): Promise<void> {
     const session = this.#options.session();
     if (session === null) {
       return;
     }
     try {
       const send = this.#options.uploadModel ?? uploadModel;
-      const placed = await this.transfer.run((signal, tell) => send(session, packedModel(files), signal, tell));
-      if (placed) {
+      const model = packedModel(await files);
+      const placed = await this.transfer.run((signal, tell) => send(session, model, signal, tell));
+      if (placed && this.#options.session() === session) {
         this.chosen.value = placed.id;
       }
     } catch (error) {

@@ -31,6 +31,7 @@ export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
   // Obstacles and files.
   [/the scene has (?<limit>\d+) obstacles/, "problems.obstacles"],
   [/^there is no obstacle/, "problems.obstacle-gone"],
+  [/a mesh keeps its shape$/, "problems.mesh-keeps-shape"],
   [/history may have (?<limit>\d+) triangles/, "problems.triangles"],
   [/^The obstacle was not placed/, "problems.obstacle-not-placed"],
   [/is not a glTF file/, "problems.file.kind"],
@@ -74,6 +75,7 @@ export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
 export const ALLOWED: readonly (readonly [RegExp, Key])[] = [
   [/^(?<least>-?[\d.]+), the ground$/, "problems.allowed.ground"],
   [/^a place outside all obstacles$/, "problems.allowed.outside"],
+  [/^box, sphere or plane$/, "problems.allowed.simple-shapes"],
   [/^characters one can see$/, "problems.allowed.plain"],
   [/^(?<least>-?[\d.]+) to (?<most>-?[\d.]+) characters$/, "problems.allowed.characters"],
   [/^(?<least>-?[\d.]+) to (?<most>-?[\d.]+), or null$/, "problems.allowed.range"],

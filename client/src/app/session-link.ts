@@ -94,6 +94,9 @@ export class SessionLink implements PageEvents {
         this.#open(session);
       }
     } catch {
+      if (this.session.peek() !== null) {
+        return;
+      }
       hindrance.value = "no-server";
       page.clock.after(RETRY_START, () => {
         if (this.session.peek() === null) {

@@ -171,7 +171,9 @@ export class Studio {
 
   /** Leaves this session for a new one, empty or from a saved tree. */
   async newSession(tree?: string): Promise<void> {
-    if (await this.link.change(tree)) {
+    const from = this.sheet.peek();
+    // Whoever has waved the card away meanwhile may have another one open.
+    if ((await this.link.change(tree)) && this.sheet.peek() === from) {
       this.sheet.value = null;
     }
   }

@@ -29,8 +29,8 @@ export function domeOf({ left, top, width, height }: Rectangle, bar: Rectangle |
   const radius = RADIUS * Math.min(width, height);
   const [middleX, middleY] = [width / 2, height / 2 + 0.06 * height];
   const atLeft = bar !== null && bar.left + bar.width / 2 < left + width / 2;
-  const least = bar && atLeft ? bar.left + bar.width - left + BESIDE_BAR : EDGE;
-  const most = bar && !atLeft ? bar.left - left - PIN : width - EDGE;
+  const least = bar && atLeft ? Math.max(EDGE, bar.left + bar.width - left + BESIDE_BAR) : EDGE;
+  const most = bar && !atLeft ? Math.min(width - EDGE, bar.left - left - PIN) : width - EDGE;
   return {
     pixels: ({ right, up }) => [
       within(middleX + radius * right, least, most),

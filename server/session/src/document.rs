@@ -1,6 +1,5 @@
 //! One shared document: the plants, their simulation, and the timeline of what was done to them.
 
-mod appearance;
 mod bending;
 mod branches;
 mod bytes;
@@ -10,6 +9,7 @@ mod history;
 mod obstacles;
 mod parameters;
 mod pruning;
+mod settings;
 mod strokes;
 mod telling;
 #[cfg(test)]
@@ -242,7 +242,7 @@ impl Document {
         for value in parameters::to_words(self.simulation.parameters().values()) {
             hash.word(value);
         }
-        for value in appearance::to_words(&self.appearance) {
+        for value in settings::to_words(&self.appearance) {
             hash.word(value);
         }
         self.history.hash(&mut hash);

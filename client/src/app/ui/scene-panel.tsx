@@ -85,7 +85,7 @@ function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }
       bytes: new Uint8Array(await file.arrayBuffer()),
     }));
     if (named.length > 0) {
-      await studio.obstacles.import(await Promise.all(named));
+      await studio.obstacles.import(Promise.all(named));
     }
     if (input.current) {
       // The same file can then be chosen again.

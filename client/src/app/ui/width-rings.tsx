@@ -96,8 +96,10 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
   type Press = PointerEvent & { readonly currentTarget: HTMLElement };
   const pulls = {
     onPointerDown: (event: Press) => {
-      event.currentTarget.setPointerCapture(event.pointerId);
-      width.take(row, awayFrom(studio, row, event));
+      if (event.button === 0) {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        width.take(row, awayFrom(studio, row, event));
+      }
     },
     onPointerMove: (event: Press) => {
       if (event.currentTarget.hasPointerCapture(event.pointerId)) {
@@ -150,8 +152,10 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
         }}
         title={say("tools.width.along.title")}
         onPointerDown={(event) => {
-          event.currentTarget.setPointerCapture(event.pointerId);
-          to.current = null;
+          if (event.button === 0) {
+            event.currentTarget.setPointerCapture(event.pointerId);
+            to.current = null;
+          }
         }}
         onPointerMove={(event) => {
           if (event.currentTarget.hasPointerCapture(event.pointerId)) {
@@ -201,11 +205,15 @@ function Entry({ width, diameter }: { width: WidthTool; diameter: number }) {
   const [typed, setTyped] = useState<string | null>(null);
   const latest = useRef<string | null>(null);
   latest.current = typed;
+  const enter = (text: string | null) => {
+    const diameter = Number(text?.replace(",", "."));
+    // A field that was emptied says nothing.
+    if (diameter > 0) {
+      width.type(diameter);
+    }
+  };
   // A number that was typed and not entered is entered when the ring is left.
-  useEffect(
-    () => () => void (latest.current !== null && width.type(Number(latest.current.replace(",", ".")))),
-    [width],
-  );
+  useEffect(() => () => enter(latest.current), [width]);
   return (
     <label title={say("tools.width.typed")}>
       <span aria-hidden="true">⌀</span>
@@ -217,9 +225,7 @@ function Entry({ width, diameter }: { width: WidthTool; diameter: number }) {
         onFocus={(event) => event.currentTarget.select()}
         onInput={(event) => setTyped(event.currentTarget.value)}
         onBlur={() => {
-          if (typed !== null && Number(typed.replace(",", ".")) > 0) {
-            width.type(Number(typed.replace(",", ".")));
-          }
+          enter(typed);
           setTyped(null);
         }}
       />

@@ -80,6 +80,10 @@ export const PROBLEMS = {
     "This obstacle is gone: someone has just taken it away.",
     "Dieses Hindernis gibt es nicht mehr: Jemand hat es gerade entfernt.",
   ],
+  "problems.mesh-keeps-shape": [
+    "A model keeps its shape; place another one instead.",
+    "Ein Modell behält seine Form; stelle stattdessen ein anderes auf.",
+  ],
   "problems.obstacle-not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],
   "problems.triangles": [
     "All models of the scene and its history together may have {limit} triangles; this would be more.",
@@ -168,6 +172,7 @@ export const PROBLEMS = {
   ],
   "problems.allowed.ground": ["{least}, the ground", "{least}, der Boden"],
   "problems.allowed.outside": ["a place outside all obstacles", "eine Stelle außerhalb aller Hindernisse"],
+  "problems.allowed.simple-shapes": ["box, ball or plane", "Quader, Kugel oder Ebene"],
   "problems.allowed.plain": ["characters one can see", "sichtbare Zeichen"],
   "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
   "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],

@@ -1,4 +1,4 @@
-//! Changes that make nothing grow at once: of parameters, of looks (`AP`), and of obstacles (`OB`).
+//! Changes of settings, that make nothing grow at once: of parameters and of looks (`AP`); obstacles stand beside.
 
 use std::sync::Arc;
 
