@@ -172,7 +172,7 @@ export const PROBLEMS = {
   ],
   "problems.allowed.ground": ["{least}, the ground", "{least}, der Boden"],
   "problems.allowed.outside": ["a place outside all obstacles", "eine Stelle außerhalb aller Hindernisse"],
-  "problems.allowed.simple-shapes": ["box, ball or plane", "Quader, Kugel oder Ebene"],
+  "problems.allowed.simple-shapes": ["box, sphere or plane", "Quader, Kugel oder Ebene"],
   "problems.allowed.plain": ["characters one can see", "sichtbare Zeichen"],
   "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
   "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],
