@@ -1,5 +1,5 @@
 import { render } from "preact";
-import { keepShell } from "./app/keep-shell";
+import { registerServiceWorker } from "./app/page/register-service-worker";
 import { Studio } from "./app/studio";
 import { App } from "./app/ui/app";
 import "./app/ui/styles/base.css";
@@ -28,4 +28,4 @@ const studio = new Studio();
 // The server is asked first: it answers while the browser makes its picture ready.
 void studio.link.start();
 render(<App studio={studio} />, root);
-keepShell();
+registerServiceWorker();

@@ -1,4 +1,4 @@
-import type { Socket } from "../src/app/connection";
+import type { Socket } from "../src/app/connection/connection";
 import { type DocumentState, type Parameters, PROTOCOL_VERSION, type ServerMessage } from "../src/wire/generated";
 
 /** A socket whose server is the test. */

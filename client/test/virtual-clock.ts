@@ -1,4 +1,4 @@
-import type { Clock } from "../src/app/connection";
+import type { Clock } from "../src/app/connection/connection";
 
 /** A clock that goes when it is told to. */
 export class Virtual implements Clock {

@@ -1,7 +1,7 @@
 import type { Command, Problem } from "../wire/generated";
-import { plainly } from "./plain-words";
 import type { Studio } from "./studio";
-import { say } from "./words";
+import { plainly } from "./words/plain-words";
+import { say } from "./words/say";
 
 /** What follows from a command the server refused; a person is told where it is news to them. */
 export function refused(studio: Studio, problem: Problem, command?: Command): void {

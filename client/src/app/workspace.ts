@@ -1,14 +1,14 @@
 import { effect } from "@preact/signals";
 import { nextDrawMode } from "../scene/mode/draw-mode";
 import { Viewport } from "../scene/viewport";
-import { stepRadius } from "./brush-radius";
-import { deflectionFor, KEY_RATE } from "./grow-pacer";
-import { listenToKeys } from "./keyboard";
-import { publishFacts } from "./page-facts";
-import { followPageLife } from "./page-life";
-import { PictureLoss } from "./picture-loss";
-import { listenToPointers } from "./pointer-source";
+import { deflectionFor, KEY_RATE } from "./document/growth/grow-pacer";
+import { listenToKeys } from "./input/keyboard";
+import { listenToPointers } from "./input/pointer-source";
+import { publishFacts } from "./page/page-facts";
+import { followPageLife } from "./page/page-life";
 import type { Studio } from "./studio";
+import { stepRadius } from "./tools/brush/brush-radius";
+import { PictureLoss } from "./view/picture-loss";
 
 /** So many of the wheel's notches are one doubling of what it changes, roughly. */
 const NOTCHES = 8;

@@ -1,4 +1,4 @@
-import type { Grip, StrokePoint } from "../gestures";
+import type { Grip, StrokePoint } from "../input/gesture-recogniser";
 
 /** What works on the tree with fingers, a pen or the left mouse button. */
 export interface Tool {

@@ -7,12 +7,12 @@ import { TreeTable } from "../../scene/table/tree-table";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
 import type { PoseFrame, RowMotion } from "../../wire/pose";
-import { ChosenBud } from "../chosen-bud";
-import { ObstacleList } from "../obstacle-list";
+import { ObstacleList } from "../document/obstacles/obstacle-list";
+import { loadSettings } from "../page/settings";
+import { Toasts } from "../page/toasts";
 import type { Point } from "../ports";
-import { loadSettings } from "../settings";
-import { Toasts } from "../toasts";
-import type { BranchHand } from "./branch-hand";
+import type { BranchHand } from "./branch/held-branch";
+import { ChosenBud } from "./chosen-bud";
 import { Toolbox } from "./toolbox";
 
 afterEach(() => vi.useRealTimers());

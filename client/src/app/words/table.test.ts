@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { LANGUAGES } from "../words";
+import { LANGUAGES } from "./say";
 import { TABLE } from "./table";
 
 const entries = Object.entries(TABLE) as [string, readonly string[]][];

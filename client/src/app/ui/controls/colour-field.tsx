@@ -1,5 +1,5 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { say } from "../../words";
+import { say } from "../../words/say";
 import { Field } from "./field";
 import { Typed } from "./typed-number";
 

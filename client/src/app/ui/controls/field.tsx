@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useId, useState } from "preact/hooks";
-import { say } from "../../words";
 import { softly } from "../../words/joints";
+import { say } from "../../words/say";
 import { ResetIcon } from "./icons";
 
 interface FieldProps {

@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it } from "vitest";
-import { language } from "../../words";
+import { language } from "../../words/say";
 import { numberText, onStep, typedNumber, unitText } from "./number-text";
 
 afterEach(() => {

@@ -1,5 +1,5 @@
 import { useState } from "preact/hooks";
-import { say } from "../../words";
+import { say } from "../../words/say";
 import { numberText, onStep, typedNumber, unitText } from "./number-text";
 
 /** How a number is written down and read. */

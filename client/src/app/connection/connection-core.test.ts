@@ -1,0 +1,371 @@
+import { describe, expect, it } from "vitest";
+import { type Command, type DocumentState, type Parameters, PROTOCOL_VERSION, type Resume } from "../../wire/generated";
+import { type ClientRecord, ConnectionCore, type Effect, PING_AFTER, PONG_WITHIN } from "./connection-core";
+
+const state: DocumentState = {
+  step: 0,
+  metamers: 1,
+  axes: 1,
+  leaves: 0,
+  metamer_budget: 1000,
+  budget_reached: false,
+  can_undo: false,
+  can_redo: false,
+  pending_steps: 0,
+  people: 1,
+};
+const parameters = {} as Parameters;
+const undo: Command = { kind: "undo" };
+
+function setUp(options: { record?: ClientRecord; resume?: () => Resume | undefined; random?: number } = {}) {
+  let keys = 0;
+  const core = new ConnectionCore({
+    newKey: () => `key-${++keys}-of-the-test`,
+    resume: options.resume ?? (() => undefined),
+    random: () => options.random ?? 1,
+    ...(options.record ? { record: options.record } : {}),
+  });
+  const welcome = (now: number, acknowledged: number, extra: { resumed?: boolean; protocol?: number } = {}) =>
+    core.message(now, {
+      type: "welcome",
+      protocol: extra.protocol ?? PROTOCOL_VERSION,
+      session: "s",
+      epoch: 7,
+      resumed: extra.resumed ?? false,
+      acknowledged,
+      parameters,
+      state,
+    });
+  const connect = (now = 0, acknowledged = 0) => {
+    core.start(now);
+    core.opened(now);
+    welcome(now, acknowledged);
+    core.effects();
+  };
+  /** Lets the backoff run out and greets again; gives what was sent after the welcome. */
+  const reconnect = (acknowledged: number) => {
+    core.tick(core.deadline ?? 0);
+    core.opened(core.deadline ?? 0);
+    core.effects();
+    welcome(core.deadline ?? 0, acknowledged, { resumed: true });
+    return sentIds(core.effects());
+  };
+  return { core, welcome, connect, reconnect };
+}
+
+function sentIds(effects: Effect[]): number[] {
+  return effects.flatMap((effect) =>
+    effect.kind === "send" && effect.message.type === "command" ? effect.message.id : [],
+  );
+}
+
+function kinds(effects: Effect[]): string[] {
+  return effects.map((effect) => effect.kind);
+}
+
+describe("handshake", () => {
+  it("HS1: says hello first, with its key and no resume", () => {
+    const { core } = setUp();
+    core.start(0);
+    expect(core.effects()).toEqual([{ kind: "open" }]);
+    core.opened(5);
+    const message = { type: "hello", protocol: PROTOCOL_VERSION, client: "key-1-of-the-test" };
+    expect(core.effects()).toEqual([{ kind: "send", message }]);
+    expect(core.phase).toBe("greeting");
+  });
+
+  it("RS1: a returning client says what it holds", () => {
+    const held = { epoch: 7, generations: [3, 9], rows: 300 };
+    const { core } = setUp({ resume: () => held });
+    core.start(0);
+    core.opened(0);
+    expect(core.effects()[1]).toMatchObject({ message: { type: "hello", resume: held } });
+  });
+
+  it("RS1: forgets its rows when the resume was not taken up", () => {
+    const { core, welcome } = setUp();
+    core.start(0);
+    core.opened(0);
+    core.effects();
+    welcome(0, 0, { resumed: false });
+    expect(kinds(core.effects())).toEqual(["forget-rows", "parameters", "state", "obstacles", "widths"]);
+  });
+
+  it("keeps its rows when the resume was taken up", () => {
+    const { core, welcome } = setUp();
+    core.start(0);
+    core.opened(0);
+    core.effects();
+    welcome(0, 0, { resumed: true });
+    expect(kinds(core.effects())).not.toContain("forget-rows");
+  });
+
+  it("HS1: another version asks for a reload and stops", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.closed(1, 4000);
+    expect(core.effects()).toEqual([{ kind: "reload" }]);
+    expect([core.phase, core.stopReason, core.deadline]).toEqual(["stopped", "version", null]);
+  });
+
+  it("HS3: an unknown session stops for good", () => {
+    const { core } = setUp();
+    core.start(0);
+    core.closed(1, 4003);
+    core.wake(2);
+    core.tick(1e6);
+    expect([core.phase, core.stopReason]).toEqual(["stopped", "unknown-session"]);
+  });
+
+  it("HS4: a replaced client goes on under a fresh key", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    core.submit({ kind: "stroke_begin", stroke: 1 });
+    core.message(1, { type: "acknowledged", id: 1 });
+    core.submit({ kind: "stroke_end", stroke: 1 });
+    core.submit({ kind: "bend_end", bend: 1 });
+    core.submit(undo);
+    core.effects();
+    core.closed(2, 4004);
+    expect(kinds(core.effects())).toEqual(["rekeyed"]);
+    expect(core.record().key).toBe("key-2-of-the-test");
+    // What begins a stroke or a bend belongs to the old key, so its end is not carried over; the undo is.
+    expect(core.record().pending).toEqual([{ id: 1, command: undo }]);
+    expect(reconnect(0)).toEqual([1]);
+  });
+});
+
+describe("commands", () => {
+  it("CM1: numbers commands from 1 and sends them at once", () => {
+    const { core, connect } = setUp();
+    connect();
+    expect([core.submit(undo), core.submit(undo)]).toEqual([1, 2]);
+    expect(sentIds(core.effects())).toEqual([1, 2]);
+  });
+
+  it("CM1: keeps commands while offline and sends them in order", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    core.submit(undo);
+    core.closed(1, 1006);
+    core.submit(undo);
+    core.submit(undo);
+    expect(sentIds(core.effects())).toEqual([1]);
+    expect(reconnect(0)).toEqual([1, 2, 3]);
+  });
+
+  it("CM1: does not resend what the welcome acknowledges", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    for (let i = 0; i < 4; i++) core.submit(undo);
+    core.closed(1, 1006);
+    core.effects();
+    expect(reconnect(3)).toEqual([4]);
+    expect(core.settled).toBe(3);
+  });
+
+  it("CM1: sends again through any number of lost sockets", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    core.submit(undo);
+    core.submit(undo);
+    for (let i = 0; i < 5; i++) {
+      core.closed(core.deadline ?? 0, 1006);
+      core.effects();
+      expect(reconnect(0)).toEqual([1, 2]);
+    }
+  });
+
+  it("CM2: an acknowledgement settles everything up to its id", () => {
+    const { core, connect } = setUp();
+    connect();
+    for (let i = 0; i < 3; i++) core.submit(undo);
+    core.message(1, { type: "acknowledged", id: 2 });
+    expect([core.settled, core.unsettled("undo")]).toEqual([2, 1]);
+    core.message(1, { type: "acknowledged", id: 1 });
+    expect(core.settled).toBe(2);
+  });
+
+  it("CM3: a refusal is told once and counts as settled", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.submit(undo);
+    core.effects();
+    const problem = { code: "refused", message: "There is nothing to undo." } as const;
+    core.message(1, { type: "refused", id: 1, problem });
+    core.message(1, { type: "refused", id: 1, problem });
+    expect(core.effects()).toEqual([{ kind: "problem", problem, command: undo }]);
+    expect([core.settled, core.unsettled("undo")]).toEqual([1, 0]);
+  });
+
+  it("CM3: a refused number is sent again, so that no gap arises", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    core.submit(undo);
+    core.message(1, { type: "refused", id: 1, problem: { code: "out_of_range", message: "No." } });
+    core.submit(undo);
+    core.closed(2, 1006);
+    core.effects();
+    expect(reconnect(0)).toEqual([1, 2]);
+  });
+
+  it("CM1: takes a new key where a gap would be refused", () => {
+    const { core, connect, reconnect } = setUp();
+    connect();
+    for (let i = 0; i < 3; i++) core.submit(undo);
+    core.message(1, { type: "acknowledged", id: 2 });
+    core.closed(2, 1006);
+    core.effects();
+    expect(reconnect(0)).toEqual([]);
+    expect([core.phase, core.record().key]).toEqual(["waiting", "key-2-of-the-test"]);
+    expect(reconnect(0)).toEqual([1]);
+  });
+
+  it("goes on from what an earlier page left", () => {
+    const first = setUp();
+    first.connect();
+    first.core.submit(undo);
+    first.core.message(1, { type: "acknowledged", id: 1 });
+    first.core.closed(2, 1006);
+    first.core.submit({ kind: "redo" });
+    const second = setUp({ record: first.core.record() });
+    second.core.start(0);
+    second.core.opened(0);
+    expect(second.core.effects()[1]).toMatchObject({ message: { client: "key-1-of-the-test" } });
+    second.welcome(0, 1);
+    expect(sentIds(second.core.effects())).toEqual([2]);
+    expect(second.core.next).toBe(3);
+  });
+});
+
+describe("frames", () => {
+  it("FL1: answers each frame with its sequence", () => {
+    const { core, connect } = setUp();
+    connect();
+    const frame = { epoch: 7, sequence: 12, catchUp: true };
+    expect(core.admits(frame)).toBe(true);
+    core.applied(frame);
+    expect(core.effects()).toEqual([{ kind: "send", message: { type: "received", sequence: 12 } }]);
+  });
+
+  it("FR4: admits the next sequence or a catch-up, nothing else", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.applied({ epoch: 7, sequence: 12, catchUp: true });
+    const admits = (sequence: number, catchUp: boolean, epoch = 7) => core.admits({ epoch, sequence, catchUp });
+    expect([admits(13, false), admits(14, false), admits(12, false)]).toEqual([true, false, false]);
+    expect([admits(40, true), admits(40, true, 8)]).toEqual([true, false]);
+  });
+
+  it("frames that stay unreadable are asked for ever less often", () => {
+    const { core, connect, welcome } = setUp();
+    connect();
+    let now = 0;
+    const waits = [];
+    for (let i = 0; i < 7; i++) {
+      // Something may well be read before it fails again.
+      core.applied({ epoch: 7, sequence: 1, catchUp: true });
+      core.invalid(now);
+      waits.push((core.deadline ?? 0) - now);
+      now = core.deadline ?? 0;
+      core.tick(now);
+      core.opened(now);
+      welcome(now, 0);
+      core.effects();
+    }
+    expect(waits).toEqual([250, 1000, 4000, 16_000, 60_000, 60_000, 60_000]);
+    expect(core.garbled).toBe(7);
+    core.invalid(now + 200_000);
+    expect(core.garbled, "after a long good time it is as the first").toBe(1);
+    expect((core.deadline ?? 0) - now - 200_000).toBe(250);
+  });
+
+  it("FR1: an invalid frame connects again without resume", () => {
+    const { core, connect } = setUp({ resume: () => ({ epoch: 7, generations: [1], rows: 3 }) });
+    connect();
+    core.invalid(1);
+    expect(kinds(core.effects())).toEqual(["close"]);
+    core.tick(core.deadline ?? 0);
+    core.opened(1000);
+    const hello = core.effects().find((effect) => effect.kind === "send");
+    expect(hello).toMatchObject({ message: { type: "hello" } });
+    expect(hello).not.toHaveProperty("message.resume");
+  });
+});
+
+describe("liveness", () => {
+  it("doubles its patience up to 8 s, less when chance says so", () => {
+    const { core } = setUp({ random: 1 });
+    core.start(0);
+    const waits: number[] = [];
+    let now = 0;
+    for (let i = 0; i < 8; i++) {
+      core.closed(now, 1006);
+      waits.push((core.deadline ?? 0) - now);
+      now = core.deadline ?? 0;
+      core.tick(now);
+    }
+    expect(waits).toEqual([250, 500, 1000, 2000, 4000, 8000, 8000, 8000]);
+    const hasty = setUp({ random: 0 }).core;
+    hasty.start(0);
+    hasty.closed(0, 1006);
+    expect(hasty.deadline).toBe(125);
+  });
+
+  it("starts over with a short wait after a welcome", () => {
+    const { core, reconnect } = setUp();
+    core.start(0);
+    for (let i = 0; i < 5; i++) {
+      core.closed(0, 1006);
+      core.tick(core.deadline ?? 0);
+    }
+    core.closed(0, 1006);
+    reconnect(0);
+    expect(core.attempts).toBe(0);
+  });
+
+  it("asks after silence and gives up without an answer", () => {
+    const { core, connect } = setUp();
+    connect(0);
+    core.tick(PING_AFTER);
+    expect(core.effects()).toMatchObject([{ kind: "send", message: { type: "ping" } }]);
+    core.tick(PING_AFTER + PONG_WITHIN);
+    expect(kinds(core.effects())).toEqual(["close"]);
+    expect(core.phase).toBe("waiting");
+  });
+
+  it("any sign of life answers the question", () => {
+    const { core, connect } = setUp();
+    connect(0);
+    core.tick(PING_AFTER);
+    core.heard(PING_AFTER + 100);
+    core.effects();
+    core.tick(PING_AFTER + PONG_WITHIN);
+    expect(core.phase).toBe("connected");
+  });
+
+  it("a late timer asks first instead of giving up", () => {
+    const { core, connect } = setUp();
+    connect(0);
+    core.tick(60_000);
+    expect(core.phase).toBe("connected");
+  });
+
+  it("gives up on a socket that never greets", () => {
+    const { core } = setUp();
+    core.start(0);
+    core.opened(10);
+    core.effects();
+    core.tick(core.deadline ?? 0);
+    expect(kinds(core.effects())).toEqual(["close"]);
+    expect(core.phase).toBe("waiting");
+  });
+
+  it("does not wait out the backoff when it is woken", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.closed(1, 1006);
+    core.wake(2);
+    expect(kinds(core.effects())).toEqual(["open"]);
+  });
+});

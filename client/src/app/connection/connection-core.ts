@@ -1,0 +1,403 @@
+import {
+  type Appearance,
+  type ClientMessage,
+  CloseCode,
+  type Command,
+  type DocumentState,
+  type Parameters,
+  type PlacedObstacle,
+  PROTOCOL_VERSION,
+  type Problem,
+  type Resume,
+  type ServerMessage,
+  type Timeline,
+  type WidthConstraint,
+} from "../../wire/generated";
+import { Outbox, type OutboxRecord } from "./outbox";
+
+/** Silence after which the server is asked whether it is there, in milliseconds. */
+export const PING_AFTER = 3000;
+/** How long a ping may stay unanswered before the socket counts as dead. */
+export const PONG_WITHIN = 5000;
+/** How long a socket may take to open and greet. */
+export const OPEN_WITHIN = 8000;
+const BACKOFF_FIRST = 250;
+const BACKOFF_LAST = 8000;
+/** The longest wait after frames that could not be read: each attempt brings the whole tree. */
+const BACKOFF_GARBLED = 60_000;
+/** A connection that has lasted so long is as good as any, whatever came before it. */
+const GARBLED_FOR = 120_000;
+
+export type Phase = "idle" | "opening" | "greeting" | "connected" | "waiting" | "stopped";
+export type StopReason = "unknown-session" | "version";
+
+/** What outlives a page: the key, and what was sent under it. */
+export interface ClientRecord extends OutboxRecord {
+  readonly key: string;
+}
+
+/** What the shell must do, in order. */
+export type Effect =
+  | { readonly kind: "open" }
+  | { readonly kind: "close" }
+  | { readonly kind: "send"; readonly message: ClientMessage }
+  | { readonly kind: "forget-rows" }
+  | { readonly kind: "reload" }
+  | { readonly kind: "rekeyed" }
+  | { readonly kind: "state"; readonly state: DocumentState }
+  | { readonly kind: "parameters"; readonly parameters: Parameters }
+  | { readonly kind: "appearance"; readonly appearance: Appearance }
+  | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
+  | { readonly kind: "timeline"; readonly timeline: Timeline }
+  | { readonly kind: "widths"; readonly widths: readonly WidthConstraint[] }
+  | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
+
+export interface CoreOptions {
+  /** Draws a new client key. */
+  readonly newKey: () => string;
+  /** What is still held of the session (`RS1`). */
+  readonly resume: () => Resume | undefined;
+  /** A number in [0, 1) for the backoff's jitter. */
+  readonly random: () => number;
+  /** What an earlier page of this tab left behind. */
+  readonly record?: ClientRecord;
+}
+
+/** The facts of a frame that order it. */
+export interface FrameHead {
+  readonly epoch: number;
+  readonly sequence: number;
+  readonly catchUp: boolean;
+}
+
+/** What is no change of the rows but something beside them, of which only the newest counts: a pose or a ghost. */
+export interface AsideHead {
+  readonly epoch: number;
+  readonly sequence: number;
+}
+
+/** One client's side of the protocol, without socket or clock: call a method, then drain `effects()`. */
+export class ConnectionCore {
+  #options: CoreOptions;
+  #key: string;
+  #outbox: Outbox;
+  #phase: Phase = "idle";
+  #stopReason: StopReason | null = null;
+  #attempts = 0;
+  #deadline: number | null = null;
+  #pinged: number | null = null;
+  #nonce = 0;
+  #epoch = 0;
+  #sequence: number | null = null;
+  #resumable = true;
+  /** How often of late frames could not be read, and when they last could not. */
+  #garbled = 0;
+  #garbledAt = 0;
+  #effects: Effect[] = [];
+
+  constructor(options: CoreOptions) {
+    this.#options = options;
+    this.#key = options.record?.key ?? options.newKey();
+    this.#outbox = new Outbox(options.record);
+  }
+
+  get phase(): Phase {
+    return this.#phase;
+  }
+
+  get stopReason(): StopReason | null {
+    return this.#stopReason;
+  }
+
+  /** Failed attempts since the last welcome. */
+  get attempts(): number {
+    return this.#attempts;
+  }
+
+  /** How often of late the connection was given up since frames could not be read. */
+  get garbled(): number {
+    return this.#garbled;
+  }
+
+  /** When `tick` is next due, in the clock of the calls. */
+  get deadline(): number | null {
+    return this.#deadline;
+  }
+
+  /** The number the next command gets. */
+  get next(): number {
+    return this.#outbox.next;
+  }
+
+  /** The highest number up to which every command is durable or refused. */
+  get settled(): number {
+    return this.#outbox.settled;
+  }
+
+  /** How many commands of a kind the server has neither acknowledged nor refused. */
+  unsettled(kind: Command["kind"]): number {
+    return this.#outbox.unsettled(kind);
+  }
+
+  /** What a later page of this tab needs to go on. */
+  record(): ClientRecord {
+    return { key: this.#key, ...this.#outbox.record() };
+  }
+
+  /** Takes the effects that have come up since the last call. */
+  effects(): Effect[] {
+    return this.#effects.splice(0);
+  }
+
+  start(now: number): void {
+    if (this.#phase === "idle") {
+      this.#open(now);
+    }
+  }
+
+  /** Numbers a command and sends it as soon as there is a server to take it (`CM1`). */
+  submit(command: Command): number {
+    const id = this.#outbox.put(command);
+    if (this.#phase === "connected") {
+      this.#send({ type: "command", id, command });
+    }
+    return id;
+  }
+
+  /** The socket is open: say hello (`HS1`). */
+  opened(now: number): void {
+    if (this.#phase !== "opening") {
+      return;
+    }
+    this.#phase = "greeting";
+    this.#deadline = now + OPEN_WITHIN;
+    const resume = this.#resumable ? this.#options.resume() : undefined;
+    const hello = { type: "hello", protocol: PROTOCOL_VERSION, client: this.#key } as const;
+    this.#send(resume ? { ...hello, resume } : hello);
+  }
+
+  /** A control message arrived. */
+  message(now: number, message: ServerMessage): void {
+    this.#heard(now);
+    switch (message.type) {
+      case "welcome":
+        this.#welcome(now, message);
+        break;
+      case "acknowledged":
+        this.#outbox.acknowledge(message.id);
+        break;
+      case "refused":
+        this.#refuse(message.id, message.problem);
+        break;
+      case "problem":
+        this.#effects.push({ kind: "problem", problem: message.problem });
+        break;
+      case "state":
+        this.#effects.push({ kind: "state", state: message.state });
+        break;
+      case "parameters":
+        this.#effects.push({ kind: "parameters", parameters: message.parameters });
+        break;
+      case "appearance":
+        this.#effects.push({ kind: "appearance", appearance: message.appearance });
+        break;
+      case "obstacles":
+        this.#effects.push({ kind: "obstacles", obstacles: message.obstacles });
+        break;
+      case "timeline": {
+        const { type: _, ...timeline } = message;
+        this.#effects.push({ kind: "timeline", timeline });
+        break;
+      }
+      case "widths":
+        this.#effects.push({ kind: "widths", widths: message.widths });
+        break;
+      case "pong":
+        break;
+    }
+  }
+
+  /** Bytes arrived; they show that the server lives, before they are decoded. */
+  heard(now: number): void {
+    this.#heard(now);
+  }
+
+  /** Whether a decoded frame may be applied: right epoch, right place in the order (`FR4`). */
+  admits(frame: FrameHead): boolean {
+    if (this.#phase !== "connected" || frame.epoch !== this.#epoch) {
+      return false;
+    }
+    return frame.catchUp || this.#sequence === null || frame.sequence === this.#sequence + 1;
+  }
+
+  /** A frame has been applied: say so (`FL1`). */
+  applied(frame: FrameHead): void {
+    this.#sequence = frame.sequence;
+    this.#resumable = true;
+    this.#send({ type: "received", sequence: frame.sequence });
+  }
+
+  /** A frame beside the rows has come: say so; false if it is of another epoch and tells nothing. */
+  took(kind: number, { epoch, sequence }: AsideHead): boolean {
+    if (this.#phase !== "connected") {
+      return false;
+    }
+    this.#send({ type: "received", sequence, kind });
+    return epoch === this.#epoch;
+  }
+
+  /** Asks the server something that is no command; false if there is none to ask. */
+  ask(message: Extract<ClientMessage, { type: "predict" }>): boolean {
+    if (this.#phase !== "connected") {
+      return false;
+    }
+    this.#send(message);
+    return true;
+  }
+
+  /** A frame was invalid or out of order: connect again and forget what is held (`FR1`). */
+  invalid(now: number): void {
+    if (this.#phase === "connected") {
+      this.#resumable = false;
+      this.#effects.push({ kind: "close" });
+      // A welcome does not make it good: what comes after it may be as wrong as before.
+      this.#garbled = now - this.#garbledAt > GARBLED_FOR ? 1 : this.#garbled + 1;
+      this.#garbledAt = now;
+      this.#retry(now, BACKOFF_FIRST * 2 ** (2 * Math.min(this.#garbled - 1, 10)), BACKOFF_GARBLED);
+    }
+  }
+
+  /** The socket closed, by whichever side. */
+  closed(now: number, code: number): void {
+    if (this.#phase === "stopped" || this.#phase === "waiting" || this.#phase === "idle") {
+      return;
+    }
+    switch (code) {
+      case CloseCode.UnknownSession:
+        this.#stop("unknown-session");
+        break;
+      case CloseCode.VersionMismatch:
+        this.#stop("version");
+        this.#effects.push({ kind: "reload" });
+        break;
+      case CloseCode.Replaced:
+        // Another page holds our key (a duplicated tab): this one goes on under a key of its own.
+        this.#rekey();
+        this.#retry(now);
+        break;
+      default:
+        this.#retry(now);
+    }
+  }
+
+  /** The network or the page came back: do not wait out the backoff. */
+  wake(now: number): void {
+    if (this.#phase === "waiting") {
+      this.#open(now);
+    } else if (this.#phase === "connected" && this.#pinged === null) {
+      this.#ping(now);
+    }
+  }
+
+  /** Time has passed; call when `deadline` is reached, or later. */
+  tick(now: number): void {
+    if (this.#deadline === null || now < this.#deadline) {
+      return;
+    }
+    if (this.#phase === "waiting") {
+      this.#open(now);
+    } else if (this.#phase === "connected" && this.#pinged === null) {
+      this.#ping(now);
+    } else if (this.#phase === "connected" || this.#phase === "opening" || this.#phase === "greeting") {
+      this.#effects.push({ kind: "close" });
+      this.#retry(now);
+    }
+  }
+
+  #open(now: number): void {
+    this.#phase = "opening";
+    this.#deadline = now + OPEN_WITHIN;
+    this.#effects.push({ kind: "open" });
+  }
+
+  #retry(now: number, wait = BACKOFF_FIRST * 2 ** Math.min(this.#attempts, 10), longest = BACKOFF_LAST): void {
+    const delay = Math.min(longest, wait);
+    this.#attempts += 1;
+    this.#phase = "waiting";
+    this.#pinged = null;
+    // Half of the delay is chance, so that a room full of tablets does not return in one instant.
+    this.#deadline = now + delay * (0.5 + 0.5 * this.#options.random());
+  }
+
+  #stop(reason: StopReason): void {
+    this.#phase = "stopped";
+    this.#stopReason = reason;
+    this.#deadline = null;
+  }
+
+  #heard(now: number): void {
+    if (this.#phase === "connected") {
+      this.#pinged = null;
+      this.#deadline = now + PING_AFTER;
+    }
+  }
+
+  #ping(now: number): void {
+    this.#pinged = now;
+    this.#deadline = now + PONG_WITHIN;
+    this.#nonce += 1;
+    this.#send({ type: "ping", nonce: this.#nonce });
+  }
+
+  #welcome(now: number, welcome: Extract<ServerMessage, { type: "welcome" }>): void {
+    if (this.#phase !== "greeting") {
+      return;
+    }
+    if (welcome.protocol !== PROTOCOL_VERSION) {
+      this.#stop("version");
+      this.#effects.push({ kind: "close" }, { kind: "reload" });
+      return;
+    }
+    if (!this.#outbox.follows(welcome.acknowledged)) {
+      // The server knows less of this key than it once acknowledged; a gap would be refused for ever.
+      this.#rekey();
+      this.#effects.push({ kind: "close" });
+      this.#retry(now);
+      return;
+    }
+    this.#phase = "connected";
+    this.#attempts = 0;
+    this.#epoch = welcome.epoch;
+    this.#sequence = null;
+    this.#heard(now);
+    if (!welcome.resumed) {
+      this.#effects.push({ kind: "forget-rows" });
+    }
+    this.#outbox.acknowledge(welcome.acknowledged);
+    this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
+    this.#effects.push({ kind: "state", state: welcome.state });
+    // The lists follow only if there is something on them.
+    this.#effects.push({ kind: "obstacles", obstacles: [] }, { kind: "widths", widths: [] });
+    for (const { id, command } of this.#outbox.pending) {
+      this.#send({ type: "command", id, command });
+    }
+  }
+
+  #refuse(id: number, problem: Problem): void {
+    const command = this.#outbox.commandOf(id);
+    if (this.#outbox.refuse(id)) {
+      this.#effects.push(command ? { kind: "problem", problem, command } : { kind: "problem", problem });
+    }
+  }
+
+  /** Goes on under a new key. */
+  #rekey(): void {
+    this.#key = this.#options.newKey();
+    this.#outbox.startAnew();
+    this.#effects.push({ kind: "rekeyed" });
+  }
+
+  #send(message: ClientMessage): void {
+    this.#effects.push({ kind: "send", message });
+  }
+}

@@ -1,0 +1,318 @@
+import type {
+  Appearance,
+  ClientMessage,
+  Command,
+  DocumentState,
+  Parameters,
+  PlacedObstacle,
+  Problem,
+  ServerMessage,
+  Timeline,
+  WidthConstraint,
+} from "../../wire/generated";
+import type { RowStore } from "../ports";
+import {
+  type AsideHead,
+  type ClientRecord,
+  ConnectionCore,
+  type FrameHead,
+  type Phase,
+  type StopReason,
+} from "./connection-core";
+
+/** The part of a WebSocket that is used; tests bring their own. */
+export interface Socket {
+  binaryType: string;
+  onopen: ((event: Event) => void) | null;
+  onmessage: ((event: MessageEvent) => void) | null;
+  onclose: ((event: CloseEvent) => void) | null;
+  send(text: string): void;
+  close(): void;
+}
+
+/** The clock and its timers; tests bring their own. */
+export interface Clock {
+  now(): number;
+  after(delay: number, run: () => void): () => void;
+}
+
+/** The kind of a frame that changes the rows. */
+const MESH_DELTA = 1;
+
+/** A frame that is no change of the rows, under its kind. */
+export interface AsideFrame {
+  readonly kind: number;
+  readonly frame: AsideHead;
+}
+
+/** What the page is told. */
+export interface ConnectionEvents<Aside> {
+  phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void;
+  commands(sent: number, settled: number): void;
+  state(state: DocumentState): void;
+  parameters(parameters: Parameters): void;
+  /** How the tree looks from now on. */
+  appearance(appearance: Appearance): void;
+  /** All obstacles there are. */
+  obstacles(obstacles: readonly PlacedObstacle[]): void;
+  /** What was done, and all other futures. */
+  timeline(timeline: Timeline): void;
+  /** All width constraints there are. */
+  widths(widths: readonly WidthConstraint[]): void;
+  /** A branch that is being bent, or a prediction. */
+  aside(aside: Aside): void;
+  problem(problem: Problem, command?: Command): void;
+  /** Rows have changed; draw. */
+  rows(): void;
+  /** The client goes on under another key: a stroke under way is lost. */
+  rekeyed(): void;
+  /** The server speaks another version of the protocol: load the page again. */
+  reload(): void;
+}
+
+export interface ConnectionOptions<Frame, Aside> {
+  readonly openSocket: () => Socket;
+  readonly clock: Clock;
+  readonly rows: RowStore<Frame>;
+  readonly decode: (bytes: ArrayBuffer) => Promise<{ readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside>;
+  readonly newKey: () => string;
+  readonly events: ConnectionEvents<Aside>;
+  readonly random?: () => number;
+  readonly record?: ClientRecord;
+}
+
+export const browserClock: Clock = {
+  now: () => performance.now(),
+  after: (delay, run) => {
+    const timer = setTimeout(run, delay);
+    return () => clearTimeout(timer);
+  },
+};
+
+/** Keeps one session's socket alive and its commands and frames in order. */
+export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
+  #options: ConnectionOptions<Frame, Aside>;
+  #core: ConnectionCore;
+  #socket: Socket | null = null;
+  #frames: Promise<void> = Promise.resolve();
+  #cancelTimer: (() => void) | null = null;
+  #timerAt: number | null = null;
+  #closed = false;
+
+  constructor(options: ConnectionOptions<Frame, Aside>) {
+    this.#options = options;
+    this.#core = new ConnectionCore({
+      newKey: options.newKey,
+      resume: () => options.rows.held(),
+      random: options.random ?? Math.random,
+      ...(options.record ? { record: options.record } : {}),
+    });
+    this.#core.start(this.#now());
+    this.#settle();
+  }
+
+  /** Sends a command now or when there is a connection again. */
+  submit(command: Command): number {
+    const id = this.#core.submit(command);
+    this.#settle();
+    return id;
+  }
+
+  /** The number the next command gets: unique for this client, so strokes and gestures are named by it too. */
+  get next(): number {
+    return this.#core.next;
+  }
+
+  /** The highest number the server has answered for. */
+  get settled(): number {
+    return this.#core.settled;
+  }
+
+  unsettled(kind: Command["kind"]): number {
+    return this.#core.unsettled(kind);
+  }
+
+  /** Asks for a ghost: how the plants would grow on without some branches; false while there is nobody to ask. */
+  predict(rows: number[], steps: number): boolean {
+    const asked = this.#core.ask({ type: "predict", rows, steps });
+    this.#settle();
+    return asked;
+  }
+
+  record(): ClientRecord {
+    return this.#core.record();
+  }
+
+  /** The page or the network came back. */
+  wake(): void {
+    this.#core.wake(this.#now());
+    this.#settle();
+  }
+
+  /** Leaves the session. */
+  close(): void {
+    this.#closed = true;
+    this.#cancelTimer?.();
+    this.#drop();
+  }
+
+  #now(): number {
+    return this.#options.clock.now();
+  }
+
+  #open(): void {
+    this.#drop();
+    const socket = this.#options.openSocket();
+    this.#socket = socket;
+    socket.binaryType = "arraybuffer";
+    const mine = (run: () => void) => {
+      if (this.#socket === socket && !this.#closed) {
+        run();
+        this.#settle();
+      }
+    };
+    socket.onopen = () => mine(() => this.#core.opened(this.#now()));
+    socket.onclose = ({ code }) =>
+      mine(() => {
+        this.#socket = null;
+        this.#core.closed(this.#now(), code);
+      });
+    socket.onmessage = ({ data }) =>
+      mine(() => {
+        if (typeof data === "string") {
+          this.#core.message(this.#now(), JSON.parse(data) as ServerMessage);
+        } else if (data instanceof ArrayBuffer) {
+          this.#core.heard(this.#now());
+          this.#take(socket, data);
+        }
+      });
+  }
+
+  /** Frames are decoded off the main path but applied strictly one after the other. */
+  #take(socket: Socket, bytes: ArrayBuffer): void {
+    this.#frames = this.#frames.then(async () => {
+      const ours = () => this.#socket === socket && !this.#closed;
+      if (!ours()) {
+        return;
+      }
+      try {
+        const incoming = await this.#options.decode(bytes);
+        if (!ours()) {
+          return;
+        }
+        if (!isDelta(incoming)) {
+          if (this.#core.took(incoming.kind, incoming.frame)) {
+            this.#options.events.aside(incoming);
+          }
+          this.#settle();
+          return;
+        }
+        const { frame } = incoming;
+        if (!this.#core.admits(frame)) {
+          throw new Error(`frame ${frame.sequence} is out of order`);
+        }
+        this.#options.rows.apply(frame);
+        this.#core.applied(frame);
+        this.#options.events.rows();
+      } catch (error) {
+        if (ours()) {
+          console.warn("A frame could not be taken in; connecting again.", error);
+          this.#core.invalid(this.#now());
+        }
+      }
+      this.#settle();
+    });
+  }
+
+  #drop(): void {
+    const socket = this.#socket;
+    this.#socket = null;
+    if (socket) {
+      socket.onopen = null;
+      socket.onmessage = null;
+      socket.onclose = null;
+      socket.close();
+    }
+  }
+
+  #settle(): void {
+    if (this.#closed) {
+      return;
+    }
+    const { events } = this.#options;
+    for (const effect of this.#core.effects()) {
+      switch (effect.kind) {
+        case "open":
+          this.#open();
+          break;
+        case "close":
+          this.#drop();
+          break;
+        case "send":
+          this.#send(effect.message);
+          break;
+        case "forget-rows":
+          this.#options.rows.clear();
+          events.rows();
+          break;
+        case "reload":
+          events.reload();
+          break;
+        case "rekeyed":
+          events.rekeyed();
+          break;
+        case "state":
+          events.state(effect.state);
+          break;
+        case "parameters":
+          events.parameters(effect.parameters);
+          break;
+        case "appearance":
+          events.appearance(effect.appearance);
+          break;
+        case "obstacles":
+          events.obstacles(effect.obstacles);
+          break;
+        case "timeline":
+          events.timeline(effect.timeline);
+          break;
+        case "widths":
+          events.widths(effect.widths);
+          break;
+        case "problem":
+          events.problem(effect.problem, effect.command);
+          break;
+      }
+    }
+    events.phase(this.#core.phase, this.#core.attempts, this.#core.stopReason, this.#core.garbled);
+    events.commands(this.#core.next - 1, this.#core.settled);
+    this.#arm();
+  }
+
+  #send(message: ClientMessage): void {
+    this.#socket?.send(JSON.stringify(message));
+  }
+
+  #arm(): void {
+    const { deadline } = this.#core;
+    if (deadline === this.#timerAt && this.#cancelTimer) {
+      return;
+    }
+    this.#cancelTimer?.();
+    this.#cancelTimer = null;
+    this.#timerAt = deadline;
+    if (deadline !== null) {
+      this.#cancelTimer = this.#options.clock.after(Math.max(0, deadline - this.#now()), () => {
+        this.#cancelTimer = null;
+        this.#core.tick(this.#now());
+        this.#settle();
+      });
+    }
+  }
+}
+
+function isDelta<Frame, Aside extends AsideFrame>(
+  incoming: { readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside,
+): incoming is { readonly kind: typeof MESH_DELTA; readonly frame: Frame } {
+  return incoming.kind === MESH_DELTA;
+}

@@ -1,0 +1,249 @@
+import { signal } from "@preact/signals";
+import { afterEach, describe, expect, it, vi } from "vitest";
+import { FakeSocket } from "../../../test/fake-socket";
+import { Virtual } from "../../../test/virtual-clock";
+import { CloseCode } from "../../wire/generated";
+import type { Hindrance } from "../page/hindrance";
+import { type SessionEvents, SessionLink } from "./session-link";
+
+/** A server of sessions that begins them under the names given, one after the other; silent when they run out. */
+function serveSessions(known: readonly string[], fresh: readonly string[]) {
+  const names = [...fresh];
+  const asked: string[] = [];
+  vi.stubGlobal("fetch", async (path: string, { method }: { method: string }) => {
+    asked.push(`${method} ${path}`);
+    const name = method === "POST" ? names.shift() : known.find((session) => path.endsWith(`/${session}`));
+    if (name === undefined && method === "POST") {
+      throw new TypeError("nobody answers");
+    }
+    return new Response(JSON.stringify({ session: name }), { status: name === undefined ? 404 : 200 });
+  });
+  return { asked, names };
+}
+
+function storage(): Storage {
+  const items = new Map<string, string>();
+  return {
+    getItem: (key: string) => items.get(key) ?? null,
+    setItem: (key: string, value: string) => void items.set(key, value),
+    removeItem: (key: string) => void items.delete(key),
+  } as unknown as Storage;
+}
+
+function setUp(path = "/", { last = null as string | null, store = storage(), begun = false } = {}) {
+  const sockets: { address: string; socket: FakeSocket }[] = [];
+  const clock = new Virtual();
+  const location = { pathname: path, protocol: "https:", host: "trees", reload: vi.fn() };
+  const visit = (_: unknown, __: string, to?: string | URL | null) => {
+    location.pathname = String(to);
+  };
+  const hindrance = signal<Hindrance | null>(null);
+  const lastSession = signal<string | null>(last);
+  const told: string[] = [];
+  const tells = (name: string) => () => void told.push(name);
+  const nothing = () => {};
+  const events: SessionEvents = {
+    opened: tells("opened"),
+    leaving: tells("leaving"),
+    lost: tells("lost"),
+    parted: tells("parted"),
+    failed: tells("failed"),
+    rows: nothing,
+    settled: nothing,
+    state: nothing,
+    parameters: nothing,
+    appearance: nothing,
+    obstacles: nothing,
+    aside: nothing,
+    widths: nothing,
+    timeline: nothing,
+    problem: nothing,
+    rekeyed: nothing,
+  };
+  const link = new SessionLink({
+    page: {
+      location,
+      history: { pushState: vi.fn(visit), replaceState: vi.fn(visit) },
+      store,
+      clock,
+      openSocket: (address) => {
+        const socket = new FakeSocket();
+        sockets.push({ address, socket });
+        return socket;
+      },
+    },
+    rows: { held: () => undefined, apply: nothing, clear: nothing },
+    hindrance,
+    dark: () => false,
+    lastSession,
+    begun: () => begun,
+    events,
+  });
+  const newest = () => sockets.at(-1)!.socket;
+  const addresses = () => sockets.map(({ address }) => address.split("/").at(-2));
+  return { link, clock, location, hindrance, lastSession, told, store, sockets, newest, addresses };
+}
+
+afterEach(() => vi.unstubAllGlobals());
+
+describe("the session a page opens with", () => {
+  it("is the one its address names", async () => {
+    const { asked } = serveSessions([], []);
+    const { link, sockets, lastSession } = setUp("/s/oak");
+    await link.start();
+    expect(sockets.map(({ address }) => address)).toEqual(["wss://trees/api/sessions/oak/socket"]);
+    expect([link.session.peek(), lastSession.peek(), asked]).toEqual(["oak", "oak", []]);
+  });
+
+  it("else that of last time, if it is still there", async () => {
+    serveSessions(["elm"], ["new"]);
+    const there = setUp("/", { last: "elm" });
+    await there.link.start();
+    expect([there.link.session.peek(), there.location.pathname]).toEqual(["elm", "/s/elm"]);
+    const gone = setUp("/", { last: "ash" });
+    await gone.link.start();
+    expect([gone.link.session.peek(), gone.location.pathname]).toEqual(["new", "/s/new"]);
+  });
+
+  it("is asked for again while no server answers", async () => {
+    const { names } = serveSessions([], []);
+    const { link, clock, hindrance } = setUp();
+    await link.start();
+    expect([hindrance.peek(), link.session.peek()]).toEqual(["no-server", null]);
+    names.push("late");
+    clock.pass(2000);
+    await vi.waitFor(() => expect(link.session.peek()).toBe("late"));
+    expect(hindrance.peek()).toBeNull();
+  });
+
+  it("is not put in place of one that was opened meanwhile", async () => {
+    serveSessions([], ["slow"]);
+    const { link, location, addresses } = setUp();
+    const started = link.start();
+    location.pathname = "/s/oak";
+    link.navigated();
+    await started;
+    expect([link.session.peek(), location.pathname, addresses()]).toEqual(["oak", "/s/oak", ["oak"]]);
+  });
+});
+
+describe("another session", () => {
+  it("is opened under an address of its own, and the way back works", async () => {
+    serveSessions([], ["new"]);
+    const { link, location, told, addresses } = setUp("/s/oak");
+    await link.start();
+    expect(await link.change()).toBe(true);
+    expect([link.session.peek(), location.pathname]).toEqual(["new", "/s/new"]);
+    location.pathname = "/s/oak";
+    link.navigated();
+    expect(addresses()).toEqual(["oak", "new", "oak"]);
+    expect(told.filter((name) => name === "opened").length).toBe(3);
+  });
+
+  it("is begun once, however often somebody taps", async () => {
+    const { asked } = serveSessions([], ["one", "two"]);
+    const { link } = setUp("/s/oak");
+    await link.start();
+    expect(await Promise.all([link.change(), link.change()])).toEqual([true, false]);
+    expect(asked).toEqual(["POST /api/sessions"]);
+    expect(await link.change(), "and later again").toBe(true);
+  });
+
+  it("that is not to be had leaves everything as it is", async () => {
+    serveSessions([], []);
+    const { link, told, location } = setUp("/s/oak");
+    await link.start();
+    expect(await link.change()).toBe(false);
+    expect([link.session.peek(), location.pathname, told.at(-1)]).toEqual(["oak", "/s/oak", "failed"]);
+  });
+
+  it("CM1: what was unsent goes out on the way back", async () => {
+    serveSessions([], ["new"]);
+    const { link, location, newest, told } = setUp("/s/oak");
+    await link.start();
+    link.submit({ kind: "undo" });
+    await link.change();
+    expect(told, "nobody was there to take it").toContain("parted");
+    newest().welcome();
+    expect(newest().commands).toEqual([]);
+    location.pathname = "/s/oak";
+    link.navigated();
+    newest().welcome();
+    expect(newest().commands).toEqual([1]);
+  });
+});
+
+describe("a page that goes", () => {
+  it("CM1: leaves what is unsent to the page after it", async () => {
+    const before = setUp("/s/oak");
+    await before.link.start();
+    before.newest().welcome();
+    before.link.submit({ kind: "undo" });
+    before.link.leaving();
+    const after = setUp("/s/oak", { store: before.store });
+    await after.link.start();
+    after.newest().welcome();
+    expect(after.newest().commands).toEqual([1]);
+  });
+
+  it("HS4: takes it back when it returns, so that no copy of the tab finds it", async () => {
+    const { link, store, newest, told } = setUp("/s/oak");
+    await link.start();
+    newest().welcome();
+    link.submit({ kind: "undo" });
+    link.leaving();
+    expect(told).toContain("leaving");
+    link.returning();
+    const copy = setUp("/s/oak", { store });
+    await copy.link.start();
+    copy.newest().welcome();
+    expect(copy.newest().commands).toEqual([]);
+  });
+});
+
+describe("what is in the way", () => {
+  it("no server, after a few attempts, until there is one", async () => {
+    const { link, hindrance, clock, newest } = setUp("/s/oak");
+    await link.start();
+    newest().end(1006);
+    expect(hindrance.peek()).toBeNull();
+    clock.pass(300);
+    newest().end(1006);
+    expect(hindrance.peek()).toBe("no-server");
+    clock.pass(600);
+    newest().welcome();
+    expect([hindrance.peek(), link.phase.peek()]).toEqual([null, "connected"]);
+  });
+
+  it("nothing, where there is a tree to look at meanwhile", async () => {
+    const { link, hindrance, clock, newest, told } = setUp("/s/oak", { begun: true });
+    await link.start();
+    newest().welcome();
+    for (let i = 0; i < 4; i++) {
+      newest().end(1006);
+      clock.pass(10_000);
+    }
+    expect([hindrance.peek(), told.filter((name) => name === "lost")]).toEqual([null, ["lost"]]);
+  });
+
+  it("HS3: a session nobody knows, which is then not come back to", async () => {
+    const { link, hindrance, lastSession, newest, told } = setUp("/s/oak");
+    await link.start();
+    link.submit({ kind: "undo" });
+    newest().end(CloseCode.UnknownSession);
+    expect([hindrance.peek(), lastSession.peek()]).toEqual(["unknown-session", null]);
+    link.leave();
+    expect(told, "nothing of it is kept").not.toContain("parted");
+  });
+
+  it("HS1: another version, answered by loading the page once", async () => {
+    const store = storage();
+    const [before, after] = [setUp("/s/oak", { store }), setUp("/s/oak", { store })];
+    for (const { link, newest } of [before, after]) {
+      await link.start();
+      newest().end(CloseCode.VersionMismatch);
+    }
+    expect([before.location.reload.mock.calls.length, after.location.reload.mock.calls.length]).toEqual([1, 0]);
+    expect(after.hindrance.peek()).toBe("version");
+  });
+});

@@ -1,0 +1,276 @@
+import { batch, type Signal, signal } from "@preact/signals";
+import type { Frame } from "../../wire/frame";
+import type { Command } from "../../wire/generated";
+import { decodeServerFrame } from "../../wire/server-frame";
+import { createSession, sessionExists, socketAddress } from "../library/library-api";
+import type { Hindrance } from "../page/hindrance";
+import type { PageEvents } from "../page/page-life";
+import type { RowStore } from "../ports";
+import type { AsideServerFrame } from "../scene-link";
+import { leaveRecord, newClientKey, takeRecord } from "./client-record";
+import { type Clock, Connection, type ConnectionEvents, type Socket } from "./connection";
+import type { Phase, StopReason } from "./connection-core";
+import { PartedSessions } from "./parted-sessions";
+import { mayReload } from "./reload-guard";
+import { pathOf, sessionInPath } from "./session-address";
+
+const RETRY_START = 2000;
+/** So many attempts at a first connection are quietly made. */
+const SILENT_AFTER = 2;
+
+/** What the session tells, beside what its server does. */
+export interface SessionEvents
+  extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows"> {
+  /** Another session is opened: nothing of the one before counts any more. */
+  opened(): void;
+  rows(): void;
+  /** All commands up to a number are answered. */
+  settled(settled: number): void;
+  /** The server is out of reach for a while. */
+  lost(): void;
+  /** The session or the page is left: what is under way ends now. */
+  leaving(): void;
+  /** A session was left that will only later have all that was done in it. */
+  parted(): void;
+  /** Another session could not be had. */
+  failed(error: unknown): void;
+}
+
+/** The part of the browser's page that is used; tests bring their own. */
+export interface Page {
+  readonly location: Pick<Location, "pathname" | "protocol" | "host" | "reload">;
+  readonly history: Pick<History, "pushState" | "replaceState">;
+  /** What lives as long as the tab. */
+  readonly store: Storage;
+  readonly clock: Clock;
+  openSocket(address: string): Socket;
+}
+
+export interface SessionLinkOptions {
+  readonly page: Page;
+  readonly rows: RowStore<Frame>;
+  readonly hindrance: Signal<Hindrance | null>;
+  /** Whether no picture can be drawn here, whatever the session. */
+  readonly dark: () => boolean;
+  /** The session to come back to. */
+  readonly lastSession: Signal<string | null>;
+  /** Whether there is something on the page already. */
+  readonly begun: () => boolean;
+  readonly events: SessionEvents;
+}
+
+/** The session a page is in: found or begun, left for another, and kept through lost networks and closed pages. */
+export class SessionLink implements PageEvents {
+  readonly session = signal<string | null>(null);
+  readonly phase = signal<Phase>("idle");
+  readonly attempts = signal(0);
+  /** How often of late what the server sent could not be read. */
+  readonly garbled = signal(0);
+  readonly sent = signal(0);
+  readonly settled = signal(0);
+  #options: SessionLinkOptions;
+  #connection: Connection<Frame, AsideServerFrame> | null = null;
+  #parted = new PartedSessions();
+  /** Whether another session is on its way. */
+  #changing = false;
+
+  constructor(options: SessionLinkOptions) {
+    this.#options = options;
+  }
+
+  /** Opens what the address names, or the session of last time, or a new one. */
+  async start(): Promise<void> {
+    const { page, lastSession, hindrance } = this.#options;
+    const named = sessionInPath(page.location.pathname);
+    if (named !== null) {
+      this.#open(named);
+      return;
+    }
+    try {
+      const last = lastSession.peek();
+      const session = last !== null && (await sessionExists(last)) ? last : await createSession();
+      if (this.session.peek() === null) {
+        page.history.replaceState(null, "", pathOf(session));
+        this.#open(session);
+      }
+    } catch {
+      if (this.session.peek() !== null) {
+        return;
+      }
+      hindrance.value = "no-server";
+      page.clock.after(RETRY_START, () => {
+        if (this.session.peek() === null) {
+          void this.start();
+        }
+      });
+    }
+  }
+
+  /** Leaves this session for a new one, empty or from a saved tree; false if there is none to be had now. */
+  async change(tree?: string): Promise<boolean> {
+    // Whoever taps twice wants one.
+    if (this.#changing) {
+      return false;
+    }
+    this.#changing = true;
+    try {
+      const session = await createSession(tree === undefined ? {} : { tree });
+      this.#options.page.history.pushState(null, "", pathOf(session));
+      this.#open(session);
+      return true;
+    } catch (error) {
+      this.#options.events.failed(error);
+      return false;
+    } finally {
+      this.#changing = false;
+    }
+  }
+
+  get connected(): boolean {
+    return this.phase.peek() === "connected";
+  }
+
+  /** Whether a session is open, connected or not. */
+  get open(): boolean {
+    return this.#connection !== null;
+  }
+
+  /** Sends a command and gives its number; 0 while no session is open. */
+  submit(command: Command): number {
+    return this.#connection?.submit(command) ?? 0;
+  }
+
+  /** The number the next command gets, which no other operation of this client has. */
+  get next(): number {
+    return this.#connection?.next ?? 1;
+  }
+
+  /** The highest number that is answered, this moment; `settled` follows once all is told. */
+  get answered(): number {
+    return this.#connection?.settled ?? 0;
+  }
+
+  /** How many commands of a kind are not answered. */
+  unsettled(kind: Command["kind"]): number {
+    return this.#connection?.unsettled(kind) ?? 0;
+  }
+
+  /** Asks for a ghost; false while there is nobody to ask. */
+  predict(rows: number[], steps: number): boolean {
+    return this.#connection?.predict(rows, steps) ?? false;
+  }
+
+  /** Ends what is under way and lets the session go. */
+  leave(): void {
+    this.#options.events.leaving();
+    this.#part();
+    this.#connection?.close();
+    this.#connection = null;
+  }
+
+  /** The page may never come back: a page after it goes on with what is unsent. */
+  leaving(): void {
+    const { events, page } = this.#options;
+    events.leaving();
+    const session = this.session.peek();
+    if (session !== null && this.#connection) {
+      leaveRecord(page.store, session, this.#connection.record());
+    }
+    this.#parted.leave(page.store);
+  }
+
+  returning(): void {
+    const { store } = this.#options.page;
+    // This page still lives and has all of it; the copy was for a page after it.
+    takeRecord(store, this.session.peek() ?? "");
+    this.#parted.come(store);
+    this.online();
+  }
+
+  online(): void {
+    this.#connection?.wake();
+  }
+
+  navigated(): void {
+    const session = sessionInPath(this.#options.page.location.pathname);
+    if (session !== null && session !== this.session.peek()) {
+      this.#open(session);
+    }
+  }
+
+  #open(session: string): void {
+    const { page, rows, hindrance, dark, lastSession, events } = this.#options;
+    this.leave();
+    batch(() => {
+      this.session.value = session;
+      lastSession.value = session;
+      // Another session does not make a browser draw that cannot.
+      hindrance.value = dark() ? "no-webgl" : null;
+      events.opened();
+    });
+    this.#parted.come(page.store);
+    const parted = this.#parted.take(session);
+    const record = takeRecord(page.store, session) ?? parted;
+    const address = socketAddress(session, page.location);
+    this.#connection = new Connection<Frame, AsideServerFrame>({
+      openSocket: () => page.openSocket(address),
+      clock: page.clock,
+      rows,
+      decode: decodeServerFrame,
+      newKey: newClientKey,
+      ...(record ? { record } : {}),
+      events: {
+        ...events,
+        phase: (phase, attempts, stopped, garbled) => this.#onPhase(phase, attempts, stopped, garbled),
+        commands: (sent, settled) => {
+          batch(() => {
+            this.sent.value = sent;
+            this.settled.value = settled;
+          });
+          events.settled(settled);
+        },
+        reload: () => {
+          if (mayReload(page.store, Date.now())) {
+            page.location.reload();
+          }
+        },
+      },
+    });
+  }
+
+  #onPhase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void {
+    const { hindrance, lastSession, begun, events } = this.#options;
+    if (phase !== "connected" && this.connected) {
+      events.lost();
+    }
+    batch(() => {
+      this.phase.value = phase;
+      this.attempts.value = attempts;
+      this.garbled.value = garbled;
+      if (stopped !== null) {
+        hindrance.value = stopped;
+      } else if (phase === "connected" && hindrance.peek() === "no-server") {
+        hindrance.value = null;
+      } else if (attempts >= SILENT_AFTER && !begun()) {
+        // With nothing on the page yet there is nothing to do but wait.
+        hindrance.value ??= "no-server";
+      }
+    });
+    if (stopped === "unknown-session" && lastSession.peek() === this.session.peek()) {
+      lastSession.value = null;
+    }
+  }
+
+  /** Keeps what the server may not have got of the session that is left. */
+  #part(): void {
+    const [session, connection] = [this.session.peek(), this.#connection];
+    const gone = this.#options.hindrance.peek() === "unknown-session";
+    if (session === null || connection === null || gone || connection.settled >= connection.next - 1) {
+      return;
+    }
+    this.#parted.keep(session, connection.record());
+    if (!this.connected) {
+      this.#options.events.parted();
+    }
+  }
+}

@@ -1,0 +1,71 @@
+import type { Command } from "../../../wire/generated";
+
+/** Steps per second just off the centre, and at the end of the way. */
+const SLOWEST = 1;
+export const FASTEST = 8;
+/** Steps per second while a key is held. */
+export const KEY_RATE = 3;
+/** The part of the way around the centre that means rest. */
+const DEAD_ZONE = 0.12;
+/** Commands that may be under way. */
+const MAX_UNSETTLED = 2;
+/** How much of a second's steps may wait on the server before more are asked for. */
+const BACKLOG_SECONDS = 0.3;
+
+/** What the server has still to do. */
+export interface Backlog {
+  /** Grow and ungrow commands that are not yet answered. */
+  readonly unsettled: number;
+  /** Steps accepted but not yet run. */
+  readonly pendingSteps: number;
+}
+
+/** Steps per second for a deflection from −1 to 1; below 0 it grows backwards. */
+export function growthRate(deflection: number): number {
+  const way = (Math.min(1, Math.abs(deflection)) - DEAD_ZONE) / (1 - DEAD_ZONE);
+  return way < 0 ? 0 : Math.sign(deflection) * SLOWEST * (FASTEST / SLOWEST) ** way;
+}
+
+/** The deflection that gives so many steps per second. */
+export function deflectionFor(rate: number): number {
+  return DEAD_ZONE + ((1 - DEAD_ZONE) * Math.log(rate / SLOWEST)) / Math.log(FASTEST / SLOWEST);
+}
+
+/** Turns a held control into `grow` and `ungrow` commands, no faster than the server follows. */
+export class GrowPacer {
+  #gesture = 0;
+  #owed = 0;
+  #time: number | null = null;
+  #rate = 0;
+
+  /** The control is taken; all growth until it is released is one operation for undo. */
+  press(gesture: number): void {
+    this.#gesture = gesture;
+    this.#time = null;
+    this.#owed = 0;
+    this.#rate = 0;
+  }
+
+  /** What to send now, if anything. */
+  tick(now: number, deflection: number, backlog: Backlog): Command | null {
+    const rate = growthRate(deflection);
+    const speed = Math.abs(rate);
+    if (Math.sign(rate) !== Math.sign(this.#rate)) {
+      // The first step follows the hand at once.
+      this.#owed = speed > 0 ? 1 : 0;
+      this.#time = now;
+    }
+    this.#rate = rate;
+    const elapsed = (now - (this.#time ?? now)) / 1000;
+    this.#time = now;
+    const allowed = Math.max(1, speed * BACKLOG_SECONDS);
+    // Steps that could not be asked for in time are forgone, so that growth stops when the hand does.
+    this.#owed = Math.min(this.#owed + elapsed * speed, allowed);
+    const steps = Math.floor(this.#owed + 1e-9);
+    if (steps < 1 || backlog.unsettled >= MAX_UNSETTLED || backlog.pendingSteps >= allowed) {
+      return null;
+    }
+    this.#owed -= steps;
+    return rate > 0 ? { kind: "grow", steps, gesture: this.#gesture } : { kind: "ungrow", steps };
+  }
+}

@@ -1,0 +1,123 @@
+import { readFileSync } from "node:fs";
+import { describe, expect, it } from "vitest";
+import type { Parameters } from "../../../wire/generated";
+import { language } from "../../words/say";
+import {
+  DEFAULTS,
+  helpOf,
+  NUMBERS,
+  type NumberName,
+  nameOf,
+  OF_THE_BRUSH,
+  OF_THE_LEAVES,
+  patchFor,
+  patchFrom,
+  SECTIONS,
+  SWITCHES,
+  shownValue,
+  WIDGETS,
+} from "./growth-parameters";
+
+/** Where each parameter can be set, panel by panel. */
+const all = [
+  ...SECTIONS.flatMap(({ parameters }) => parameters),
+  ...Object.values(WIDGETS).flat(),
+  ...Object.values(SWITCHES),
+  ...OF_THE_BRUSH,
+  ...OF_THE_LEAVES,
+];
+const numbers = Object.values(NUMBERS);
+
+/** The table of parameters in the protocol's own words: name to default and range. */
+function tableOfProtocol(): Map<string, { readonly value: string; readonly range: string }> {
+  const text = readFileSync(new URL("../../../../../proto/PROTOCOL.md", import.meta.url), "utf8");
+  const table = text.slice(text.indexOf("\n## Parameters"));
+  const rows = new Map<string, { readonly value: string; readonly range: string }>();
+  for (const line of table.split("\n")) {
+    const [, names = "", , values = "", range = ""] = line.split("|").map((cell) => cell.trim());
+    const each = values.replaceAll("`", "").split(", ");
+    [...names.matchAll(/`(\w+)`/g)].forEach(([, name], i) => {
+      rows.set(name!, { value: each[i] ?? "", range });
+    });
+  }
+  return rows;
+}
+
+describe("growth parameters", () => {
+  it("are those of the protocol, each in one place", () => {
+    expect(all.map(({ name }) => name).sort()).toEqual([...tableOfProtocol().keys()].sort());
+  });
+
+  it("have the ranges of the protocol", () => {
+    const table = tableOfProtocol();
+    expect(numbers.length).toBeGreaterThan(30);
+    for (const { name, least, most } of numbers) {
+      const range = /^(\S+) to ([\d.]+)/.exec((table.get(name)?.range ?? "").replace("−", "-"));
+      expect([least, most], name).toEqual([Number(range?.[1]), Number(range?.[2])]);
+    }
+  });
+
+  it("begin and are reset as the protocol says", () => {
+    for (const [name, { value }] of tableOfProtocol()) {
+      expect(String(DEFAULTS[name as keyof Parameters]), name).toBe(value);
+    }
+  });
+
+  it.each(["en", "de"] as const)("each has a name and a sentence of help (%s)", (spoken) => {
+    language.value = spoken;
+    for (const parameter of all) {
+      expect(nameOf(parameter).length, parameter.name).toBeGreaterThan(2);
+      expect(helpOf(parameter), parameter.name).toMatch(/^[A-ZÄÖÜ0-9].+\.$/);
+    }
+    language.value = "en";
+  });
+
+  it("a slider's steps reach both ends of its range", () => {
+    for (const { name, least, most, step } of numbers) {
+      const steps = (most - least) / step;
+      expect(Math.abs(steps - Math.round(steps)), name).toBeLessThan(1e-6);
+    }
+  });
+
+  it.each([
+    [0.5, 0.25, 0.25, 0.8],
+    [1, 0, 0, 0.3],
+    [0.2, 0.5, 0.3, 0],
+    [0.34, 0.33, 0.33, 1],
+  ])("weights %d, %d, %d stay 1 together when the first is %d", (heading, tropism, space, value) => {
+    const now = { heading_weight: heading, tropism_weight: tropism, space_weight: space } as Parameters;
+    const patch = patchFor("heading_weight", value, now);
+    expect(patch.heading_weight).toBe(value);
+    const weights = [patch.heading_weight!, patch.tropism_weight!, patch.space_weight!];
+    expect(weights.every((weight) => weight >= 0 && weight <= 1)).toBe(true);
+    expect(weights.reduce((sum, weight) => sum + weight)).toBeCloseTo(1, 9);
+    if (tropism + space > 0 && value < 1) {
+      expect(patch.tropism_weight! / (1 - value), "the others keep their proportion").toBeCloseTo(
+        tropism / (tropism + space),
+        2,
+      );
+    }
+  });
+
+  it("any other number is set alone", () => {
+    expect(patchFor("leaf_size", 2, {} as Parameters)).toEqual({ leaf_size: 2 });
+  });
+
+  it("a group is reset to the values of another set", () => {
+    const source = { ...DEFAULTS, branching_angle: 80, deflection_angle: 12 };
+    expect(patchFrom(source, WIDGETS.fork)).toEqual({ branching_angle: 80, deflection_angle: 12 });
+  });
+
+  it("values are read with the digits that matter", () => {
+    const shown = (name: NumberName, value: number) => shownValue(NUMBERS[name], value);
+    expect(shown("apical_control", 0.52)).toBe("0.520");
+    expect(shown("phyllotactic_angle", 137.5)).toBe("137.5°");
+    expect(shown("max_shoot_length", 4)).toBe("4");
+    expect(shown("marker_max_age", 8)).toBe("8 steps");
+    expect(shown("gravimorphism_shift", -0.5)).toBe("−0.50");
+    language.value = "de";
+    expect(shown("internode_length", 0.105)).toBe("0,105 m");
+    expect(shown("marker_max_age", 8)).toBe("8 Schritte");
+    language.value = "en";
+  });
+});

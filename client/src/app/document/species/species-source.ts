@@ -1,0 +1,45 @@
+import { type ReadonlySignal, signal } from "@preact/signals";
+import type { Species } from "../../../wire/generated";
+import type { Clock } from "../../connection/connection";
+
+/** How long the first new attempt waits; each after it waits twice as long, up to the last. */
+const RETRY_FIRST = 1000;
+const RETRY_LAST = 30_000;
+
+export interface SpeciesSourceOptions {
+  readonly list: () => Promise<readonly Species[]>;
+  readonly clock: Clock;
+}
+
+/** The species of the server: asked for until it answers. */
+export class SpeciesSource {
+  /** Null before the server has answered. */
+  readonly known: ReadonlySignal<readonly Species[] | null>;
+  #known = signal<readonly Species[] | null>(null);
+  #options: SpeciesSourceOptions;
+  #asking = false;
+
+  constructor(options: SpeciesSourceOptions) {
+    this.#options = options;
+    this.known = this.#known;
+  }
+
+  /** Asks if nobody has; `failed` is told once, of the first attempt that came to nothing. */
+  ask(failed: (error: unknown) => void): void {
+    if (this.#asking) {
+      return;
+    }
+    this.#asking = true;
+    void this.#attempt(RETRY_FIRST, failed);
+  }
+
+  async #attempt(wait: number, failed: (error: unknown) => void): Promise<void> {
+    try {
+      this.#known.value = await this.#options.list();
+    } catch (error) {
+      failed(error);
+      const next = Math.min(RETRY_LAST, 2 * wait);
+      this.#options.clock.after(wait, () => void this.#attempt(next, () => {}));
+    }
+  }
+}

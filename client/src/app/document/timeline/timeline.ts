@@ -1,0 +1,149 @@
+import type { Timeline, TimelineFuture, TimelineOperation } from "../../../wire/generated";
+
+/** Operations that run for long would push all others off the strip: length counts by its root. */
+const weightOf = ({ first, last }: TimelineOperation) => 1 + Math.sqrt(Math.max(0, last - first));
+
+/** Where each step of a line of time stands on a strip from 0 to 1; operations without steps have a place as well. */
+export class TimeScale {
+  /** Where each operation begins, and in the end where the last one ends. */
+  readonly edges: readonly number[];
+  #operations: readonly TimelineOperation[];
+  #done: number;
+
+  constructor({ operations, done }: Pick<Timeline, "operations" | "done">) {
+    const edges = [0];
+    for (const operation of operations) {
+      edges.push((edges[edges.length - 1] ?? 0) + weightOf(operation));
+    }
+    const whole = edges[edges.length - 1] || 1;
+    this.edges = edges.map((edge) => edge / whole);
+    this.#operations = operations;
+    this.#done = done;
+  }
+
+  /** The place of a step; where settings were changed at that very step, of those changes that are in force. */
+  placeOf(step: number): number {
+    for (const [i, { first, last }] of this.#operations.entries()) {
+      const passed = first < last ? last <= step : last < step || (last === step && i < this.#done);
+      if (!passed) {
+        const [from, to] = [this.edges[i] ?? 0, this.edges[i + 1] ?? 1];
+        return first < last && step > first ? from + ((to - from) * (step - first)) / (last - first) : from;
+      }
+    }
+    return this.edges[this.edges.length - 1] ?? 0;
+  }
+
+  /** The step nearest to a place. */
+  stepAt(place: number): number {
+    const i = this.operationAt(place);
+    const operation = this.#operations[i];
+    if (!operation) {
+      return 0;
+    }
+    const [from, to] = [this.edges[i] ?? 0, this.edges[i + 1] ?? 1];
+    const share = Math.min(1, Math.max(0, (place - from) / (to - from)));
+    return Math.round(operation.first + share * (operation.last - operation.first));
+  }
+
+  /** The number of the operation at a place; −1 if there is none at all. */
+  operationAt(place: number): number {
+    const { length } = this.#operations;
+    for (let i = 0; i < length; i += 1) {
+      if (place < (this.edges[i + 1] ?? 1)) {
+        return i;
+      }
+    }
+    return length - 1;
+  }
+}
+
+/** Neighbouring operations that share one sign on the strip, because there is no room for each. */
+export interface Cluster {
+  /** The first of them and the last, by number. */
+  readonly from: number;
+  readonly to: number;
+  /** The middle of the sign, in pixels. */
+  readonly x: number;
+}
+
+/** The signs for a strip of a width, none nearer to the next than `room` pixels. */
+export function clusters(scale: TimeScale, width: number, room: number): Cluster[] {
+  const found: Cluster[] = [];
+  const middle = (i: number) => (((scale.edges[i] ?? 0) + (scale.edges[i + 1] ?? 1)) / 2) * width;
+  const count = scale.edges.length - 1;
+  for (let from = 0, next = 0; from < count; from = next) {
+    next = from + 1;
+    while (next < count && middle(next) - middle(from) < room) {
+      next += 1;
+    }
+    const x = (middle(from) + middle(next - 1)) / 2;
+    const last = found[found.length - 1];
+    found.push({ from, to: next - 1, x: last ? Math.max(x, last.x + room) : x });
+  }
+  return found;
+}
+
+/** A future as it is reached from the present line: perhaps by way of others. */
+export interface Branching {
+  readonly future: TimelineFuture;
+  /** The step at which one leaves the present line for it. */
+  readonly leaves: number;
+  /** How many futures lie on the way. */
+  readonly depth: number;
+}
+
+/** Where other futures branch off, those too near to each other as one. */
+export interface Fork {
+  readonly x: number;
+  readonly futures: readonly Branching[];
+}
+
+/** The forks for a strip of a width, none nearer to the next than `room` pixels. */
+export function forks(futures: readonly TimelineFuture[], scale: TimeScale, width: number, room: number): Fork[] {
+  const found: { x: number; futures: Branching[] }[] = [];
+  for (const branching of branchings(futures)) {
+    const x = scale.placeOf(branching.leaves) * width;
+    const last = found[found.length - 1];
+    if (last && x - last.x < room) {
+      last.futures.push(branching);
+    } else {
+      found.push({ x, futures: [branching] });
+    }
+  }
+  return found;
+}
+
+/** All futures in the order in which they leave the present line, each followed by those that hang on it. */
+export function branchings(futures: readonly TimelineFuture[]): Branching[] {
+  const hanging = (on: number | undefined) =>
+    futures.filter((future) => future.on === on).sort((a, b) => a.from - b.from || a.future - b.future);
+  const seen = new Set<number>();
+  const follow = (future: TimelineFuture, leaves: number, depth: number): Branching[] => {
+    if (seen.has(future.future)) {
+      return [];
+    }
+    seen.add(future.future);
+    return [{ future, leaves, depth }, ...hanging(future.future).flatMap((next) => follow(next, leaves, depth + 1))];
+  };
+  return hanging(undefined).flatMap((future) => follow(future, future.from, 0));
+}
+
+/** How many people did something on any of these lines. */
+export function peopleOf({ operations, futures }: Pick<Timeline, "operations" | "futures">): number {
+  const all = [operations, ...futures.map((future) => future.operations)].flat();
+  return new Set(all.map(({ author }) => author)).size;
+}
+
+/** The step at the next edge of an operation before (−1) or after (1) a step; the same step where there is none. */
+export function edgeBeside(operations: readonly TimelineOperation[], step: number, direction: -1 | 1): number {
+  let nearest = step;
+  for (const { first, last } of operations) {
+    for (const edge of [first, last]) {
+      const beyond = (edge - step) * direction;
+      if (beyond > 0 && (nearest === step || beyond < (nearest - step) * direction)) {
+        nearest = edge;
+      }
+    }
+  }
+  return nearest;
+}

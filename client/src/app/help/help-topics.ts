@@ -1,0 +1,308 @@
+import { SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
+import type { PanelName, SheetName } from "../studio";
+import type { ToolName } from "../tools/toolbox";
+import { inAll, type Key, say } from "../words/say";
+import { TABLE } from "../words/table";
+
+export type SketchName = "draw" | "turn" | "grow" | "move" | "hold" | "cut";
+
+/** Things on the page that are no panel, sheet or tool, and can be pointed at. */
+export type PlaceName =
+  | "undo"
+  | "grow"
+  | "radius"
+  | "rotation"
+  | "timeline"
+  | "draw-modes"
+  | "hide"
+  | "new"
+  | "download";
+
+/** What a topic speaks of, to be shown. */
+export type Subject =
+  | { readonly panel: PanelName; readonly tab?: "species" | "form" | "growth"; readonly control?: Control }
+  | { readonly sheet: SheetName }
+  | { readonly tool: ToolName; readonly control?: Control }
+  | { readonly place: PlaceName }
+  | { readonly tour: true };
+
+/** A control of a panel or of a tool, and the section it is folded into. */
+export interface Control {
+  readonly label: Key;
+  readonly section?: string;
+}
+
+/** One thing help knows. */
+export interface Topic {
+  readonly id: string;
+  readonly title: string;
+  readonly text: string;
+  /** Other words for it. */
+  readonly also?: string;
+  /** All of it in every language: who reads one may know a word in another. */
+  readonly everywhere: string;
+  /** The keys, where it is about keys. */
+  readonly keys?: string;
+  /** The drawing that shows it. */
+  readonly sketch?: SketchName;
+  readonly subject?: Subject;
+}
+
+export interface TopicGroup {
+  readonly title: Key;
+  readonly topics: readonly Topic[];
+}
+
+/** A text that has another that explains it, under its key with one of these at the end. */
+const EXPLAINED = ".help";
+
+type Named<Name extends string> = readonly (readonly [Name, Subject?])[];
+
+const CARDS = [
+  ["draw", { tool: "brush" }],
+  ["turn", { place: "rotation" }],
+  ["grow", { place: "grow" }],
+  ["move"],
+  ["hold", { tool: "brush" }],
+  ["cut", { tool: "brush" }],
+] as const satisfies Named<SketchName>;
+
+/** Topics by their names, each with what it speaks of. */
+const DRAWING = [
+  ["brush", { tool: "brush" }],
+  ["depth", { tool: "brush" }],
+  ["rest", { tool: "brush" }],
+  ["sketch", { place: "radius" }],
+  ["lasso", { tool: "lasso" }],
+  ["seed", { tool: "seed" }],
+] as const;
+const SHAPING = [
+  ["bend", { tool: "bend" }],
+  ["width", { tool: "width" }],
+  ["prune", { tool: "prune" }],
+  ["branch", { tool: "branch" }],
+  ["what-if", { tool: "prune" }],
+] as const;
+const TRAVELLING = [
+  ["travel", { place: "timeline" }],
+  ["sign", { place: "timeline" }],
+  ["fork", { place: "timeline" }],
+  ["undo", { place: "undo" }],
+] as const;
+const LOOKING = [
+  ["rotation", { place: "rotation" }],
+  ["sun", { panel: "background", control: { label: "background.time", section: "background.sun" } }],
+  ["draw-modes", { place: "draw-modes" }],
+  ["hide", { place: "hide" }],
+] as const;
+const PANELS = [
+  ["architecture", { panel: "architecture" }],
+  ["species", { panel: "architecture", tab: "species" }],
+  ["brush-panel", { panel: "brush" }],
+  ["leaves", { panel: "leaves" }],
+  ["branches", { panel: "branches" }],
+  ["background", { panel: "background" }],
+  ["scene", { panel: "scene" }],
+  ["import", { panel: "scene" }],
+] as const;
+const WHOLE = [
+  ["new", { place: "new" }],
+  ["save", { sheet: "save" }],
+  ["library", { sheet: "library" }],
+  ["share", { sheet: "share" }],
+  ["download", { place: "download" }],
+  ["install"],
+  ["settings", { sheet: "settings" }],
+  ["help", { tour: true }],
+] as const satisfies Named<string>;
+
+/** Keys by what they do; those that are named differently in each language stand in the table. */
+const KEYS: readonly (readonly [Key, () => string])[] = [
+  ["help.key.draw", () => "B  L  P"],
+  ["help.key.shape", () => "N  W  X"],
+  ["help.key.branch", () => "T  ← ↑ → ↓"],
+  ["help.key.turn", () => "←  →"],
+  ["help.key.radius", () => "[  ]"],
+  ["help.key.grow", () => "G  U"],
+  ["help.key.travel", () => ",  ."],
+  ["help.key.undo", () => say("help.keys.undo")],
+  ["help.key.frame", () => "F"],
+  ["help.key.draw-mode", () => "D"],
+  ["help.key.hide", () => "H"],
+  ["help.key.escape", () => say("help.keys.escape")],
+  ["help.key.space", () => say("help.keys.space")],
+  ["help.key.alt-wheel", () => say("help.keys.alt-wheel")],
+  ["help.key.help", () => "?"],
+];
+
+/** All that help knows, in the language spoken now. */
+export function helpGroups(): readonly TopicGroup[] {
+  const about = ([name, subject]:
+    | (typeof DRAWING)[number]
+    | (typeof SHAPING)[number]
+    | (typeof TRAVELLING)[number]
+    | (typeof LOOKING)[number]
+    | (typeof PANELS)[number]
+    | (typeof WHOLE)[number]): Topic => ({
+    id: name,
+    title: say(`help.topic.${name}`),
+    text: say(`help.topic.${name}.text`),
+    also: say(`help.topic.${name}.words`),
+    everywhere: everywhere(`help.topic.${name}`, `help.topic.${name}.text`, `help.topic.${name}.words`),
+    ...(subject ? { subject } : {}),
+  });
+  return [
+    {
+      title: "help.group.gestures",
+      topics: CARDS.map(([name, subject]: (typeof CARDS)[number] | readonly ["move", undefined]) => ({
+        id: `card-${name}`,
+        title: say(`help.card.${name}`),
+        text: say(`help.card.${name}.text`),
+        everywhere: everywhere(`help.card.${name}`, `help.card.${name}.text`),
+        sketch: name,
+        ...(subject ? { subject } : {}),
+      })),
+    },
+    { title: "help.group.drawing", topics: DRAWING.map(about) },
+    { title: "help.group.shaping", topics: SHAPING.map(about) },
+    { title: "help.group.travelling", topics: TRAVELLING.map(about) },
+    { title: "help.group.looking", topics: LOOKING.map(about) },
+    { title: "help.group.panels", topics: PANELS.map(about) },
+    { title: "help.group.whole", topics: WHOLE.map(about) },
+    {
+      title: "help.group.keys",
+      topics: KEYS.map(([key, keys]) => ({
+        id: key,
+        title: keys(),
+        text: say(key),
+        also: say("help.group.keys.words"),
+        everywhere: everywhere(key, "help.group.keys.words"),
+        keys: keys(),
+      })),
+    },
+    { title: "help.group.controls", topics: controls() },
+  ];
+}
+
+/** What a query finds: each of its words somewhere in a topic, else in any language, whatever case and accents. */
+export function searched(groups: readonly TopicGroup[], query: string): readonly TopicGroup[] {
+  const wanted = plain(query).split(/\s+/).filter(Boolean);
+  const among = (textOf: (topic: Topic) => string) =>
+    groups
+      .map(({ title, topics }) => ({
+        title,
+        topics: topics.filter((topic) => {
+          const words = plain(`${textOf(topic)} ${say(title)}`);
+          return wanted.every((word) => words.includes(word));
+        }),
+      }))
+      .filter(({ topics }) => topics.length > 0);
+  const own = among(({ title, text, also = "" }) => `${title} ${text} ${also}`);
+  return own.length > 0 ? own : among((topic) => topic.everywhere);
+}
+
+/** What these keys say in every language. */
+function everywhere(...keys: readonly Key[]): string {
+  return keys.map(inAll).join(" ");
+}
+
+/** Every parameter and control that explains itself in a sentence; what a panel says need not be said again here. */
+function controls(): readonly Topic[] {
+  const seen = new Set<string>();
+  return Object.keys(TABLE).flatMap((key) => {
+    const explained = key.endsWith(EXPLAINED) ? key.slice(0, -EXPLAINED.length) : null;
+    if (explained === null || !(explained in TABLE)) {
+      return [];
+    }
+    const label = explained as Key;
+    const subject = subjectOf(label);
+    const topic = {
+      id: explained,
+      title: say(label),
+      text: say(key as Key),
+      everywhere: everywhere(label, key as Key),
+      ...(subject ? { subject } : {}),
+    };
+    const same = `${topic.title} ${topic.text}`;
+    if (seen.has(same)) {
+      return [];
+    }
+    seen.add(same);
+    return [topic];
+  });
+}
+
+/** Where a control stands. */
+function subjectOf(label: Key): Subject | undefined {
+  const [area = "", name = ""] = label.split(".");
+  const section = SECTION_OF[label] ?? SECTION_OF[area];
+  const control = { label, ...(section === undefined ? {} : { section }) };
+  switch (area) {
+    case "parameters": {
+      const panel = PANEL_OF_PARAMETER[name];
+      if (panel !== undefined) {
+        return { panel, control };
+      }
+      const inWidget = Object.values(WIDGETS).some((ones) => ones.some((one) => one.name === name));
+      const folded = SECTIONS.find(({ parameters }) => parameters.some((one) => one.name === name))?.title;
+      return inWidget || name === "trunk_upward"
+        ? { panel: "architecture", tab: "form", control: { label } }
+        : { panel: "architecture", tab: "growth", control: { label, ...(folded ? { section: folded } : {}) } };
+    }
+    case "architecture":
+      return { panel: "architecture", tab: "form" };
+    case "leaves":
+    case "flowers":
+    case "fruits":
+      return { panel: "leaves", control };
+    case "bark":
+      return { panel: "branches", control };
+    case "background":
+      return { panel: "background", control };
+    case "brush":
+      return { panel: "brush", control };
+    case "scene":
+      return { panel: "scene" };
+    case "tools":
+      // What is ahead is asked for while something is cut, in a bar of its own.
+      if (name === "prediction") return { tool: "prune" };
+      return { tool: name === "stretch" ? "bend" : "prune", control };
+    default:
+      return undefined;
+  }
+}
+
+/** Parameters that stand in another panel than that of architecture. */
+const PANEL_OF_PARAMETER: Readonly<Record<string, PanelName>> = {
+  marker_density: "brush",
+  marker_max_age: "brush",
+  tropism_from_stroke: "brush",
+  leaves_per_node: "leaves",
+  leaf_size: "leaves",
+};
+
+/** The section that a control, or all of its area, is folded into. */
+const SECTION_OF: Readonly<Record<string, string>> = {
+  leaves: "leaves.leaves",
+  flowers: "leaves.flowers",
+  fruits: "leaves.fruits",
+  "parameters.leaves_per_node": "leaves.leaves",
+  "parameters.leaf_size": "leaves.leaves",
+  "parameters.marker_density": "brush.stroke",
+  "parameters.marker_max_age": "brush.stroke",
+  "parameters.tropism_from_stroke": "brush.stroke",
+  "brush.lasso-depth": "brush.lasso",
+  "bark.kind": "branches.bark",
+  "bark.tint": "branches.bark",
+  "bark.relief": "branches.bark",
+  bark: "branches.form",
+  "background.time": "background.sun",
+  "background.sun_azimuth": "background.sun",
+  "background.sun_elevation": "background.sun",
+  "background.pin": "background.sun",
+  background: "background.surroundings",
+};
+
+function plain(text: string): string {
+  return text.normalize("NFD").replace(/\p{M}/gu, "").toLowerCase();
+}

@@ -1,0 +1,176 @@
+import type { ToolName } from "../tools/toolbox";
+
+/** What the keyboard can do. */
+export interface KeyActions {
+  undo(): void;
+  redo(): void;
+  frame(): void;
+  help(): void;
+  /** Hides everything but the workspace, or brings it back. */
+  bare(): void;
+  /** Shows the tree in the next way there is, or the one before. */
+  drawMode(direction: -1 | 1): void;
+  tool(tool: ToolName): void;
+  escape(): void;
+  widen(notches: number): void;
+  /** Turns what is held, in small steps: sideways, up, or about itself; false if nothing is. */
+  turn(right: number, up: number, twist: number): boolean;
+  /** Travels so many steps in time, or (`edge`) to where an operation begins or ends. */
+  travel(direction: -1 | 1, edge: boolean): void;
+  /** 1 grows, −1 takes back, 0 rests. */
+  grow(direction: -1 | 0 | 1): void;
+  /** Whether a sheet is open, which then has the keys. */
+  busy(): boolean;
+}
+
+const ARROWS: Record<string, readonly [number, number]> = {
+  arrowleft: [-1, 0],
+  arrowright: [1, 0],
+  arrowup: [0, 1],
+  arrowdown: [0, -1],
+};
+
+/** Where the signs for back and forth in time are on most keyboards, whatever Shift makes of them. */
+const TIME_KEYS: Record<string, -1 | 1> = { Comma: -1, Period: 1 };
+const TIME_SIGNS: Record<string, -1 | 1> = { ",": -1, "<": -1, ".": 1, ">": 1 };
+
+/** Listens to the keyboard; `handHeld` says whether the space bar is down. */
+export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop(): void } {
+  let space = false;
+  let growing: string | null = null;
+  const stop = new AbortController();
+
+  const rest = () => {
+    space = false;
+    if (growing !== null) {
+      growing = null;
+      actions.grow(0);
+    }
+  };
+  const press = (event: KeyboardEvent) => {
+    if (actions.busy() || typing(event.target) || event.defaultPrevented) {
+      return;
+    }
+    const key = event.key.toLowerCase();
+    if (event.ctrlKey || event.metaKey) {
+      if (key === "z" || key === "y") {
+        event.preventDefault();
+        (key === "y" || event.shiftKey ? actions.redo : actions.undo)();
+      }
+      return;
+    }
+    const [right, up] = ARROWS[key] ?? [0, 0];
+    if ((right !== 0 || up !== 0) && !takesArrows(event.target)) {
+      if (actions.turn(event.shiftKey ? 0 : right, up, event.shiftKey ? right : 0)) {
+        event.preventDefault();
+      }
+      return;
+    }
+    switch (key) {
+      case " ":
+        if (!takesSpace(event.target)) {
+          space = true;
+          event.preventDefault();
+        }
+        break;
+      case "g":
+      case "u":
+        if (!event.repeat && growing === null) {
+          growing = key;
+          actions.grow(key === "g" ? 1 : -1);
+        }
+        break;
+      case "[":
+        actions.widen(-1);
+        break;
+      case "]":
+        actions.widen(1);
+        break;
+      case "b":
+        actions.tool("brush");
+        break;
+      case "l":
+        actions.tool("lasso");
+        break;
+      case "p":
+        actions.tool("seed");
+        break;
+      case "t":
+        actions.tool("branch");
+        break;
+      case "n":
+        actions.tool("bend");
+        break;
+      case "w":
+        actions.tool("width");
+        break;
+      case "x":
+        actions.tool("prune");
+        break;
+      case "escape":
+        actions.escape();
+        break;
+      case "f":
+        actions.frame();
+        break;
+      case "d":
+        actions.drawMode(event.shiftKey ? -1 : 1);
+        break;
+      case "h":
+        actions.bare();
+        break;
+      case "?":
+        actions.help();
+        break;
+      default:
+        travel(event, actions);
+    }
+  };
+  const release = (event: KeyboardEvent) => {
+    const key = event.key.toLowerCase();
+    if (key === " ") {
+      space = false;
+    } else if (key === growing) {
+      rest();
+    }
+  };
+  addEventListener("keydown", press, { signal: stop.signal });
+  addEventListener("keyup", release, { signal: stop.signal });
+  // A window that loses the focus never hears of the key's release.
+  addEventListener("blur", rest, { signal: stop.signal });
+  return { handHeld: () => space, stop: () => stop.abort() };
+}
+
+/** A sign says which way; where Shift or Alt has made another sign of it, its place does. */
+function travel({ key, code, shiftKey, altKey }: KeyboardEvent, actions: KeyActions): void {
+  const placed = shiftKey || altKey ? TIME_KEYS[code] : undefined;
+  const direction = TIME_SIGNS[key] ?? placed;
+  if (direction !== undefined) {
+    // A sign that takes Shift to type, as "." does on a French keyboard, means a step all the same.
+    actions.travel(direction, altKey || placed === direction || key === "<" || key === ">");
+  }
+}
+
+/** Whether the arrow keys already mean something there: a slider, a choice, a list. */
+function takesArrows(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) {
+    return target.type !== "checkbox";
+  }
+  return target instanceof HTMLElement && (target.localName === "select" || target.getAttribute("role") === "slider");
+}
+
+/** Whether the space bar already means something there: it presses a button, flips a switch, unfolds a section. */
+function takesSpace(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) {
+    return target.type !== "range";
+  }
+  return target instanceof HTMLElement && ["button", "summary", "select", "a"].includes(target.localName);
+}
+
+function typing(target: EventTarget | null): boolean {
+  if (target instanceof HTMLInputElement) {
+    // A slider or a switch takes no letters.
+    return ["text", "number", "search"].includes(target.type);
+  }
+  return target instanceof HTMLTextAreaElement;
+}

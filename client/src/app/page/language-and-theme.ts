@@ -1,0 +1,30 @@
+import { effect } from "@preact/signals";
+import { language, preferredLanguage } from "../words/say";
+import type { Settings } from "./settings";
+
+/** Colours of the browser's own bars, beside the page. */
+const BAR_COLOURS = { light: "#dfe9ee", dark: "#171c19" } as const;
+
+/** Has the page speak the language and wear the theme that were chosen, or else what browser and system ask for. */
+export function followChoices(settings: Settings): () => void {
+  const root = document.documentElement;
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const paintBars = () => {
+    const theme = settings.theme.peek() ?? (dark.matches ? "dark" : "light");
+    document.querySelector('meta[name="theme-color"]')?.setAttribute("content", BAR_COLOURS[theme]);
+  };
+  const stopLanguage = effect(() => {
+    language.value = settings.language.value ?? preferredLanguage(navigator.languages);
+    root.lang = language.value;
+  });
+  const stopTheme = effect(() => {
+    root.dataset.theme = settings.theme.value ?? "system";
+    paintBars();
+  });
+  dark.addEventListener("change", paintBars);
+  return () => {
+    stopLanguage();
+    stopTheme();
+    dark.removeEventListener("change", paintBars);
+  };
+}

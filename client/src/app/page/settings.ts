@@ -1,0 +1,77 @@
+import { effect, type Signal, signal } from "@preact/signals";
+import { LANGUAGES, type Language } from "../words/say";
+
+/** In what light the interface is shown. */
+export type Theme = "light" | "dark";
+
+/** What a person chose, kept on this device. */
+export interface Settings {
+  /** Where the tools stand: opposite the drawing hand. */
+  readonly side: Signal<"left" | "right">;
+  /** Whether a pen's pressure widens the brush. */
+  readonly pressureWidens: Signal<boolean>;
+  /** The brush's radius, in internodes. */
+  readonly radius: Signal<number>;
+  /** Whether the first stroke has been drawn, after which the hint rests. */
+  readonly hasDrawn: Signal<boolean>;
+  /** The same for the first outline. */
+  readonly hasOutlined: Signal<boolean>;
+  /** From 0, a branch that is bent keeps its length, to 1, it stretches. */
+  readonly stretch: Signal<number>;
+  /** How deep a lasso's body is, 0.1 to 1: at 1 as deep as wide. */
+  readonly lassoDepth: Signal<number>;
+  /** Whether the strip of time is unfolded. */
+  readonly timelineOpen: Signal<boolean>;
+  /** The language chosen; null speaks as the browser asks. */
+  readonly language: Signal<Language | null>;
+  /** The theme chosen; null is the system's. */
+  readonly theme: Signal<Theme | null>;
+  /** Whether the tour was taken or waved away. */
+  readonly tourSeen: Signal<boolean>;
+  /** The session to come back to. */
+  readonly lastSession: Signal<string | null>;
+}
+
+/** Reads the settings and keeps them as they change. */
+export function loadSettings(store: Storage): Settings {
+  return {
+    side: kept(store, "side", "left", (value) => value === "left" || value === "right"),
+    pressureWidens: kept(store, "pen-pressure", true, (value) => typeof value === "boolean"),
+    radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
+    hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
+    hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
+    stretch: kept(store, "stretch", 0.3, (value) => typeof value === "number" && value >= 0 && value <= 1),
+    lassoDepth: kept(store, "lasso-depth", 1, (value) => typeof value === "number" && value >= 0.1 && value <= 1),
+    // On a phone the strip that turns the tree has its place first.
+    timelineOpen: kept(
+      store,
+      "timeline",
+      (globalThis.innerWidth ?? 1024) >= 560,
+      (value) => typeof value === "boolean",
+    ),
+    language: kept<Language | null>(store, "language", null, (value) => LANGUAGES.some((known) => known === value)),
+    theme: kept<Theme | null>(store, "theme", null, (value) => value === "light" || value === "dark"),
+    tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
+    lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
+  };
+}
+
+function kept<Value>(store: Storage, name: string, fallback: Value, valid: (value: unknown) => boolean): Signal<Value> {
+  const key = `espalier.${name}`;
+  let initial = fallback;
+  try {
+    const value: unknown = JSON.parse(store.getItem(key) ?? "null");
+    initial = valid(value) ? (value as Value) : fallback;
+  } catch {
+    // Something else stands there; the fallback takes its place.
+  }
+  const setting = signal<Value>(initial);
+  effect(() => {
+    try {
+      store.setItem(key, JSON.stringify(setting.value));
+    } catch {
+      // Private windows may forbid storing; the setting then lives as long as the page.
+    }
+  });
+  return setting;
+}

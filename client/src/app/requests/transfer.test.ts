@@ -1,0 +1,95 @@
+import { describe, expect, it } from "vitest";
+import { Exports } from "../library/exports";
+import { bytesOf, type Progress, Transfer } from "./transfer";
+
+/** Work that goes on until it is told to end. */
+function endless() {
+  let [finish, stopped] = [(_: string) => {}, false];
+  const work = (signal: AbortSignal) =>
+    new Promise<string>((resolve, reject) => {
+      finish = resolve;
+      signal.addEventListener("abort", () => {
+        stopped = true;
+        reject(signal.reason);
+      });
+    });
+  return { work, finish: (text: string) => finish(text), stopped: () => stopped };
+}
+
+function answer(parts: readonly string[], headers: Record<string, string>): Response {
+  const body = new ReadableStream({
+    start(controller) {
+      for (const part of parts) controller.enqueue(new TextEncoder().encode(part));
+      controller.close();
+    },
+  });
+  return new Response(body, { headers });
+}
+
+describe("transfer", () => {
+  it("shows how far it is while it lasts, and no longer", async () => {
+    const transfer = new Transfer();
+    const seen: (Progress | null)[] = [];
+    const done = transfer.run(async (_, tell) => {
+      tell({ bytes: 3, total: 4 });
+      seen.push(transfer.progress.peek());
+      return "all";
+    });
+    expect(transfer.progress.peek()).not.toBeNull();
+    expect([await done, seen, transfer.progress.peek()]).toEqual(["all", [{ bytes: 3, total: 4 }], null]);
+  });
+
+  it("one that is given up ends, and is no failure", async () => {
+    const transfer = new Transfer();
+    const { work, stopped } = endless();
+    const done = transfer.run(work);
+    transfer.cancel();
+    expect([await done, stopped(), transfer.progress.peek()]).toEqual([null, true, null]);
+  });
+
+  it("a second does not begin beside the first", async () => {
+    const transfer = new Transfer();
+    const { work, finish } = endless();
+    const first = transfer.run(work);
+    expect(await transfer.run(async () => "second")).toBeNull();
+    finish("first");
+    expect(await first).toBe("first");
+  });
+
+  it("what fails by itself says why", async () => {
+    const transfer = new Transfer();
+    await expect(transfer.run(() => Promise.reject(new Error("torn")))).rejects.toThrow("torn");
+    expect(transfer.progress.peek()).toBeNull();
+  });
+
+  it("an answer is read part by part", async () => {
+    const told: Progress[] = [];
+    const blob = await bytesOf(answer(["oak", "beech"], { "content-length": "8" }), (now) => void told.push(now));
+    expect(await blob.text()).toBe("oakbeech");
+    expect(told).toEqual([
+      { bytes: 3, total: 8 },
+      { bytes: 8, total: 8 },
+    ]);
+  });
+
+  it("of a compressed answer nobody knows the length", async () => {
+    const told: Progress[] = [];
+    const headers = { "content-length": "2", "content-encoding": "gzip" };
+    await bytesOf(answer(["oak"], headers), (now) => void told.push(now));
+    expect(told).toEqual([{ bytes: 3, total: null }]);
+  });
+});
+
+describe("exports", () => {
+  it("nothing is made without a session", async () => {
+    const failures: unknown[] = [];
+    const given: string[] = [];
+    const exports = new Exports({
+      session: () => null,
+      give: (_, name) => void given.push(name),
+      failed: (error) => void failures.push(error),
+    });
+    await exports.gltf();
+    expect([given, failures, exports.transfer.progress.peek()]).toEqual([[], [], null]);
+  });
+});

@@ -1,0 +1,77 @@
+import { describe, expect, it } from "vitest";
+import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
+import type { Bent } from "../../../scene/guise/bent";
+import { BendPoses } from "./bend-poses";
+
+function setUp(own: readonly number[] = []) {
+  const table = tableOf(SMALL);
+  const view = frontView(table);
+  const over: (readonly number[])[] = [];
+  const poses = new BendPoses(table, view, {
+    owns: (path) => path.join() === own.join(),
+    over: (path) => void over.push(path),
+  });
+  let sequence = 0;
+  const receive = (bend: number, ...path: number[]) => {
+    sequence += 1;
+    const motions = path.map((row) => ({ row, rotation: [0, 0, 0, 1], to: [row, 1, 2] }) as const);
+    poses.receive({
+      epoch: 1,
+      sequence,
+      bend,
+      motions: motions.map(({ row, rotation, to }) => ({ row, rotation: [...rotation], to: [...to] })),
+    });
+  };
+  return { table, view, poses, over, receive };
+}
+
+describe("BE5: bends of other people", () => {
+  it("are worn from the first pose to the one without motions", () => {
+    const { view, receive } = setUp();
+    receive(7, 2, 6, 7);
+    receive(7, 2, 6, 7);
+    receive(8, 3, 12);
+    expect([...view.worn].map((guise) => (guise as Bent).path)).toEqual([
+      [2, 6, 7],
+      [3, 12],
+    ]);
+    receive(7);
+    expect([...view.worn].map((guise) => (guise as Bent).path)).toEqual([[3, 12]]);
+  });
+
+  it("one of one's own hand is left to it, and told when it is over", () => {
+    const { view, over, receive } = setUp([2, 6, 7]);
+    receive(7, 2, 6, 7);
+    receive(7);
+    expect([view.worn.size, over]).toEqual([0, [[2, 6, 7]]]);
+  });
+
+  it("are put on anew after the rows have moved under them", () => {
+    const { table, view, receive } = setUp();
+    receive(7, 2, 6, 7);
+    tableOf(
+      SMALL.map((twig, row) => (row === 7 ? { ...twig, at: [2, 2.5, 0] as const } : twig)),
+      table,
+    );
+    view.worn.clear();
+    receive(7, 2, 6, 7);
+    expect(view.worn.size).toBe(1);
+    expect(([...view.worn][0] as Bent).over(table)).toBe(false);
+  });
+
+  it("a path that the rows do not have is not drawn", () => {
+    const { view, receive } = setUp();
+    receive(7, 2, 7);
+    receive(8, 13, 14);
+    expect(view.worn.size).toBe(0);
+  });
+
+  it("are forgotten with the connection", () => {
+    const { view, poses, over, receive } = setUp([3, 12]);
+    receive(7, 2, 6, 7);
+    receive(8, 3, 12);
+    poses.clear();
+    receive(8);
+    expect([view.worn.size, over]).toEqual([0, []]);
+  });
+});

@@ -1,0 +1,82 @@
+import { Bent } from "../../../scene/guise/bent";
+import type { TreeTable } from "../../../scene/table/tree-table";
+import type { PoseFrame, RowMotion } from "../../../wire/pose";
+import type { ShapingView } from "../shaping-view";
+
+/** The bend that this page's own hand has under way. */
+export interface OwnBends {
+  owns(path: readonly number[]): boolean;
+  over(path: readonly number[]): void;
+}
+
+/** Draws the branches that are being bent as the server tells (`BE5`), those of one's own hand excepted. */
+export class BendPoses {
+  #table: TreeTable;
+  #view: ShapingView;
+  #own: OwnBends;
+  #worn = new Map<number, Bent>();
+  /** Paths of bends of one's own, by the server's numbers. */
+  #mine = new Map<number, readonly number[]>();
+
+  constructor(table: TreeTable, view: ShapingView, own: OwnBends) {
+    this.#table = table;
+    this.#view = view;
+    this.#own = own;
+  }
+
+  receive({ bend, motions }: PoseFrame): void {
+    if (motions.length === 0) {
+      this.#end(bend);
+      return;
+    }
+    const path = motions.map(({ row }) => row);
+    if (this.#mine.has(bend) || this.#own.owns(path)) {
+      this.#mine.set(bend, path);
+      return;
+    }
+    this.#pose(bend, path, motions);
+  }
+
+  /** Forgets all of them: another session, or another connection, which will tell anew. */
+  clear(): void {
+    for (const bent of this.#worn.values()) {
+      this.#view.doff(bent);
+    }
+    this.#worn.clear();
+    this.#mine.clear();
+  }
+
+  #pose(bend: number, path: readonly number[], motions: readonly RowMotion[]): void {
+    let bent = this.#worn.get(bend);
+    if (!bent || !this.#view.wears(bent)) {
+      if (!isPath(this.#table, path)) {
+        return;
+      }
+      bent = new Bent(this.#table, path);
+      this.#worn.set(bend, bent);
+      this.#view.wear(bent);
+    }
+    bent.move(motions);
+    this.#view.guiseChanged();
+  }
+
+  /** The change of the table has come right before, if the pose was kept. */
+  #end(bend: number): void {
+    const bent = this.#worn.get(bend);
+    const mine = this.#mine.get(bend);
+    this.#worn.delete(bend);
+    this.#mine.delete(bend);
+    if (bent) {
+      this.#view.doff(bent);
+    }
+    if (mine) {
+      this.#own.over(mine);
+    }
+  }
+}
+
+function isPath(table: TreeTable, path: readonly number[]): boolean {
+  return path.every(
+    (row, i) => row < table.rows && table.radiusCode[row] !== 0 && (i === 0 || table.parent[row] === path[i - 1]),
+  );
+}

@@ -1,0 +1,192 @@
+import { describe, expect, it } from "vitest";
+import type { Command } from "../../../wire/generated";
+import type { Point } from "../../ports";
+import { BranchTool } from "./branch-tool";
+import { type Rotation, turned } from "./branch-turn";
+import { BranchHand } from "./held-branch";
+
+const SLOP = 9;
+/** Pixels to the internode; the origin is in the middle of the glass, seen from the front. */
+const SCALE = 50;
+const glass = ([x, y]: Point): readonly [number, number] => [400 + SCALE * x, 400 - SCALE * y];
+const world = (x: number, y: number, z = 0): Point => [(x - 400) / SCALE, (400 - y) / SCALE, z];
+
+/** A trunk (rows 1 to 3) with a limb to the right on 2 (rows 4 and 5). */
+function setUp() {
+  const parent = [-1, 0, 1, 2, 2, 4];
+  const position = [
+    [0, 0, 0],
+    [0, 1, 0],
+    [0, 2, 0],
+    [0, 3, 0],
+    [2, 2, 0],
+    [4, 2, 0],
+  ];
+  const rows = {
+    rows: 6,
+    parent,
+    startsAxis: [0, 1, 0, 0, 1, 0],
+    radiusCode: [0, 9, 9, 9, 9, 9],
+    position: position.flat(),
+  };
+  const sent: Command[] = [];
+  const said: string[] = [];
+  let shown: Rotation | null = null;
+  const hand = new BranchHand({
+    rows,
+    submit: (command) => sent.push(command),
+    newGesture: () => 1,
+    busy: () => false,
+    branchAbove: () => [4, 5],
+    showTurn: (turn) => {
+      shown = turn?.rotation ?? null;
+    },
+    showCopy: () => {},
+  });
+  const tool = new BranchTool({
+    hand,
+    say: (sentence) => said.push(sentence),
+    view: {
+      pick: (x, y, tolerance) => {
+        const far = (row: number) =>
+          Math.hypot(...glass(position[row] as unknown as Point).map((at, i) => at - [x, y][i]!));
+        const row = [1, 2, 3, 4, 5].sort((a, b) => far(a) - far(b))[0] ?? 1;
+        return far(row) <= tolerance ? { row, point: position[row] as unknown as Point } : null;
+      },
+      pointOnPlane: (x, y, through) => world(x, y, through[2]),
+      drawingPlane: () => ({ right: [1, 0, 0], up: [0, 1, 0] }),
+      projector: () => glass,
+    },
+  });
+  const drag = (from: Point, to: Point) => {
+    tool.gripBegin(1, ...glass(from), SLOP);
+    tool.gripMove(1, ...glass(to));
+  };
+  const tap = (at: Point) => {
+    tool.gripBegin(1, ...glass(at), SLOP);
+    tool.gripEnd(1);
+  };
+  return { hand, tool, sent, said, drag, tap, shown: () => shown };
+}
+
+const tip: Point = [4, 2, 0];
+const near = (actual: readonly number[], wanted: readonly number[]) => {
+  for (const [i, value] of wanted.entries()) {
+    expect(actual[i]).toBeCloseTo(value, 5);
+  }
+};
+
+describe("one finger", () => {
+  it("takes a branch and turns it in one go", () => {
+    const { hand, tool, sent, drag, shown } = setUp();
+    drag(tip, [0, 6, 0]);
+    expect(hand.row.peek()).toBe(4);
+    // The tip was gripped; it is under the finger, above the base.
+    near(turned(shown() ?? [0, 0, 0, 1], [4, 0, 0]), [0, 4, 0]);
+    tool.gripEnd(1);
+    expect(sent.map(({ kind }) => kind)).toEqual(["turn_branch"]);
+  });
+
+  it("that only taps turns nothing", () => {
+    const { hand, sent, tap } = setUp();
+    tap(tip);
+    expect(hand.row.peek()).toBe(4);
+    tap(tip);
+    expect(hand.row.peek()).toBe(5);
+    expect(sent).toEqual([]);
+  });
+
+  it("lets go with a tap beside everything", () => {
+    const { hand, tap } = setUp();
+    tap(tip);
+    tap([-6, 5, 0]);
+    expect(hand.row.peek()).toBeNull();
+  });
+
+  it("turns by the ring as well", () => {
+    const { tool, sent, drag, tap } = setUp();
+    tap(tip);
+    drag([0.5, 2, 0], [0, 2.5, 0]);
+    tool.gripEnd(1);
+    expect(sent.map(({ kind }) => kind)).toEqual(["turn_branch"]);
+  });
+
+  it("is told that the whole tree stays where it is", () => {
+    const { hand, said, tap } = setUp();
+    tap([0, 1, 0]);
+    expect([hand.row.peek(), said.length]).toEqual([null, 1]);
+  });
+});
+
+describe("a second finger", () => {
+  it("twists the branch about itself", () => {
+    const { tool, drag, shown, sent } = setUp();
+    drag(tip, [4, 2.3, 0]);
+    tool.gripMove(1, ...glass(tip));
+    expect(tool.takes()).toBe("take");
+    tool.gripBegin(2, 700, 300, SLOP);
+    expect(tool.takes()).toBe("ignore");
+    // Round the first finger, which holds the tip at (600, 300), a quarter of the way.
+    tool.gripMove(2, 600, 200);
+    const rotation = shown() ?? [0, 0, 0, 1];
+    near(turned(rotation, [4, 0, 0]), [4, 0, 0]);
+    near(turned(rotation, [0, 1, 0]), [0, 0, 1]);
+    tool.gripEnd(2);
+    tool.gripEnd(1);
+    expect(sent.map(({ kind }) => kind)).toEqual(["turn_branch"]);
+  });
+
+  it("moves the view where the first is on nothing", () => {
+    const { tool, sent } = setUp();
+    tool.gripBegin(1, ...glass([-6, 5, 0]), SLOP);
+    expect(tool.takes()).toBe("leave");
+    tool.gripDrop();
+    expect(tool.takes()).toBe("take");
+    expect(sent).toEqual([]);
+  });
+
+  it("that takes the view cancels what the first has turned", () => {
+    const { tool, drag, shown, sent } = setUp();
+    drag(tip, [0, 6, 0]);
+    tool.gripDrop();
+    expect([shown(), sent]).toEqual([null, []]);
+  });
+});
+
+describe("placing", () => {
+  it("grafts where the finger lifts from a limb", () => {
+    const { hand, tool, sent, tap } = setUp();
+    tap(tip);
+    hand.beginPlacing("copy");
+    tap([0, 3, 0]);
+    expect(sent).toMatchObject([{ kind: "graft", row: 4, onto: 3, keep: true }]);
+    expect(tool.takes()).toBe("take");
+  });
+
+  it("points the branch where the finger goes from the limb", () => {
+    const { hand, tool, sent, drag, tap } = setUp();
+    tap(tip);
+    hand.beginPlacing("move");
+    drag([0, 3, 0], [-4, 3, 0]);
+    tool.gripEnd(1);
+    const graft = sent[0];
+    const rotation: Rotation = graft?.kind === "graft" ? graft.rotation : [0, 0, 0, 1];
+    near(turned(rotation, [1, 0, 0]), [-1, 0, 0]);
+  });
+
+  it("says so where there is no limb, and waits for one", () => {
+    const { hand, said, sent, tap } = setUp();
+    tap(tip);
+    hand.beginPlacing("move");
+    tap([-6, 5, 0]);
+    expect([said.length, sent, hand.placing.peek()]).toEqual([1, [], "move"]);
+  });
+
+  it("ends with Escape, and then lets go of the branch", () => {
+    const { hand, tool, tap } = setUp();
+    tap(tip);
+    hand.beginPlacing("move");
+    expect([tool.release(), hand.placing.peek(), hand.row.peek()]).toEqual([true, null, 4]);
+    expect([tool.release(), hand.row.peek(), tool.release()]).toEqual([true, null, false]);
+  });
+});

@@ -1,0 +1,120 @@
+import { effect } from "@preact/signals";
+import { subtreeRows } from "../../../scene/table/branch-rows";
+import type { TreeTable } from "../../../scene/table/tree-table";
+import type { Viewport } from "../../../scene/viewport";
+import type { Command } from "../../../wire/generated";
+import type { Point } from "../../ports";
+import type { Key } from "../../words/say";
+import { PruneRule } from "../prune/prune-rule";
+import { GhostStage } from "./ghost-stage";
+import { BranchHand } from "./held-branch";
+import { Prediction } from "./prediction";
+
+export interface BranchWorkOptions {
+  readonly table: TreeTable;
+  readonly submit: (command: Command) => void;
+  /** A number that no other operation of this client has. */
+  readonly newGesture: () => number;
+  /** Asks for a ghost; false while there is nobody to ask. */
+  readonly predict: (rows: number[], steps: number) => boolean;
+  /** The rows whose width is set. */
+  readonly limits: () => ReadonlySet<number>;
+  /** Cuts the branches off at these rows. */
+  readonly cut: (rows: readonly number[]) => void;
+  readonly screen: () => { readonly right: Point; readonly up: Point };
+  readonly say: (text: Key) => void;
+  /** Whether the server is still growing something. */
+  readonly busy: () => boolean;
+}
+
+/** What is done with whole branches: held, turned, moved, copied, cut, and what cutting them would do. */
+export class BranchWork {
+  readonly ghosts: GhostStage;
+  readonly prediction: Prediction;
+  readonly hand: BranchHand;
+  #options: BranchWorkOptions;
+  #stopMarking = () => {};
+
+  constructor(options: BranchWorkOptions) {
+    const { table, submit, newGesture, predict, limits, say, busy } = options;
+    this.#options = options;
+    this.ghosts = new GhostStage(table);
+    this.prediction = new Prediction({
+      cutsOf: (rows) => new PruneRule(table, limits()).cutsAtAll(rows),
+      predict,
+      submit,
+      newGesture,
+      show: (plants) => this.ghosts.showBeside(plants),
+      end: (becoming) => this.ghosts.endBeside(becoming),
+      tell: say,
+    });
+    this.hand = new BranchHand({
+      rows: table,
+      submit,
+      newGesture,
+      busy,
+      branchAbove: (row, most) => subtreeRows(table, row, most),
+      showTurn: (turn) => this.ghosts.showTurn(turn),
+      showCopy: (row, pose) => this.ghosts.showCopy(row, pose),
+    });
+  }
+
+  attach(view: Viewport): void {
+    this.ghosts.attach(view);
+    this.#stopMarking = effect(() => this.ghosts.mark(this.prediction.cuts.value));
+  }
+
+  detach(): void {
+    this.#stopMarking();
+    this.ghosts.detach();
+  }
+
+  /** The branch that is held goes to the limb that is tapped next, or a copy of it. */
+  place(mode: "move" | "copy"): void {
+    this.prediction.discard();
+    this.hand.beginPlacing(mode);
+  }
+
+  /** Turns it by a little: sideways and up on the screen, or about itself; false if none is held. */
+  step(right: number, up: number, twist: number): boolean {
+    return this.hand.step(right, up, twist, this.#options.screen(), performance.now());
+  }
+
+  /** Cuts it off. */
+  cut(): void {
+    const row = this.hand.row.peek();
+    if (row !== null) {
+      this.hand.release();
+      this.#options.cut([row]);
+    }
+  }
+
+  /** Shows what would become of the tree without it. */
+  foresee(): void {
+    const row = this.hand.row.peek();
+    if (row !== null) {
+      this.predict([row]);
+    }
+  }
+
+  /** Shows what would become of the tree without the branches at these rows. */
+  predict(rows: readonly number[]): void {
+    this.hand.cancelPlacing();
+    this.prediction.ask(rows);
+  }
+
+  /** The server has refused a command, or, where none is named, perhaps a prediction. */
+  refused(command: Command | undefined): void {
+    if (command === undefined) {
+      this.prediction.refused();
+    } else if (command.kind === "turn_branch" || command.kind === "graft") {
+      this.hand.refused();
+    }
+  }
+
+  /** Another session: nothing that was held is there. */
+  clear(): void {
+    this.prediction.lost();
+    this.hand.release();
+  }
+}

@@ -1,0 +1,162 @@
+import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../../../wire/generated";
+import type { StrokePoint } from "../../input/gesture-recogniser";
+import { FeltPressure, radiusShare } from "../../input/pressure";
+import type { BrushView, Point } from "../../ports";
+import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "../tool";
+import { MAX_RADIUS } from "./brush-radius";
+import { SampleQueue } from "./sample-queue";
+
+/** How often the brush is sent while it is down, in milliseconds. */
+export const SEND_EVERY = 33;
+/** Messages that may be under way; beyond it places gather for the next one. */
+const MAX_UNSETTLED = 8;
+
+export interface BrushOptions {
+  readonly view: BrushView;
+  readonly submit: (command: Command) => void;
+  /** A number no other stroke of this client has. */
+  readonly newStroke: () => number;
+  /** How many `stroke_move` the server has not yet answered. */
+  readonly unsettledMoves: () => number;
+  readonly radius: () => number;
+  /** Whether a pen's pressure widens and narrows the brush. */
+  readonly pressureWidens: () => boolean;
+  /** The branch that alone may grow, as a row (`SG1`). */
+  readonly bud: () => number | null;
+  /** Where a stroke lies in depth if it begins beside every branch. */
+  readonly base: (x: number, y: number) => Point;
+}
+
+interface Stroke {
+  readonly number: number;
+  /** The drawing plane passes through this point, parallel to the screen. */
+  readonly through: Point;
+  readonly samples: SampleQueue;
+  readonly pressure: FeltPressure;
+  /** Where the finger is on the canvas. */
+  finger: { readonly x: number; readonly y: number };
+}
+
+/** Turns the strokes of a finger into commands. */
+export class BrushTool implements Tool {
+  #options: BrushOptions;
+  #stroke: Stroke | null = null;
+
+  constructor(options: BrushOptions) {
+    this.#options = options;
+  }
+
+  get active(): boolean {
+    return this.#stroke !== null;
+  }
+
+  begin(point: StrokePoint): void {
+    this.end();
+    const number = this.#options.newStroke();
+    const through = this.#through(point.x, point.y);
+    this.#stroke = { number, through, samples: new SampleQueue(), pressure: new FeltPressure(), finger: point };
+    const bud = this.#options.bud();
+    this.#options.submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
+    this.move([point]);
+  }
+
+  move(points: readonly StrokePoint[]): void {
+    const stroke = this.#stroke;
+    if (!stroke) {
+      return;
+    }
+    for (const point of points) {
+      stroke.finger = point;
+      stroke.pressure.follow(point.pressure);
+      this.#sample(stroke);
+    }
+    this.#show(stroke);
+  }
+
+  /** Sends what has gathered, or once more the place where the brush rests: it keeps sowing there. */
+  tick(): void {
+    const stroke = this.#stroke;
+    if (!stroke) {
+      return;
+    }
+    // Under a finger that rests the other hand may have turned the tree, or moved the slider.
+    const before = stroke.samples.latest;
+    this.#sample(stroke);
+    if (stroke.samples.latest !== before) {
+      this.#show(stroke);
+    }
+    if (this.#options.unsettledMoves() < MAX_UNSETTLED) {
+      this.#send(stroke);
+    }
+  }
+
+  end(): void {
+    const stroke = this.#stroke;
+    if (!stroke) {
+      return;
+    }
+    stroke.samples.finish();
+    while (stroke.samples.length > 0) {
+      this.#send(stroke);
+    }
+    this.#options.submit({ kind: "stroke_end", stroke: stroke.number });
+    this.#stroke = null;
+    this.#options.view.hideBrush();
+  }
+
+  /** Forgets the stroke without a word to the server, which no longer knows it. */
+  abandon(): void {
+    this.#stroke = null;
+    this.#options.view.hideBrush();
+  }
+
+  /** Shows where a stroke beginning here would lie. */
+  hover(x: number, y: number): void {
+    if (this.#stroke) {
+      return;
+    }
+    const place = this.#options.view.pointOnPlane(x, y, this.#through(x, y));
+    if (place) {
+      this.#options.view.showBrush(withinReach(place), this.#options.radius());
+    } else {
+      this.#options.view.hideBrush();
+    }
+  }
+
+  /** Notes where the brush is under the finger, as the camera stands now, unless it is there already. */
+  #sample({ finger, through, samples, pressure }: Stroke): void {
+    const place = this.#options.view.pointOnPlane(finger.x, finger.y, through);
+    if (!place) {
+      return;
+    }
+    const position = withinReach(place);
+    const radius = this.#radius(pressure.value);
+    const { latest } = samples;
+    if (latest?.radius !== radius || position.some((value, axis) => value !== latest.position[axis])) {
+      samples.add({ position, radius });
+    }
+  }
+
+  #show({ samples: { latest } }: Stroke): void {
+    if (latest) {
+      this.#options.view.showBrush(latest.position, latest.radius);
+    }
+  }
+
+  #through(x: number, y: number): Point {
+    return this.#options.view.pick(x, y, PICK_TOLERANCE)?.point ?? this.#options.base(x, y);
+  }
+
+  #send(stroke: Stroke): void {
+    const samples: StrokeSample[] = stroke.samples.take(MAX_STROKE_SAMPLES);
+    if (samples.length > 0) {
+      this.#options.submit({ kind: "stroke_move", stroke: stroke.number, samples });
+    }
+  }
+
+  #radius(pressure: number | null): number {
+    const radius = this.#options.radius();
+    const share = pressure !== null && this.#options.pressureWidens() ? radiusShare(pressure) : 1;
+    return tidy(Math.min(MAX_RADIUS, Math.max(0, radius * share)));
+  }
+}

@@ -1,0 +1,107 @@
+import { type Command, type DrawingPlane, MAX_OUTLINE_POINTS } from "../../../wire/generated";
+import type { StrokePoint } from "../../input/gesture-recogniser";
+import type { BrushView, Point } from "../../ports";
+import { PICK_TOLERANCE, type Tool, tidy } from "../tool";
+import { enclosedArea, type Point2, simplifiedTo } from "./outline";
+
+/** A smaller loop, in square pixels, is a slip of the finger. */
+const LEAST_AREA = 900;
+/** And one of less than this, in square internodes, has no room for a shoot. */
+const LEAST_ROOM = 2;
+/** Places closer to the one before say nothing new, in pixels. */
+const SPACING = 2;
+/** How far a point may lie beside the outline that is sent, in pixels. */
+const TOLERANCE = 0.7;
+/** Coordinates beyond this are refused (`LA1`). */
+const REACH = 1000;
+
+/** What the lasso needs of the view. */
+export interface LassoView extends Pick<BrushView, "pick" | "pointOnPlane"> {
+  /** The plane parallel to the screen through a point, with axes to the right and upwards. */
+  drawingPlane(through: Point): DrawingPlane;
+}
+
+export interface LassoOptions {
+  readonly view: LassoView;
+  readonly submit: (command: Command) => void;
+  /** The branch that alone may grow, as a row (`SG1`). */
+  readonly bud: () => number | null;
+  /** Where an outline lies in depth if it begins beside every branch. */
+  readonly base: (x: number, y: number) => Point;
+  /** How deep the body becomes: 1 is as deep as wide. */
+  readonly depth: () => number;
+  /** The outline as far as it is drawn, in pixels; null for none. */
+  readonly draw: (outline: readonly Point2[] | null) => void;
+  /** An outline was sent; these are its points in the world. */
+  readonly sent: (outline: readonly Point[]) => void;
+  /** A loop too small to grow into. */
+  readonly tooSmall: () => void;
+}
+
+/** Turns a stroke into the outline of a crown. */
+export class LassoTool implements Tool {
+  #options: LassoOptions;
+  #outline: Point2[] | null = null;
+  /** The drawing plane passes through this point, parallel to the screen. */
+  #through: Point = [0, 0, 0];
+
+  constructor(options: LassoOptions) {
+    this.#options = options;
+  }
+
+  begin(point: StrokePoint): void {
+    const { view, base } = this.#options;
+    this.#through = view.pick(point.x, point.y, PICK_TOLERANCE)?.point ?? base(point.x, point.y);
+    this.#outline = [];
+    this.move([point]);
+  }
+
+  move(points: readonly StrokePoint[]): void {
+    const outline = this.#outline;
+    if (!outline) {
+      return;
+    }
+    for (const { x, y } of points) {
+      const last = outline[outline.length - 1];
+      if (last === undefined || Math.hypot(x - last[0], y - last[1]) >= SPACING) {
+        outline.push([x, y]);
+      }
+    }
+    this.#options.draw(outline);
+  }
+
+  end(): void {
+    const drawn = this.#outline;
+    this.abandon();
+    if (!drawn) {
+      return;
+    }
+    const { view, bud, depth, submit, sent, tooSmall } = this.#options;
+    const plane = view.drawingPlane(this.#through);
+    const places = simplifiedTo(drawn, TOLERANCE, MAX_OUTLINE_POINTS).flatMap(([x, y]) => {
+      const place = view.pointOnPlane(x, y, this.#through);
+      return place ? [place] : [];
+    });
+    const outline = places.map((place) => onPlane(place, plane));
+    if (enclosedArea(drawn) < LEAST_AREA || enclosedArea(outline) < LEAST_ROOM) {
+      tooSmall();
+      return;
+    }
+    const row = bud();
+    const flat = depth() < 1 ? { depth: depth() } : {};
+    submit({ kind: "lasso", outline, plane, ...flat, ...(row === null ? {} : { bud: row }) });
+    sent(places);
+  }
+
+  abandon(): void {
+    this.#outline = null;
+    this.#options.draw(null);
+  }
+}
+
+function onPlane(place: Point, { origin, right, up }: DrawingPlane): [number, number] {
+  const along = (axis: Point) =>
+    (place[0] - origin[0]) * axis[0] + (place[1] - origin[1]) * axis[1] + (place[2] - origin[2]) * axis[2];
+  const clamp = (value: number) => tidy(Math.min(REACH, Math.max(-REACH, value)));
+  return [clamp(along(right)), clamp(along(up))];
+}

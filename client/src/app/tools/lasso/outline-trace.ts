@@ -1,0 +1,44 @@
+import { signal } from "@preact/signals";
+import type { Point } from "../../ports";
+import type { Point2 } from "./outline";
+
+/** An outline on the glass while it is drawn, in the world while the tree grows into it. */
+export type Outline =
+  | { readonly stage: "drawing"; readonly points: readonly Point2[] }
+  | { readonly stage: "growing"; readonly places: readonly Point[] };
+
+/** The lasso's outline, shown until the tree has filled it. */
+export class OutlineTrace {
+  readonly shown = signal<Outline | null>(null);
+  /** The number of the command that grows it. */
+  #command = 0;
+  /** How many steps were left when the server last told since it was sent. */
+  #left: number | null = null;
+
+  draw(points: readonly Point2[] | null): void {
+    this.shown.value = points && { stage: "drawing", points: [...points] };
+  }
+
+  grow(places: readonly Point[], command: number): void {
+    this.shown.value = { stage: "growing", places };
+    this.#command = command;
+    this.#left = null;
+  }
+
+  /** The server has told how things stand: all commands up to `settled` are taken, so many steps are left. */
+  told(settled: number, pendingSteps: number): void {
+    this.#left = pendingSteps;
+    this.settled(settled);
+  }
+
+  /** All commands up to `settled` are taken. Quick growth is told of before its command is acknowledged. */
+  settled(settled: number): void {
+    if (this.shown.peek()?.stage === "growing" && settled >= this.#command && this.#left === 0) {
+      this.clear();
+    }
+  }
+
+  clear(): void {
+    this.shown.value = null;
+  }
+}

@@ -1,0 +1,65 @@
+import type { Point } from "../../ports";
+
+/** What is asked of the rows. */
+interface Rows {
+  readonly rows: number;
+  readonly parent: ArrayLike<number>;
+  readonly radiusCode: ArrayLike<number>;
+}
+
+/** Which metamers a line on the glass crosses, as long as the view stands still. */
+export class CutLine {
+  #rows: Rows;
+  /** x and y of each row's end on the glass; not a number behind the eye. */
+  #places: Float32Array;
+  #last: readonly [number, number] | null = null;
+
+  /** `project` tells where a row's end lies on the glass. */
+  constructor(
+    rows: Rows,
+    placeOf: (row: number) => Point,
+    project: (point: Point) => readonly [number, number] | null,
+  ) {
+    this.#rows = rows;
+    this.#places = new Float32Array(2 * rows.rows);
+    for (let row = 0; row < rows.rows; row += 1) {
+      const [x, y] = project(placeOf(row)) ?? [Number.NaN, Number.NaN];
+      this.#places[2 * row] = x;
+      this.#places[2 * row + 1] = y;
+    }
+  }
+
+  /** Draws the line on to a place, and gives the rows of the living metamers that this piece crosses. */
+  to(x: number, y: number): number[] {
+    const from = this.#last;
+    this.#last = [x, y];
+    return from ? this.#crossed(from[0], from[1], x, y) : [];
+  }
+
+  #crossed(ax: number, ay: number, bx: number, by: number): number[] {
+    const { rows, parent, radiusCode } = this.#rows;
+    const places = this.#places;
+    const [left, right, top, bottom] = [Math.min(ax, bx), Math.max(ax, bx), Math.min(ay, by), Math.max(ay, by)];
+    const found: number[] = [];
+    for (let row = 0; row < rows; row += 1) {
+      const below = parent[row]!;
+      if (below < 0 || radiusCode[row] === 0) continue;
+      const [cx, cy] = [places[2 * below]!, places[2 * below + 1]!];
+      const [dx, dy] = [places[2 * row]!, places[2 * row + 1]!];
+      if ((cx < left && dx < left) || (cx > right && dx > right)) continue;
+      if ((cy < top && dy < top) || (cy > bottom && dy > bottom)) continue;
+      const c = side(ax, ay, bx, by, cx, cy);
+      const d = side(ax, ay, bx, by, dx, dy);
+      const a = side(cx, cy, dx, dy, ax, ay);
+      const b = side(cx, cy, dx, dy, bx, by);
+      // An end that lies on the line counts once, with the metamer that goes on from it.
+      if (c >= 0 !== d >= 0 && a >= 0 !== b >= 0) found.push(row);
+    }
+    return found;
+  }
+}
+
+/** On which side of the line from a to b a place lies. */
+function side(ax: number, ay: number, bx: number, by: number, x: number, y: number): number {
+  return (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+}

@@ -1,0 +1,60 @@
+import { describe, expect, it } from "vitest";
+import type { Command } from "../../../wire/generated";
+import type { Point } from "../../ports";
+import { SeedTool } from "./seed-tool";
+
+/** Ground below pixel 500; a pixel is a tenth of an internode. */
+function setUp() {
+  const sent: Command[] = [];
+  const told: string[] = [];
+  let shown: Point | null = null;
+  const tool = new SeedTool({
+    groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
+    submit: (command) => sent.push(command),
+    show: (place) => {
+      shown = place;
+    },
+    planted: () => told.push("planted"),
+    missed: () => told.push("missed"),
+  });
+  return { tool, sent, told, shown: () => shown };
+}
+
+const at = (x: number, y: number) => ({ x, y, pressure: null });
+
+describe("seed tool", () => {
+  it("plants where the finger lifts, once", () => {
+    const { tool, sent, told, shown } = setUp();
+    tool.begin(at(100, 600));
+    tool.move([at(150, 700), at(200, 800)]);
+    expect([sent, shown()]).toEqual([[], [20, 0, 80]]);
+    tool.end();
+    tool.end();
+    expect(sent).toEqual([{ kind: "plant_seed", position: [20, 0, 80] }]);
+    expect([told, shown()]).toEqual([["planted"], null]);
+  });
+
+  it("plants nothing in the sky", () => {
+    const { tool, sent, told } = setUp();
+    tool.begin(at(100, 600));
+    tool.move([at(100, 400)]);
+    tool.end();
+    expect([sent, told]).toEqual([[], ["missed"]]);
+  });
+
+  it("a finger that was cancelled plants nothing", () => {
+    const { tool, sent, told } = setUp();
+    tool.begin(at(100, 600));
+    tool.abandon();
+    tool.move([at(100, 700)]);
+    tool.end();
+    expect([sent, told]).toEqual([[], []]);
+  });
+
+  it("LM2: stays within reach", () => {
+    const { tool, sent } = setUp();
+    tool.begin(at(1e7, 600));
+    tool.end();
+    expect(sent).toEqual([{ kind: "plant_seed", position: [1000, 0, 60] }]);
+  });
+});

@@ -1,0 +1,63 @@
+import type { Command } from "../../../wire/generated";
+import type { StrokePoint } from "../../input/gesture-recogniser";
+import type { Point } from "../../ports";
+import { type Tool, withinReach } from "../tool";
+
+export interface SeedOptions {
+  /** Where the ground is under a pixel; null where there is sky, or ground too far off to aim at. */
+  readonly groundAt: (x: number, y: number) => Point | null;
+  readonly submit: (command: Command) => void;
+  /** Where the seed would lie, as long as the finger is down; null for nowhere. */
+  readonly show: (place: Point | null) => void;
+  readonly planted: () => void;
+  /** The finger lifted where there is no ground. */
+  readonly missed: () => void;
+}
+
+/** Plants a seed where the finger lifts. */
+export class SeedTool implements Tool {
+  #options: SeedOptions;
+  #active = false;
+  #place: Point | null = null;
+
+  constructor(options: SeedOptions) {
+    this.#options = options;
+  }
+
+  begin(point: StrokePoint): void {
+    this.#active = true;
+    this.move([point]);
+  }
+
+  move(points: readonly StrokePoint[]): void {
+    const last = points[points.length - 1];
+    if (this.#active && last) {
+      this.#place = this.#options.groundAt(last.x, last.y);
+      this.#options.show(this.#place);
+    }
+  }
+
+  end(): void {
+    if (!this.#active) {
+      return;
+    }
+    const place = this.#place;
+    this.abandon();
+    if (place) {
+      this.#options.submit({ kind: "plant_seed", position: withinReach(place) });
+      this.#options.planted();
+    } else {
+      this.#options.missed();
+    }
+  }
+
+  abandon(): void {
+    this.#active = false;
+    this.#place = null;
+    this.#options.show(null);
+  }
+
+  hover(x: number, y: number): void {
+    this.#options.show(this.#options.groundAt(x, y));
+  }
+}

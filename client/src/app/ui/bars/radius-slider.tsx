@@ -1,0 +1,77 @@
+import { useRef } from "preact/hooks";
+import type { Studio } from "../../studio";
+import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
+import { say } from "../../words/say";
+
+/** The brush itself, in small. */
+export function BrushSample({ studio }: { studio: Studio }) {
+  const radius = studio.settings.radius.value;
+  return (
+    <span class="brush-sample">
+      <i style={{ "--size": `${radius === 0 ? 5 : 8 + 24 * placeOf(radius)}px` }} data-sketch={radius === 0} />
+    </span>
+  );
+}
+
+/** A vertical slider for the brush's radius. */
+export function RadiusSlider({ studio }: { studio: Studio }) {
+  const track = useRef<HTMLDivElement>(null);
+  const radius = studio.settings.radius.value;
+  const place = placeOf(radius);
+
+  const follow = (event: PointerEvent) => {
+    const frame = track.current?.getBoundingClientRect();
+    if (frame && (event.type === "pointerdown" || event.buttons % 2 === 1)) {
+      studio.stage.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
+    }
+  };
+  const onKeyDown = (event: KeyboardEvent) => {
+    const notches = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1, PageUp: 4, PageDown: -4 }[event.key];
+    if (notches !== undefined) {
+      studio.stage.setRadius(stepRadius(radius, notches));
+    } else if (event.key === "Home" || event.key === "End") {
+      studio.stage.setRadius(event.key === "Home" ? 0 : MAX_RADIUS);
+    } else {
+      return;
+    }
+    event.preventDefault();
+  };
+
+  return (
+    <div class="radius" data-idle={studio.tools.chosen.value !== "brush"}>
+      <div class="radius-value" aria-hidden="true">
+        {radiusLabel(radius)}
+      </div>
+      <div
+        class="radius-slider"
+        data-place="radius"
+        role="slider"
+        tabIndex={0}
+        aria-label={say("bars.radius")}
+        aria-orientation="vertical"
+        aria-valuemin={0}
+        aria-valuemax={MAX_RADIUS}
+        aria-valuenow={Math.round(radius * 10) / 10}
+        aria-valuetext={
+          radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })
+        }
+        style={{ "--place": place }}
+        onPointerDown={(event) => {
+          if (event.button === 0) {
+            event.currentTarget.setPointerCapture(event.pointerId);
+            follow(event);
+          }
+        }}
+        onPointerMove={follow}
+        onKeyDown={onKeyDown}
+      >
+        <div class="radius-track" ref={track}>
+          <svg viewBox="0 0 20 100" preserveAspectRatio="none" aria-hidden="true">
+            <path class="wedge" d="M9 100 L2 2 Q10 -2 18 2 L11 100 Q10 101 9 100Z" />
+          </svg>
+          <span class="radius-thumb" />
+        </div>
+      </div>
+    </div>
+  );
+}

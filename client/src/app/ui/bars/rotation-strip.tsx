@@ -1,0 +1,122 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Studio } from "../../studio";
+import { say } from "../../words/say";
+import { useFrames } from "../use-frames";
+
+/** How far an arrow key turns, and how far a page key, in degrees. */
+const KEY_TURN = 5;
+const PAGE_TURN = 45;
+/** How long the ruler follows a view that a hand on the workspace may have turned, in milliseconds. */
+const FOLLOWS = 800;
+
+const DEGREE = Math.PI / 180;
+
+/** A strip as long as one turn of the tree: one hand turns it here while the other draws. */
+export function RotationStrip({ studio }: { studio: Studio }) {
+  const strip = useRef<HTMLDivElement>(null);
+  const hand = useRef<{ readonly id: number; x: number } | null>(null);
+  const letGo = useRef(() => {});
+  const [held, setHeld] = useState(false);
+  const [followed, follow] = useFollowing();
+  const [degrees, setDegrees] = useState(0);
+
+  useFrames(held || followed, () => {
+    const { turned } = studio.stage;
+    setDegrees(Math.round(turned / DEGREE));
+    strip.current?.style.setProperty("--turns", String(turned / (2 * Math.PI)));
+  });
+  // A strip that is hidden under the hand lets go of the tree.
+  useEffect(() => () => letGo.current(), []);
+  const turn = (by: number) => {
+    studio.stage.turn(by * DEGREE);
+    follow();
+  };
+  const release = (event: PointerEvent) => {
+    if (hand.current?.id === event.pointerId) {
+      hand.current = null;
+      setHeld(false);
+      follow();
+      letGo.current();
+    }
+  };
+  const keys: Record<string, () => void> = {
+    ArrowRight: () => turn(KEY_TURN),
+    ArrowUp: () => turn(KEY_TURN),
+    ArrowLeft: () => turn(-KEY_TURN),
+    ArrowDown: () => turn(-KEY_TURN),
+    PageUp: () => turn(PAGE_TURN),
+    PageDown: () => turn(-PAGE_TURN),
+    Home: () => {
+      studio.stage.face();
+      follow();
+    },
+  };
+  return (
+    <div
+      class="panel rotation"
+      data-place="rotation"
+      ref={strip}
+      role="slider"
+      tabIndex={0}
+      aria-label={say("rotation.label")}
+      aria-valuemin={-180}
+      aria-valuemax={180}
+      aria-valuenow={degrees}
+      aria-valuetext={say("rotation.value", { degrees })}
+      title={say("rotation.title")}
+      data-held={held}
+      onPointerDown={(event) => {
+        if (hand.current === null && event.button === 0) {
+          hand.current = { id: event.pointerId, x: event.clientX };
+          event.currentTarget.setPointerCapture(event.pointerId);
+          setHeld(true);
+          letGo.current = studio.stage.hold();
+        }
+      }}
+      onPointerMove={(event) => {
+        if (hand.current?.id === event.pointerId) {
+          const width = event.currentTarget.clientWidth || 1;
+          studio.stage.turn(((event.clientX - hand.current.x) / width) * 2 * Math.PI);
+          hand.current.x = event.clientX;
+        }
+      }}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onLostPointerCapture={release}
+      onKeyDown={(event) => {
+        const act = keys[event.key];
+        if (act) {
+          event.preventDefault();
+          act();
+        }
+      }}
+    >
+      <span class="rotation-ruler" />
+      <span class="rotation-mark" />
+    </div>
+  );
+}
+
+/** Whether the view may be turning: for a while after a hand was on the page, and when asked to. */
+function useFollowing(): readonly [boolean, () => void] {
+  const [followed, setFollowed] = useState(true);
+  const timer = useRef(0);
+  const follow = () => {
+    setFollowed(true);
+    clearTimeout(timer.current);
+    timer.current = window.setTimeout(() => setFollowed(false), FOLLOWS);
+  };
+  useEffect(() => {
+    follow();
+    const stop = new AbortController();
+    const options = { signal: stop.signal, capture: true, passive: true };
+    for (const kind of ["pointerdown", "pointermove", "pointerup", "keydown"]) {
+      addEventListener(kind, follow, options);
+    }
+    return () => {
+      stop.abort();
+      clearTimeout(timer.current);
+    };
+  }, []);
+  return [followed, follow];
+}

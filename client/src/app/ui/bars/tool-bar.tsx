@@ -1,0 +1,147 @@
+import type { ComponentType } from "preact";
+import { useRef, useState } from "preact/hooks";
+import type { PlaceName } from "../../help/help-topics";
+import { PANEL_NAMES, type PanelName, type SheetName, type Studio } from "../../studio";
+import { type Key, say } from "../../words/say";
+import {
+  ArchitectureIcon,
+  BackgroundIcon,
+  BarkIcon,
+  BrushIcon,
+  DownloadIcon,
+  HelpIcon,
+  HideIcon,
+  LeafIcon,
+  LibraryIcon,
+  MoreIcon,
+  NewIcon,
+  SaveIcon,
+  SceneIcon,
+  SettingsIcon,
+  ShareIcon,
+} from "../icons";
+import { useDismissal } from "../use-dismissal";
+import { isToolBarFolded } from "../workspace-size";
+import { DrawModeMenu } from "./draw-mode-menu";
+
+const PANEL_ICONS: Record<PanelName, ComponentType> = {
+  architecture: ArchitectureIcon,
+  brush: BrushIcon,
+  leaves: LeafIcon,
+  branches: BarkIcon,
+  background: BackgroundIcon,
+  scene: SceneIcon,
+};
+
+interface Deed {
+  readonly label: Key;
+  /** What help calls it. */
+  readonly place?: PlaceName;
+  readonly title?: Key;
+  readonly Icon: ComponentType;
+  readonly act: (studio: Studio) => void;
+}
+
+const sheet = (name: SheetName) => (studio: Studio) => {
+  studio.sheet.value = name;
+};
+
+/** What is done with the page and with a tree as a whole. */
+const DEEDS: readonly Deed[] = [
+  {
+    label: "bars.hide",
+    place: "hide",
+    title: "bars.hide.title",
+    Icon: HideIcon,
+    act: (studio) => studio.setBare(true),
+  },
+  { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => void studio.newSession() },
+  { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
+  { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
+  { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
+  { label: "bars.download", place: "download", Icon: DownloadIcon, act: (studio) => void studio.exports.gltf() },
+  { label: "bars.settings", Icon: SettingsIcon, act: sheet("settings") },
+  { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
+];
+
+/** The panels, and what is done with a tree as a whole; where room is short the latter folds into a menu. */
+export function ToolBar({ studio }: { studio: Studio }) {
+  return (
+    <header class="panel tool-bar" data-folded={isToolBarFolded()}>
+      {PANEL_NAMES.map((panel) => {
+        const Icon = PANEL_ICONS[panel];
+        return (
+          <button
+            type="button"
+            class="tool"
+            key={panel}
+            aria-label={say(`panels.${panel}`)}
+            title={say(`panels.${panel}`)}
+            aria-pressed={studio.panel.value === panel}
+            onClick={() => studio.togglePanel(panel)}
+          >
+            <Icon />
+          </button>
+        );
+      })}
+      <hr />
+      <DrawModeMenu studio={studio} />
+      {isToolBarFolded() ? (
+        <Menu studio={studio} />
+      ) : (
+        DEEDS.map(({ label, place, title = label, Icon, act }) => (
+          <button
+            type="button"
+            class="tool"
+            key={label}
+            data-place={place}
+            aria-label={say(label)}
+            title={say(title)}
+            onClick={() => act(studio)}
+          >
+            <Icon />
+          </button>
+        ))
+      )}
+    </header>
+  );
+}
+
+function Menu({ studio }: { studio: Studio }) {
+  const host = useRef<HTMLDivElement>(null);
+  const [open, setOpen] = useState(false);
+  useDismissal(host, open, () => setOpen(false));
+  return (
+    <div class="more" ref={host}>
+      <button
+        type="button"
+        class="tool"
+        data-place="more"
+        aria-label={say("bars.more")}
+        title={say("bars.more")}
+        aria-expanded={open}
+        onClick={() => setOpen(!open)}
+      >
+        <MoreIcon />
+      </button>
+      {open && (
+        <ul class="panel menu" aria-label={say("bars.more")}>
+          {DEEDS.map(({ label, Icon, act }) => (
+            <li key={label}>
+              <button
+                type="button"
+                onClick={() => {
+                  setOpen(false);
+                  act(studio);
+                }}
+              >
+                <Icon />
+                {say(label)}
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,129 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { GrowthShare } from "../../document/growth/growth-share";
+import type { Transfer } from "../../requests/transfer";
+import type { Studio } from "../../studio";
+import { language, say } from "../../words/say";
+import { CloseIcon, StopIcon } from "../icons";
+
+/** Growth that is done sooner is not worth a word. */
+const WORTH_A_WORD = 200;
+/** So many steps are, whatever the hand is doing. */
+const LONG_GROWTH = 20;
+
+/** What is under way and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
+export function Chips({ studio }: { studio: Studio }) {
+  const placing = studio.branches.hand.placing.value;
+  return (
+    <div class="chips" role="status">
+      <GrowthChip studio={studio} />
+      <TransferChip transfer={studio.exports.transfer} name="export" />
+      <TransferChip transfer={studio.obstacles.transfer} name="import" />
+      {placing !== null && (
+        <p class="chip">
+          {say(placing === "copy" ? "tools.placing.copy" : "tools.placing.move")}
+          <button
+            type="button"
+            aria-label={say("tools.placing.cancel")}
+            title={say("tools.placing.cancel.title")}
+            onClick={() => studio.branches.hand.cancelPlacing()}
+          >
+            <CloseIcon />
+          </button>
+        </p>
+      )}
+      {studio.bud.row.value !== null && (
+        <p class="chip">
+          <i class="bud-sign" aria-hidden="true" />
+          {say("tools.bud")}
+          <button
+            type="button"
+            aria-label={say("tools.bud.release")}
+            title={say("tools.bud.release.title")}
+            onClick={() => studio.bud.release()}
+          >
+            <CloseIcon />
+          </button>
+        </p>
+      )}
+    </div>
+  );
+}
+
+function GrowthChip({ studio }: { studio: Studio }) {
+  const pending = studio.document.value?.pending_steps ?? 0;
+  const outline = studio.tools.outline.shown.value?.stage === "growing";
+  const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
+  const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
+  const shown = useLasting(growing && studio.link.phase.value === "connected");
+  const share = useRef(new GrowthShare()).current.of(pending);
+  if (!shown) {
+    return null;
+  }
+  const text = say(outline ? "tools.growing.outline" : pending > 1 ? "tools.growing.steps" : "tools.growing", {
+    count: pending,
+  });
+  return (
+    <p class="chip">
+      {share === null || outline ? (
+        <i class="spinner" aria-hidden="true" />
+      ) : (
+        <progress aria-label={text} max={1} value={share} />
+      )}
+      {text}
+      <button type="button" class="chip-stop" onClick={() => studio.stop()}>
+        <StopIcon />
+        {say("tools.growing.stop")}
+      </button>
+    </p>
+  );
+}
+
+/** A file on its way, how far it has come, and a way to give it up. */
+function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" | "import" }) {
+  const progress = transfer.progress.value;
+  const shown = useLasting(progress !== null);
+  if (!shown || progress === null) {
+    return null;
+  }
+  const { bytes, total } = progress;
+  const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
+  const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
+  const megabytes = (count: number) => figures.format(count / 1e6);
+  const text =
+    bytes === 0
+      ? say(`sheets.${name}`)
+      : percent === 100
+        ? say(`sheets.${name}.read`)
+        : total === null
+          ? say(`sheets.${name}.moving`, { megabytes: megabytes(bytes) })
+          : say(`sheets.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
+  return (
+    <p class="chip">
+      {/* Where nobody knows how long it takes, the bar only moves. */}
+      {percent === null ? (
+        <progress aria-label={text} key="some" />
+      ) : (
+        <progress {...{ max: 100, value: percent }} aria-label={text} key="part" />
+      )}
+      {text}
+      <button type="button" class="chip-stop" onClick={() => transfer.cancel()}>
+        <StopIcon />
+        {say("sheets.cancel")}
+      </button>
+    </p>
+  );
+}
+
+/** Whether something has been so for a while. */
+function useLasting(now: boolean): boolean {
+  const [lasting, setLasting] = useState(false);
+  useEffect(() => {
+    if (!now) {
+      setLasting(false);
+      return undefined;
+    }
+    const timer = setTimeout(() => setLasting(true), WORTH_A_WORD);
+    return () => clearTimeout(timer);
+  }, [now]);
+  return now && lasting;
+}

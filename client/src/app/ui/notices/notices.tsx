@@ -1,0 +1,90 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { Studio } from "../../studio";
+import { say } from "../../words/say";
+
+/** What keeps the workspace from being used, and the way on. */
+export function HindranceCard({ studio }: { studio: Studio }) {
+  const hindrance = studio.hindrance.value;
+  if (hindrance === null) {
+    return null;
+  }
+  return (
+    <section class="panel hindrance" role="alert" data-hindrance={hindrance}>
+      <h2>{say(`notices.${hindrance}`)}</h2>
+      <p>{say(`notices.${hindrance}.text`)}</p>
+      {hindrance === "unknown-session" && (
+        <button type="button" class="primary" onClick={() => studio.newSession()}>
+          {say("notices.unknown-session.way")}
+        </button>
+      )}
+      {(hindrance === "version" || hindrance === "no-picture") && (
+        <button type="button" class="primary" onClick={() => location.reload()}>
+          {say("notices.reload")}
+        </button>
+      )}
+    </section>
+  );
+}
+
+/** Short notes that go by themselves. */
+export function ToastList({ studio }: { studio: Studio }) {
+  const host = useRef<HTMLDivElement>(null);
+  const toasts = studio.toasts.list.value;
+  // As a popover shown anew with each note, the list lies above a sheet that may be open.
+  useEffect(() => {
+    const popover = host.current;
+    if (!popover?.showPopover) {
+      return;
+    }
+    if (popover.matches(":popover-open")) {
+      popover.hidePopover();
+    }
+    if (toasts.length > 0) {
+      popover.showPopover();
+    }
+  }, [toasts]);
+  return (
+    <div class="toasts" ref={host} popover="manual" aria-live="polite">
+      {toasts.map((toast) => (
+        <button type="button" class="toast" key={toast.id} onClick={() => studio.toasts.dismiss(toast.id)}>
+          {toast.text}
+        </button>
+      ))}
+    </div>
+  );
+}
+
+/** The one line a first use needs; it fades once the hand has done it. */
+export function Hint({ studio }: { studio: Studio }) {
+  const text = hint(studio);
+  // The text stays while the line fades.
+  const last = useRef("");
+  last.current = text ?? last.current;
+  return (
+    <p class="hint" data-visible={text !== null} aria-hidden={text === null}>
+      {last.current}
+    </p>
+  );
+}
+
+function hint(studio: Studio): string | null {
+  const { tools, settings } = studio;
+  const usable =
+    studio.hindrance.value === null &&
+    studio.link.phase.value === "connected" &&
+    !tools.drawing.value &&
+    // A legend has its place, and its lesson.
+    studio.drawMode.value === "lit" &&
+    studio.tour.step.value === null;
+  if (!usable) {
+    return null;
+  }
+  if (tools.chosen.value === "seed") {
+    return say("notices.hint.seed");
+  }
+  if (tools.chosen.value === "lasso" && tools.outline.shown.value === null && !settings.hasOutlined.value) {
+    return say("notices.hint.lasso");
+  }
+  const untouched = !settings.hasDrawn.value && studio.document.value?.metamers === 0;
+  return tools.chosen.value === "brush" && untouched ? say("notices.hint.brush") : null;
+}

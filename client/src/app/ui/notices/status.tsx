@@ -1,0 +1,46 @@
+import type { Studio } from "../../studio";
+import { language, say } from "../../words/say";
+import { PeopleIcon } from "../icons";
+
+/** How things stand, in as few words as possible. */
+export function Status({ studio }: { studio: Studio }) {
+  const document = studio.document.value;
+  const phase = studio.link.phase.value;
+  const attempts = studio.link.attempts.value;
+  const people = document?.people ?? 1;
+  const full = document?.budget_reached === true;
+  const away = phase !== "connected" && studio.hindrance.value === null && studio.link.session.value !== null;
+  const garbled = studio.link.garbled.value > 1;
+  const unsent = studio.link.sent.value - studio.link.settled.value;
+  return (
+    <div class="status" role="status">
+      {away && (
+        <p class="note away" key={attempts === 0 ? "first" : "again"}>
+          <i class="pulse" />
+          {attempts === 0
+            ? say("notices.connecting")
+            : garbled
+              ? say("notices.garbled")
+              : say("notices.reconnecting", { attempt: attempts })}
+          {attempts > 0 && unsent > 0 && <span class="quiet">{say("notices.kept")}</span>}
+        </p>
+      )}
+      {full && <p class="note full">{say("notices.full")}</p>}
+      {document && (
+        <p class="figures">
+          {people > 1 && (
+            <span title={say("notices.people", { count: people })}>
+              <PeopleIcon />
+              {people}
+            </span>
+          )}
+          <span title={say("notices.metamers.title")}>
+            {say(document.metamers === 1 ? "notices.metamer" : "notices.metamers", {
+              count: document.metamers.toLocaleString(language.value),
+            })}
+          </span>
+        </p>
+      )}
+    </div>
+  );
+}

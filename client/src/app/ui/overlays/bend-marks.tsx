@@ -1,0 +1,73 @@
+import { useRef } from "preact/hooks";
+import { pathUp } from "../../../scene/table/branch-rows";
+import type { Studio } from "../../studio";
+import { useFrames } from "../use-frames";
+
+/** What is held of a branch that is bent: its base, the places that stay put, and the way between them. */
+export function BendMarks({ studio }: { studio: Studio }) {
+  const host = useRef<SVGGElement>(null);
+  const [casing, trace] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
+  const bend = studio.tools.chosen.value === "bend" ? studio.tools.shaping.value?.bend : undefined;
+  const base = bend?.base.value ?? null;
+  const held = bend?.held.value ?? [];
+  const handles = (bend?.handles.value ?? []).filter((row) => !held.includes(row));
+  // Each frame of rows may have moved the branch.
+  void studio.revision.value;
+  const [lowest = null] = held;
+  const foot = base ?? (held.length > 1 ? lowest : null);
+  const marks = [
+    ...(foot === null ? [] : [{ row: foot, kind: "base" }]),
+    ...handles.map((row) => ({ row, kind: "pin" })),
+    ...held.filter((row) => row !== foot).map((row) => ({ row, kind: "grip" })),
+  ];
+  useFrames(marks.length > 0, () => {
+    const project = studio.stage.projector();
+    const place = (row: number) => {
+      const at = studio.stage.placeOf(row);
+      return at ? project?.(at) : null;
+    };
+    for (const [i, { row }] of marks.entries()) {
+      const at = place(row);
+      host.current?.children[i]?.setAttribute("transform", at ? `translate(${at[0]} ${at[1]})` : "translate(-99 -99)");
+    }
+    const way = foot === null ? [] : longest(studio, foot, [...held, ...handles]);
+    const points = way.flatMap((row) => {
+      const at = place(row);
+      return at ? [`${at[0].toFixed(1)} ${at[1].toFixed(1)}`] : [];
+    });
+    const path = points.length > 1 ? `M${points.join("L")}` : "";
+    casing.current?.setAttribute("d", path);
+    trace.current?.setAttribute("d", path);
+  });
+  if (marks.length === 0) {
+    return null;
+  }
+  return (
+    <svg class="overlay bend-marks" aria-hidden="true">
+      <path class="bend-casing" ref={casing} />
+      <path class="bend-trace" ref={trace} />
+      <g ref={host}>
+        {marks.map(({ row, kind }) => (
+          <g key={`${kind} ${row}`} class={`bend-${kind}`}>
+            <circle class="mark-casing" r={kind === "base" ? 15 : 10} />
+            <circle class="mark-ring" r={kind === "base" ? 15 : 10} />
+            {kind !== "pin" && <circle class="mark-dot" r="4" />}
+            {kind === "base" && <path class="mark-ring" d="M-21 0h-9M21 0h9" />}
+          </g>
+        ))}
+      </g>
+    </svg>
+  );
+}
+
+/** The longest way up from a row to any of some others. */
+function longest(studio: Studio, from: number, rows: readonly number[]): readonly number[] {
+  let way: readonly number[] = [];
+  for (const row of rows) {
+    const path = row > from ? pathUp(studio.table, from, row) : null;
+    if (path && path.length > way.length) {
+      way = path;
+    }
+  }
+  return way;
+}

@@ -1,0 +1,283 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import { MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";
+import type { Studio } from "../../studio";
+import { LEAST_DIAMETER, type WidthTool } from "../../tools/width/width-tool";
+import { say } from "../../words/say";
+import { numberText } from "../controls/number-text";
+import { CloseIcon } from "../icons";
+import { useFrames } from "../use-frames";
+import { type Ring, ringAt } from "./ring";
+
+/** Room between a ring and its knobs. */
+const KNOB_GAP = 26;
+/** How near to a limb a ring that is dragged along it has to be kept, in pixels. */
+const ALONG = 60;
+
+/** Which way a key goes: to a thicker limb, or towards the limb's tip. */
+const WAYS: Record<string, -1 | 1> = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 };
+
+/** Rings around the limbs whose width is set, and the one in hand with its knobs. */
+export function WidthRings({ studio }: { studio: Studio }) {
+  const width = studio.tools.shaping.value?.width;
+  const drawn = useRef<SVGGElement>(null);
+  const labels = useRef<HTMLDivElement>(null);
+  const shown = studio.tools.chosen.value === "width" && width !== undefined;
+  const chosen = width?.chosen.value ?? null;
+  const wanted = width?.wanted.value ?? null;
+  // Each frame of rows may have moved a limb.
+  void studio.revision.value;
+  const set = width?.widths.value ?? [];
+  // The one in hand comes last, over the others, and keeps its element and the focus wherever it is moved.
+  const others = set.filter(({ row }) => row !== chosen);
+  const rings = shown ? [...others, ...(chosen === null ? [] : [{ row: chosen, diameter: 0, effective: 0 }])] : [];
+  const diameter = (row: number) => (row === chosen && wanted !== null ? wanted : (width?.diameterOf(row) ?? 0));
+  useFrames(rings.length > 0, () => {
+    for (const [i, { row }] of rings.entries()) {
+      const ring = ringAt(studio, row, diameter(row));
+      const [back, casing, front] = [...(drawn.current?.children[i]?.children ?? [])];
+      back?.setAttribute("d", ring?.back ?? "");
+      casing?.setAttribute("d", ring?.front ?? "");
+      front?.setAttribute("d", ring?.front ?? "");
+      const label = labels.current?.children[i];
+      if (label instanceof HTMLElement) {
+        place(label, ring);
+      }
+    }
+  });
+  if (!shown || rings.length === 0) {
+    return null;
+  }
+  return (
+    <>
+      <svg class="overlay width-rings" aria-hidden="true">
+        <g ref={drawn}>
+          {rings.map(({ row }) => (
+            <g key={row} data-chosen={row === chosen}>
+              <path class="ring-back" />
+              <path class="ring-casing" />
+              <path class="ring-front" />
+            </g>
+          ))}
+        </g>
+      </svg>
+      <div class="width-labels" ref={labels}>
+        {rings.map((constraint) =>
+          constraint.row === chosen ? (
+            <Widget key="chosen" studio={studio} width={width} row={chosen} diameter={diameter(chosen)} />
+          ) : (
+            <div key={constraint.row} class="width-widget">
+              <button
+                type="button"
+                class="width-label"
+                aria-label={say("tools.width.choose", { width: figure(constraint.diameter) })}
+                onClick={() => width.choose(constraint.row)}
+              >
+                <Figure constraint={constraint} />
+              </button>
+            </div>
+          ),
+        )}
+      </div>
+    </>
+  );
+}
+
+interface WidgetProps {
+  readonly studio: Studio;
+  readonly width: WidthTool;
+  readonly row: number;
+  readonly diameter: number;
+}
+
+/** The ring in hand: a knob on either side, a dot to move it by, its width as a number, and a way to take it away. */
+function Widget({ studio, width, row, diameter }: WidgetProps) {
+  const set = width.limits.value.has(row);
+  const place = width.place();
+  type Press = PointerEvent & { readonly currentTarget: HTMLElement };
+  const pulls = {
+    onPointerDown: (event: Press) => {
+      if (event.button === 0) {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        width.take(row, awayFrom(studio, row, event));
+      }
+    },
+    onPointerMove: (event: Press) => {
+      if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+        width.pull(...onCanvas(event));
+        width.tick();
+      }
+    },
+    onPointerUp: () => width.letGo(),
+    onPointerCancel: () => width.letGo(),
+  };
+  const to = useRef<number | null>(null);
+  return (
+    <div class="width-widget" data-chosen="true">
+      {/* The right knob does the same, and is the one that keys reach. */}
+      <div class="width-knob left" aria-hidden="true" {...pulls} />
+      <div
+        class="width-knob right"
+        role="slider"
+        tabIndex={0}
+        aria-label={say("tools.width.diameter")}
+        aria-valuemin={LEAST_DIAMETER}
+        aria-valuemax={MAX_DIAMETER}
+        aria-valuenow={diameter}
+        aria-valuetext={say("tools.width.value", { width: figure(diameter) })}
+        onKeyDown={(event) => {
+          const way = WAYS[event.key];
+          if (way !== undefined) {
+            event.preventDefault();
+            width.type(diameter * 1.05 ** way);
+          } else if (event.key === "Delete" || event.key === "Backspace") {
+            width.remove();
+          }
+        }}
+        {...pulls}
+      />
+      <div
+        class="width-dot"
+        role="slider"
+        tabIndex={0}
+        aria-label={say("tools.width.along")}
+        aria-valuemin={1}
+        aria-valuemax={place?.of ?? 1}
+        aria-valuenow={place?.along ?? 1}
+        onKeyDown={(event) => {
+          const way = WAYS[event.key];
+          if (way !== undefined) {
+            event.preventDefault();
+            width.step(way);
+          }
+        }}
+        title={say("tools.width.along.title")}
+        onPointerDown={(event) => {
+          if (event.button === 0) {
+            event.currentTarget.setPointerCapture(event.pointerId);
+            to.current = null;
+          }
+        }}
+        onPointerMove={(event) => {
+          if (event.currentTarget.hasPointerCapture(event.pointerId)) {
+            to.current = studio.stage.pickRow(...onCanvas(event), ALONG);
+            const at = to.current === null ? null : studio.stage.placeOf(to.current);
+            const spot = at && studio.stage.projector()?.(at);
+            if (spot) {
+              event.currentTarget.style.setProperty("--to-x", `${spot[0]}px`);
+              event.currentTarget.style.setProperty("--to-y", `${spot[1]}px`);
+              event.currentTarget.dataset.moving = "true";
+            }
+          }
+        }}
+        onPointerUp={(event) => {
+          delete event.currentTarget.dataset.moving;
+          if (to.current !== null) {
+            width.shift(to.current);
+          }
+        }}
+        onPointerCancel={(event) => delete event.currentTarget.dataset.moving}
+      />
+      <form
+        class="panel width-box"
+        onSubmit={(event) => {
+          event.preventDefault();
+          if (document.activeElement instanceof HTMLElement) {
+            document.activeElement.blur();
+          }
+        }}
+      >
+        <Entry key={row} width={width} diameter={diameter} />
+        <button
+          type="button"
+          aria-label={say(set ? "tools.width.remove" : "tools.width.leave")}
+          title={say(set ? "tools.width.remove.title" : "tools.width.leave")}
+          onClick={() => width.remove()}
+        >
+          <CloseIcon />
+        </button>
+      </form>
+    </div>
+  );
+}
+
+/** The width as a number that can be typed. */
+function Entry({ width, diameter }: { width: WidthTool; diameter: number }) {
+  const [typed, setTyped] = useState<string | null>(null);
+  const latest = useRef<string | null>(null);
+  latest.current = typed;
+  const enter = (text: string | null) => {
+    const diameter = Number(text?.replace(",", "."));
+    // A field that was emptied says nothing.
+    if (diameter > 0) {
+      width.type(diameter);
+    }
+  };
+  // A number that was typed and not entered is entered when the ring is left.
+  useEffect(() => () => enter(latest.current), [width]);
+  return (
+    <label title={say("tools.width.typed")}>
+      <span aria-hidden="true">⌀</span>
+      <input
+        type="text"
+        inputMode="decimal"
+        aria-label={say("tools.width.typed")}
+        value={typed ?? figure(diameter)}
+        onFocus={(event) => event.currentTarget.select()}
+        onInput={(event) => setTyped(event.currentTarget.value)}
+        onBlur={() => {
+          enter(typed);
+          setTyped(null);
+        }}
+      />
+    </label>
+  );
+}
+
+/** What was set, and what came of it where widths contradict each other. */
+function Figure({ constraint }: { constraint: WidthConstraint }) {
+  const { diameter, effective } = constraint;
+  const differs = Math.abs(effective / diameter - 1) > 0.04;
+  return (
+    <>
+      {figure(diameter)}
+      {differs && <span class="quiet"> → {figure(effective)}</span>}
+    </>
+  );
+}
+
+function figure(diameter: number): string {
+  return numberText(diameter, diameter >= 10 ? 0.1 : diameter >= 0.1 ? 0.01 : 0.001);
+}
+
+function onCanvas(event: PointerEvent): [number, number] {
+  const frame = document.getElementById("workspace")?.getBoundingClientRect();
+  return [event.clientX - (frame?.left ?? 0), event.clientY - (frame?.top ?? 0)];
+}
+
+function awayFrom(studio: Studio, row: number, event: PointerEvent): number {
+  const at = studio.stage.placeOf(row);
+  const spot = at && studio.stage.projector()?.(at);
+  const [x, y] = onCanvas(event);
+  return spot ? Math.hypot(x - spot[0], y - spot[1]) : 0;
+}
+
+function place(label: HTMLElement, ring: Ring | null): void {
+  label.style.visibility = ring ? "visible" : "hidden";
+  if (!ring) {
+    return;
+  }
+  const [[ax, ay], [bx, by]] = ring.ends;
+  const length = Math.hypot(bx - ax, by - ay) || 1;
+  const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
+  const values = {
+    x: ring.middle[0],
+    y: ring.middle[1],
+    "left-x": ax - KNOB_GAP * ux,
+    "left-y": ay - KNOB_GAP * uy,
+    "right-x": bx + KNOB_GAP * ux,
+    "right-y": by + KNOB_GAP * uy,
+  };
+  for (const [name, value] of Object.entries(values)) {
+    label.style.setProperty(`--${name}`, `${value.toFixed(1)}px`);
+  }
+}

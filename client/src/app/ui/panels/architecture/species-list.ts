@@ -1,0 +1,46 @@
+import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
+import { type Appearance, DEFAULT_APPEARANCE, type Parameters, type Species } from "../../../../wire/generated";
+import { browserClock } from "../../../connection/connection";
+import { DEFAULTS } from "../../../document/growth/growth-parameters";
+import { listSpecies } from "../../../document/species/species-api";
+import { type Kin, kinOf } from "../../../document/species/species-choice";
+import { SpeciesSource } from "../../../document/species/species-source";
+import type { Studio } from "../../../studio";
+import { sentence } from "../../../words/plain-words";
+
+const source = new SpeciesSource({ list: listSpecies, clock: browserClock });
+
+/** The species there are; null before the server has answered. */
+export function useSpecies(studio: Studio): readonly Species[] | null {
+  useEffect(() => source.ask((error) => studio.toasts.show(sentence(error))), [studio]);
+  return source.known.value;
+}
+
+/** The species picked last on this page, by its slug: some differ only in how they are raised. */
+export const lastPicked = signal<string | undefined>(undefined);
+
+/** The last answer, since many controls ask for the same in one frame. */
+let last: { readonly about: readonly unknown[]; readonly kin: Kin | null } = { about: [], kin: null };
+
+/** The species that what is set now comes from, if it is near enough to one. */
+export function kinNow(studio: Studio): Kin | null {
+  const [species, parameters, looks] = [source.known.value, studio.parameters.value, studio.appearance.value];
+  const picked = lastPicked.value;
+  const about = [species, parameters, looks, picked];
+  if (about.some((one, i) => one !== last.about[i])) {
+    last = { about, kin: species === null || parameters === null ? null : kinOf(species, parameters, looks, picked) };
+  }
+  return last.kin;
+}
+
+/** What a reset goes back to: the species' own values, else those a session begins with. */
+export function standardOf(studio: Studio): Parameters {
+  return kinNow(studio)?.species.parameters ?? DEFAULTS;
+}
+
+/** The same of looks; what is around a tree is no species' own. */
+export function standardLooks(studio: Studio): Appearance {
+  const own = kinNow(studio)?.species.appearance;
+  return own ? { ...own, background: DEFAULT_APPEARANCE.background } : DEFAULT_APPEARANCE;
+}

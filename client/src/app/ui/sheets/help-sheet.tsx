@@ -1,0 +1,98 @@
+import { useState } from "preact/hooks";
+import { helpGroups, type Subject, searched, type TopicGroup } from "../../help/help-topics";
+import type { Studio } from "../../studio";
+import { type Key, say } from "../../words/say";
+import { Icon } from "../icons";
+import { GestureSketch } from "./gesture-sketch";
+import { Sheet } from "./sheet";
+import { showSubject } from "./show-subject";
+
+/** What is only found by searching; the panels explain it where it stands. */
+const SEARCHED_ONLY: Key = "help.group.controls";
+
+/** Gestures, tools, panels and keys, and all parameters for who searches them. */
+export function HelpSheet({ studio }: { studio: Studio }) {
+  const [query, setQuery] = useState("");
+  const groups = helpGroups();
+  const searching = query.trim() !== "";
+  const shown = searching ? searched(groups, query) : groups.filter(({ title }) => title !== SEARCHED_ONLY);
+  const count = shown.reduce((sum, { topics }) => sum + topics.length, 0);
+  return (
+    <Sheet studio={studio} title={say("help.title")} wide>
+      <div class="help-top">
+        <input
+          type="search"
+          class="help-search"
+          aria-label={say("help.search")}
+          placeholder={say("help.search")}
+          autocomplete="off"
+          value={query}
+          onInput={(event) => setQuery(event.currentTarget.value)}
+        />
+        <button
+          type="button"
+          class="small"
+          onClick={() => {
+            studio.sheet.value = null;
+            studio.setBare(false);
+            studio.tour.start();
+          }}
+        >
+          {say("help.tour")}
+        </button>
+      </div>
+      <p class={searching && count > 0 ? "unseen" : "quiet empty"} role="status" hidden={!searching}>
+        {say(count === 0 ? "help.found.none" : count === 1 ? "help.found.one" : "help.found.many", {
+          query: query.trim(),
+          count,
+        })}
+      </p>
+      <div class="help">
+        {shown.map((group) => (
+          <Group key={group.title} group={group} onShow={(subject) => showSubject(studio, subject)} />
+        ))}
+      </div>
+    </Sheet>
+  );
+}
+
+interface GroupProps {
+  readonly group: TopicGroup;
+  readonly onShow: (subject: Subject) => void;
+}
+
+function Group({ group: { title, topics }, onShow }: GroupProps) {
+  const cards = topics.some(({ sketch }) => sketch !== undefined);
+  return (
+    <section class={cards ? "help-group cards" : "help-group"}>
+      <h3>{say(title)}</h3>
+      <dl>
+        {topics.map(({ id, title, text, keys, sketch, subject }) => (
+          <div key={id} data-topic={id}>
+            {sketch && <GestureSketch name={sketch} />}
+            <dt>{keys === undefined ? title : <kbd>{keys}</kbd>}</dt>
+            <dd>{text}</dd>
+            {subject && (
+              <dd class="help-show">
+                <button
+                  type="button"
+                  aria-label={say("help.show.what", { title })}
+                  title={say("help.show")}
+                  onClick={() => onShow(subject)}
+                >
+                  <GoIcon />
+                </button>
+              </dd>
+            )}
+          </div>
+        ))}
+      </dl>
+    </section>
+  );
+}
+
+const GoIcon = () => (
+  <Icon>
+    <path d="M5 12h13.5M13 6.5l5.5 5.5-5.5 5.5" />
+  </Icon>
+);

@@ -1,0 +1,258 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Timeline } from "../../../wire/generated";
+import { authorColour, authorName } from "../../document/timeline/authors";
+import { clusters, peopleOf } from "../../document/timeline/timeline";
+import type { Studio } from "../../studio";
+import { say } from "../../words/say";
+import { Forks } from "./timeline-forks";
+import { BackIcon, FoldIcon, ForthIcon, sortOf, TimeIcon } from "./timeline-icons";
+import { useScrubbing } from "./use-scrubbing";
+
+/** Signs nearer to each other than this, in pixels, become one. */
+const ROOM = 32;
+
+/** The line of time along the bottom: what was done, and where in it the tree is now. */
+export function TimelineStrip({ studio }: { studio: Studio }) {
+  const timeline = studio.time.told.value;
+  const { timelineOpen } = studio.settings;
+  if (timeline === null || !isWorthShowing(timeline)) {
+    return null;
+  }
+  if (!timelineOpen.value) {
+    return (
+      <button
+        type="button"
+        class="panel tool timeline-tab"
+        aria-label={say("timeline.show")}
+        title={say("timeline.show.title")}
+        aria-expanded={false}
+        onClick={() => {
+          timelineOpen.value = true;
+        }}
+      >
+        <TimeIcon />
+      </button>
+    );
+  }
+  const step = studio.time.step;
+  return (
+    <section class="panel timeline" data-place="timeline" aria-label={say("timeline.label")}>
+      <button
+        type="button"
+        class="tool"
+        aria-label={say("timeline.hide")}
+        title={say("timeline.hide")}
+        aria-expanded={true}
+        onClick={() => {
+          timelineOpen.value = false;
+        }}
+      >
+        <FoldIcon />
+      </button>
+      <button
+        type="button"
+        class="tool"
+        aria-label={say("timeline.back")}
+        title={say("timeline.back.title")}
+        aria-disabled={step <= 0}
+        onClick={() => studio.time.by(-1)}
+      >
+        <BackIcon />
+      </button>
+      <Track studio={studio} timeline={timeline} />
+      <button
+        type="button"
+        class="tool"
+        aria-label={say("timeline.forth")}
+        title={say("timeline.forth.title")}
+        aria-disabled={step >= timeline.last_step}
+        onClick={() => studio.time.by(1)}
+      >
+        <ForthIcon />
+      </button>
+    </section>
+  );
+}
+
+/** Whether the strip lies along the bottom. */
+export function hasTimeline(studio: Studio): boolean {
+  const timeline = studio.time.told.value;
+  return timeline !== null && isWorthShowing(timeline) && studio.settings.timelineOpen.value;
+}
+
+/** Before anything was done there is nowhere to travel. */
+function isWorthShowing({ operations, futures }: Timeline): boolean {
+  return operations.length > 0 || futures.length > 0;
+}
+
+function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
+  const track = useRef<HTMLDivElement>(null);
+  const width = useWidth(track);
+  const scrubbing = useScrubbing(studio, track);
+  const scale = studio.time.scale.value;
+  const step = studio.time.step;
+  // While the hand has it the playhead stands under the finger, and not at the step nearest to it.
+  const place = scrubbing.place ?? scale.placeOf(step);
+  const looked = scrubbing.looked ?? (scrubbing.shown ? operationAtStep(timeline, step) : null);
+  return (
+    <div class="timeline-track">
+      <div
+        class="timeline-way"
+        ref={track}
+        role="slider"
+        tabIndex={0}
+        aria-label={say("timeline.time")}
+        aria-valuemin={0}
+        aria-valuemax={timeline.last_step}
+        aria-valuenow={step}
+        aria-valuetext={speech(timeline, step)}
+        data-pulled={scrubbing.place !== null}
+        {...scrubbing.handlers}
+      >
+        <span class="timeline-rail">
+          <span class="timeline-lived" style={{ width: `${100 * place}%` }} />
+        </span>
+        {width > 0 && <Signs studio={studio} timeline={timeline} width={width} />}
+        <Marks timeline={timeline} edges={scale.edges} step={step} />
+        <span class="timeline-head" style={{ left: `${100 * place}%` }} />
+      </div>
+      {width > 0 && <Forks studio={studio} width={width} />}
+      {(scrubbing.shown || scrubbing.looked !== null) && (
+        <Bubble
+          studio={studio}
+          timeline={timeline}
+          operation={looked}
+          place={scrubbing.looked === null ? place : middle(scale.edges, scrubbing.looked)}
+          step={scrubbing.looked === null ? step : null}
+        />
+      )}
+    </div>
+  );
+}
+
+/** Each operation as a sign in its author's colour; where there are too many, one sign for several. */
+function Signs({ studio, timeline, width }: { studio: Studio; timeline: Timeline; width: number }) {
+  const scale = studio.time.scale.value;
+  const people = peopleOf(timeline);
+  return (
+    <>
+      {clusters(scale, width, ROOM).map(({ from, to, x }) => {
+        const all = timeline.operations.slice(from, to + 1);
+        const alike = (of: "kind" | "author") => all.every((operation) => operation[of] === all[0]?.[of]);
+        const first = timeline.operations[from];
+        if (!first) {
+          return null;
+        }
+        const { Icon } = sortOf(first.kind);
+        const count = to - from + 1;
+        return (
+          <span
+            class="timeline-sign"
+            key={from}
+            data-undone={from >= timeline.done}
+            style={{
+              left: `${x}px`,
+              "--author": alike("author") ? authorColour(first.author, people) : "var(--quiet)",
+            }}
+          >
+            {alike("kind") && <Icon />}
+            {count > 1 && <b data-alone={!alike("kind")}>{count}</b>}
+          </span>
+        );
+      })}
+    </>
+  );
+}
+
+/** Where undo would go, and where redo. */
+function Marks({ timeline, edges, step }: { timeline: Timeline; edges: readonly number[]; step: number }) {
+  const { done, operations } = timeline;
+  const current = operations[done - 1];
+  const redone = current && step < current.last ? done : done + 1;
+  const [back, forth] = [done > 0 ? edges[done - 1] : undefined, edges[redone]];
+  return (
+    <>
+      {back !== undefined && <i class="timeline-mark" data-to="undo" style={{ left: `${100 * back}%` }} />}
+      {forth !== undefined && <i class="timeline-mark" data-to="redo" style={{ left: `${100 * forth}%` }} />}
+    </>
+  );
+}
+
+interface BubbleProps {
+  readonly studio: Studio;
+  readonly timeline: Timeline;
+  readonly operation: number | null;
+  readonly place: number;
+  /** The step the playhead is at; null if an operation is only looked at. */
+  readonly step: number | null;
+}
+
+/** What was done here, by whom, and which step this is. */
+function Bubble({ timeline, operation, place, step }: BubbleProps) {
+  const done = operation === null ? undefined : timeline.operations[operation];
+  const people = peopleOf(timeline);
+  const sort = done && sortOf(done.kind);
+  return (
+    <div class="timeline-bubble" style={{ "--place": place }} aria-hidden="true">
+      {done && sort && (
+        <span class="timeline-what" style={{ "--author": authorColour(done.author, people) }}>
+          <sort.Icon />
+          {say(sort.name)}
+          {people > 1 && <em>{authorName(done.author)}</em>}
+        </span>
+      )}
+      <span class="timeline-when">
+        {step === null && done
+          ? stepsOf(done.last - done.first)
+          : say("timeline.step", { step: step ?? timeline.step })}
+      </span>
+    </div>
+  );
+}
+
+function useWidth(element: { readonly current: HTMLElement | null }): number {
+  const [width, setWidth] = useState(0);
+  useEffect(() => {
+    if (!element.current) {
+      return undefined;
+    }
+    const observer = new ResizeObserver(([entry]) => setWidth(entry?.contentRect.width ?? 0));
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, [element]);
+  return width;
+}
+
+function speech(timeline: Timeline, step: number): string {
+  const at = operationAtStep(timeline, step);
+  const operation = at === null ? undefined : timeline.operations[at];
+  const where = { step, last: timeline.last_step };
+  if (!operation) {
+    return say("timeline.step-of", where);
+  }
+  const what = say(sortOf(operation.kind).name);
+  return peopleOf(timeline) > 1
+    ? say("timeline.step-of.who", { ...where, what, who: authorName(operation.author) })
+    : say("timeline.step-of.what", { ...where, what });
+}
+
+/** The operation that led to a step. */
+function operationAtStep({ operations, done }: Timeline, step: number): number | null {
+  for (let i = operations.length - 1; i >= 0; i -= 1) {
+    const { first, last } = operations[i] ?? { first: 0, last: 0 };
+    if (first < last ? first < step : first < step || (first === step && i < done)) {
+      return i;
+    }
+  }
+  return null;
+}
+
+function middle(edges: readonly number[], operation: number): number {
+  return ((edges[operation] ?? 0) + (edges[operation + 1] ?? 1)) / 2;
+}
+
+export function stepsOf(steps: number): string {
+  return say(steps === 0 ? "timeline.steps.none" : steps === 1 ? "timeline.steps.one" : "timeline.steps.many", {
+    count: steps,
+  });
+}

@@ -1,0 +1,125 @@
+import { useEffect, useRef, useState } from "preact/hooks";
+import type { Studio } from "../../studio";
+
+/** How far a finger wanders before it pulls the playhead and is no tap, in pixels. */
+const SLOP = 4;
+/** A finger that lands so near to the playhead takes hold of it where it is. */
+const GRASP = 24;
+/** A finger so far above the strip pulls slowly, so that single steps can be met. */
+const FINE_FROM = 56;
+const FINE = 0.2;
+/** How long what was touched is still told, in milliseconds. */
+const LINGERS = 1600;
+
+interface Pull {
+  readonly id: number;
+  readonly from: number;
+  x: number;
+  place: number;
+  moved: boolean;
+}
+
+/** What a hand does on the strip: it pulls the playhead, taps an operation, or only looks at one. */
+export function useScrubbing(studio: Studio, track: { readonly current: HTMLElement | null }) {
+  const pull = useRef<Pull | null>(null);
+  const timer = useRef(0);
+  const [place, setPlace] = useState<number | null>(null);
+  const [looked, setLooked] = useState<number | null>(null);
+  const [shown, setShown] = useState(false);
+  const { time } = studio;
+  useEffect(() => () => clearTimeout(timer.current), []);
+
+  const linger = () => {
+    setShown(true);
+    clearTimeout(timer.current);
+    timer.current = window.setTimeout(() => setShown(false), LINGERS);
+  };
+  const placeAt = (x: number) => {
+    const frame = track.current?.getBoundingClientRect();
+    return frame ? Math.min(1, Math.max(0, (x - frame.left) / frame.width)) : 0;
+  };
+  const down = (event: PointerEvent) => {
+    if (pull.current !== null || event.button !== 0) {
+      return;
+    }
+    track.current?.setPointerCapture(event.pointerId);
+    const head = time.scale.peek().placeOf(time.step);
+    const at = placeAt(event.clientX);
+    const width = track.current?.clientWidth ?? 1;
+    const grasped = Math.abs(at - head) * width < GRASP;
+    pull.current = {
+      id: event.pointerId,
+      from: event.clientX,
+      x: event.clientX,
+      place: grasped ? head : at,
+      moved: false,
+    };
+    setLooked(null);
+    linger();
+  };
+  const move = (event: PointerEvent) => {
+    const held = pull.current;
+    if (!held) {
+      const looks = event.pointerType !== "touch" && time.told.peek() !== null;
+      setLooked(looks ? time.scale.peek().operationAt(placeAt(event.clientX)) : null);
+      return;
+    }
+    const frame = track.current?.getBoundingClientRect();
+    if (event.pointerId !== held.id || !frame) {
+      return;
+    }
+    held.moved ||= Math.abs(event.clientX - held.from) > SLOP;
+    if (!held.moved) {
+      return;
+    }
+    const speed = frame.top - event.clientY > FINE_FROM ? FINE : 1;
+    held.place = Math.min(1, Math.max(0, held.place + (speed * (event.clientX - held.x)) / frame.width));
+    held.x = event.clientX;
+    setPlace(held.place);
+    time.pull(time.scale.peek().stepAt(held.place));
+    linger();
+  };
+  const up = (event: PointerEvent) => {
+    const held = pull.current;
+    if (held?.id !== event.pointerId) {
+      return;
+    }
+    pull.current = null;
+    setPlace(null);
+    time.release();
+    const operation = time.told.peek()?.operations[time.scale.peek().operationAt(placeAt(event.clientX))];
+    if (!held.moved && event.type === "pointerup" && operation) {
+      // A tap goes to where the operation was done; there already, to where it began.
+      time.to(time.step === operation.last ? operation.first : operation.last);
+    }
+    linger();
+  };
+  const key = (event: KeyboardEvent) => {
+    const acts: Record<string, () => void> = {
+      ArrowLeft: () => time.by(-1),
+      ArrowDown: () => time.by(-1),
+      ArrowRight: () => time.by(1),
+      ArrowUp: () => time.by(1),
+      PageDown: () => time.toEdge(-1),
+      PageUp: () => time.toEdge(1),
+      Home: () => time.to(0),
+      End: () => time.to(time.told.peek()?.last_step ?? 0),
+    };
+    const act = acts[event.key];
+    if (act) {
+      event.preventDefault();
+      act();
+      linger();
+    }
+  };
+  const handlers = {
+    onPointerDown: down,
+    onPointerMove: move,
+    onPointerUp: up,
+    onPointerCancel: up,
+    onLostPointerCapture: up,
+    onPointerLeave: () => setLooked(null),
+    onKeyDown: key,
+  };
+  return { place, looked, shown, handlers };
+}

@@ -1,0 +1,206 @@
+import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
+import type { View } from "../../scene/camera/view";
+import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
+import type { TreeTable } from "../../scene/table/tree-table";
+import type { Viewport } from "../../scene/viewport";
+import type { Appearance } from "../../wire/generated";
+import type { Settings } from "../page/settings";
+import type { Point } from "../ports";
+import { nearestBase, scaleAt } from "../scene-link";
+import { Holds } from "./holds";
+
+/** How long the brush stays visible after its radius changed. */
+const RADIUS_SHOWN_FOR = 900;
+
+/** The picture, and what lies over it needs to know of it; there may be none yet. */
+export class Stage {
+  #table: TreeTable;
+  #settings: Settings;
+  #busy: () => boolean;
+  #view: Viewport | null = null;
+  #canvas: HTMLCanvasElement | null = null;
+  #radiusTimer = 0;
+  /** Whether no picture can be drawn here. */
+  #dark = false;
+  /** What a picture made later begins with. */
+  #appearance: Appearance | null = null;
+  #mode: DrawMode = "lit";
+  /** What it is to show once it is made. */
+  #look: View | null = null;
+  #holds = new Holds((held) => this.#view?.hold(held));
+
+  /** `busy` tells whether a tool shows itself, which the radius then must not. */
+  constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
+    this.#table = table;
+    this.#settings = settings;
+    this.#busy = busy;
+  }
+
+  attach(view: Viewport, canvas: HTMLCanvasElement): void {
+    this.#view = view;
+    this.#canvas = canvas;
+    if (this.#appearance) {
+      view.setAppearance(this.#appearance);
+    }
+    view.setDrawMode(this.#mode);
+    view.hold(this.#holds.held);
+    if (this.#table.rows > 0) {
+      view.changed();
+    }
+    if (this.#look) {
+      view.look(this.#look);
+      this.#look = null;
+    }
+  }
+
+  detach(): void {
+    clearTimeout(this.#radiusTimer);
+    this.#view = null;
+    this.#canvas = null;
+  }
+
+  /** Whether no picture can be drawn here, as was found out when one was tried. */
+  get dark(): boolean {
+    return this.#dark;
+  }
+
+  /** No picture can be drawn. */
+  darken(): void {
+    this.#dark = true;
+  }
+
+  /** A finger is down or a lever held: the picture is not at rest until what this returns was called. */
+  hold(): () => void {
+    return this.#holds.take();
+  }
+
+  /** Rows have changed; draw. */
+  changed(): void {
+    this.#view?.changed();
+  }
+
+  setLeafSize(size: number): void {
+    this.#view?.setLeafSize(size);
+  }
+
+  /** How the tree and its surroundings look. */
+  setAppearance(appearance: Appearance): void {
+    this.#appearance = appearance;
+    this.#view?.setAppearance(appearance);
+  }
+
+  /** What is shown of the tree. */
+  setDrawMode(mode: DrawMode): void {
+    this.#mode = mode;
+    this.#view?.setDrawMode(mode);
+  }
+
+  /** What the draw mode's colours mean, as the tree is now. */
+  legend(): Legend | null {
+    return this.#view?.legend() ?? null;
+  }
+
+  frameTree(): void {
+    this.#view?.frameTree();
+  }
+
+  look(view: View): void {
+    if (this.#view) {
+      this.#view.look(view);
+    } else {
+      this.#look = view;
+    }
+  }
+
+  /** Turns the tree around the vertical, by radians: above 0 its front goes to the right. */
+  turn(radians: number): void {
+    this.#view?.orbit(radians / RADIANS_PER_PIXEL, 0);
+  }
+
+  /** Turns the tree to its front. */
+  face(): void {
+    this.#view?.face();
+  }
+
+  /** How far the tree is turned, in radians from −π to π; 0 as a page opens. */
+  get turned(): number {
+    const [right] = this.screenAxes() ?? [[1, 0, 0]];
+    return Math.atan2(right[2], right[0]);
+  }
+
+  hideBrush(): void {
+    this.#view?.hideBrush();
+  }
+
+  /** The row of the branch nearest to a place, within a tolerance in pixels. */
+  pickRow(x: number, y: number, tolerance: number): number | null {
+    return this.#view?.pick(x, y, tolerance)?.row ?? null;
+  }
+
+  /** Sets the brush's radius and shows it for a moment where it would draw. */
+  setRadius(radius: number): void {
+    this.#settings.radius.value = radius;
+    const [view, canvas] = [this.#view, this.#canvas];
+    if (!view || !canvas || this.#busy()) {
+      return;
+    }
+    const { clientWidth: width, clientHeight: height } = canvas;
+    const base = nearestBase(this.#table, view, width / 2, height / 2);
+    const place = view.pointOnPlane(width / 2, height / 2, base);
+    if (place) {
+      view.showBrush(place, radius);
+      clearTimeout(this.#radiusTimer);
+      this.#radiusTimer = window.setTimeout(() => {
+        if (!this.#busy()) {
+          view.hideBrush();
+        }
+      }, RADIUS_SHOWN_FOR);
+    }
+  }
+
+  /** A tool shows itself now; the radius need not. */
+  radiusSeen(): void {
+    clearTimeout(this.#radiusTimer);
+  }
+
+  /** What turns points of the world into places on the canvas, as the camera stands now. */
+  projector(): ((point: Point) => readonly [number, number] | null) | null {
+    return this.#view?.projector() ?? null;
+  }
+
+  /** Where a row is drawn. */
+  placeOf(row: number): Point | null {
+    return row < this.#table.rows ? (this.#view?.placeOf(row) ?? null) : null;
+  }
+
+  /** The screen's own directions in the world: right, up, and out of it towards the eye. */
+  screenAxes(): readonly [right: Point, up: Point, out: Point] | null {
+    const plane = this.#view?.drawingPlane([0, 0, 0]);
+    if (!plane) {
+      return null;
+    }
+    const { right: r, up: u } = plane;
+    return [r, u, [r[1] * u[2] - r[2] * u[1], r[2] * u[0] - r[0] * u[2], r[0] * u[1] - r[1] * u[0]]];
+  }
+
+  /** The base of the plant nearest to the middle of the canvas, and which ways are right and up on the screen. */
+  middle(): { readonly base: Point; readonly right: Point; readonly up: Point } {
+    const [view, canvas] = [this.#view, this.#canvas];
+    if (!view || !canvas) {
+      return { base: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0] };
+    }
+    const base = nearestBase(this.#table, view, canvas.clientWidth / 2, canvas.clientHeight / 2);
+    const { right, up } = view.drawingPlane(base);
+    return { base, right, up };
+  }
+
+  /** How many pixels an internode is long at a point. */
+  scaleAt(point: Point): number {
+    return this.#view ? scaleAt(this.#view, point) : 0;
+  }
+
+  /** A picture of the tree as a data URL, or undefined where none can be made. */
+  async thumbnail(size: number): Promise<string | undefined> {
+    return await this.#view?.thumbnail(size, size);
+  }
+}

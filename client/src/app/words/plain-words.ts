@@ -1,0 +1,46 @@
+import type { Problem } from "../../wire/generated";
+import { RequestFailed } from "../library/library-api";
+import { ALLOWED, REFUSALS } from "./refusal-table";
+import { type Key, language, say } from "./say";
+
+/** Fields that name wood by its rows, which a person does not. */
+const WOOD = /^(row|onto|base|touches)/;
+
+/** What a person is told about a problem: in their language, without numbers of rows, and as a sentence. */
+export function plainly({ code, field, allowed, message }: Problem): string {
+  if (code === "not_found" && WOOD.test(field ?? "")) {
+    return say("problems.branch-gone");
+  }
+  const known = matched(REFUSALS, message);
+  if (known !== null) {
+    return known;
+  }
+  if (code === "malformed") {
+    return say("problems.page");
+  }
+  if (code === "out_of_range" && language.value !== "en") {
+    const words = matched(ALLOWED, allowed ?? "");
+    return words === null ? say("problems.out-of-range") : say("problems.out-of-range.allowed", { allowed: words });
+  }
+  const words = message.replace(/\brow \d+\b/g, "that branch");
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
+}
+
+/** The words of the first entry that a text matches; null if none does. */
+function matched(table: readonly (readonly [RegExp, Key])[], text: string): string | null {
+  for (const [pattern, key] of table) {
+    const match = pattern.exec(text);
+    if (match) {
+      return say(key, match.groups);
+    }
+  }
+  return null;
+}
+
+/** What to tell a person about an error. */
+export function sentence(error: unknown): string {
+  if (error instanceof RequestFailed) {
+    return plainly(error.problem);
+  }
+  return error instanceof Error ? error.message : String(error);
+}
