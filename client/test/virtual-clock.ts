@@ -1,4 +1,4 @@
-import type { Clock } from "../src/app/connection/connection";
+import type { Clock } from "../src/app/page/clock";
 
 /** A clock that goes when it is told to. */
 export class Virtual implements Clock {

@@ -9,6 +9,9 @@ export type ServerFrame =
   | { readonly kind: typeof FrameKind.Pose; readonly frame: PoseFrame }
   | { readonly kind: typeof FrameKind.Ghost; readonly frame: GhostFrame };
 
+/** A frame that does not change the table of rows. */
+export type AsideServerFrame = Exclude<ServerFrame, { readonly kind: typeof FrameKind.MeshDelta }>;
+
 /** Reads whatever kind of frame this is; any bytes at all give one or a `FrameError`. */
 export async function decodeServerFrame(bytes: ArrayBuffer): Promise<ServerFrame> {
   const kind = kindOf(bytes);

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { FakeSocket } from "../../../test/fake-socket";
-import { type AsideFrame, type Clock, Connection } from "./connection";
+import type { Clock } from "../page/clock";
+import { type AsideFrame, Connection } from "./connection";
 import type { FrameHead } from "./connection-core";
 
 function setUp() {

@@ -10,7 +10,7 @@ import type {
   Timeline,
   WidthConstraint,
 } from "../../wire/generated";
-import type { RowStore } from "../ports";
+import type { Clock } from "../page/clock";
 import {
   type AsideHead,
   type ClientRecord,
@@ -19,6 +19,7 @@ import {
   type Phase,
   type StopReason,
 } from "./connection-core";
+import type { RowStore } from "./row-store";
 
 /** The part of a WebSocket that is used; tests bring their own. */
 export interface Socket {
@@ -28,12 +29,6 @@ export interface Socket {
   onclose: ((event: CloseEvent) => void) | null;
   send(text: string): void;
   close(): void;
-}
-
-/** The clock and its timers; tests bring their own. */
-export interface Clock {
-  now(): number;
-  after(delay: number, run: () => void): () => void;
 }
 
 /** The kind of a frame that changes the rows. */
@@ -80,14 +75,6 @@ export interface ConnectionOptions<Frame, Aside> {
   readonly random?: () => number;
   readonly record?: ClientRecord;
 }
-
-export const browserClock: Clock = {
-  now: () => performance.now(),
-  after: (delay, run) => {
-    const timer = setTimeout(run, delay);
-    return () => clearTimeout(timer);
-  },
-};
 
 /** Keeps one session's socket alive and its commands and frames in order. */
 export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {

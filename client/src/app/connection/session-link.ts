@@ -1,18 +1,19 @@
 import { batch, type Signal, signal } from "@preact/signals";
 import type { Frame } from "../../wire/frame";
 import type { Command } from "../../wire/generated";
+import type { AsideServerFrame } from "../../wire/server-frame";
 import { decodeServerFrame } from "../../wire/server-frame";
-import { createSession, sessionExists, socketAddress } from "../library/library-api";
+import type { Clock } from "../page/clock";
 import type { Hindrance } from "../page/hindrance";
 import type { PageEvents } from "../page/page-life";
-import type { RowStore } from "../ports";
-import type { AsideServerFrame } from "../scene-link";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
-import { type Clock, Connection, type ConnectionEvents, type Socket } from "./connection";
+import { Connection, type ConnectionEvents, type Socket } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
 import { PartedSessions } from "./parted-sessions";
 import { mayReload } from "./reload-guard";
+import type { RowStore } from "./row-store";
 import { pathOf, sessionInPath } from "./session-address";
+import { createSession, sessionExists, socketAddress } from "./session-api";
 
 const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */

@@ -1,5 +1,5 @@
 import { type ReadonlySignal, signal } from "@preact/signals";
-import type { Clock } from "../connection/connection";
+import type { Clock } from "../page/clock";
 
 /** A hand that moves is told about ten times a second. */
 const SEND_EVERY = 100;

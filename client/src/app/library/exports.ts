@@ -1,5 +1,5 @@
+import { askFor } from "../requests/request";
 import { bytesOf, Transfer } from "../requests/transfer";
-import { askFor, gltfAddress } from "./library-api";
 
 export interface ExportsOptions {
   readonly session: () => string | null;
@@ -44,4 +44,9 @@ export function keepFile(file: Blob, name: string): void {
   link.click();
   // Safari reads it after the click.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}
+
+/** Where a session's plants can be downloaded as glTF. */
+function gltfAddress(session: string): string {
+  return `/api/sessions/${encodeURIComponent(session)}/tree.glb`;
 }

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { refusal, silence } from "../library/library-api";
+import { refusal, silence } from "./request";
 
 /** How far something on its way has come; `total` is null where nobody knows. */
 export interface Progress {

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import type { Point } from "../ports";
+import type { Vec3 } from "../../scene/vector";
 
 /** What is asked of the rows. */
 export interface Rows {
@@ -14,7 +14,7 @@ export class ChosenBud {
   /** The row of a metamer on it. */
   readonly row = signal<number | null>(null);
   #rows: Rows;
-  #place: Point = [0, 0, 0];
+  #place: Vec3 = [0, 0, 0];
 
   constructor(rows: Rows) {
     this.#rows = rows;
@@ -44,7 +44,7 @@ export class ChosenBud {
     return same;
   }
 
-  #placeOf(row: number): Point {
+  #placeOf(row: number): Vec3 {
     const { position } = this.#rows;
     return [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
   }

@@ -4,13 +4,13 @@ import { Virtual } from "../../../test/virtual-clock";
 import type { Bent } from "../../scene/guise/bent";
 import type { SlotWriter } from "../../scene/guise/guises";
 import { TreeTable } from "../../scene/table/tree-table";
+import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
 import type { PoseFrame, RowMotion } from "../../wire/pose";
 import { ObstacleList } from "../document/obstacles/obstacle-list";
 import { loadSettings } from "../page/settings";
 import { Toasts } from "../page/toasts";
-import type { Point } from "../ports";
 import type { BranchHand } from "./branch/held-branch";
 import { ChosenBud } from "./chosen-bud";
 import { Toolbox } from "./toolbox";
@@ -24,12 +24,12 @@ function setUp(table = new TreeTable()) {
   const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0, worn: new Set<Bent>() };
   const store = { getItem: () => null, setItem: () => {} } as unknown as Storage;
   const view = {
-    pointOnPlane: (x: number, y: number, through: Point) => [x / 10, (1000 - y) / 10, through[2]],
+    pointOnPlane: (x: number, y: number, through: Vec3) => [x / 10, (1000 - y) / 10, through[2]],
     pointOnLevel: (x: number, y: number) => (y > 500 ? [x / 10, 0, y / 10] : null),
-    drawingPlane: (through: Point) => ({ origin: [...through], right: [1, 0, 0], up: [0, 1, 0] }),
+    drawingPlane: (through: Vec3) => ({ origin: [...through], right: [1, 0, 0], up: [0, 1, 0] }),
     pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
     placeOf: (row: number) => [50, row, 0],
-    projector: () => (point: Point) => [10 * point[0], 1000 - 10 * point[1]],
+    projector: () => (point: Vec3) => [10 * point[0], 1000 - 10 * point[1]],
     wear: (bent: Bent) => world.worn.add(bent),
     doff: (bent: Bent) => world.worn.delete(bent),
     wears: (bent: Bent) => world.worn.has(bent),

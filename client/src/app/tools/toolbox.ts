@@ -2,6 +2,7 @@ import { signal } from "@preact/signals";
 import { Bend } from "../../scene/bend/bend";
 import type { Girth } from "../../scene/guise/swollen";
 import type { TreeTable } from "../../scene/table/tree-table";
+import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
 import type { PoseFrame } from "../../wire/pose";
@@ -9,8 +10,7 @@ import type { ObstacleList } from "../document/obstacles/obstacle-list";
 import type { Gesture, Grip, StrokePoint } from "../input/gesture-recogniser";
 import type { Settings } from "../page/settings";
 import type { Toasts } from "../page/toasts";
-import type { Point } from "../ports";
-import { nearestBase, scaleAt } from "../scene-link";
+import { nearestBase, scaleAt } from "../view/places";
 import { type Key, say } from "../words/say";
 import { BendPoses } from "./bend/bend-poses";
 import { BendTool } from "./bend/bend-tool";
@@ -84,7 +84,7 @@ export class Toolbox {
   readonly hold = signal<Hold | null>(null);
   readonly outline = new OutlineTrace();
   /** Where a seed would lie. */
-  readonly seed = signal<Point | null>(null);
+  readonly seed = signal<Vec3 | null>(null);
   /** Those with something to show beside the picture; null without a view. */
   readonly shaping = signal<Shaping | null>(null);
   #widths: readonly WidthConstraint[] = [];

@@ -2,12 +2,12 @@ import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
 import type { View } from "../../scene/camera/view";
 import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
 import type { TreeTable } from "../../scene/table/tree-table";
+import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { Appearance } from "../../wire/generated";
 import type { Settings } from "../page/settings";
-import type { Point } from "../ports";
-import { nearestBase, scaleAt } from "../scene-link";
 import { Holds } from "./holds";
+import { nearestBase, scaleAt } from "./places";
 
 /** How long the brush stays visible after its radius changed. */
 const RADIUS_SHOWN_FOR = 900;
@@ -164,17 +164,17 @@ export class Stage {
   }
 
   /** What turns points of the world into places on the canvas, as the camera stands now. */
-  projector(): ((point: Point) => readonly [number, number] | null) | null {
+  projector(): ((point: Vec3) => readonly [number, number] | null) | null {
     return this.#view?.projector() ?? null;
   }
 
   /** Where a row is drawn. */
-  placeOf(row: number): Point | null {
+  placeOf(row: number): Vec3 | null {
     return row < this.#table.rows ? (this.#view?.placeOf(row) ?? null) : null;
   }
 
   /** The screen's own directions in the world: right, up, and out of it towards the eye. */
-  screenAxes(): readonly [right: Point, up: Point, out: Point] | null {
+  screenAxes(): readonly [right: Vec3, up: Vec3, out: Vec3] | null {
     const plane = this.#view?.drawingPlane([0, 0, 0]);
     if (!plane) {
       return null;
@@ -184,7 +184,7 @@ export class Stage {
   }
 
   /** The base of the plant nearest to the middle of the canvas, and which ways are right and up on the screen. */
-  middle(): { readonly base: Point; readonly right: Point; readonly up: Point } {
+  middle(): { readonly base: Vec3; readonly right: Vec3; readonly up: Vec3 } {
     const [view, canvas] = [this.#view, this.#canvas];
     if (!view || !canvas) {
       return { base: [0, 0, 0], right: [1, 0, 0], up: [0, 1, 0] };
@@ -195,7 +195,7 @@ export class Stage {
   }
 
   /** How many pixels an internode is long at a point. */
-  scaleAt(point: Point): number {
+  scaleAt(point: Vec3): number {
     return this.#view ? scaleAt(this.#view, point) : 0;
   }
 

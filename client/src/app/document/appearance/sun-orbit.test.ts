@@ -1,13 +1,13 @@
 import { describe, expect, it } from "vitest";
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import { around, azimuthOfEye, type ScreenAxes, SunDrag, shownAt, standingAt } from "./sun-orbit";
 
 /** The screen's directions for an eye so far around the tree and so high, in degrees. */
 function looking(yaw: number, pitch: number): ScreenAxes {
   const [a, e] = [(yaw * Math.PI) / 180, (pitch * Math.PI) / 180];
-  const out: Point = [Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)];
-  const right: Point = [Math.cos(a), 0, -Math.sin(a)];
-  const up: Point = [
+  const out: Vec3 = [Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e)];
+  const right: Vec3 = [Math.cos(a), 0, -Math.sin(a)];
+  const up: Vec3 = [
     out[1] * right[2] - out[2] * right[1],
     out[2] * right[0] - out[0] * right[2],
     out[0] * right[1] - out[1] * right[0],

@@ -1,4 +1,4 @@
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 
 /** Where the sun stands, in degrees: from the z axis towards the x axis, and above the horizon. */
 export interface SunPlace {
@@ -14,7 +14,7 @@ export interface DomePlace {
 }
 
 /** The screen's own directions in the world: right, up, and out of it towards the eye. */
-export type ScreenAxes = readonly [right: Point, up: Point, out: Point];
+export type ScreenAxes = readonly [right: Vec3, up: Vec3, out: Vec3];
 
 export const LOWEST_SUN = -10;
 export const HIGHEST_SUN = 90;
@@ -24,7 +24,7 @@ const DEGREE = Math.PI / 180;
 /** Where the sun is shown. */
 export function shownAt({ azimuth, elevation }: SunPlace, [right, up, out]: ScreenAxes): DomePlace {
   const level = Math.cos(elevation * DEGREE);
-  const towards: Point = [
+  const towards: Vec3 = [
     level * Math.sin(azimuth * DEGREE),
     Math.sin(elevation * DEGREE),
     level * Math.cos(azimuth * DEGREE),
@@ -79,6 +79,6 @@ export class SunDrag {
   }
 }
 
-function dot(a: Point, b: Point): number {
+function dot(a: Vec3, b: Vec3): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

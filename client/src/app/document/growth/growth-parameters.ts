@@ -1,5 +1,5 @@
 import type { Parameters, ParametersPatch } from "../../../wire/generated";
-import { numberText, unitText } from "../../ui/controls/number-text";
+import { numberText, unitText } from "../../words/number-text";
 import { type Key, say } from "../../words/say";
 
 type NumberNames<Set> = { [Name in keyof Set]: Set[Name] extends number ? Name : never }[keyof Set];

@@ -1,5 +1,5 @@
 import type { Parameters, Schematic } from "../../../wire/generated";
-import { askFor } from "../../library/library-api";
+import { askFor } from "../../requests/request";
 
 /** A server that is slower than this has lost the question, in milliseconds; by itself it gives up sooner. */
 const PATIENCE = 5000;

@@ -1,6 +1,6 @@
 import type { TriangleMesh } from "../../../scene/obstacle-meshes";
 import { MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES, type PlacedObstacle } from "../../../wire/generated";
-import { askFor } from "../../library/library-api";
+import { askFor } from "../../requests/request";
 import { type Progress, send } from "../../requests/transfer";
 import { say } from "../../words/say";
 

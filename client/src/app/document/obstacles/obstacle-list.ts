@@ -1,7 +1,7 @@
 import { batch, computed, signal } from "@preact/signals";
 import type { DrawnObstacle, TriangleMesh } from "../../../scene/obstacle-meshes";
 import type { Command, PlacedObstacle, PlacedShape, Pose, Shape } from "../../../wire/generated";
-import type { Clock } from "../../connection/connection";
+import type { Clock } from "../../page/clock";
 import { Transfer } from "../../requests/transfer";
 import { alike, Draft, type GrowthAhead } from "../draft";
 import { type NamedBytes, packedModel } from "./glb";

@@ -1,5 +1,5 @@
 import type { Species } from "../../../wire/generated";
-import { askFor, RequestFailed } from "../../library/library-api";
+import { askFor, RequestFailed } from "../../requests/request";
 
 /** The species a server knows; none where it knows of no species. */
 export async function listSpecies(): Promise<readonly Species[]> {

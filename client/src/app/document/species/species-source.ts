@@ -1,6 +1,6 @@
 import { type ReadonlySignal, signal } from "@preact/signals";
 import type { Species } from "../../../wire/generated";
-import type { Clock } from "../../connection/connection";
+import type { Clock } from "../../page/clock";
 
 /** How long the first new attempt waits; each after it waits twice as long, up to the last. */
 const RETRY_FIRST = 1000;

@@ -1,8 +1,8 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
 import type { Bent } from "../../../scene/guise/bent";
+import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import { holdAt, naturalBase, related } from "./bend-hold";
 import { BendTool } from "./bend-tool";
 
@@ -13,7 +13,7 @@ function setUp() {
   const view = frontView(table);
   const sent: Command[] = [];
   const said: string[] = [];
-  const solvers: { nodes: Point[]; dragged: (readonly (readonly [number, Point])[])[]; relaxed: number }[] = [];
+  const solvers: { nodes: Vec3[]; dragged: (readonly (readonly [number, Vec3])[])[]; relaxed: number }[] = [];
   const world = { unsettled: 0 };
   const tool = new BendTool({
     table,
@@ -26,7 +26,7 @@ function setUp() {
     say: (sentence) => void said.push(sentence),
     // Puts what is dragged where it is wanted and leaves the rest.
     solver: (nodes) => {
-      const state = { nodes, dragged: [] as (readonly (readonly [number, Point])[])[], relaxed: 0 };
+      const state = { nodes, dragged: [] as (readonly (readonly [number, Vec3])[])[], relaxed: 0 };
       solvers.push(state);
       return {
         drag: (targets) => void state.dragged.push([...targets]),

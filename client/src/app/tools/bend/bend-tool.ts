@@ -3,9 +3,9 @@ import type { Bend } from "../../../scene/bend/bend";
 import { Bent } from "../../../scene/guise/bent";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import { radiusOf } from "../../../scene/table/tree-table";
+import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_BEND_TOUCHES } from "../../../wire/generated";
 import type { Grip } from "../../input/gesture-recogniser";
-import type { Point } from "../../ports";
 import type { Key } from "../../words/say";
 import type { ShapingView } from "../shaping-view";
 import { type GripTool, PICK_TOLERANCE, withinReach } from "../tool";
@@ -34,14 +34,14 @@ export interface BendOptions {
   /** 0, stiff in length, to 1, stretchy. */
   readonly stretch: () => number;
   /** `nodes` are where the base begins and the end of each internode of the path. */
-  readonly solver: (nodes: Point[], radii: number[], stretch: number) => BendSolver;
+  readonly solver: (nodes: Vec3[], radii: number[], stretch: number) => BendSolver;
   readonly say: (text: Key) => void;
 }
 
 interface Finger {
   readonly row: number | null;
   /** Where it took hold, in the world. */
-  readonly point: Point;
+  readonly point: Vec3;
   readonly from: { readonly x: number; readonly y: number };
   readonly slop: number;
   x: number;
@@ -54,11 +54,11 @@ interface Finger {
 interface Touch {
   readonly row: number;
   /** Where the metamer's end was when it was taken, and where the finger was then. */
-  readonly rest: Point;
-  readonly anchor: Point;
+  readonly rest: Vec3;
+  readonly anchor: Vec3;
   /** The finger that drags it; a handle that was set stays put. */
   readonly finger: number | null;
-  target: Point;
+  target: Vec3;
 }
 
 interface Bending {

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import { BranchTool } from "./branch-tool";
 import { type Rotation, turned } from "./branch-turn";
 import { BranchHand } from "./held-branch";
@@ -8,8 +8,8 @@ import { BranchHand } from "./held-branch";
 const SLOP = 9;
 /** Pixels to the internode; the origin is in the middle of the glass, seen from the front. */
 const SCALE = 50;
-const glass = ([x, y]: Point): readonly [number, number] => [400 + SCALE * x, 400 - SCALE * y];
-const world = (x: number, y: number, z = 0): Point => [(x - 400) / SCALE, (400 - y) / SCALE, z];
+const glass = ([x, y]: Vec3): readonly [number, number] => [400 + SCALE * x, 400 - SCALE * y];
+const world = (x: number, y: number, z = 0): Vec3 => [(x - 400) / SCALE, (400 - y) / SCALE, z];
 
 /** A trunk (rows 1 to 3) with a limb to the right on 2 (rows 4 and 5). */
 function setUp() {
@@ -49,27 +49,27 @@ function setUp() {
     view: {
       pick: (x, y, tolerance) => {
         const far = (row: number) =>
-          Math.hypot(...glass(position[row] as unknown as Point).map((at, i) => at - [x, y][i]!));
+          Math.hypot(...glass(position[row] as unknown as Vec3).map((at, i) => at - [x, y][i]!));
         const row = [1, 2, 3, 4, 5].sort((a, b) => far(a) - far(b))[0] ?? 1;
-        return far(row) <= tolerance ? { row, point: position[row] as unknown as Point } : null;
+        return far(row) <= tolerance ? { row, point: position[row] as unknown as Vec3 } : null;
       },
       pointOnPlane: (x, y, through) => world(x, y, through[2]),
       drawingPlane: () => ({ right: [1, 0, 0], up: [0, 1, 0] }),
       projector: () => glass,
     },
   });
-  const drag = (from: Point, to: Point) => {
+  const drag = (from: Vec3, to: Vec3) => {
     tool.gripBegin(1, ...glass(from), SLOP);
     tool.gripMove(1, ...glass(to));
   };
-  const tap = (at: Point) => {
+  const tap = (at: Vec3) => {
     tool.gripBegin(1, ...glass(at), SLOP);
     tool.gripEnd(1);
   };
   return { hand, tool, sent, said, drag, tap, shown: () => shown };
 }
 
-const tip: Point = [4, 2, 0];
+const tip: Vec3 = [4, 2, 0];
 const near = (actual: readonly number[], wanted: readonly number[]) => {
   for (const [i, value] of wanted.entries()) {
     expect(actual[i]).toBeCloseTo(value, 5);

@@ -1,5 +1,5 @@
+import type { Vec3 } from "../../../scene/vector";
 import type { Grip } from "../../input/gesture-recogniser";
-import type { Point } from "../../ports";
 import type { Key } from "../../words/say";
 import { type GripTool, PICK_TOLERANCE } from "../tool";
 import { about, after, Ball, cross, dot, minus, type Rotation, type ScreenAxes, UNTURNED } from "./branch-turn";
@@ -14,12 +14,12 @@ const AIMS_FROM = 36;
 
 /** What carrying branches needs of the view. */
 export interface BranchView {
-  pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Point } | null;
+  pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Vec3 } | null;
   /** Where the ray through a pixel meets the plane parallel to the screen through a point. */
-  pointOnPlane(x: number, y: number, through: Point): Point | null;
+  pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null;
   /** That plane, with the screen's own directions. */
-  drawingPlane(through: Point): ScreenAxes;
-  projector(): (point: Point) => readonly [number, number] | null;
+  drawingPlane(through: Vec3): ScreenAxes;
+  projector(): (point: Vec3) => readonly [number, number] | null;
 }
 
 export interface BranchToolOptions {
@@ -53,7 +53,7 @@ type Hold =
       /** Whether the branch was held before the finger came. */
       readonly held: boolean;
       readonly ball: Ball;
-      readonly base: Point;
+      readonly base: Vec3;
       readonly axes: ScreenAxes;
       rolled: Rotation;
       /** Radians about the branch's own axis. */
@@ -241,7 +241,7 @@ export class BranchTool implements GripTool {
     return held;
   }
 
-  #ball(at: Spot, base: Point, on: Point, axes: ScreenAxes): Ball {
+  #ball(at: Spot, base: Vec3, on: Vec3, axes: ScreenAxes): Ball {
     const { view } = this.#options;
     const out = cross(axes.right, axes.up);
     const flat = minus(view.pointOnPlane(at.x, at.y, base) ?? base, base);
@@ -306,7 +306,7 @@ export class BranchTool implements GripTool {
   }
 
   /** How long a pixel is at a point, in internodes. */
-  #pixel(point: Point): number {
+  #pixel(point: Vec3): number {
     const { view } = this.#options;
     const [a, b] = [view.pointOnPlane(0, 0, point), view.pointOnPlane(100, 0, point)];
     return a && b ? Math.hypot(...minus(b, a)) / 100 : 0.05;

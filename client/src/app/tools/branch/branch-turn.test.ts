@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import { about, after, angleOf, Ball, between, type Rotation, turned, UNTURNED } from "./branch-turn";
 
 const near = (actual: readonly number[], wanted: readonly number[]) => {
@@ -23,7 +23,7 @@ describe("rotations", () => {
 
   it("follow each other in their order", () => {
     const [first, second] = [about([0, 1, 0], 1.1), about([1, 0, 0], -0.4)];
-    const v: Point = [0.3, -2, 1];
+    const v: Vec3 = [0.3, -2, 1];
     near(turned(after(second, first), v), turned(second, turned(first, v)));
   });
 
@@ -35,7 +35,7 @@ describe("rotations", () => {
 });
 
 describe("a ball around a branch's base", () => {
-  const grips: readonly Point[] = [
+  const grips: readonly Vec3[] = [
     [4, 0, 0],
     [1, 3, 2],
     [-1, 2, -2.5],

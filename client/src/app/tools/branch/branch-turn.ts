@@ -1,4 +1,4 @@
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 
 /** A rotation: x, y, z, w. */
 export type Rotation = readonly [number, number, number, number];
@@ -9,7 +9,7 @@ export const UNTURNED: Rotation = [0, 0, 0, 1];
 const SHORTEST = 1e-6;
 
 /** The rotation by an angle in radians about an axis. */
-export function about(axis: Point, angle: number): Rotation {
+export function about(axis: Vec3, angle: number): Rotation {
   const direction = normalised(axis);
   if (!direction) {
     return UNTURNED;
@@ -19,7 +19,7 @@ export function about(axis: Point, angle: number): Rotation {
 }
 
 /** The shortest rotation that turns one direction to another. */
-export function between(from: Point, to: Point): Rotation {
+export function between(from: Vec3, to: Vec3): Rotation {
   const [a, b] = [normalised(from), normalised(to)];
   if (!a || !b) {
     return UNTURNED;
@@ -45,9 +45,9 @@ export function after([ax, ay, az, aw]: Rotation, [bx, by, bz, bw]: Rotation): R
 }
 
 /** A vector turned. */
-export function turned([x, y, z, w]: Rotation, vector: Point): Point {
+export function turned([x, y, z, w]: Rotation, vector: Vec3): Vec3 {
   const [ux, uy, uz] = cross([x, y, z], vector);
-  const inner: Point = [ux + w * vector[0], uy + w * vector[1], uz + w * vector[2]];
+  const inner: Vec3 = [ux + w * vector[0], uy + w * vector[1], uz + w * vector[2]];
   const [vx, vy, vz] = cross([x, y, z], inner);
   return [vector[0] + 2 * vx, vector[1] + 2 * vy, vector[2] + 2 * vz];
 }
@@ -59,8 +59,8 @@ export function angleOf([x, y, z, w]: Rotation): number {
 
 /** The screen as directions in the world: to the right, up, and out towards the eye. */
 export interface ScreenAxes {
-  readonly right: Point;
-  readonly up: Point;
+  readonly right: Vec3;
+  readonly up: Vec3;
 }
 
 /**
@@ -69,12 +69,12 @@ export interface ScreenAxes {
  */
 export class Ball {
   #axes: ScreenAxes;
-  #out: Point;
+  #out: Vec3;
   #radius: number;
-  #grip: Point;
+  #grip: Vec3;
 
   /** `grip` is the place held, as it lies from the ball's middle; a ball is never smaller than `least`. */
-  constructor(grip: Point, least: number, axes: ScreenAxes) {
+  constructor(grip: Vec3, least: number, axes: ScreenAxes) {
     this.#axes = axes;
     this.#out = cross(axes.right, axes.up);
     this.#radius = Math.max(length(grip), least, SHORTEST);
@@ -91,7 +91,7 @@ export class Ball {
     return between(this.#grip, this.#facing(right, up, side));
   }
 
-  #facing(right: number, up: number, side: 1 | -1): Point {
+  #facing(right: number, up: number, side: 1 | -1): Vec3 {
     const { right: x, up: y } = this.#axes;
     const away = Math.hypot(right, up);
     const shrink = away > this.#radius ? this.#radius / away : 1;
@@ -102,24 +102,24 @@ export class Ball {
   }
 }
 
-export function cross(a: Point, b: Point): Point {
+export function cross(a: Vec3, b: Vec3): Vec3 {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-export function dot(a: Point, b: Point): number {
+export function dot(a: Vec3, b: Vec3): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-export function minus(a: Point, b: Point): Point {
+export function minus(a: Vec3, b: Vec3): Vec3 {
   return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 }
 
-export function length(a: Point): number {
+export function length(a: Vec3): number {
   return Math.hypot(a[0], a[1], a[2]);
 }
 
 /** The same direction with length 1; null where there is none. */
-export function normalised(a: Point): Point | null {
+export function normalised(a: Vec3): Vec3 | null {
   const long = length(a);
   return long < SHORTEST ? null : [a[0] / long, a[1] / long, a[2] / long];
 }

@@ -1,9 +1,9 @@
 import { effect } from "@preact/signals";
 import { subtreeRows } from "../../../scene/table/branch-rows";
 import type { TreeTable } from "../../../scene/table/tree-table";
+import type { Vec3 } from "../../../scene/vector";
 import type { Viewport } from "../../../scene/viewport";
 import type { Command } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import type { Key } from "../../words/say";
 import { PruneRule } from "../prune/prune-rule";
 import { GhostStage } from "./ghost-stage";
@@ -21,7 +21,7 @@ export interface BranchWorkOptions {
   readonly limits: () => ReadonlySet<number>;
   /** Cuts the branches off at these rows. */
   readonly cut: (rows: readonly number[]) => void;
-  readonly screen: () => { readonly right: Point; readonly up: Point };
+  readonly screen: () => { readonly right: Vec3; readonly up: Vec3 };
   readonly say: (text: Key) => void;
   /** Whether the server is still growing something. */
   readonly busy: () => boolean;

@@ -4,8 +4,8 @@ import { Felled } from "../../../scene/guise/felled";
 import type { GhostPose } from "../../../scene/guise/ghost";
 import { subtreeRows } from "../../../scene/table/branch-rows";
 import type { TreeTable } from "../../../scene/table/tree-table";
+import type { Vec3 } from "../../../scene/vector";
 import type { Viewport } from "../../../scene/viewport";
-import type { Point } from "../../ports";
 import { minus, turned, UNTURNED } from "./branch-turn";
 import type { TurnPreview } from "./held-branch";
 
@@ -20,10 +20,10 @@ const MOST_COPIED = 20_000;
 /** What is drawn that the rows do not have: a prediction beside the tree, a copy on its way, a branch being turned. */
 export class GhostStage {
   /** How far from the tree the prediction stands; null while there is none. */
-  readonly beside = signal<Point | null>(null);
+  readonly beside = signal<Vec3 | null>(null);
   #table: TreeTable;
   #view: Viewport | null = null;
-  #turn: { readonly guise: Bent; readonly row: number; readonly rest: Point } | null = null;
+  #turn: { readonly guise: Bent; readonly row: number; readonly rest: Vec3 } | null = null;
   #copied: number | null = null;
   #marked: Felled | null = null;
 
@@ -55,7 +55,7 @@ export class GhostStage {
   }
 
   /** Where a row is drawn. */
-  placeOf(row: number): Point {
+  placeOf(row: number): Vec3 {
     const { position } = this.#table;
     return this.#view?.placeOf(row) ?? [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
   }
@@ -117,7 +117,7 @@ export class GhostStage {
     const { row, rotation, about } = turn;
     if (!this.#turn) {
       const { position } = this.#table;
-      const rest: Point = [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
+      const rest: Vec3 = [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
       this.#turn = { guise: new Bent(this.#table, [row]), row, rest };
       view.wear(this.#turn.guise);
     }
@@ -127,10 +127,10 @@ export class GhostStage {
   }
 
   /** So far to the right that nothing of the two overlaps, as the camera stands now. */
-  #roomBeside(view: Viewport, plants: TreeTable): Point {
+  #roomBeside(view: Viewport, plants: TreeTable): Vec3 {
     const { right } = view.drawingPlane([0, 0, 0]);
     const across = Math.hypot(right[0], right[2]) || 1;
-    const level: Point = [right[0] / across, 0, right[2] / across];
+    const level: Vec3 = [right[0] / across, 0, right[2] / across];
     const edge = ({ min, max }: ReturnType<TreeTable["bounds"]>, side: 1 | -1) =>
       Math.max(side * min[0] * level[0], side * max[0] * level[0]) +
       Math.max(side * min[2] * level[2], side * max[2] * level[2]);

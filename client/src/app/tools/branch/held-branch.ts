@@ -1,8 +1,8 @@
 import { signal } from "@preact/signals";
 import type { GhostPose } from "../../../scene/guise/ghost";
 import { axisStart } from "../../../scene/table/branch-rows";
+import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import {
   about,
   after,
@@ -43,7 +43,7 @@ export interface TurnPreview {
   readonly row: number;
   readonly rotation: Rotation;
   /** The place that stays where it is. */
-  readonly about: Point;
+  readonly about: Vec3;
 }
 
 export interface BranchHandOptions {
@@ -138,7 +138,7 @@ export class BranchHand {
   }
 
   /** The place the branch is borne at, and turns about; null while none is held. */
-  base(): Point | null {
+  base(): Vec3 | null {
     const row = this.row.peek();
     return row === null ? null : placeOf(this.#options.rows, this.#options.rows.parent[row] ?? row);
   }
@@ -156,7 +156,7 @@ export class BranchHand {
   }
 
   /** The direction of the branch as it leaves its base, and turns about when twisted. */
-  heading(): Point {
+  heading(): Vec3 {
     const [row, base] = [this.row.peek(), this.base()];
     return row === null || !base ? [0, 1, 0] : minus(placeOf(this.#options.rows, row), base);
   }
@@ -250,7 +250,7 @@ export class BranchHand {
   }
 
   /** Shows the branch on a limb, pointing towards a place or as it stood on its own limb. */
-  showOn(onto: number, towards: Point | null): void {
+  showOn(onto: number, towards: Vec3 | null): void {
     const [row, from] = [this.row.peek(), this.base()];
     if (row === null || !from) {
       return;
@@ -262,7 +262,7 @@ export class BranchHand {
   }
 
   /** Shows the branch at a place where nothing bears it. */
-  showAt(place: Point): void {
+  showAt(place: Vec3): void {
     const [row, from] = [this.row.peek(), this.base()];
     this.#copy = null;
     if (row !== null && from) {
@@ -302,9 +302,9 @@ export class BranchHand {
   }
 
   /** As it stood to the wood that bears it, and then, if that is wanted, turned towards something. */
-  #aimed(row: number, from: Point, onto: number, towards: Point | null): Rotation {
+  #aimed(row: number, from: Vec3, onto: number, towards: Vec3 | null): Rotation {
     const { rows } = this.#options;
-    const bearing = (at: number): Point => {
+    const bearing = (at: number): Vec3 => {
       const below = rows.parent[at] ?? -1;
       return below < 0 ? [0, 1, 0] : minus(placeOf(rows, at), placeOf(rows, below));
     };
@@ -365,13 +365,13 @@ export class BranchHand {
 
 interface Witness {
   readonly row: number;
-  readonly place: Point;
+  readonly place: Vec3;
 }
 
 function hasMoved(rows: BranchRows, { row, place }: Witness): boolean {
   return row >= rows.rows || rows.radiusCode[row] === 0 || placeOf(rows, row).some((x, axis) => x !== place[axis]);
 }
 
-function placeOf({ position }: BranchRows, row: number): Point {
+function placeOf({ position }: BranchRows, row: number): Vec3 {
   return [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
 }

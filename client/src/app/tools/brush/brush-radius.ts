@@ -1,4 +1,4 @@
-import { numberText } from "../../ui/controls/number-text";
+import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 
 /** The widest brush, in internodes (`LM2`). */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../../../scene/vector";
 import type { Command, StrokeSample } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import { BrushTool } from "./brush-tool";
 import { MIN_SPACING } from "./sample-queue";
 
@@ -11,13 +11,13 @@ function setUp() {
     radius: 4,
     unsettled: 0,
     pressure: false,
-    branch: null as Point | null,
+    branch: null as Vec3 | null,
     planes: true,
     bud: null as number | null,
     /** How far the view is turned around the vertical through x = 50, in radians. */
     turned: 0,
   };
-  const shown: { point: Point; radius: number }[] = [];
+  const shown: { point: Vec3; radius: number }[] = [];
   const tool = new BrushTool({
     view: {
       pointOnPlane: (x, y, through) => {

@@ -1,7 +1,8 @@
+import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
 import { FeltPressure, radiusShare } from "../../input/pressure";
-import type { BrushView, Point } from "../../ports";
+import type { BrushView } from "../../view/brush-view";
 import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "../tool";
 import { MAX_RADIUS } from "./brush-radius";
 import { SampleQueue } from "./sample-queue";
@@ -24,13 +25,13 @@ export interface BrushOptions {
   /** The branch that alone may grow, as a row (`SG1`). */
   readonly bud: () => number | null;
   /** Where a stroke lies in depth if it begins beside every branch. */
-  readonly base: (x: number, y: number) => Point;
+  readonly base: (x: number, y: number) => Vec3;
 }
 
 interface Stroke {
   readonly number: number;
   /** The drawing plane passes through this point, parallel to the screen. */
-  readonly through: Point;
+  readonly through: Vec3;
   readonly samples: SampleQueue;
   readonly pressure: FeltPressure;
   /** Where the finger is on the canvas. */
@@ -143,7 +144,7 @@ export class BrushTool implements Tool {
     }
   }
 
-  #through(x: number, y: number): Point {
+  #through(x: number, y: number): Vec3 {
     return this.#options.view.pick(x, y, PICK_TOLERANCE)?.point ?? this.#options.base(x, y);
   }
 

@@ -1,13 +1,13 @@
 import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_MESSAGE_BYTES } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import { LassoTool } from "./lasso-tool";
 import type { Point2 } from "./outline";
 
 /** A view turned a quarter: a pixel is a tenth of an internode, to the right is −z, up is y, from pixel 1000. */
 function setUp() {
   const sent: Command[] = [];
-  const world = { branch: null as Point | null, bud: null as number | null, depth: 1, slips: 0, places: [] as Point[] };
+  const world = { branch: null as Vec3 | null, bud: null as number | null, depth: 1, slips: 0, places: [] as Vec3[] };
   const drawn: (readonly Point2[] | null)[] = [];
   const tool = new LassoTool({
     view: {

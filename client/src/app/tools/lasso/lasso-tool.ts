@@ -1,6 +1,7 @@
+import type { Vec3 } from "../../../scene/vector";
 import { type Command, type DrawingPlane, MAX_OUTLINE_POINTS } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
-import type { BrushView, Point } from "../../ports";
+import type { BrushView } from "../../view/brush-view";
 import { PICK_TOLERANCE, type Tool, tidy } from "../tool";
 import { enclosedArea, type Point2, simplifiedTo } from "./outline";
 
@@ -18,7 +19,7 @@ const REACH = 1000;
 /** What the lasso needs of the view. */
 export interface LassoView extends Pick<BrushView, "pick" | "pointOnPlane"> {
   /** The plane parallel to the screen through a point, with axes to the right and upwards. */
-  drawingPlane(through: Point): DrawingPlane;
+  drawingPlane(through: Vec3): DrawingPlane;
 }
 
 export interface LassoOptions {
@@ -27,13 +28,13 @@ export interface LassoOptions {
   /** The branch that alone may grow, as a row (`SG1`). */
   readonly bud: () => number | null;
   /** Where an outline lies in depth if it begins beside every branch. */
-  readonly base: (x: number, y: number) => Point;
+  readonly base: (x: number, y: number) => Vec3;
   /** How deep the body becomes: 1 is as deep as wide. */
   readonly depth: () => number;
   /** The outline as far as it is drawn, in pixels; null for none. */
   readonly draw: (outline: readonly Point2[] | null) => void;
   /** An outline was sent; these are its points in the world. */
-  readonly sent: (outline: readonly Point[]) => void;
+  readonly sent: (outline: readonly Vec3[]) => void;
   /** A loop too small to grow into. */
   readonly tooSmall: () => void;
 }
@@ -43,7 +44,7 @@ export class LassoTool implements Tool {
   #options: LassoOptions;
   #outline: Point2[] | null = null;
   /** The drawing plane passes through this point, parallel to the screen. */
-  #through: Point = [0, 0, 0];
+  #through: Vec3 = [0, 0, 0];
 
   constructor(options: LassoOptions) {
     this.#options = options;
@@ -99,8 +100,8 @@ export class LassoTool implements Tool {
   }
 }
 
-function onPlane(place: Point, { origin, right, up }: DrawingPlane): [number, number] {
-  const along = (axis: Point) =>
+function onPlane(place: Vec3, { origin, right, up }: DrawingPlane): [number, number] {
+  const along = (axis: Vec3) =>
     (place[0] - origin[0]) * axis[0] + (place[1] - origin[1]) * axis[1] + (place[2] - origin[2]) * axis[2];
   const clamp = (value: number) => tidy(Math.min(REACH, Math.max(-REACH, value)));
   return [clamp(along(right)), clamp(along(up))];

@@ -1,11 +1,11 @@
 import { signal } from "@preact/signals";
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import type { Point2 } from "./outline";
 
 /** An outline on the glass while it is drawn, in the world while the tree grows into it. */
 export type Outline =
   | { readonly stage: "drawing"; readonly points: readonly Point2[] }
-  | { readonly stage: "growing"; readonly places: readonly Point[] };
+  | { readonly stage: "growing"; readonly places: readonly Vec3[] };
 
 /** The lasso's outline, shown until the tree has filled it. */
 export class OutlineTrace {
@@ -19,7 +19,7 @@ export class OutlineTrace {
     this.shown.value = points && { stage: "drawing", points: [...points] };
   }
 
-  grow(places: readonly Point[], command: number): void {
+  grow(places: readonly Vec3[], command: number): void {
     this.shown.value = { stage: "growing", places };
     this.#command = command;
     this.#left = null;

@@ -1,6 +1,6 @@
+import type { Vec3 } from "../../../scene/vector";
 import type { Pose } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
-import type { Point } from "../../ports";
 import { type Tool, tidy } from "../tool";
 
 /** Nearer to the ground than this, in internodes, a thing is put down on it. */
@@ -13,13 +13,13 @@ const DEEPEST = -10;
 /** What moving things needs of the view. */
 export interface ObstacleView {
   /** Where the ray through a pixel meets the plane parallel to the screen through a point. */
-  pointOnPlane(x: number, y: number, through: Point): Point | null;
+  pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null;
   /** Where it meets the horizontal plane through a point. */
-  pointOnLevel(x: number, y: number, through: Point): Point | null;
+  pointOnLevel(x: number, y: number, through: Vec3): Vec3 | null;
   /** Whether the view is so much from above that things slide over the ground rather than rise from it. */
   looksDown(): boolean;
   /** The obstacle under a pixel, and where on it. */
-  pickObstacle(x: number, y: number): { readonly id: number; readonly point: Point } | null;
+  pickObstacle(x: number, y: number): { readonly id: number; readonly point: Vec3 } | null;
   /** How far an obstacle reaches below its own origin as it is turned; null where it has no lowest point. */
   depthBelow(id: number): number | null;
 }
@@ -36,7 +36,7 @@ export interface ObstacleToolOptions {
 
 interface Grip {
   readonly id: number;
-  readonly at: Point;
+  readonly at: Vec3;
   readonly pose: Pose;
   readonly level: boolean;
   moved: Pose | null;
@@ -96,7 +96,7 @@ export class ObstacleTool implements Tool {
     this.#options.preview(null);
   }
 
-  #settled({ id, at, pose }: Grip, place: Point): [number, number, number] {
+  #settled({ id, at, pose }: Grip, place: Vec3): [number, number, number] {
     const clamp = (value: number, least: number) => tidy(Math.min(REACH, Math.max(least, value)));
     const to = ([0, 1, 2] as const).map((axis) => pose.position[axis] + place[axis] - at[axis]);
     const [x = 0, y = 0, z = 0] = to;

@@ -1,4 +1,4 @@
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 
 /** What is asked of the rows. */
 interface Rows {
@@ -15,11 +15,7 @@ export class CutLine {
   #last: readonly [number, number] | null = null;
 
   /** `project` tells where a row's end lies on the glass. */
-  constructor(
-    rows: Rows,
-    placeOf: (row: number) => Point,
-    project: (point: Point) => readonly [number, number] | null,
-  ) {
+  constructor(rows: Rows, placeOf: (row: number) => Vec3, project: (point: Vec3) => readonly [number, number] | null) {
     this.#rows = rows;
     this.#places = new Float32Array(2 * rows.rows);
     for (let row = 0; row < rows.rows; row += 1) {

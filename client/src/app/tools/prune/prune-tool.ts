@@ -1,9 +1,9 @@
 import { signal } from "@preact/signals";
 import { Felled } from "../../../scene/guise/felled";
 import type { TreeTable } from "../../../scene/table/tree-table";
+import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_PRUNED_ROWS } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
-import type { Point } from "../../ports";
 import type { Key } from "../../words/say";
 import type { ShapingView } from "../shaping-view";
 import { PICK_TOLERANCE, type StrokeTool } from "../tool";
@@ -17,7 +17,7 @@ const LINGERS = 1500;
 
 export interface PruneOptions {
   readonly table: TreeTable;
-  readonly view: ShapingView & { projector(): (point: Point) => readonly [number, number] | null };
+  readonly view: ShapingView & { projector(): (point: Vec3) => readonly [number, number] | null };
   readonly submit: (command: Command) => void;
   /** How many commands of a kind the server has not yet answered. */
   readonly unsettled: (kind: Command["kind"]) => number;

@@ -1,13 +1,13 @@
 import { describe, expect, it } from "vitest";
+import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
-import type { Point } from "../../ports";
 import { SeedTool } from "./seed-tool";
 
 /** Ground below pixel 500; a pixel is a tenth of an internode. */
 function setUp() {
   const sent: Command[] = [];
   const told: string[] = [];
-  let shown: Point | null = null;
+  let shown: Vec3 | null = null;
   const tool = new SeedTool({
     groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
     submit: (command) => sent.push(command),

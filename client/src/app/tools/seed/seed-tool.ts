@@ -1,14 +1,14 @@
+import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
-import type { Point } from "../../ports";
 import { type Tool, withinReach } from "../tool";
 
 export interface SeedOptions {
   /** Where the ground is under a pixel; null where there is sky, or ground too far off to aim at. */
-  readonly groundAt: (x: number, y: number) => Point | null;
+  readonly groundAt: (x: number, y: number) => Vec3 | null;
   readonly submit: (command: Command) => void;
   /** Where the seed would lie, as long as the finger is down; null for nowhere. */
-  readonly show: (place: Point | null) => void;
+  readonly show: (place: Vec3 | null) => void;
   readonly planted: () => void;
   /** The finger lifted where there is no ground. */
   readonly missed: () => void;
@@ -18,7 +18,7 @@ export interface SeedOptions {
 export class SeedTool implements Tool {
   #options: SeedOptions;
   #active = false;
-  #place: Point | null = null;
+  #place: Vec3 | null = null;
 
   constructor(options: SeedOptions) {
     this.#options = options;

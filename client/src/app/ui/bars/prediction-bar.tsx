@@ -1,5 +1,5 @@
 import { useMemo, useRef } from "preact/hooks";
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 import { FIRST_STEPS, MOST_STEPS } from "../../tools/branch/prediction";
 import { say } from "../../words/say";
@@ -105,7 +105,7 @@ export function PredictionMarks({ studio }: { studio: Studio }) {
 }
 
 /** Where the branch that begins with a row is borne. */
-function borneAt({ table }: Studio, row: number): Point {
+function borneAt({ table }: Studio, row: number): Vec3 {
   const at = table.parent[row] ?? row;
   return [table.position[3 * at] ?? 0, table.position[3 * at + 1] ?? 0, table.position[3 * at + 2] ?? 0];
 }

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { numberText, onStep, unitText } from "./number-text";
+import { numberText, onStep, unitText } from "../../words/number-text";
 
 interface PolarProps {
   readonly label: string;

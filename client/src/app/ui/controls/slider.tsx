@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { numberText, unitText } from "../../words/number-text";
 import { Field } from "./field";
-import { numberText, unitText } from "./number-text";
 import { type Notation, TypedNumber } from "./typed-number";
 
 export interface SliderProps {

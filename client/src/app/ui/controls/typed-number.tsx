@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
+import { numberText, onStep, typedNumber, unitText } from "../../words/number-text";
 import { say } from "../../words/say";
-import { numberText, onStep, typedNumber, unitText } from "./number-text";
 
 /** How a number is written down and read. */
 export interface Notation {

@@ -1,6 +1,6 @@
 import { useMemo, useRef } from "preact/hooks";
 import { axisStart, branchRows } from "../../../scene/table/branch-rows";
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 import { useFrames } from "../use-frames";
 
@@ -34,7 +34,7 @@ export function BudMarker({ studio }: { studio: Studio }) {
   if (row === null) {
     return null;
   }
-  function positionOf(at: number): Point {
+  function positionOf(at: number): Vec3 {
     const { position } = table;
     return [position[3 * at] ?? 0, position[3 * at + 1] ?? 0, position[3 * at + 2] ?? 0];
   }

@@ -1,4 +1,4 @@
-import type { Point } from "../../ports";
+import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 
 /** Corners of a ring. */
@@ -52,11 +52,11 @@ export function ringAt(studio: Studio, row: number, diameter: number): Ring | nu
   return { front: path(half(0)), back: path(half(Math.PI)), middle: spot, ends: ordered };
 }
 
-function cross(a: Point, b: Point): Point {
+function cross(a: Vec3, b: Vec3): Vec3 {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-function unit(a: Point): Point | null {
+function unit(a: Vec3): Vec3 | null {
   const length = Math.hypot(a[0], a[1], a[2]);
   return length < 1e-6 ? null : [a[0] / length, a[1] / length, a[2] / length];
 }

@@ -1,7 +1,7 @@
 import { useMemo, useRef } from "preact/hooks";
-import type { Point } from "../../ports";
-import { seedsToGrow } from "../../scene-link";
+import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
+import { seedsToGrow } from "../../view/places";
 import { useFrames } from "../use-frames";
 
 /** How high a seedling stands, in internodes, and at least in pixels: from afar it must still be found. */
@@ -17,7 +17,7 @@ export function Seedlings({ studio }: { studio: Studio }) {
   const revision = studio.revision.value;
   const waiting = useMemo(() => seedsToGrow(studio.table, MOST_SHOWN), [studio, revision]);
   const coming = studio.tools.seed.value;
-  const places: readonly Point[] = coming ? [...waiting, coming] : waiting;
+  const places: readonly Vec3[] = coming ? [...waiting, coming] : waiting;
   useFrames(places.length > 0, () => {
     const project = studio.stage.projector();
     places.forEach((place, i) => {

@@ -1,7 +1,7 @@
 import { useState } from "preact/hooks";
 import { saveTree } from "../../library/library-api";
+import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
-import { sentence } from "../../words/plain-words";
 import { language, say } from "../../words/say";
 import { Sheet } from "./sheet";
 

@@ -1,6 +1,6 @@
 import type { Parameters, ParametersPatch } from "../../../../wire/generated";
 import { NUMBERS } from "../../../document/growth/growth-parameters";
-import { onStep } from "../../controls/number-text";
+import { onStep } from "../../../words/number-text";
 import { angleOnRight, clamped, type Place } from "./place";
 
 /** What a bud occupies and perceives (Figure 8B). */

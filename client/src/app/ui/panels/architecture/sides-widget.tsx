@@ -1,7 +1,7 @@
 import { useRef, useState } from "preact/hooks";
 import { NUMBERS, WIDGETS } from "../../../document/growth/growth-parameters";
+import { numberText } from "../../../words/number-text";
 import { say } from "../../../words/say";
-import { numberText } from "../../controls/number-text";
 import { useEased } from "./eased";
 import { Grip } from "./grip";
 import { away, clamped, type Place } from "./place";

@@ -1,13 +1,13 @@
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Appearance, DEFAULT_APPEARANCE, type Parameters, type Species } from "../../../../wire/generated";
-import { browserClock } from "../../../connection/connection";
 import { DEFAULTS } from "../../../document/growth/growth-parameters";
 import { listSpecies } from "../../../document/species/species-api";
 import { type Kin, kinOf } from "../../../document/species/species-choice";
 import { SpeciesSource } from "../../../document/species/species-source";
+import { browserClock } from "../../../page/clock";
+import { sentence } from "../../../problems/plain-words";
 import type { Studio } from "../../../studio";
-import { sentence } from "../../../words/plain-words";
 
 const source = new SpeciesSource({ list: listSpecies, clock: browserClock });
 

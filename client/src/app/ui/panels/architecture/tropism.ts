@@ -1,6 +1,6 @@
 import type { ParametersPatch } from "../../../../wire/generated";
 import { NUMBERS } from "../../../document/growth/growth-parameters";
-import { onStep } from "../../controls/number-text";
+import { onStep } from "../../../words/number-text";
 import { angleOnRight, type Place } from "./place";
 
 const { setpoint_angle: THETA } = NUMBERS;

@@ -1,6 +1,6 @@
 import { NUMBERS, nameOf, WIDGETS } from "../../../document/growth/growth-parameters";
+import { numberText } from "../../../words/number-text";
 import { say } from "../../../words/say";
-import { numberText } from "../../controls/number-text";
 import { Grip } from "./grip";
 import { type Corners, pointOf, weightsAt } from "./triangle";
 import { Diagram, WidgetFrame, type WidgetProps } from "./widget";

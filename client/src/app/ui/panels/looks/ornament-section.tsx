@@ -1,10 +1,10 @@
 import type { ComponentChildren } from "preact";
 import type { FlowerKind, FruitKind, Place } from "../../../../wire/generated";
 import type { Studio } from "../../../studio";
+import { numberText } from "../../../words/number-text";
 import { say } from "../../../words/say";
 import { Choice } from "../../controls/choice";
 import { ColourField } from "../../controls/colour-field";
-import { numberText } from "../../controls/number-text";
 import { Section } from "../../controls/section";
 import { standardLooks } from "../architecture/species-list";
 import { LookSlider } from "./look-slider";

@@ -11,9 +11,9 @@ import {
 } from "../../../document/appearance/day";
 import { LOOK_NUMBERS, type LookNumber, standardOf } from "../../../document/appearance/look-numbers";
 import type { Studio } from "../../../studio";
+import { onStep } from "../../../words/number-text";
 import { say } from "../../../words/say";
 import { Field } from "../../controls/field";
-import { onStep } from "../../controls/number-text";
 import { Polar } from "../../controls/polar";
 import { Slider } from "../../controls/slider";
 import { TypedNumber } from "../../controls/typed-number";

@@ -1,7 +1,7 @@
 import type { Problem } from "../../wire/generated";
-import { RequestFailed } from "../library/library-api";
+import { RequestFailed } from "../requests/request";
+import { type Key, language, say } from "../words/say";
 import { ALLOWED, REFUSALS } from "./refusal-table";
-import { type Key, language, say } from "./say";
 
 /** Fields that name wood by its rows, which a person does not. */
 const WOOD = /^(row|onto|base|touches)/;

@@ -1,7 +1,7 @@
-import type { Command, Problem } from "../wire/generated";
-import type { Studio } from "./studio";
-import { plainly } from "./words/plain-words";
-import { say } from "./words/say";
+import type { Command, Problem } from "../../wire/generated";
+import type { Studio } from "../studio";
+import { say } from "../words/say";
+import { plainly } from "./plain-words";
 
 /** What follows from a command the server refused; a person is told where it is news to them. */
 export function refused(studio: Studio, problem: Problem, command?: Command): void {

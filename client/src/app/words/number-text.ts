@@ -1,4 +1,4 @@
-import { language } from "../../words/say";
+import { language } from "./say";
 
 /** How many digits after the point a step can change. */
 export function digitsOf(step: number): number {

@@ -1,4 +1,4 @@
-import type { Key } from "./say";
+import type { Key } from "../words/say";
 
 /** What the server says in English, and the same among our words; `limit`, `cause` and the like are parts of it. */
 export const REFUSALS: readonly (readonly [RegExp, Key])[] = [

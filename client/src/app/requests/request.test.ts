@@ -1,5 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { createSession, deleteTree, RequestFailed, renameTree, sessionExists, socketAddress } from "./library-api";
+import { createSession, sessionExists, socketAddress } from "../connection/session-api";
+import { deleteTree, renameTree } from "../library/library-api";
+import { RequestFailed } from "./request";
 
 function answer(status: number, body: unknown) {
   const fetch = vi.fn(async () => new Response(body === undefined ? null : JSON.stringify(body), { status }));
@@ -9,7 +11,7 @@ function answer(status: number, body: unknown) {
 
 afterEach(() => vi.unstubAllGlobals());
 
-describe("library", () => {
+describe("requests", () => {
   it("starts a session from a saved tree", async () => {
     const fetch = answer(201, { session: "oak" });
     expect(await createSession({ tree: "t1" })).toBe("oak");

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { RequestFailed } from "../library/library-api";
+import { RequestFailed } from "../requests/request";
+import { language } from "../words/say";
 import { plainly, sentence } from "./plain-words";
-import { language } from "./say";
 
 describe("plain words", () => {
   it("say that a branch is gone", () => {

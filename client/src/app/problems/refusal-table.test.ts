@@ -1,9 +1,9 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, expect, it } from "vitest";
+import { language } from "../words/say";
 import { plainly } from "./plain-words";
 import { ALLOWED, REFUSALS } from "./refusal-table";
-import { language } from "./say";
 
 const SERVER = join(import.meta.dirname, "../../../../server");
 

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it } from "vitest";
-import { language } from "../../words/say";
 import { numberText, onStep, typedNumber, unitText } from "./number-text";
+import { language } from "./say";
 
 afterEach(() => {
   language.value = "en";

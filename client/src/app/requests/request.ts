@@ -1,0 +1,65 @@
+import type { Problem } from "../../wire/generated";
+import { say } from "../words/say";
+
+/** A request the server refused, or that never reached it. */
+export class RequestFailed extends Error {
+  readonly problem: Problem;
+  /** The HTTP status; 0 if there was no answer. */
+  readonly status: number;
+
+  constructor(status: number, problem: Problem) {
+    super(problem.message);
+    this.name = "RequestFailed";
+    this.status = status;
+    this.problem = problem;
+  }
+}
+
+/** Asks the server with JSON, and gives the JSON of its answer; `undefined` where it has no body. */
+export async function ask<Answer>(method: string, path: string, body?: object): Promise<Answer> {
+  const sent = body && { type: "application/json", body: JSON.stringify(body) };
+  const response = await askFor(method, path, sent);
+  return (await response.json().catch(() => undefined)) as Answer;
+}
+
+/** Asks the server; what it refuses, and silence, are thrown as `RequestFailed`. */
+export async function askFor(
+  method: string,
+  path: string,
+  sent?: { readonly type: string; readonly body: BodyInit },
+  signal?: AbortSignal,
+): Promise<Response> {
+  let response: Response;
+  try {
+    const body = sent && { headers: { "content-type": sent.type }, body: sent.body };
+    response = await fetch(path, { method, ...body, ...(signal ? { signal } : {}) });
+  } catch (error) {
+    if (signal?.aborted) {
+      throw error;
+    }
+    throw silence();
+  }
+  if (!response.ok) {
+    throw refusal(response.status, await response.json().catch(() => undefined));
+  }
+  return response;
+}
+
+/** What an answer that is no success says. */
+export function refusal(status: number, json: unknown): RequestFailed {
+  return new RequestFailed(status, asProblem(json) ?? unexplained(status));
+}
+
+/** What no answer at all says. */
+export function silence(): RequestFailed {
+  return new RequestFailed(0, { code: "unavailable", message: say("problems.silent") });
+}
+
+function asProblem(json: unknown): Problem | null {
+  const message = typeof json === "object" && json !== null && "message" in json ? json.message : null;
+  return typeof message === "string" ? (json as Problem) : null;
+}
+
+function unexplained(status: number): Problem {
+  return { code: "unavailable", message: say("problems.unexplained", { status }) };
+}
