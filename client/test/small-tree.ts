@@ -1,4 +1,4 @@
-import type { Guise } from "../src/scene/guise/guises";
+import type { Guise } from "../src/scene/overlay/overlays";
 import { TreeTable } from "../src/scene/table/tree-table";
 import { MIN_RADIUS, RADIUS_LOG_STEP } from "../src/wire/generated";
 

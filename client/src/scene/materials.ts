@@ -18,11 +18,10 @@ import {
   SKY_VERTEX,
 } from "./glsl/environment";
 import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "./glsl/leaf";
-import { OBSTACLE_FRAGMENT, OBSTACLE_VERTEX } from "./glsl/obstacle";
+import { OBSTACLE_FRAGMENT, OBSTACLE_VERTEX, PLANE_SHOWN } from "./glsl/obstacle";
 import { ornamentDepthFragment, ornamentFragment, ornamentVertex } from "./glsl/ornament";
 import { DEPTH_FRAGMENT } from "./glsl/shadow";
 import { SKELETON_FRAGMENT, SKELETON_VERTEX } from "./glsl/skeleton";
-import { PLANE_SHOWN } from "./obstacle-meshes";
 
 /** Uniforms by name; materials share the objects, so one assignment reaches all of them. */
 export type Uniforms = Record<string, IUniform>;

@@ -1,5 +1,5 @@
 import { Data3DTexture, DataTexture, LinearFilter, RedFormat, RepeatWrapping } from "three";
-import { leafHash } from "./foliage/leaves";
+import { leafHash } from "./leaf-hash";
 
 /** Cells after which noise in space repeats. */
 export const NOISE_SIDE = 32;

@@ -14,11 +14,10 @@ import {
 import type { PlacedShape, Pose } from "../wire/generated";
 import type { Box } from "./camera/camera-rig";
 import { facingOut } from "./closed-surface";
+import { PLANE_SHOWN } from "./glsl/obstacle";
 import type { Materials } from "./materials";
 import type { Ray, Vec3 } from "./vector";
 
-/** How far a plane is drawn; it goes on for ever. */
-export const PLANE_SHOWN = 45;
 /** Drawn over the ground it lies on, and under what stands on both. */
 const PLANE_ORDER = 1.5;
 

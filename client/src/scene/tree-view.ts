@@ -1,15 +1,15 @@
 import { Group, type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
 import type { Appearance } from "../wire/generated";
 import { Foliage } from "./foliage/foliage";
-import type { Fineness } from "./frame/fineness";
-import { Guises } from "./guise/guises";
 import type { Materials, Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
 import { SkeletonLines } from "./mode/skeleton-lines";
 import { TraitTexture } from "./mode/trait-texture";
+import { Guises } from "./overlay/overlays";
 import type { GradualTextures } from "./painting/gradual-textures";
 import type { Sort } from "./painting/paint";
 import type { Painter } from "./painting/painter";
+import type { Fineness } from "./rendering/fineness";
 import { NodeTexture } from "./table/node-texture";
 import { RadiusEase } from "./table/radius-ease";
 import { Dirty, type TreeTable } from "./table/tree-table";

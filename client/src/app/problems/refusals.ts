@@ -1,37 +1,52 @@
 import type { Command, Problem } from "../../wire/generated";
-import type { Studio } from "../studio";
+import type { ObstacleList } from "../document/obstacles/obstacle-list";
+import type { TimelineControl } from "../document/timeline/timeline-control";
+import type { Toasts } from "../page/toasts";
+import type { BranchWork } from "../tools/branch/branch-work";
+import type { Toolbox } from "../tools/toolbox";
 import { say } from "../words/say";
 import { plainly } from "./plain-words";
 
+/** The parts of a page that a refused command concerns. */
+export interface RefusalTargets {
+  readonly tools: Toolbox;
+  readonly branches: BranchWork;
+  readonly obstacles: ObstacleList;
+  readonly time: TimelineControl;
+  readonly toasts: Toasts;
+  /** The chosen branch no longer exists. */
+  loseBud(): void;
+}
+
 /** What follows from a command the server refused; a person is told where it is news to them. */
-export function refused(studio: Studio, problem: Problem, command?: Command): void {
+export function refused(page: RefusalTargets, problem: Problem, command?: Command): void {
   if (command?.kind === "lasso") {
-    studio.tools.outline.clear();
+    page.tools.outline.clear();
   }
   if (command?.kind === "go_to") {
-    studio.time.stop();
+    page.time.stop();
   }
-  studio.branches.refused(command);
-  studio.tools.refused(command);
+  page.branches.refused(command);
+  page.tools.refused(command);
   if (command?.kind.endsWith("_obstacle")) {
-    studio.obstacles.refused(command);
+    page.obstacles.refused(command);
   }
   if (problem.code === "not_found" && problem.field === "bud") {
-    studio.loseBud();
+    page.loseBud();
     return;
   }
   if (problem.code === "not_found" && problem.field === "stroke") {
     // Someone went back in time, which ends every stroke; what was still under way of this one is refused.
-    if (studio.tools.drawing.peek()) {
-      studio.toasts.show(say("notices.stroke-ended"));
+    if (page.tools.drawing.peek()) {
+      page.toasts.show(say("notices.stroke-ended"));
     }
-    studio.tools.abandon();
+    page.tools.abandon();
     return;
   }
   if (problem.code === "not_found" && problem.field === "bend") {
     // What was still under way of a bend that was refused or given up says nothing new.
     return;
   }
-  studio.toasts.show(plainly(problem));
+  page.toasts.show(plainly(problem));
   console.warn("The server refused:", problem);
 }

@@ -1,4 +1,4 @@
-import type { Guise } from "../../scene/guise/guises";
+import type { Guise } from "../../scene/overlay/overlays";
 import type { Vec3 } from "../../scene/vector";
 
 /** What shaping a branch by hand needs of the view. */

@@ -1,8 +1,8 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { SMALL, tableOf } from "../../../test/small-tree";
 import { Virtual } from "../../../test/virtual-clock";
-import type { Bent } from "../../scene/guise/bent";
-import type { SlotWriter } from "../../scene/guise/guises";
+import type { Bent } from "../../scene/overlay/bend-overlay";
+import type { SlotWriter } from "../../scene/overlay/overlays";
 import { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";

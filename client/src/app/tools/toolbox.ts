@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import { Bend } from "../../scene/bend/bend";
-import type { Girth } from "../../scene/guise/swollen";
+import type { Girth } from "../../scene/overlay/width-overlay";
 import type { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";

@@ -1,16 +1,16 @@
 import type { Mesh } from "three";
 import { DEFAULT_APPEARANCE, type FlowerLook, type FruitLook, type LeafLook } from "../../wire/generated";
 import type { Box } from "../camera/camera-rig";
-import type { Fineness } from "../frame/fineness";
 import type { Materials, Uniforms } from "../materials";
+import { FLOWERS } from "../painting/flowers";
+import { FRUITS } from "../painting/fruits";
 import type { GradualTextures } from "../painting/gradual-textures";
 import type { Sort } from "../painting/paint";
 import type { Painter } from "../painting/painter";
+import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
-import { FLOWERS } from "./flowers";
-import { FRUITS } from "./fruits";
-import { LeafDress } from "./leaf-dress";
 import { LeafRows } from "./leaf-rows";
+import { LeafDress } from "./leaf-uniforms";
 import { Ornaments } from "./ornaments";
 import { Sprigs } from "./sprigs";
 

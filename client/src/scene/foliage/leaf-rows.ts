@@ -1,7 +1,7 @@
 import { Mesh, type ShaderMaterial, type Vector2, type Vector4 } from "three";
 import type { Box } from "../camera/camera-rig";
-import type { Fineness } from "../frame/fineness";
 import type { Uniforms } from "../materials";
+import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";
 import { BLADE_CARDS, levelFor, SPRAY_CARDS } from "./leaf-cards";
 import { leafAzimuth, leafRandom } from "./leaves";

@@ -1,5 +1,5 @@
 import type { LeafKind } from "../../wire/generated";
-import { isSpray } from "./lamina";
+import { isSpray } from "../painting/lamina";
 
 /** What a time of the year does to leaves, each number 0 to 1. */
 export interface Season {

@@ -1,11 +1,6 @@
-const GOLDEN_ANGLE = 2.39996323;
+import { leafHash } from "../leaf-hash";
 
-/** The hash of rule LF3, in 32-bit wrapping arithmetic. */
-export function leafHash(input: number): number {
-  const x = (Math.imul(input, 747796405) + 2891336453) >>> 0;
-  const y = Math.imul((x >>> ((x >>> 28) + 4)) ^ x, 277803737) >>> 0;
-  return ((y >>> 22) ^ y) >>> 0;
-}
+const GOLDEN_ANGLE = 2.39996323;
 
 /** The azimuth of leaf `k` of `count` on a row's metamer (LF2), 0 to 2π: single precision would lose it otherwise. */
 export function leafAzimuth(row: number, k: number, count: number): number {

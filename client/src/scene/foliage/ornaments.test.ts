@@ -3,11 +3,11 @@ import { beforeEach, describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { FLOWERS } from "../painting/flowers";
+import { FRUITS } from "../painting/fruits";
+import { seeded } from "../painting/leaf-painter";
 import { Painter } from "../painting/painter";
 import { TreeTable } from "../table/tree-table";
-import { FLOWERS } from "./flowers";
-import { FRUITS } from "./fruits";
-import { seeded } from "./leaf-painter";
 import { Ornaments } from "./ornaments";
 import { isBearing } from "./places";
 

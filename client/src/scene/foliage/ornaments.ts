@@ -2,44 +2,17 @@ import { Mesh, type ShaderMaterial, Vector3, Vector4 } from "three";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
+import type { OrnamentKind, OrnamentSort } from "../painting/ornament-sort";
 import type { Kinds } from "../painting/paint";
 import type { Painter } from "../painting/painter";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { ORNAMENT_CARDS } from "./leaf-cards";
-import type { LeafTile } from "./leaf-tile";
 import { leafAzimuth, leafRandom } from "./leaves";
 import { isBearing, type Placing } from "./places";
 import { RowInstances } from "./row-instances";
 
 /** With more than this each place bears fewer of them, so that a large tree in flower is still drawn quickly. */
 const MANY = 100_000;
-
-/** How one kind of flower or fruit is made. */
-export interface OrnamentKind {
-  /** Half of its width, in its own lengths. */
-  readonly reach: number;
-  /** How many stand together at a place. */
-  readonly together: number;
-  /** −1 hanging, 0 as a leaf stands, 1 upright. */
-  readonly hang: number;
-  /** How far it turns its face to the eye, 0 to 1; below 0 for a disc that looks where a leaf points. */
-  readonly turn: number;
-  /** Its stalk, in its own lengths. */
-  readonly stalk: number;
-  /** How much it shines. */
-  readonly gloss: number;
-  /** Its second colour in sRGB. */
-  readonly second: readonly number[];
-  /** One picture of it, with so many texels along each side. */
-  paint(random: () => number, side?: number): LeafTile;
-}
-
-/** Flowers, or fruits: their kinds, and what keeps them from standing in the same places as the others. */
-export interface OrnamentSort<Kind extends string> {
-  readonly name: "Flower" | "Fruit";
-  readonly salt: number;
-  readonly kinds: Record<Exclude<Kind, "none">, OrnamentKind>;
-}
 
 interface OrnamentLook extends Placing {
   readonly kind: string;

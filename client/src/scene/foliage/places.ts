@@ -1,6 +1,6 @@
 import type { FlowerLook, Place } from "../../wire/generated";
+import { leafHash } from "../leaf-hash";
 import { radiusOf, type TreeTable } from "../table/tree-table";
-import { leafHash } from "./leaves";
 
 /** Wood thicker than this, in internodes of its radius, bears nothing. */
 const THICKEST = 0.6;

@@ -3,12 +3,12 @@ import { beforeEach, describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import type { LeafKind } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { ATLAS_TILES, coverageOf, type Levels } from "../painting/leaf-atlas";
+import { leafLevels, reachOf } from "../painting/leaf-pictures";
+import { TILE_MARGIN } from "../painting/leaf-tile";
+import { SPRIG_LEAVES, SPRIG_REACH } from "../painting/sprig-picture";
 import { TreeTable } from "../table/tree-table";
-import { ATLAS_TILES, coverageOf, type Levels } from "./leaf-atlas";
-import { leafLevels, reachOf } from "./leaf-pictures";
 import { LeafRows } from "./leaf-rows";
-import { TILE_MARGIN } from "./leaf-tile";
-import { SPRIG_LEAVES, SPRIG_REACH } from "./sprig";
 import { bandFor, Sprigs, sprigsOf } from "./sprigs";
 
 const material = () => new ShaderMaterial();

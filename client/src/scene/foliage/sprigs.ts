@@ -1,15 +1,16 @@
 import { Mesh, type ShaderMaterial, type Vector3 } from "three";
 import type { Box } from "../camera/camera-rig";
-import type { Fineness } from "../frame/fineness";
+import { leafHash } from "../leaf-hash";
 import type { Uniforms } from "../materials";
+import { SPRIG_LEAVES } from "../painting/sprig-picture";
+import type { Fineness } from "../rendering/fineness";
 import { grown } from "../table/column";
 import type { TreeTable } from "../table/tree-table";
 import { SPRIG_CARD } from "./leaf-cards";
 import type { LeafRows } from "./leaf-rows";
-import { leafAzimuth, leafHash, leafRandom } from "./leaves";
+import { leafAzimuth, leafRandom } from "./leaves";
 import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
-import { SPRIG_LEAVES } from "./sprig";
 
 /** Leaves shorter than the first, in pixels, have all given way to sprigs; longer than the second, none. */
 const BAND = [2.2, 3.6] as const;

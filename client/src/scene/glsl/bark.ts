@@ -1,4 +1,4 @@
-import { MOST_SHADE, MOST_SLOPE } from "../wood/bark-relief";
+import { MOST_SHADE, MOST_SLOPE } from "../painting/bark-relief";
 
 /** The bark of a place on a limb, from the textures of \`bark.ts\`. */
 export const BARK = /* glsl */ `

@@ -1,5 +1,5 @@
-import { TILE_MARGIN } from "../foliage/leaf-tile";
-import { SPRIG_REACH } from "../foliage/sprig";
+import { TILE_MARGIN } from "../painting/leaf-tile";
+import { SPRIG_REACH } from "../painting/sprig-picture";
 import { HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";

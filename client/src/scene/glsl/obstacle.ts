@@ -1,5 +1,8 @@
 import { HEAD, LIGHT, NOISE } from "./common";
 
+/** How far an endless plane is drawn, in internodes. */
+export const PLANE_SHOWN = 45;
+
 export const OBSTACLE_VERTEX = /* glsl */ `${HEAD}
 in vec3 position;
 in vec3 normal;

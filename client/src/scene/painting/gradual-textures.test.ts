@@ -1,7 +1,7 @@
 import type { DataTexture } from "three";
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import type { Levels } from "../foliage/leaf-atlas";
 import { GradualTextures } from "./gradual-textures";
+import type { Levels } from "./leaf-atlas";
 import { type Order, paint } from "./paint";
 import type { Painter } from "./painter";
 

@@ -1,5 +1,5 @@
 import { DataTexture, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, RGBAFormat, type Texture } from "three";
-import type { Levels } from "../foliage/leaf-atlas";
+import type { Levels } from "./leaf-atlas";
 import { type Kinds, type Order, paint, type Sort } from "./paint";
 import type { Painter } from "./painter";
 

@@ -1,11 +1,11 @@
 import type { BarkKind, FlowerKind, FruitKind, LeafKind } from "../../wire/generated";
-import { FLOWERS } from "../foliage/flowers";
-import { FRUITS } from "../foliage/fruits";
-import { ATLAS_TILES, atlasLevels, type Levels } from "../foliage/leaf-atlas";
-import { seeded } from "../foliage/leaf-painter";
-import { leafLevels } from "../foliage/leaf-pictures";
-import { TILE_SIDE } from "../foliage/leaf-tile";
-import { BARK_SIDE, barkTexels } from "../wood/bark-relief";
+import { BARK_SIDE, barkTexels } from "./bark-relief";
+import { FLOWERS } from "./flowers";
+import { FRUITS } from "./fruits";
+import { ATLAS_TILES, atlasLevels, type Levels } from "./leaf-atlas";
+import { seeded } from "./leaf-painter";
+import { leafLevels } from "./leaf-pictures";
+import { TILE_SIDE } from "./leaf-tile";
 
 /** What there are pictures of, and the kinds of each. */
 export interface Kinds {

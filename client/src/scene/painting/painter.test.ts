@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from "vitest";
-import type { Levels } from "../foliage/leaf-atlas";
+import type { Levels } from "./leaf-atlas";
 import type { Order } from "./paint";
 import { type Hand, Painter } from "./painter";
 

@@ -1,4 +1,4 @@
-import type { Levels } from "../foliage/leaf-atlas";
+import type { Levels } from "./leaf-atlas";
 import { type Order, paint } from "./paint";
 
 /** What a painter's hand is: a worker, or what tests have in its place. */

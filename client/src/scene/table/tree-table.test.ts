@@ -3,7 +3,7 @@ import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { type ChunkChange, type Frame, FrameError, type Rows } from "../../wire/frame";
 import { CHUNK_ROWS } from "../../wire/generated";
-import { normalOf, tangentOf } from "./node-frames";
+import { normalOf, tangentOf } from "./node-orientations";
 import { Dirty, radiusOf, TreeTable } from "./tree-table";
 
 /** Rows from [parent code, dx, dy, dz, radius code] each. */

@@ -5,7 +5,7 @@ import { Cascade } from "./cascade";
 import { grown } from "./column";
 import { Girth } from "./girth";
 import { Limbs } from "./limbs";
-import { type Skeleton, updateFrame } from "./node-frames";
+import { type Skeleton, updateFrame } from "./node-orientations";
 
 /** What changed in a row since the last `drain`. */
 export const Dirty = {

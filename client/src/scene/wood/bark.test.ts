@@ -1,12 +1,12 @@
 import { describe, expect, it, vi } from "vitest";
 import { type BarkKind, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { cells, noCell, turbulence, waves } from "../painting/bark-noise";
+import { barkPalette } from "../painting/bark-palette";
+import { BARK_PATTERNS } from "../painting/bark-pattern";
+import { type BarkTexels, barkTexels } from "../painting/bark-relief";
 import { Painter } from "../painting/painter";
 import { Bark } from "./bark";
-import { cells, noCell, turbulence, waves } from "./bark-noise";
-import { barkPalette } from "./bark-palette";
-import { BARK_PATTERNS } from "./bark-pattern";
-import { type BarkTexels, barkTexels } from "./bark-relief";
 
 const KINDS = Object.keys(BARK_PATTERNS) as BarkKind[];
 const SIDE = 64;

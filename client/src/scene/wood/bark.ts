@@ -1,9 +1,9 @@
 import { Vector3, Vector4 } from "three";
 import { type BarkLook, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
+import { barkPalette } from "../painting/bark-palette";
 import { GradualTextures } from "../painting/gradual-textures";
 import type { Painter } from "../painting/painter";
-import { barkPalette } from "./bark-palette";
 
 /** Sharper where a surface is seen at a slant, as most of a limb is. */
 const ANISOTROPY = 2;

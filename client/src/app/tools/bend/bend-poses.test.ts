@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Bent } from "../../../scene/guise/bent";
+import type { Bent } from "../../../scene/overlay/bend-overlay";
 import { BendPoses } from "./bend-poses";
 
 function setUp(own: readonly number[] = []) {

@@ -1,4 +1,4 @@
-import { Bent } from "../../../scene/guise/bent";
+import { Bent } from "../../../scene/overlay/bend-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { PoseFrame, RowMotion } from "../../../wire/pose";
 import type { ShapingView } from "../shaping-view";

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Bent } from "../../../scene/guise/bent";
+import type { Bent } from "../../../scene/overlay/bend-overlay";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import { holdAt, naturalBase, related } from "./bend-hold";

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import type { Bend } from "../../../scene/bend/bend";
-import { Bent } from "../../../scene/guise/bent";
+import { Bent } from "../../../scene/overlay/bend-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import { radiusOf } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../../../test/sample-tree";
-import type { Bent } from "../../../scene/guise/bent";
-import type { GhostPose } from "../../../scene/guise/ghost";
-import type { Guise } from "../../../scene/guise/guises";
+import type { Bent } from "../../../scene/overlay/bend-overlay";
+import type { GhostPose } from "../../../scene/overlay/ghost";
+import type { Guise } from "../../../scene/overlay/overlays";
 import { TreeTable } from "../../../scene/table/tree-table";
 import type { Viewport } from "../../../scene/viewport";
 import { about } from "./branch-turn";

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
-import { Bent } from "../../../scene/guise/bent";
-import { Felled } from "../../../scene/guise/felled";
-import type { GhostPose } from "../../../scene/guise/ghost";
+import { Bent } from "../../../scene/overlay/bend-overlay";
+import { Felled } from "../../../scene/overlay/cut-overlay";
+import type { GhostPose } from "../../../scene/overlay/ghost";
 import { subtreeRows } from "../../../scene/table/branch-rows";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { GhostPose } from "../../../scene/guise/ghost";
+import type { GhostPose } from "../../../scene/overlay/ghost";
 import type { Command } from "../../../wire/generated";
 import { about, type Rotation, turned } from "./branch-turn";
 import { BranchHand, type TurnPreview } from "./held-branch";

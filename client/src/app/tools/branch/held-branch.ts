@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import type { GhostPose } from "../../../scene/guise/ghost";
+import type { GhostPose } from "../../../scene/overlay/ghost";
 import { axisStart } from "../../../scene/table/branch-rows";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";

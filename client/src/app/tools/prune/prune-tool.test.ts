@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Felled } from "../../../scene/guise/felled";
+import type { Felled } from "../../../scene/overlay/cut-overlay";
 import type { Command } from "../../../wire/generated";
 import { CutLine } from "./cut-line";
 import { PruneRule } from "./prune-rule";

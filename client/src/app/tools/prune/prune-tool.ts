@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { Felled } from "../../../scene/guise/felled";
+import { Felled } from "../../../scene/overlay/cut-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_PRUNED_ROWS } from "../../../wire/generated";

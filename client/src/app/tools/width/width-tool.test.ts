@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Swollen } from "../../../scene/guise/swollen";
+import type { Swollen } from "../../../scene/overlay/width-overlay";
 import type { Command } from "../../../wire/generated";
 import { WidthTool } from "./width-tool";
 

@@ -1,5 +1,5 @@
 import { computed, signal } from "@preact/signals";
-import { type Girth, Swollen } from "../../../scene/guise/swollen";
+import { type Girth, Swollen } from "../../../scene/overlay/width-overlay";
 import { axisRows, pathUp } from "../../../scene/table/branch-rows";
 import { radiusOf, type TreeTable } from "../../../scene/table/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";

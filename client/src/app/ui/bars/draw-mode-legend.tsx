@@ -3,7 +3,7 @@ import type { Legend } from "../../../scene/mode/draw-mode";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** What is to be learnt from a draw mode, and what its colours mean; nothing while the tree is simply lit. */
 export function DrawModeLegend({ studio }: { studio: Studio }) {

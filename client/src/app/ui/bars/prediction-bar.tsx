@@ -4,8 +4,8 @@ import type { Studio } from "../../studio";
 import { FIRST_STEPS, MOST_STEPS } from "../../tools/branch/prediction";
 import { say } from "../../words/say";
 import { Slider } from "../controls/slider";
-import { stepsOf } from "../timeline/timeline-strip";
-import { useFrames } from "../use-frames";
+import { stepsOf } from "../timeline/step-count";
+import { useFrames } from "../use-animation-frames";
 
 /** Branches and twigs of a cut that are marked; of a hundred branches each still gets its mark. */
 const MOST_MARKED = 64;

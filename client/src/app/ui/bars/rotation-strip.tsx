@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** How far an arrow key turns, and how far a page key, in degrees. */
 const KEY_TURN = 5;

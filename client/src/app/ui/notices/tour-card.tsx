@@ -2,7 +2,7 @@ import { TOUR_STEPS } from "../../help/tour";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { GestureSketch } from "../sheets/gesture-sketch";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** The gesture the tour is at: what to do, and what it looks like; the workspace stays in use. */
 export function TourCard({ studio }: { studio: Studio }) {

@@ -1,7 +1,7 @@
 import { useRef } from "preact/hooks";
 import { pathUp } from "../../../scene/table/branch-rows";
 import type { Studio } from "../../studio";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** What is held of a branch that is bent: its base, the places that stay put, and the way between them. */
 export function BendMarks({ studio }: { studio: Studio }) {

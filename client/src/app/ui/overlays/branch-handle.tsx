@@ -6,7 +6,7 @@ import { RING } from "../../tools/branch/branch-tool";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
 import { GraftIcon, PruneIcon, TimeIcon } from "../timeline/timeline-icons";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** Room the menu needs below the ring, in pixels, and beside its middle. */
 const MENU_BELOW = 62;

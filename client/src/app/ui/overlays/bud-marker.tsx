@@ -2,7 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import { axisStart, branchRows } from "../../../scene/table/branch-rows";
 import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** Metamers of a branch that are traced; a marked limb is known by less than all its twigs. */
 const MOST_TRACED = 500;

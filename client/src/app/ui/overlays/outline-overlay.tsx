@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
-import { closedPath, useFrames } from "../use-frames";
+import { closedPath, useFrames } from "../use-animation-frames";
 
 /** The lasso's outline: on the glass while it is drawn, in the world while the tree grows into it. */
 export function OutlineOverlay({ studio }: { studio: Studio }) {

@@ -2,7 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 import { seedsToGrow } from "../../view/places";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** How high a seedling stands, in internodes, and at least in pixels: from afar it must still be found. */
 const HEIGHT = 1.6;

@@ -14,7 +14,7 @@ import {
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 
 /** How far an arrow key moves the sun, and with shift, in degrees. */
 const KEY_STEP = 3;

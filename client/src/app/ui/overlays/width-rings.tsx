@@ -5,7 +5,7 @@ import { LEAST_DIAMETER, type WidthTool } from "../../tools/width/width-tool";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
-import { useFrames } from "../use-frames";
+import { useFrames } from "../use-animation-frames";
 import { type Ring, ringAt } from "./ring";
 
 /** Room between a ring and its knobs. */

@@ -1,4 +1,4 @@
-import { laminaPath } from "../../../scene/foliage/lamina";
+import { laminaPath } from "../../../scene/painting/lamina";
 import type { LeafKind } from "../../../wire/generated";
 import { withNumber } from "../../document/appearance/look-numbers";
 import { OF_THE_LEAVES } from "../../document/growth/growth-parameters";

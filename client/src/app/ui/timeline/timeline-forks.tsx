@@ -4,8 +4,8 @@ import { type Branching, forks, peopleOf } from "../../document/timeline/timelin
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
 import { useDismissal } from "../use-dismissal";
+import { stepsOf } from "./step-count";
 import { ForkIcon, sortOf } from "./timeline-icons";
-import { stepsOf } from "./timeline-strip";
 
 /** Forks nearer to each other than a finger is wide become one. */
 const ROOM = 44;

@@ -4,6 +4,7 @@ import { authorColour, authorName } from "../../document/timeline/authors";
 import { clusters, peopleOf } from "../../document/timeline/timeline";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
+import { stepsOf } from "./step-count";
 import { Forks } from "./timeline-forks";
 import { BackIcon, FoldIcon, ForthIcon, sortOf, TimeIcon } from "./timeline-icons";
 import { useScrubbing } from "./use-scrubbing";
@@ -249,10 +250,4 @@ function operationAtStep({ operations, done }: Timeline, step: number): number |
 
 function middle(edges: readonly number[], operation: number): number {
   return ((edges[operation] ?? 0) + (edges[operation + 1] ?? 1)) / 2;
-}
-
-export function stepsOf(steps: number): string {
-  return say(steps === 0 ? "timeline.steps.none" : steps === 1 ? "timeline.steps.one" : "timeline.steps.many", {
-    count: steps,
-  });
 }

@@ -1,4 +1,4 @@
-import { laminaPath } from "../../../../scene/foliage/lamina";
+import { laminaPath } from "../../../../scene/painting/lamina";
 import type { Species } from "../../../../wire/generated";
 
 /** A leaf of a species, in its own colours. */

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
-import { barkPalette } from "../../../../scene/wood/bark-palette";
-import { type BarkTexels, barkTexels, MOST_SHADE, MOST_SLOPE } from "../../../../scene/wood/bark-relief";
+import { barkPalette } from "../../../../scene/painting/bark-palette";
+import { type BarkTexels, barkTexels, MOST_SHADE, MOST_SLOPE } from "../../../../scene/painting/bark-relief";
 import type { BarkKind } from "../../../../wire/generated";
 import { type Colour, hexOf } from "../../controls/colour-field";
 

@@ -17,7 +17,7 @@ import { Field } from "../../controls/field";
 import { Polar } from "../../controls/polar";
 import { Slider } from "../../controls/slider";
 import { TypedNumber } from "../../controls/typed-number";
-import { useFrames } from "../../use-frames";
+import { useFrames } from "../../use-animation-frames";
 
 /** Radius of the dial's ring and of the arc, of 60 from the middle of the drawing to its edge. */
 const RING = 44;

@@ -1,5 +1,5 @@
 import { radiusOf, type TreeTable } from "../table/tree-table";
-import { type Guise, PASS, type SlotWriter, type Wearer } from "./guises";
+import { type Guise, PASS, type SlotWriter, type Wearer } from "./overlays";
 
 /** What wood is made of, as far as its width goes. */
 export interface Girth {

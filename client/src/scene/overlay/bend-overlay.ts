@@ -1,7 +1,7 @@
-import { updateFrame } from "../table/node-frames";
+import { updateFrame } from "../table/node-orientations";
 import type { TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
-import { type Guise, type Rotation, rotated, type SlotWriter, type Wearer } from "./guises";
+import { type Guise, type Rotation, rotated, type SlotWriter, type Wearer } from "./overlays";
 
 /** How an internode has moved: places go to rotation · (place − its end) + to. */
 export interface RowMotion {

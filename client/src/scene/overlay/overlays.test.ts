@@ -2,13 +2,13 @@ import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import type { ChunkChange } from "../../wire/frame";
 import { CHUNK_ROWS, POSITION_STEPS } from "../../wire/generated";
-import { normalOf } from "../table/node-frames";
+import { normalOf } from "../table/node-orientations";
 import { radiusOf, TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
-import { Bent } from "./bent";
-import { Felled } from "./felled";
-import { type Guise, Guises, type Rotation, rotated, SlotWriter } from "./guises";
-import { borne, Swollen, swelling } from "./swollen";
+import { Bent } from "./bend-overlay";
+import { Felled } from "./cut-overlay";
+import { type Guise, Guises, type Rotation, rotated, SlotWriter } from "./overlays";
+import { borne, Swollen, swelling } from "./width-overlay";
 
 const SLOT = 16;
 const QUARTER: Rotation = [0, 0, Math.SQRT1_2, Math.SQRT1_2];

@@ -1,7 +1,7 @@
 import type { FruitKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { LeafTile, type Paint } from "./leaf-tile";
-import type { OrnamentSort } from "./ornaments";
+import type { OrnamentSort } from "./ornament-sort";
 
 type Random = () => number;
 

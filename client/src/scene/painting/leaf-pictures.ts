@@ -2,7 +2,7 @@ import type { LeafKind } from "../../wire/generated";
 import { isSpray, laminaOf } from "./lamina";
 import { ATLAS_TILES, atlasLevels, type Levels } from "./leaf-atlas";
 import { paintLeaf, seeded } from "./leaf-painter";
-import { sprigLevels } from "./sprig";
+import { sprigLevels } from "./sprig-picture";
 
 /** Sprays are painted anew for each distance, down to so many texels: thin needles would run together to a blot. */
 const COARSEST_SPRAY = 8;

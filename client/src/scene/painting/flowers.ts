@@ -2,7 +2,7 @@ import type { FlowerKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { round } from "./leaf-painter";
 import { LeafTile } from "./leaf-tile";
-import type { OrnamentSort } from "./ornaments";
+import type { OrnamentSort } from "./ornament-sort";
 
 type Random = () => number;
 

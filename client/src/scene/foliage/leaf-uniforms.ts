@@ -3,9 +3,9 @@ import { DEFAULT_APPEARANCE, type LeafKind, type LeafLook } from "../../wire/gen
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
+import { isSpray } from "../painting/lamina";
+import { reachOf } from "../painting/leaf-pictures";
 import type { Painter } from "../painting/painter";
-import { isSpray } from "./lamina";
-import { reachOf } from "./leaf-pictures";
 import { seasonOf } from "./leaf-season";
 
 /** Colours that a kind of leaf turns into: first, at last, and dead, as the screen shows them. */

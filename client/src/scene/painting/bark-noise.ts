@@ -1,4 +1,4 @@
-import { leafHash } from "../foliage/leaves";
+import { leafHash } from "../leaf-hash";
 
 /** A field over the unit square that goes on without a seam beyond its borders. */
 export type Field = (u: number, v: number) => number;

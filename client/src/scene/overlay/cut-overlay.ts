@@ -1,5 +1,5 @@
 import type { TreeTable } from "../table/tree-table";
-import type { Guise, Look, SlotWriter, Wearer } from "./guises";
+import type { Guise, Look, SlotWriter, Wearer } from "./overlays";
 
 /** Branches that are about to be cut, or are cut and not yet gone from the table. */
 export class Felled implements Guise {
