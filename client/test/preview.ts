@@ -28,5 +28,5 @@ table.apply({ ...sample, catchUp: !query.has("grow") });
 viewport.changed();
 const view = viewIn(location.search);
 if (view) viewport.look(view);
-if (query.has("frame")) viewport.frameTree();
+if (query.has("frame")) viewport.fitTree();
 Object.assign(globalThis, { table, viewport, appearance });

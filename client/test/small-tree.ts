@@ -1,4 +1,4 @@
-import type { Guise } from "../src/scene/overlay/overlays";
+import type { Overlay } from "../src/scene/overlay/overlays";
 import { TreeTable } from "../src/scene/table/tree-table";
 import { MIN_RADIUS, RADIUS_LOG_STEP } from "../src/wire/generated";
 
@@ -51,12 +51,12 @@ export function tableOf(twigs: readonly Twig[], table = new TreeTable(() => 0)):
 
 /** A view straight from the front in which an internode is 100 pixels, the origin at (500, 900). */
 export function frontView(table: TreeTable) {
-  const worn = new Set<Guise>();
+  const overlays = new Set<Overlay>();
   const placeOf = (row: number) =>
     [table.position[3 * row]!, table.position[3 * row + 1]!, table.position[3 * row + 2]!] as const;
   const glass = ([x, y]: readonly number[]) => [500 + 100 * x!, 900 - 100 * y!] as const;
   return {
-    worn,
+    overlays,
     placeOf,
     glass,
     pointOnPlane: (x: number, y: number, through: readonly number[]) =>
@@ -76,9 +76,9 @@ export function frontView(table: TreeTable) {
       }
       return best;
     },
-    wear: (guise: Guise) => void worn.add(guise),
-    doff: (guise: Guise) => void worn.delete(guise),
-    wears: (guise: Guise) => worn.has(guise),
-    guiseChanged: () => {},
+    addOverlay: (overlay: Overlay) => void overlays.add(overlay),
+    removeOverlay: (overlay: Overlay) => void overlays.delete(overlay),
+    hasOverlay: (overlay: Overlay) => overlays.has(overlay),
+    overlayChanged: () => {},
   };
 }

@@ -38,7 +38,7 @@ export type PanelName = (typeof PANEL_NAMES)[number];
 /** An outline grows for so many steps at most. */
 const OUTLINE_STEPS = 400;
 
-/** One open page: the session it shows and the tools at hand. */
+/** One open page: the session it shows and the tools. */
 export class Studio {
   readonly settings = loadSettings(localStorage);
   readonly toasts = new Toasts();
@@ -137,7 +137,7 @@ export class Studio {
     toasts: this.toasts,
     bud: this.bud,
     obstacles: this.obstacles,
-    branch: this.branches.hand,
+    branch: this.branches.held,
     submit: (command) => this.submit(command),
     next: () => this.link.next,
     // What is durable may still have to grow: a heavy tree must not fall behind the finger.
@@ -165,7 +165,7 @@ export class Studio {
 
   readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
-  #framed = false;
+  #fitted = false;
   /** The view is no longer that of a fresh page. */
   #moved = false;
 
@@ -197,7 +197,7 @@ export class Studio {
   }
 
   /** Sets fields of the appearance; with a gesture as above. */
-  dress(appearance: AppearancePatch, gesture?: number): void {
+  setAppearance(appearance: AppearancePatch, gesture?: number): void {
     this.looks.commit(appearance, gesture);
   }
 
@@ -217,11 +217,11 @@ export class Studio {
     }
     this.bud.choose(picked);
     this.stage.hideBrush();
-    // Where the device can, the hand feels that it may let go.
+    // Where the device can, the user feels that the hold is over.
     navigator.vibrate?.(12);
   }
 
-  /** Steps back from what is most at hand: a drawing, a tool, a choice, a panel. */
+  /** Steps back from what is nearest: a drawing, a tool, a choice, a panel. */
   escape(): void {
     if (this.bare.peek()) {
       this.bare.value = false;
@@ -230,7 +230,7 @@ export class Studio {
     } else if (this.tools.drawing.peek()) {
       this.tools.cancel();
     } else if (this.tools.release()) {
-      // What the tool had marked was most at hand.
+      // What the tool had marked was nearest.
     } else if (this.tools.chosen.peek() !== "brush") {
       this.tools.choose("brush");
     } else if (this.bud.row.peek() !== null) {
@@ -277,13 +277,13 @@ export class Studio {
         this.growing.settle(settled);
         this.looks.settle(settled);
         this.obstacles.settle(settled);
-        this.tools.told();
+        this.tools.changed();
         this.tools.outline.settled(settled);
       },
       state: (state) => {
         this.document.value = state;
-        this.tools.told();
-        this.tools.outline.told(this.link.answered, state.pending_steps);
+        this.tools.changed();
+        this.tools.outline.progressed(this.link.answered, state.pending_steps);
       },
       parameters: (parameters) => this.growing.receive(parameters),
       appearance: (appearance) => this.looks.receive(appearance),
@@ -331,8 +331,8 @@ export class Studio {
     this.obstacles.forget();
     this.time.clear();
     this.branches.clear();
-    this.#moved ||= this.#framed;
-    this.#framed = false;
+    this.#moved ||= this.#fitted;
+    this.#fitted = false;
     this.table.clear();
     this.stage.changed();
   }
@@ -340,21 +340,21 @@ export class Studio {
   #onRows(): void {
     this.rows.value = this.table.rows;
     this.revision.value += 1;
-    this.branches.hand.keep();
-    this.tools.told();
+    this.branches.held.keep();
+    this.tools.changed();
     if (!this.bud.keep()) {
       this.toasts.show(say("notices.bud-lost"));
     }
     this.stage.changed();
-    if (!this.#framed && this.table.rows > 0) {
-      this.#framed = true;
+    if (!this.#fitted && this.table.rows > 0) {
+      this.#fitted = true;
       // A page opens with a view that suits a seed; a tree that is there already is shown as a whole.
       const grown = this.table.parent.subarray(0, this.table.rows).some((parent) => parent >= 0);
       const view = viewIn(location.search) ?? (grown && !this.#moved ? WHOLE : null);
       if (view) {
         this.stage.look(view);
       } else if (this.#moved) {
-        this.stage.frameTree();
+        this.stage.fitTree();
       }
     }
   }

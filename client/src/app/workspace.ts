@@ -15,7 +15,7 @@ const NOTCHES = 8;
 /** How far an arrow key turns the tree, in radians. */
 const KEY_TURN = (5 * Math.PI) / 180;
 
-/** Takes the canvas into use: picture, hands and keys; returns what gives it back. */
+/** Takes the canvas into use: picture, pointers and keys; returns what releases it. */
 export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () => void {
   const loss = new PictureLoss(studio.hindrance);
   let viewport: Viewport;
@@ -31,7 +31,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   studio.branches.attach(viewport);
   studio.tools.attach(viewport);
   const keys = followKeys(studio);
-  const stopPointers = followPointers(studio, canvas, keys.handHeld);
+  const stopPointers = followPointers(studio, canvas, keys.panHeld);
   const stopPublishing = effect(() => publishFacts(studio));
   const stopLeaves = effect(() => {
     const parameters = studio.parameters.value;
@@ -68,7 +68,7 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
   return listenToKeys({
     undo: () => studio.undo(),
     redo: () => studio.redo(),
-    frame: () => studio.stage.frameTree(),
+    fit: () => studio.stage.fitTree(),
     help: () => {
       studio.sheet.value = "help";
     },
@@ -87,7 +87,7 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
   });
 }
 
-/** Without a branch in hand the arrow keys turn the tree; false where they mean nothing. */
+/** While no branch is held the arrow keys turn the tree; false where they mean nothing. */
 function turnTree(studio: Studio, right: number): boolean {
   if (right !== 0) {
     studio.stage.turn(right * KEY_TURN);
@@ -95,7 +95,7 @@ function turnTree(studio: Studio, right: number): boolean {
   return right !== 0;
 }
 
-function followPointers(studio: Studio, canvas: HTMLCanvasElement, handHeld: () => boolean): () => void {
+function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () => boolean): () => void {
   return listenToPointers(canvas, {
     gesture: (gesture) => {
       studio.stage.radiusSeen();
@@ -110,7 +110,7 @@ function followPointers(studio: Studio, canvas: HTMLCanvasElement, handHeld: () 
         studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches));
       }
     },
-    handHeld,
+    panHeld,
     holdable: (x, y) => studio.tools.holdable(x, y),
   });
 }

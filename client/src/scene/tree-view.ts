@@ -5,7 +5,7 @@ import type { Materials, Uniforms } from "./materials";
 import type { DrawMode, Legend } from "./mode/draw-mode";
 import { SkeletonLines } from "./mode/skeleton-lines";
 import { TraitTexture } from "./mode/trait-texture";
-import { Guises } from "./overlay/overlays";
+import { Overlays } from "./overlay/overlays";
 import type { GradualTextures } from "./painting/gradual-textures";
 import type { Sort } from "./painting/paint";
 import type { Painter } from "./painting/painter";
@@ -16,9 +16,9 @@ import { Dirty, type TreeTable } from "./table/tree-table";
 import { Bark } from "./wood/bark";
 import { Branches } from "./wood/branches";
 
-/** The tree as it is drawn: its table on the graphics card, its bark and leaves, or what a draw mode has instead. */
+/** The tree as it is drawn: its table on the graphics card, its bark and leaves, or the lines of a draw mode. */
 export class TreeView {
-  readonly guises = new Guises();
+  readonly overlays = new Overlays();
   /** Seen by the camera. */
   readonly group = new Group();
   /** Seen by the sun. */
@@ -33,7 +33,7 @@ export class TreeView {
   private readonly skeleton: SkeletonLines;
   private mode: DrawMode = "lit";
   private tableChanged = true;
-  private guisesChanged = false;
+  private overlaysChanged = false;
 
   constructor(
     private readonly table: TreeTable,
@@ -42,7 +42,7 @@ export class TreeView {
     painter: Painter,
   ) {
     uniforms.uNodes = this.nodes.uniform;
-    uniforms.uGuises = this.guises.uniform;
+    uniforms.uOverlays = this.overlays.uniform;
     this.traits = new TraitTexture(uniforms);
     const bark = new Bark(uniforms, painter);
     this.branches = new Branches(materials, { bark });
@@ -94,9 +94,9 @@ export class TreeView {
     this.tableChanged = true;
   }
 
-  /** What a guise shows has changed. */
-  guiseChanged(): void {
-    this.guisesChanged = true;
+  /** The content of an overlay has changed. */
+  overlayChanged(): void {
+    this.overlaysChanged = true;
   }
 
   /** What bark, leaves, flowers and fruits look like. */
@@ -118,7 +118,7 @@ export class TreeView {
     this.branches.lookFrom(fineness);
     if (tableChanged) this.syncTable();
     this.traits.upload(table);
-    if (tableChanged || this.guisesChanged) this.syncGuises(tableChanged);
+    if (tableChanged || this.overlaysChanged) this.syncOverlays(tableChanged);
     this.showMode();
     return tableChanged;
   }
@@ -136,13 +136,13 @@ export class TreeView {
   restored(): void {
     this.nodes.uploadWhole();
     this.branches.restored();
-    this.guises.uploadWhole();
+    this.overlays.uploadWhole();
     this.traits.restored();
     this.foliage.restored();
   }
 
   dispose(): void {
-    for (const part of [this.branches, this.foliage, this.skeleton, this.nodes, this.guises, this.traits])
+    for (const part of [this.branches, this.foliage, this.skeleton, this.nodes, this.overlays, this.traits])
       part.dispose();
   }
 
@@ -160,7 +160,7 @@ export class TreeView {
       },
       (row, bits) => {
         const moved = (bits & Dirty.Shape) !== 0;
-        this.noteRadius(row, this.guises.wornBy(row), now);
+        this.noteRadius(row, this.overlays.slotOf(row), now);
         this.nodes.write(table, row);
         this.branches.update(table, row);
         this.traits.update(row, moved);
@@ -172,23 +172,23 @@ export class TreeView {
     this.skeleton.changed();
   }
 
-  private syncGuises(tableChanged: boolean): void {
+  private syncOverlays(tableChanged: boolean): void {
     const { table } = this;
-    this.guisesChanged = false;
+    this.overlaysChanged = false;
     const now = table.now();
-    if (tableChanged) this.guises.settle(table);
-    const dressed = this.guises.dress(
+    if (tableChanged) this.overlays.settle(table);
+    const assigned = this.overlays.assign(
       table,
       (row, slot, before) => {
         this.noteRadius(row, before, now);
-        this.nodes.dress(table, row, slot);
+        this.nodes.setSlot(table, row, slot);
       },
       tableChanged,
     );
-    if (!dressed) this.guises.write(table);
+    if (!assigned) this.overlays.write(table);
     this.radii.begin(
       now,
-      (row) => this.guises.radiusIn(this.guises.wornBy(row), table.girth.radius[row]!),
+      (row) => this.overlays.radiusIn(this.overlays.slotOf(row), table.girth.radius[row]!),
       (row, from) => this.nodes.ease(row, from, now),
     );
     this.nodes.upload();
@@ -197,8 +197,8 @@ export class TreeView {
   /** A row is about to change; until now it was drawn with what this slot makes of its radius. */
   private noteRadius(row: number, slot: number, now: number): void {
     if (!this.nodes.shows(row)) return;
-    const worn = (radius: number) => this.guises.radiusIn(slot, radius);
-    this.radii.note(row, this.nodes.shownRadius(row, now, worn));
+    const shown = (radius: number) => this.overlays.radiusIn(slot, radius);
+    this.radii.note(row, this.nodes.shownRadius(row, now, shown));
   }
 
   /** Axes alone are lines, and cast no shadow as wide as the branches they stand for. */

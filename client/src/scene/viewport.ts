@@ -14,13 +14,13 @@ import type { DrawMode, Legend } from "./mode/draw-mode";
 import { NoiseTextures } from "./noise-texture";
 import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
 import { Ghost, type GhostPose } from "./overlay/ghost";
-import type { Guise } from "./overlay/overlays";
+import type { Overlay } from "./overlay/overlays";
 import { Painter } from "./painting/painter";
 import type { Fineness } from "./rendering/fineness";
 import { followPixelRatio } from "./rendering/pixel-ratio";
 import { OPENING } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
-import { FrameLoop, type FrameTime } from "./rendering/render-loop";
+import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { Screen } from "./rendering/screen";
 import { encodePicture } from "./rendering/thumbnail";
 import type { TreeTable } from "./table/tree-table";
@@ -42,7 +42,7 @@ export class Viewport {
   private readonly uniforms: Uniforms = {};
   private readonly materials: Materials;
   private readonly noise = new NoiseTextures();
-  private readonly painter = new Painter(() => this.frames.invalidate());
+  private readonly painter = new Painter(() => this.loop.invalidate());
   private readonly tree: TreeView;
   private readonly environment: Environment;
   private readonly sun: Sun;
@@ -50,7 +50,7 @@ export class Viewport {
   private readonly brush: BrushShell;
   private readonly ghost: Ghost;
   private readonly screen: Screen;
-  private readonly frames: FrameLoop;
+  private readonly loop: RenderLoop;
   private readonly rehearsal: Rehearsal;
   private readonly resizing: ResizeObserver;
   private readonly unfollow: () => void;
@@ -64,11 +64,11 @@ export class Viewport {
   private lost = false;
   private readonly shadow = new ShadowDue();
 
-  /** `told` hears when there is no picture any more (true), and when there is one again. */
+  /** Calls `lossChanged` with true when the picture is lost, and with false when it is back. */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly table: TreeTable,
-    private readonly told: (lost: boolean) => void = () => {},
+    private readonly lossChanged: (lost: boolean) => void = () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
@@ -93,20 +93,20 @@ export class Viewport {
     this.ghost = new Ghost(this.uniforms);
     this.scene.add(this.obstacles.bodies, this.ghost.group);
     this.sun.casters.add(this.tree.casters, this.obstacles.casters);
-    this.frames = new FrameLoop(
+    this.loop = new RenderLoop(
       this.draw,
-      () => this.frames.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
+      () => this.loop.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
       // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
       (still) =>
         canvas.toggleAttribute("data-still", still && !this.lost && this.rehearsal.prepared && !this.tree.unfinished),
     );
-    this.frames.control.open(performance.now());
+    this.loop.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
     const essential = [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
     this.rehearsal = new Rehearsal(this.renderer, essential, () => {
-      this.frames.control.open(performance.now());
-      this.frames.invalidate();
+      this.loop.control.open(performance.now());
+      this.loop.invalidate();
     });
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
@@ -120,9 +120,9 @@ export class Viewport {
     if (this.empty && this.table.rows > 0) {
       this.empty = false;
       this.painter.begun = true;
-      this.frames.control.open(performance.now());
+      this.loop.control.open(performance.now());
     }
-    this.frames.invalidate();
+    this.loop.invalidate();
   }
 
   /** How the tree and its surroundings look. */
@@ -153,7 +153,7 @@ export class Viewport {
     if (this.uniforms.uLeafSize!.value === size) return;
     this.uniforms.uLeafSize!.value = size;
     this.shadow.stale = true;
-    this.frames.invalidate();
+    this.loop.invalidate();
   }
 
   /** Turns around the target. */
@@ -182,14 +182,14 @@ export class Viewport {
   }
 
   /** Eases the camera to a view of the whole tree and the ghost beside it; something may cover a share of the foot. */
-  frameTree(covered = 0): void {
+  fitTree(covered = 0): void {
     const ghost = this.ghost.bounds();
-    this.frameBox(ghost ? union(this.table.bounds(), ghost) : this.table.bounds(), covered);
+    this.fitBox(ghost ? union(this.table.bounds(), ghost) : this.table.bounds(), covered);
   }
 
   /** Eases it to a view of what will be there. */
-  frameBox(box: Box, covered = 0): void {
-    this.rig.frame(box, this.sight.width / this.sight.height, covered);
+  fitBox(box: Box, covered = 0): void {
+    this.rig.fit(box, this.sight.width / this.sight.height, covered);
     this.stir();
   }
 
@@ -200,8 +200,8 @@ export class Viewport {
   }
 
   /** Eases it back to where it was before it framed something, unless somebody has moved it since. */
-  unframe(): void {
-    this.rig.unframe();
+  restoreView(): void {
+    this.rig.restore();
     this.stir();
   }
 
@@ -232,36 +232,36 @@ export class Viewport {
 
   /** The branch under or near a place on the canvas. */
   pick(x: number, y: number, tolerancePixels: number): Pick | null {
-    const { guises } = this.tree;
-    const drawn = guises.active ? guises : null;
+    const { overlays } = this.tree;
+    const drawn = overlays.active ? overlays : null;
     return pickBranch(this.table, this.aimed().projection(), x, y, tolerancePixels, drawn);
   }
 
-  /** Draws rows otherwise than the table has them until it has caught up, or the guise is taken off. */
-  wear(guise: Guise): void {
-    this.tree.guises.put(guise);
-    this.guiseChanged();
+  /** Draws rows differently from the table until the table has caught up or the overlay is removed. */
+  addOverlay(overlay: Overlay): void {
+    this.tree.overlays.add(overlay);
+    this.overlayChanged();
   }
 
-  /** Draws them as they are again. */
-  doff(guise: Guise): void {
-    if (this.tree.guises.take(guise)) this.guiseChanged();
+  /** Draws the rows as the table has them again. */
+  removeOverlay(overlay: Overlay): void {
+    if (this.tree.overlays.remove(overlay)) this.overlayChanged();
   }
 
-  wears(guise: Guise): boolean {
-    return this.tree.guises.has(guise);
+  hasOverlay(overlay: Overlay): boolean {
+    return this.tree.overlays.has(overlay);
   }
 
-  /** What a guise that is worn shows has changed. */
-  guiseChanged(): void {
-    this.tree.guiseChanged();
+  /** The content of a shown overlay has changed. */
+  overlayChanged(): void {
+    this.tree.overlayChanged();
     this.shadow.stale = true;
     this.stir();
   }
 
   /** Where a row is drawn. */
   placeOf(row: number): Vec3 {
-    return this.tree.guises.placeOf(this.table, row);
+    return this.tree.overlays.placeOf(this.table, row);
   }
 
   /** The obstacle under a place on the canvas. */
@@ -299,7 +299,7 @@ export class Viewport {
 
   /** A finger is down or a lever is held: the picture is not the one at rest until it is let go. */
   hold(held: boolean): void {
-    this.frames.hold(held);
+    this.loop.hold(held);
   }
 
   /** Shows the brush around a point. */
@@ -334,7 +334,7 @@ export class Viewport {
 
   /** Lets go of the GPU and the canvas. */
   dispose(): void {
-    this.frames.dispose();
+    this.loop.dispose();
     this.resizing.disconnect();
     this.unfollow();
     this.canvas.removeEventListener("webglcontextlost", this.lose);
@@ -357,13 +357,13 @@ export class Viewport {
 
   /** Draws again, as part of a movement. */
   private stir(): void {
-    this.frames.stir();
+    this.loop.stir();
   }
 
-  private readonly draw = ({ began, step, asked }: FrameTime): boolean => {
+  private readonly draw = ({ began, step, asked }: RenderTime): boolean => {
     // What changes meanwhile is taken over once there is something to draw on.
     if (this.lost || !this.rehearsal.prepare()) return false;
-    const { control } = this.frames;
+    const { control } = this.loop;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
     if (fades !== null) return fades;
@@ -399,7 +399,7 @@ export class Viewport {
     this.eye.set(...fineness.eye, fineness.pixels);
     this.uniforms.uShadowTaps!.value = ease > 0.5 ? 3 : 1;
     this.environment.reach(distance);
-    return this.tree.detail(fineness, this.frames.control.resting);
+    return this.tree.detail(fineness, this.loop.control.resting);
   }
 
   private fineness(height: number, ease: number): Fineness {
@@ -450,7 +450,7 @@ export class Viewport {
     const ratio = Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO);
     this.screen.resize(width, height, ratio);
     if (this.sun.fit(Math.max(width, height) * ratio)) this.shadow.stale = true;
-    this.frames.invalidate();
+    this.loop.invalidate();
   }
 
   private readonly lose = (event: Event): void => {
@@ -458,7 +458,7 @@ export class Viewport {
     event.preventDefault();
     this.lost = true;
     this.canvas.removeAttribute("data-still");
-    this.told(true);
+    this.lossChanged(true);
   };
 
   /** A restored context has lost every texture and buffer. */
@@ -468,7 +468,7 @@ export class Viewport {
     this.tree.restored();
     this.ghost.restored();
     this.shadow.stale = true;
-    this.frames.invalidate();
-    this.told(false);
+    this.loop.invalidate();
+    this.lossChanged(false);
   };
 }

@@ -39,8 +39,8 @@ function setUp(path = "/", { last = null as string | null, store = storage(), be
   };
   const hindrance = signal<Hindrance | null>(null);
   const lastSession = signal<string | null>(last);
-  const told: string[] = [];
-  const tells = (name: string) => () => void told.push(name);
+  const calls: string[] = [];
+  const tells = (name: string) => () => void calls.push(name);
   const nothing = () => {};
   const events: SessionEvents = {
     opened: tells("opened"),
@@ -81,7 +81,7 @@ function setUp(path = "/", { last = null as string | null, store = storage(), be
   });
   const newest = () => sockets.at(-1)!.socket;
   const addresses = () => sockets.map(({ address }) => address.split("/").at(-2));
-  return { link, clock, location, hindrance, lastSession, told, store, sockets, newest, addresses };
+  return { link, clock, location, hindrance, lastSession, calls, store, sockets, newest, addresses };
 }
 
 afterEach(() => vi.unstubAllGlobals());
@@ -130,14 +130,14 @@ describe("the session a page opens with", () => {
 describe("another session", () => {
   it("is opened under an address of its own, and the way back works", async () => {
     serveSessions([], ["new"]);
-    const { link, location, told, addresses } = setUp("/s/oak");
+    const { link, location, calls, addresses } = setUp("/s/oak");
     await link.start();
     expect(await link.change()).toBe(true);
     expect([link.session.peek(), location.pathname]).toEqual(["new", "/s/new"]);
     location.pathname = "/s/oak";
     link.navigated();
     expect(addresses()).toEqual(["oak", "new", "oak"]);
-    expect(told.filter((name) => name === "opened").length).toBe(3);
+    expect(calls.filter((name) => name === "opened").length).toBe(3);
   });
 
   it("is begun once, however often somebody taps", async () => {
@@ -151,19 +151,19 @@ describe("another session", () => {
 
   it("that is not to be had leaves everything as it is", async () => {
     serveSessions([], []);
-    const { link, told, location } = setUp("/s/oak");
+    const { link, calls, location } = setUp("/s/oak");
     await link.start();
     expect(await link.change()).toBe(false);
-    expect([link.session.peek(), location.pathname, told.at(-1)]).toEqual(["oak", "/s/oak", "failed"]);
+    expect([link.session.peek(), location.pathname, calls.at(-1)]).toEqual(["oak", "/s/oak", "failed"]);
   });
 
   it("CM1: what was unsent goes out on the way back", async () => {
     serveSessions([], ["new"]);
-    const { link, location, newest, told } = setUp("/s/oak");
+    const { link, location, newest, calls } = setUp("/s/oak");
     await link.start();
     link.submit({ kind: "undo" });
     await link.change();
-    expect(told, "nobody was there to take it").toContain("parted");
+    expect(calls, "nobody was there to take it").toContain("parted");
     newest().welcome();
     expect(newest().commands).toEqual([]);
     location.pathname = "/s/oak";
@@ -187,12 +187,12 @@ describe("a page that goes", () => {
   });
 
   it("HS4: takes it back when it returns, so that no copy of the tab finds it", async () => {
-    const { link, store, newest, told } = setUp("/s/oak");
+    const { link, store, newest, calls } = setUp("/s/oak");
     await link.start();
     newest().welcome();
     link.submit({ kind: "undo" });
     link.leaving();
-    expect(told).toContain("leaving");
+    expect(calls).toContain("leaving");
     link.returning();
     const copy = setUp("/s/oak", { store });
     await copy.link.start();
@@ -216,24 +216,24 @@ describe("what is in the way", () => {
   });
 
   it("nothing, where there is a tree to look at meanwhile", async () => {
-    const { link, hindrance, clock, newest, told } = setUp("/s/oak", { begun: true });
+    const { link, hindrance, clock, newest, calls } = setUp("/s/oak", { begun: true });
     await link.start();
     newest().welcome();
     for (let i = 0; i < 4; i++) {
       newest().end(1006);
       clock.pass(10_000);
     }
-    expect([hindrance.peek(), told.filter((name) => name === "lost")]).toEqual([null, ["lost"]]);
+    expect([hindrance.peek(), calls.filter((name) => name === "lost")]).toEqual([null, ["lost"]]);
   });
 
   it("HS3: a session nobody knows, which is then not come back to", async () => {
-    const { link, hindrance, lastSession, newest, told } = setUp("/s/oak");
+    const { link, hindrance, lastSession, newest, calls } = setUp("/s/oak");
     await link.start();
     link.submit({ kind: "undo" });
     newest().end(CloseCode.UnknownSession);
     expect([hindrance.peek(), lastSession.peek()]).toEqual(["unknown-session", null]);
     link.leave();
-    expect(told, "nothing of it is kept").not.toContain("parted");
+    expect(calls, "nothing of it is kept").not.toContain("parted");
   });
 
   it("HS1: another version, answered by loading the page once", async () => {

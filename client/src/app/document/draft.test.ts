@@ -28,7 +28,7 @@ function bench(options: { readonly ahead?: () => GrowthAhead; readonly offline?:
 }
 
 describe("draft", () => {
-  it("shows what a hand sets at once", () => {
+  it("shows what a user sets at once", () => {
     const { draft, hue } = bench();
     draft.drag({ hue: 1 });
     expect(hue()).toBe(1);
@@ -72,7 +72,7 @@ describe("draft", () => {
     expect(sent.map(({ gesture }) => gesture)).toEqual([undefined, 77]);
   });
 
-  it("where the hand lets go is always sent", () => {
+  it("where the user lets go is always sent", () => {
     const { clock, sent, draft } = bench();
     draft.drag({ hue: 1 });
     draft.drag({ hue: 2 });
@@ -95,7 +95,7 @@ describe("draft", () => {
     expect(sent.at(-1)!.patch.hue, "the newest").toBe(100);
   });
 
-  it("the hand's value stands while it is under way", () => {
+  it("the user's value stands while it is under way", () => {
     const { clock, draft, hue } = bench();
     draft.commit({ hue: 5 });
     draft.receive({ ...FIRST, hue: 2 });
@@ -195,7 +195,7 @@ describe("draft", () => {
     draft.settle(1);
     draft.receive({ ...FIRST, hue: 2 });
     for (let i = 0; i < 10; i++) {
-      // Others set something else, and this hand too: each is told and answered.
+      // Others set something else, and this user too: each is told and answered.
       draft.receive({ hue: 2, bark: { kind: "smooth", relief: i } });
       draft.commit({ bark: { kind: "papery", relief: i } });
       draft.settle(sent.length);

@@ -1,13 +1,13 @@
 import { type ReadonlySignal, signal } from "@preact/signals";
 import type { Clock } from "../page/clock";
 
-/** A hand that moves is told about ten times a second. */
+/** How often the value of a moving control is sent, in milliseconds. */
 const SEND_EVERY = 100;
-/** Commands that may be under way before a moving hand has to wait. */
+/** Commands that may be unanswered before a moving control has to wait. */
 const MAX_UNSETTLED = 2;
-/** How long the hand's own value stands after its command's turn has come, if the server says something else. */
+/** How long the user's own value stands after the server has come to its command and still has another value. */
 const GRACE = 600;
-/** How often it is looked whether the turn has come of a command that waits behind growth. */
+/** How often a command that waits behind growth is checked, in milliseconds. */
 const LOOK_EVERY = 100;
 
 /** How far the server has come with growing, and how many steps it has still to do at most. */
@@ -28,7 +28,7 @@ export interface DraftOptions<Whole extends object, None extends Whole | null> {
   readonly clock: Clock;
 }
 
-/** A value of the hand's own, and the last command that tells it; 0 while it has not been sent. */
+/** A value that the user has set, and the last command that carries it; 0 while it has not been sent. */
 interface Own<Value> {
   readonly value: Value;
   readonly command: number;
@@ -39,14 +39,14 @@ interface Own<Value> {
 }
 
 /**
- * Something shared that is set field by field: at once here, a little later for everybody. A field is as the hand has
- * it until the server has answered; from then on the server's value counts, whoever set it.
+ * Something shared that is set field by field: at once here, a little later for everybody. A field has the value that
+ * the user set until the server has answered; from then on the value of the server counts, whoever set it.
  */
 export class Draft<Whole extends object, None extends Whole | null = Whole> {
   readonly value: ReadonlySignal<Whole | None>;
   #value;
   #options: DraftOptions<Whole, None>;
-  #told: Whole | None;
+  #received: Whole | None;
   #own = new Map<keyof Whole, Own<Whole[keyof Whole]>>();
   #queued: Partial<Whole> | null = null;
   /** That of the drag under way, once something of it was sent. */
@@ -60,7 +60,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
 
   constructor(options: DraftOptions<Whole, None>) {
     this.#options = options;
-    this.#told = options.none;
+    this.#received = options.none;
     this.#value = signal<Whole | None>(options.none);
     this.value = this.#value;
   }
@@ -73,15 +73,15 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
 
   /** A control is let go, or something is picked: sent at once. With a gesture it joins what else has that gesture. */
   commit(patch: Partial<Whole> = {}, gesture?: number): void {
-    // A hand that has not waited for the first of its drag to be sent needs no gesture: it is sent as one.
+    // A drag that ends before anything of it was sent needs no gesture: it is sent as one command.
     this.#take(patch);
     this.#send(gesture ?? this.#gesture);
     this.#gesture = undefined;
   }
 
-  /** The server tells how it is. */
-  receive(told: Whole): void {
-    this.#told = told;
+  /** The server has sent the present value. */
+  receive(received: Whole): void {
+    this.#received = received;
     this.#reconcile();
   }
 
@@ -97,11 +97,11 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
 
   /** Another session: nothing is known of it. */
   clear(): void {
-    this.#told = this.#options.none;
+    this.#received = this.#options.none;
     this.letGo();
   }
 
-  /** The hand's own values no longer count: what was sent goes by other numbers now. */
+  /** Drops the user's own values: the commands that carried them have other numbers now. */
   letGo(): void {
     this.#cancelSending?.();
     this.#cancelGrace?.();
@@ -126,7 +126,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
     this.#show();
   }
 
-  /** Sends what a moving hand has set if it is time to, else later. */
+  /** Sends what a moving control has set, now or when it is time. */
   #flush(): void {
     if (this.#queued === null || this.#cancelSending !== null) {
       return;
@@ -167,7 +167,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
     }
   }
 
-  /** Lets go of the hand's own values that the server has made its own, or has had time to. */
+  /** Drops the user's own values that the server has taken over, or has had time to. */
   #reconcile(): void {
     const now = this.#options.clock.now();
     let next = Number.POSITIVE_INFINITY;
@@ -175,12 +175,12 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
       if (!this.#answered(name, own.command)) {
         continue;
       }
-      if (this.#told !== null && alike((this.#told as Whole)[name], own.value)) {
+      if (this.#received !== null && alike((this.#received as Whole)[name], own.value)) {
         this.#own.delete(name);
       } else if (this.#waits(own)) {
         next = Math.min(next, now + LOOK_EVERY);
       } else {
-        // It is set once: whatever is told meanwhile must not keep a value that is not the server's.
+        // It is set once: messages that come meanwhile must not prolong a value that the server does not have.
         own.deadline ??= now + GRACE;
         if (own.deadline <= now) {
           this.#own.delete(name);
@@ -209,12 +209,12 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
   }
 
   #show(): void {
-    const told = this.#told;
-    if (told === null || this.#own.size === 0) {
-      this.#value.value = told;
+    const received = this.#received;
+    if (received === null || this.#own.size === 0) {
+      this.#value.value = received;
       return;
     }
-    const shown: Whole = { ...(told as Whole) };
+    const shown: Whole = { ...(received as Whole) };
     for (const [name, { value }] of this.#own) {
       shown[name] = value;
     }

@@ -126,7 +126,7 @@ const KEYS: readonly (readonly [Key, () => string])[] = [
   ["help.key.grow", () => "G  U"],
   ["help.key.travel", () => ",  ."],
   ["help.key.undo", () => say("help.keys.undo")],
-  ["help.key.frame", () => "F"],
+  ["help.key.fit", () => "F"],
   ["help.key.draw-mode", () => "D"],
   ["help.key.hide", () => "H"],
   ["help.key.escape", () => say("help.keys.escape")],

@@ -32,7 +32,7 @@ describe("tour", () => {
     expect(tour.step.value).toBe("draw");
   });
 
-  it("goes on by what the hand does, and remembers", () => {
+  it("goes on by what the user does, and remembers", () => {
     const { tour, world, settings, kept } = setUp();
     world.ready.value = true;
     world.drawn.value = 40;

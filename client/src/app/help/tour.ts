@@ -20,7 +20,7 @@ export interface TourOptions {
   readonly growing: () => boolean;
 }
 
-/** A first run in three gestures: each is shown until the hand has done it. */
+/** A first run in three gestures: each is shown until the user has done it. */
 export class Tour {
   readonly #at = signal<number | null>(null);
   /** Whether the gesture shown has been done. */
@@ -38,7 +38,7 @@ export class Tour {
     this.#options = options;
   }
 
-  /** Offers itself where it has not been seen, and watches what the hand does; returns what ends that. */
+  /** Offers itself where it has not been seen, and watches what the user does; returns what ends that. */
   follow(): () => void {
     const stopOffering = effect(() => {
       if (!this.#options.settings.tourSeen.value && this.#options.ready() && this.#at.peek() === null) {

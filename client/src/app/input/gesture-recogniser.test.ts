@@ -13,7 +13,7 @@ import {
 
 type Device = PointerSample["device"];
 
-function hand() {
+function pointers() {
   const recogniser = new GestureRecogniser();
   const at = (id: number, x: number, y: number, time: number, device: Device, pressure = 0.5) => ({
     id,
@@ -29,7 +29,7 @@ function hand() {
       recogniser.down({
         ...at(id, x, y, time, device),
         button: 0,
-        hand: false,
+        pans: false,
         choose: false,
         holdable: false,
         ...extra,
@@ -47,7 +47,7 @@ const touch = (x: number, y: number) => ({ x, y, pressure: null });
 
 describe("one finger", () => {
   it("draws once it has moved, from where it came down", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     expect(down(1, 100, 100, 0)).toEqual([]);
     expect(move(1, 103, 100, 10)).toEqual([]);
     expect(move(1, 120, 100, 20)).toEqual([
@@ -59,7 +59,7 @@ describe("one finger", () => {
   });
 
   it("draws where it rests", () => {
-    const { recogniser, down } = hand();
+    const { recogniser, down } = pointers();
     down(1, 50, 60, 1000);
     expect(recogniser.deadline).toBe(1000 + HOLD);
     expect(recogniser.tick(1000 + HOLD - 1)).toEqual([]);
@@ -68,27 +68,27 @@ describe("one finger", () => {
   });
 
   it("a quick tap is a stroke of one place", () => {
-    const { down, up } = hand();
+    const { down, up } = pointers();
     down(1, 5, 5, 0);
     expect(kinds(up(1, 5, 5, 30))).toEqual(["stroke-begin", "stroke-end"]);
   });
 
   it("a tap the system takes away draws nothing", () => {
-    const { recogniser, down } = hand();
+    const { recogniser, down } = pointers();
     down(1, 5, 5, 0);
     expect(recogniser.cancel(1)).toEqual([]);
     expect(recogniser.tick(1000)).toEqual([]);
   });
 
   it("a stroke the system takes away ends", () => {
-    const { recogniser, down, move } = hand();
+    const { recogniser, down, move } = pointers();
     down(1, 5, 5, 0);
     move(1, 50, 5, 10);
     expect(recogniser.cancel(1)).toEqual([{ kind: "stroke-end" }]);
   });
 
   it("delivers every coalesced place in order", () => {
-    const { recogniser, down, move, at } = hand();
+    const { recogniser, down, move, at } = pointers();
     down(1, 0, 0, 0);
     move(1, 20, 0, 10);
     const places = [21, 22, 23].map((x) => at(1, x, 0, 20, "touch"));
@@ -98,7 +98,7 @@ describe("one finger", () => {
   });
 
   it("later fingers do not disturb a stroke", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 0, 0, 0);
     move(1, 40, 0, 20);
     expect(down(2, 200, 200, 200)).toEqual([]);
@@ -113,7 +113,7 @@ describe("holding on a branch", () => {
   const branch = { holdable: true };
 
   it("a ring fills, then the branch is chosen", () => {
-    const { recogniser, down, move, up } = hand();
+    const { recogniser, down, move, up } = pointers();
     expect(down(1, 50, 60, 1000, "touch", branch)).toEqual([]);
     expect(recogniser.deadline).toBe(1000 + HOLD);
     expect(recogniser.tick(1000 + HOLD)).toEqual([{ kind: "hold-begin", x: 50, y: 60, milliseconds: CHOOSE - HOLD }]);
@@ -126,7 +126,7 @@ describe("holding on a branch", () => {
   });
 
   it("one that moves on draws, with all it went through", () => {
-    const { recogniser, down, move } = hand();
+    const { recogniser, down, move } = pointers();
     down(1, 0, 0, 0, "touch", branch);
     recogniser.tick(HOLD);
     expect(move(1, 3, 0, 200)).toEqual([]);
@@ -139,7 +139,7 @@ describe("holding on a branch", () => {
   });
 
   it("a quick tap still draws, a slow one neither draws nor chooses", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     expect(kinds(up(1, 5, 5, 60))).toEqual(["stroke-begin", "stroke-end"]);
     down(1, 5, 5, 1000, "touch", branch);
@@ -148,7 +148,7 @@ describe("holding on a branch", () => {
   });
 
   it("a second finger turns it into a pinch", () => {
-    const { recogniser, down, move } = hand();
+    const { recogniser, down, move } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     recogniser.tick(HOLD);
     expect(kinds(down(2, 90, 90, 200))).toEqual(["hold-end"]);
@@ -157,7 +157,7 @@ describe("holding on a branch", () => {
   });
 
   it("one the system takes away chooses nothing", () => {
-    const { recogniser, down } = hand();
+    const { recogniser, down } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     recogniser.tick(HOLD);
     expect(kinds(recogniser.cancel(1))).toEqual(["hold-end"]);
@@ -166,7 +166,7 @@ describe("holding on a branch", () => {
 
   it("a mouse and a pen hold as well", () => {
     for (const device of ["mouse", "pen"] as const) {
-      const { recogniser, down, move, up } = hand();
+      const { recogniser, down, move, up } = pointers();
       expect(down(1, 5, 5, 0, device, branch)).toEqual([]);
       expect(kinds(recogniser.tick(CHOOSE + 5)), device).toEqual(["choose"]);
       expect([...move(1, 90, 5, 600, device), ...up(1, 90, 5, 700, device)]).toEqual([]);
@@ -177,14 +177,14 @@ describe("holding on a branch", () => {
   });
 
   it("a palm beside a pen that is held changes nothing", () => {
-    const { recogniser, down } = hand();
+    const { recogniser, down } = pointers();
     down(1, 5, 5, 0, "pen", branch);
     expect(down(2, 300, 300, 50)).toEqual([]);
     expect(kinds(recogniser.tick(CHOOSE))).toEqual(["choose"]);
   });
 
   it("a mouse with the alt key chooses at once", () => {
-    const { down, up } = hand();
+    const { down, up } = pointers();
     expect(down(1, 7, 8, 0, "mouse", { choose: true })).toEqual([{ kind: "choose", x: 7, y: 8 }]);
     expect(up(1, 7, 8, 20, "mouse")).toEqual([]);
   });
@@ -195,7 +195,7 @@ describe("two taps", () => {
   const nothing = { doubles: true };
 
   it("a double tap on a branch is one gesture and draws nothing", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 50, 60, 0, "touch", branch);
     expect(up(1, 50, 60, 60)).toEqual([]);
     down(2, 54, 63, 200, "touch", branch);
@@ -204,7 +204,7 @@ describe("two taps", () => {
   });
 
   it("a double tap beside every branch does nothing", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 50, 60, 0, "touch", nothing);
     up(1, 50, 60, 60);
     down(2, 52, 60, 200, "touch", nothing);
@@ -213,7 +213,7 @@ describe("two taps", () => {
   });
 
   it("a tap that stays alone draws when no second one can come", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     up(1, 5, 5, 60);
     expect(recogniser.deadline).toBe(60 + SECOND_TAP);
@@ -222,7 +222,7 @@ describe("two taps", () => {
   });
 
   it("slow taps count as well, until they are holds", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     recogniser.tick(HOLD);
     expect(kinds(up(1, 5, 5, LONGEST_TAP))).toEqual(["hold-end"]);
@@ -235,7 +235,7 @@ describe("two taps", () => {
   });
 
   it("a tap far from the first one is another tap", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     up(1, 5, 5, 60);
     expect(kinds(down(2, 90, 5, 150, "touch", branch))).toEqual(["stroke-begin", "stroke-end"]);
@@ -244,7 +244,7 @@ describe("two taps", () => {
   });
 
   it("a tap and then a stroke from the same place are both drawn", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     up(1, 5, 5, 60);
     down(2, 6, 5, 180, "touch", branch);
@@ -253,7 +253,7 @@ describe("two taps", () => {
   });
 
   it("a tap and then a pinch: the tap is drawn, the pinch moves the view", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 5, 5, 0, "touch", branch);
     up(1, 5, 5, 60);
     down(2, 6, 5, 180, "touch", branch);
@@ -262,7 +262,7 @@ describe("two taps", () => {
   });
 
   it("a mouse clicks twice on a branch", () => {
-    const { down, up } = hand();
+    const { down, up } = pointers();
     down(1, 5, 5, 0, "mouse", branch);
     up(1, 5, 5, 60, "mouse");
     down(1, 5, 5, 150, "mouse", branch);
@@ -274,7 +274,7 @@ describe("a tool that takes hold", () => {
   const take = { grip: "take" };
 
   it("gets each finger by itself, from the first place on", () => {
-    const { recogniser, down, move, up } = hand();
+    const { recogniser, down, move, up } = pointers();
     expect(down(1, 5, 5, 0, "touch", take)).toMatchObject([{ kind: "grip-begin", id: 1, x: 5, y: 5 }]);
     expect(recogniser.deadline, "nothing waits").toBeNull();
     expect(kinds(down(2, 90, 5, 10, "touch", take))).toEqual(["grip-begin"]);
@@ -287,7 +287,7 @@ describe("a tool that takes hold", () => {
   });
 
   it("leaves its fingers to the view when one more does not fit", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 100, 100, 0, "touch", take);
     expect(kinds(down(2, 200, 100, 10, "touch", { grip: "leave" }))).toEqual(["grip-drop"]);
     expect(kinds(move(2, 300, 100, 20))).toEqual(["pan", "zoom"]);
@@ -295,7 +295,7 @@ describe("a tool that takes hold", () => {
   });
 
   it("a finger that is ignored changes nothing, also when it stays last", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 100, 100, 0, "touch", take);
     expect(down(2, 200, 100, 10, "touch", { grip: "ignore" })).toEqual([]);
     expect(move(2, 300, 100, 20)).toEqual([]);
@@ -305,7 +305,7 @@ describe("a tool that takes hold", () => {
   });
 
   it("a pen takes hold while a palm rests", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(1, 300, 300, 0, "touch", take);
     expect(kinds(down(9, 10, 20, 40, "pen", take))).toEqual(["grip-drop", "grip-begin"]);
     expect(down(2, 320, 300, 50, "touch", take)).toEqual([]);
@@ -314,7 +314,7 @@ describe("a tool that takes hold", () => {
   });
 
   it("one that the system takes away is let go of", () => {
-    const { recogniser, down } = hand();
+    const { recogniser, down } = pointers();
     down(1, 5, 5, 0, "touch", take);
     expect(kinds(recogniser.cancel(1))).toEqual(["grip-end"]);
   });
@@ -322,7 +322,7 @@ describe("a tool that takes hold", () => {
 
 describe("several fingers", () => {
   it("a second finger makes a starting stroke a pan", () => {
-    const { recogniser, down, move } = hand();
+    const { recogniser, down, move } = pointers();
     down(1, 100, 100, 0);
     move(1, 102, 100, 20);
     expect(down(2, 200, 100, 60)).toEqual([]);
@@ -335,7 +335,7 @@ describe("several fingers", () => {
   });
 
   it("pinching zooms about the middle", () => {
-    const { down, move } = hand();
+    const { down, move } = pointers();
     down(1, 100, 100, 0);
     down(2, 200, 100, 10);
     const [, zoom] = move(2, 300, 100, 20);
@@ -343,7 +343,7 @@ describe("several fingers", () => {
   });
 
   it("a whole pinch multiplies to the ratio of distances", () => {
-    const { down, move } = hand();
+    const { down, move } = pointers();
     down(1, 150, 100, 0);
     down(2, 250, 100, 10);
     let factor = 1;
@@ -356,7 +356,7 @@ describe("several fingers", () => {
   });
 
   it("three fingers rotate by the way of their middle", () => {
-    const { down, move } = hand();
+    const { down, move } = pointers();
     [1, 2, 3].map((id) => down(id, id * 50, 100, id));
     const turned = [1, 2, 3].flatMap((id) => move(id, id * 50 + 30, 100, 20));
     expect(kinds(turned)).toEqual(["orbit", "orbit", "orbit"]);
@@ -364,14 +364,14 @@ describe("several fingers", () => {
   });
 
   it("lifting one of three does not jerk the view", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     [1, 2, 3].map((id) => down(id, id * 50, 100, id));
     up(3, 150, 100, 50);
     expect(move(1, 0, 0, 60)).toEqual([]);
   });
 
   it("the last finger of a pinch does not draw", () => {
-    const { recogniser, down, move, up } = hand();
+    const { recogniser, down, move, up } = pointers();
     down(1, 100, 100, 0);
     down(2, 200, 100, 10);
     up(2, 200, 100, 50);
@@ -385,14 +385,14 @@ describe("several fingers", () => {
 
 describe("pen and palm", () => {
   it("a pen draws at once and tells its pressure", () => {
-    const { down } = hand();
+    const { down } = pointers();
     expect(down(9, 10, 20, 0, "pen", { pressure: 0.25 })).toEqual([
       { kind: "stroke-begin", point: { x: 10, y: 20, pressure: 0.25 } },
     ]);
   });
 
   it("a palm beside the pen does nothing", () => {
-    const { recogniser, down, move, up } = hand();
+    const { recogniser, down, move, up } = pointers();
     down(9, 10, 20, 0, "pen");
     expect(down(1, 300, 300, 10)).toEqual([]);
     expect(move(1, 350, 300, 20)).toEqual([]);
@@ -403,7 +403,7 @@ describe("pen and palm", () => {
   });
 
   it("a palm that came down first gives way to the pen", () => {
-    const { recogniser, down, move } = hand();
+    const { recogniser, down, move } = pointers();
     down(1, 300, 300, 0);
     expect(kinds(down(9, 10, 20, 40, "pen"))).toEqual(["stroke-begin"]);
     expect(recogniser.tick(500)).toEqual([]);
@@ -411,14 +411,14 @@ describe("pen and palm", () => {
   });
 
   it("a palm's stroke ends where the pen's begins", () => {
-    const { down, move } = hand();
+    const { down, move } = pointers();
     down(1, 300, 300, 0);
     move(1, 340, 300, 20);
     expect(kinds(down(9, 10, 20, 40, "pen"))).toEqual(["stroke-end", "stroke-begin"]);
   });
 
   it("touches draw again a while after the pen was put away", () => {
-    const { recogniser, down, up } = hand();
+    const { recogniser, down, up } = pointers();
     down(9, 10, 20, 0, "pen");
     up(9, 10, 20, 10, "pen");
     down(1, 5, 5, 1000);
@@ -429,7 +429,7 @@ describe("pen and palm", () => {
   });
 
   it("two fingers still move the view beside a pen", () => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     down(9, 10, 20, 0, "pen");
     up(9, 10, 20, 10, "pen");
     down(1, 100, 100, 1000);
@@ -440,7 +440,7 @@ describe("pen and palm", () => {
 
 describe("mouse", () => {
   const dragged = (extra: object) => {
-    const { down, move, up } = hand();
+    const { down, move, up } = pointers();
     return kinds([...down(1, 0, 0, 0, "mouse", extra), ...move(1, 9, 9, 9, "mouse"), ...up(1, 9, 9, 10, "mouse")]);
   };
 
@@ -451,11 +451,11 @@ describe("mouse", () => {
   it("right rotates, middle pans, shift or space pans", () => {
     expect(dragged({ button: 2 })).toEqual(["orbit"]);
     expect(dragged({ button: 1 })).toEqual(["pan"]);
-    expect(dragged({ button: 0, hand: true })).toEqual(["pan"]);
+    expect(dragged({ button: 0, pans: true })).toEqual(["pan"]);
   });
 
   it("hovering is no gesture", () => {
-    expect(hand().move(1, 40, 40, 5, "mouse")).toEqual([]);
+    expect(pointers().move(1, 40, 40, 5, "mouse")).toEqual([]);
   });
 
   it("the wheel comes closer upwards, in whatever unit it turns", () => {

@@ -97,7 +97,7 @@ export class GestureRecogniser {
     }
     this.#state = { kind: "idle" };
     const near = Math.hypot(press.x - state.x, press.y - state.y) <= SAME_PLACE;
-    if (near && press.time < state.until && press.button === 0 && !press.hand) {
+    if (near && press.time < state.until && press.button === 0 && !press.pans) {
       return this.#down(press, state);
     }
     return [...drawn(state), ...this.#down(press, null)];
@@ -189,7 +189,7 @@ export class GestureRecogniser {
     if (this.#state.kind !== "idle") {
       return [];
     }
-    if (press.button === 0 && !press.hand) {
+    if (press.button === 0 && !press.pans) {
       return this.#press(press, before);
     }
     const mode = press.button === 2 ? "orbit" : "pan";
@@ -210,7 +210,7 @@ export class GestureRecogniser {
     const before = ended(this.#state);
     this.#state = { kind: "idle" };
     this.#fingers.clear();
-    if (press.hand) {
+    if (press.pans) {
       this.#state = { kind: "drag", id: press.id, mode: "pan", x: press.x, y: press.y };
       return before;
     }
@@ -225,7 +225,7 @@ export class GestureRecogniser {
       return [];
     }
     this.#fingers.set(press.id, { x: press.x, y: press.y });
-    const draws = !press.hand && press.time - this.#penSeen >= PEN_MEMORY;
+    const draws = !press.pans && press.time - this.#penSeen >= PEN_MEMORY;
     if (press.grip && (state.kind === "grips" || (state.kind === "idle" && draws))) {
       return this.#gripTouch(press, press.grip);
     }
@@ -234,7 +234,7 @@ export class GestureRecogniser {
       this.#state = { kind: "fingers", rotated };
       return ended(state);
     }
-    if (press.hand) {
+    if (press.pans) {
       this.#state = { kind: "drag", id: press.id, mode: "pan", x: press.x, y: press.y };
     } else if (press.time - this.#penSeen < PEN_MEMORY) {
       this.#state = { kind: "fingers", rotated: false };

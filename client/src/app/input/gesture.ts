@@ -11,15 +11,15 @@ export interface PointerSample {
 
 export interface PointerPress extends PointerSample {
   readonly button: number;
-  /** Shift or the space bar is held: the brush becomes a hand. */
-  readonly hand: boolean;
+  /** Shift or the space bar is held: the pointer pans instead of drawing. */
+  readonly pans: boolean;
   /** The alt key is held: a press chooses what is there, with no wait. */
   readonly choose: boolean;
   /** Holding still here chooses something. */
   readonly holdable: boolean;
   /** Two taps mean something here, so that a tap has to wait for a second one; or nothing, but may not draw. */
   readonly doubles?: boolean;
-  /** What the tool at hand does with a finger that comes down here; without one it draws strokes. */
+  /** What the chosen tool does with a finger that comes down here; without one it draws strokes. */
   readonly grip?: Grip;
 }
 

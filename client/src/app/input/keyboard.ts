@@ -4,7 +4,7 @@ import type { ToolName } from "../tools/toolbox";
 export interface KeyActions {
   undo(): void;
   redo(): void;
-  frame(): void;
+  fit(): void;
   help(): void;
   /** Hides everything but the workspace, or brings it back. */
   bare(): void;
@@ -34,8 +34,8 @@ const ARROWS: Record<string, readonly [number, number]> = {
 const TIME_KEYS: Record<string, -1 | 1> = { Comma: -1, Period: 1 };
 const TIME_SIGNS: Record<string, -1 | 1> = { ",": -1, "<": -1, ".": 1, ">": 1 };
 
-/** Listens to the keyboard; `handHeld` says whether the space bar is down. */
-export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop(): void } {
+/** Listens to the keyboard; `panHeld` says whether the space bar is down. */
+export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop(): void } {
   let space = false;
   let growing: string | null = null;
   const stop = new AbortController();
@@ -111,7 +111,7 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
         actions.escape();
         break;
       case "f":
-        actions.frame();
+        actions.fit();
         break;
       case "d":
         actions.drawMode(event.shiftKey ? -1 : 1);
@@ -138,7 +138,7 @@ export function listenToKeys(actions: KeyActions): { handHeld(): boolean; stop()
   addEventListener("keyup", release, { signal: stop.signal });
   // A window that loses the focus never hears of the key's release.
   addEventListener("blur", rest, { signal: stop.signal });
-  return { handHeld: () => space, stop: () => stop.abort() };
+  return { panHeld: () => space, stop: () => stop.abort() };
 }
 
 /** A sign says which way; where Shift or Alt has made another sign of it, its place does. */

@@ -14,12 +14,12 @@ export interface PointerHandlers {
   /** The wheel was turned with the alt key: above 1 widens the brush. */
   widen(factor: number): void;
   /** Whether the space bar is held. */
-  handHeld(): boolean;
+  panHeld(): boolean;
   /** Whether holding still at a place chooses something. */
   holdable(x: number, y: number): boolean;
-  /** Whether two taps mean something to the tool at hand. */
+  /** Whether two taps mean something to the chosen tool. */
   doubles(): boolean;
-  /** What the tool at hand does with one more finger at a place; null if it draws strokes. */
+  /** What the chosen tool does with one more finger at a place; null if it draws strokes. */
   grip(x: number, y: number): Grip | null;
 }
 
@@ -43,15 +43,15 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
     }
   };
   const sample = (event: PointerEvent): PointerSample => {
-    const frame = canvas.getBoundingClientRect();
+    const bounds = canvas.getBoundingClientRect();
     const device = event.pointerType === "touch" || event.pointerType === "pen" ? event.pointerType : "mouse";
     const { pointerId: id, pressure } = event;
     // Synthetic events may carry another clock than the timer's; arrival is what the hold time is about.
     return {
       id,
       device,
-      x: event.clientX - frame.left,
-      y: event.clientY - frame.top,
+      x: event.clientX - bounds.left,
+      y: event.clientY - bounds.top,
       pressure,
       time: performance.now(),
     };
@@ -72,11 +72,11 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
     }
     const at = sample(event);
     const { button, altKey: choose } = event;
-    const hand = event.shiftKey || handlers.handHeld();
-    const holdable = button === 0 && !hand && handlers.holdable(at.x, at.y);
-    const grip = button === 0 && !hand ? handlers.grip(at.x, at.y) : null;
+    const pans = event.shiftKey || handlers.panHeld();
+    const holdable = button === 0 && !pans && handlers.holdable(at.x, at.y);
+    const grip = button === 0 && !pans ? handlers.grip(at.x, at.y) : null;
     const doubles = handlers.doubles();
-    const press: PointerPress = { ...at, button, hand, choose, holdable, doubles, ...(grip ? { grip } : {}) };
+    const press: PointerPress = { ...at, button, pans, choose, holdable, doubles, ...(grip ? { grip } : {}) };
     deliver(recogniser.down(press));
   });
   on("pointermove", (event) => {
@@ -103,8 +103,8 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
       handlers.widen(factor);
       return;
     }
-    const frame = canvas.getBoundingClientRect();
-    handlers.gesture({ kind: "zoom", factor, x: event.clientX - frame.left, y: event.clientY - frame.top });
+    const bounds = canvas.getBoundingClientRect();
+    handlers.gesture({ kind: "zoom", factor, x: event.clientX - bounds.left, y: event.clientY - bounds.top });
   });
   // Safari's own pinch and its double-tap zoom would move the page under the canvas.
   for (const kind of ["gesturestart", "gesturechange"]) {

@@ -5,7 +5,7 @@ import type { Settings } from "./settings";
 /** Colours of the browser's own bars, beside the page. */
 const BAR_COLOURS = { light: "#dfe9ee", dark: "#171c19" } as const;
 
-/** Has the page speak the language and wear the theme that were chosen, or else what browser and system ask for. */
+/** Sets the language and the theme of the page: those chosen, else those of the browser and the system. */
 export function followChoices(settings: Settings): () => void {
   const root = document.documentElement;
   const dark = matchMedia("(prefers-color-scheme: dark)");

@@ -4,7 +4,7 @@ import type { Studio } from "../studio";
 export function publishFacts(studio: Studio): void {
   const { dataset } = document.documentElement;
   const state = studio.document.value;
-  const timeline = studio.time.told.value;
+  const timeline = studio.time.timeline.value;
   const facts = {
     connection: studio.link.phase.value,
     sent: studio.link.sent.value,
@@ -21,7 +21,7 @@ export function publishFacts(studio: Studio): void {
     operations: timeline?.operations.map(({ kind }) => kind).join(" ") ?? "",
     done: timeline?.done ?? 0,
     futures: timeline?.futures.length ?? 0,
-    branch: studio.branches.hand.row.value ?? "",
+    branch: studio.branches.held.row.value ?? "",
     ghost: studio.branches.prediction.grown.value ?? "",
   };
   for (const [name, value] of Object.entries(facts)) {

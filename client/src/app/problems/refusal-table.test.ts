@@ -186,5 +186,5 @@ function lastComma(call: string): number {
   return at;
 }
 
-/** What no hand can do wrongly, only a program: it is told without what would be allowed. */
+/** What no user can do wrongly, only a program: it is told without what would be allowed. */
 const OF_HANDS = /length 1|perpendicular|finite number|touched once|^7 to 7 rows|^parameters$|path/;

@@ -1,6 +1,6 @@
 /**
- * Asks one question at a time. What is asked meanwhile waits, and only the newest of it: answers keep up with a hand
- * that is faster than they are.
+ * Asks one question at a time. What is asked meanwhile waits, and only the newest of it: answers keep up with a user
+ * who is faster than they are.
  */
 export class NewestOnly<Question, Answer> {
   #ask: (question: Question) => Promise<Answer>;

@@ -63,20 +63,20 @@ describe("transfer", () => {
   });
 
   it("an answer is read part by part", async () => {
-    const told: Progress[] = [];
-    const blob = await bytesOf(answer(["oak", "beech"], { "content-length": "8" }), (now) => void told.push(now));
+    const reports: Progress[] = [];
+    const blob = await bytesOf(answer(["oak", "beech"], { "content-length": "8" }), (now) => void reports.push(now));
     expect(await blob.text()).toBe("oakbeech");
-    expect(told).toEqual([
+    expect(reports).toEqual([
       { bytes: 3, total: 8 },
       { bytes: 8, total: 8 },
     ]);
   });
 
   it("of a compressed answer nobody knows the length", async () => {
-    const told: Progress[] = [];
+    const reports: Progress[] = [];
     const headers = { "content-length": "2", "content-encoding": "gzip" };
-    await bytesOf(answer(["oak"], headers), (now) => void told.push(now));
-    expect(told).toEqual([{ bytes: 3, total: null }]);
+    await bytesOf(answer(["oak"], headers), (now) => void reports.push(now));
+    expect(reports).toEqual([{ bytes: 3, total: null }]);
   });
 });
 

@@ -13,7 +13,7 @@ export interface Tool {
   /** It is there no longer. */
   leave?(): void;
   /** Rows have changed, or commands were answered. */
-  told?(): void;
+  changed?(): void;
   /** Escape, when nothing is under way: whether there was anything to let go of. */
   release?(): boolean;
 }

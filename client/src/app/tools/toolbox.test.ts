@@ -1,7 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { SMALL, tableOf } from "../../../test/small-tree";
 import { Virtual } from "../../../test/virtual-clock";
-import type { Bent } from "../../scene/overlay/bend-overlay";
+import type { BendOverlay } from "../../scene/overlay/bend-overlay";
 import type { SlotWriter } from "../../scene/overlay/overlays";
 import { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
@@ -11,7 +11,7 @@ import type { PoseFrame, RowMotion } from "../../wire/pose";
 import { ObstacleList } from "../document/obstacles/obstacle-list";
 import { loadSettings } from "../page/settings";
 import { Toasts } from "../page/toasts";
-import type { BranchHand } from "./branch/held-branch";
+import type { HeldBranch } from "./branch/held-branch";
 import { ChosenBud } from "./chosen-bud";
 import { Toolbox } from "./toolbox";
 
@@ -21,7 +21,7 @@ afterEach(() => vi.useRealTimers());
 function setUp(table = new TreeTable()) {
   vi.useFakeTimers();
   const sent: Command[] = [];
-  const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0, worn: new Set<Bent>() };
+  const world = { arranging: false, ready: true, chosen: [] as number[][], held: 0, overlays: new Set<BendOverlay>() };
   const store = { getItem: () => null, setItem: () => {} } as unknown as Storage;
   const view = {
     pointOnPlane: (x: number, y: number, through: Vec3) => [x / 10, (1000 - y) / 10, through[2]],
@@ -30,10 +30,10 @@ function setUp(table = new TreeTable()) {
     pick: (x: number) => (Math.abs(x - 500) < 24 ? { row: 3, point: [50, 0, 0] } : null),
     placeOf: (row: number) => [50, row, 0],
     projector: () => (point: Vec3) => [10 * point[0], 1000 - 10 * point[1]],
-    wear: (bent: Bent) => world.worn.add(bent),
-    doff: (bent: Bent) => world.worn.delete(bent),
-    wears: (bent: Bent) => world.worn.has(bent),
-    guiseChanged: () => {},
+    addOverlay: (bent: BendOverlay) => world.overlays.add(bent),
+    removeOverlay: (bent: BendOverlay) => world.overlays.delete(bent),
+    hasOverlay: (bent: BendOverlay) => world.overlays.has(bent),
+    overlayChanged: () => {},
     pickObstacle: (x: number) => (Math.abs(x - 800) < 24 ? { id: 1, point: [80, 0, 0] } : null),
     depthBelow: () => null,
     looksDown: () => false,
@@ -62,7 +62,7 @@ function setUp(table = new TreeTable()) {
     unsettledMoves: () => 0,
     unsettled: () => 0,
     girth: () => ({ exponent: 2.5, twigDiameter: 0.07 }),
-    branch: { release: () => {}, cancelTurn: () => {}, cancelPlacing: () => {} } as unknown as BranchHand,
+    branch: { release: () => {}, cancelTurn: () => {}, cancelPlacing: () => {} } as unknown as HeldBranch,
     predict: () => {},
     hold: () => {
       world.held += 1;
@@ -129,26 +129,26 @@ describe("toolbox", () => {
       const motions = rows.map((row): RowMotion => ({ row, rotation: [0, 0, 0, 1], to: [x, row, 0] }));
       return { epoch: 1, sequence: 1, bend, motions };
     };
-    const worn = () => [...world.worn].map(({ path }) => path);
+    const shown = () => [...world.overlays].map(({ path }) => path);
     tools.detach();
-    world.worn.clear();
+    world.overlays.clear();
     for (const frame of [pose(7, [2, 6, 7]), pose(8, [3, 12]), pose(7, [2, 6, 7], 9), pose(8, [])]) {
       tools.receivePose(frame);
     }
     tools.attach(view);
-    expect(worn(), "only that which is not over").toEqual([[2, 6, 7]]);
+    expect(shown(), "only that which is not over").toEqual([[2, 6, 7]]);
     const motion = vi.fn();
-    const out = { plain: () => {}, frame: () => {}, motion } as unknown as SlotWriter;
-    [...world.worn][0]?.write(tableOf(SMALL), out);
+    const out = { plain: () => {}, orientation: () => {}, motion } as unknown as SlotWriter;
+    [...world.overlays][0]?.write(tableOf(SMALL), out);
     expect(motion.mock.lastCall?.[3], "as it was told last").toEqual([9, 7, 0]);
     tools.receivePose(pose(7, []));
-    expect(worn()).toEqual([]);
+    expect(shown()).toEqual([]);
     tools.receivePose(pose(9, [3, 12]));
     tools.detach();
     tools.losePoses();
-    world.worn.clear();
+    world.overlays.clear();
     tools.attach(view);
-    expect(worn(), "another connection tells anew").toEqual([]);
+    expect(shown(), "another connection tells anew").toEqual([]);
   });
 
   it("a pen's pressure reaches what is sent", () => {
@@ -175,7 +175,7 @@ describe("toolbox", () => {
     expect(tools.outline.shown.value?.stage).toBe("growing");
   });
 
-  it("after a seed the brush is at hand again", () => {
+  it("after a seed the brush is chosen again", () => {
     const { tools, sent, toasts, draw } = setUp();
     tools.choose("seed");
     draw([[300, 200]]);

@@ -15,7 +15,7 @@ import { type Key, say } from "../words/say";
 import { BendPoses } from "./bend/bend-poses";
 import { BendTool } from "./bend/bend-tool";
 import { BranchTool } from "./branch/branch-tool";
-import type { BranchHand } from "./branch/held-branch";
+import type { HeldBranch } from "./branch/held-branch";
 import { BrushTool, SEND_EVERY } from "./brush/brush-tool";
 import type { ChosenBud } from "./chosen-bud";
 import { LassoTool } from "./lasso/lasso-tool";
@@ -37,7 +37,7 @@ export interface Workshop {
   readonly toasts: Toasts;
   readonly bud: ChosenBud;
   readonly obstacles: ObstacleList;
-  readonly branch: BranchHand;
+  readonly branch: HeldBranch;
   readonly submit: (command: Command) => void;
   /** The number the next command gets. */
   readonly next: () => number;
@@ -157,7 +157,7 @@ export class Toolbox {
       }),
       branch: new BranchTool({
         view,
-        hand: branch,
+        branch,
         say: (text) => toasts.show(say(text)),
       }),
     };
@@ -178,7 +178,7 @@ export class Toolbox {
     this.shaping.peek()?.width.receive(widths);
   }
 
-  /** A branch that is being bent; it may be told before there is a view to show it (`BE5`). */
+  /** A branch that is being bent; it may arrive before there is a view to show it (`BE5`). */
   receivePose(pose: PoseFrame): void {
     if (pose.motions.length > 0) {
       this.#poses.set(pose.bend, pose);
@@ -260,7 +260,7 @@ export class Toolbox {
         break;
       case "zoom":
         if (this.#active instanceof BranchTool) {
-          // The wheel turns about itself what the hand holds.
+          // The wheel turns the held branch about its own axis.
           this.#active.twist(2 * Math.log(gesture.factor));
           break;
         }
@@ -288,7 +288,7 @@ export class Toolbox {
     });
   }
 
-  /** What the tool at hand does with one more finger at a place; null if it draws strokes. */
+  /** What the chosen tool does with one more finger at a place; null if it draws strokes. */
   grip(x: number, y: number): Grip | null {
     const tool = this.#tools?.[this.chosen.peek()];
     if (!tool || !("takes" in tool) || !this.#workshop.ready() || this.#moves({ x, y, pressure: null })) {
@@ -297,15 +297,15 @@ export class Toolbox {
     return tool.takes(x, y);
   }
 
-  /** Whether two taps mean something to the tool at hand. */
+  /** Whether two taps mean something to the chosen tool. */
   doubles(): boolean {
     return DRAWING.has(this.chosen.peek());
   }
 
   /** Rows have changed, or commands were answered. */
-  told(): void {
+  changed(): void {
     for (const tool of Object.values(this.#tools ?? {})) {
-      tool.told?.();
+      tool.changed?.();
     }
   }
 
@@ -321,7 +321,7 @@ export class Toolbox {
     }
   }
 
-  /** Lets go of what the tool at hand has marked; false if there is nothing. */
+  /** Lets go of what the chosen tool has marked; false if there is nothing. */
   release(): boolean {
     return this.#tools?.[this.chosen.peek()].release?.() === true;
   }

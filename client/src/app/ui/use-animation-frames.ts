@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 
 /** Calls `draw` before each frame while `active`: what lies over the picture follows its camera. */
-export function useFrames(active: boolean, draw: () => void): void {
+export function useAnimationFrames(active: boolean, draw: () => void): void {
   const latest = useRef(draw);
   latest.current = draw;
   useEffect(() => {

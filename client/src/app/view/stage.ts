@@ -100,8 +100,8 @@ export class Stage {
     return this.#view?.legend() ?? null;
   }
 
-  frameTree(): void {
-    this.#view?.frameTree();
+  fitTree(): void {
+    this.#view?.fitTree();
   }
 
   look(view: View): void {

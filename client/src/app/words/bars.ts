@@ -35,8 +35,8 @@ export const BARS = {
   "bars.undo.title": ["Undo (Ctrl Z)", "Rückgängig (Strg Z)"],
   "bars.redo": ["Redo", "Wiederholen"],
   "bars.redo.title": ["Redo (Shift Ctrl Z)", "Wiederholen (Umschalt Strg Z)"],
-  "bars.frame": ["Show the whole tree", "Ganzen Baum zeigen"],
-  "bars.frame.title": ["Show the whole tree (F)", "Ganzen Baum zeigen (F)"],
+  "bars.fit": ["Show the whole tree", "Ganzen Baum zeigen"],
+  "bars.fit.title": ["Show the whole tree (F)", "Ganzen Baum zeigen (F)"],
   "bars.radius": ["Brush radius", "Pinselradius"],
   "bars.radius.short": ["Sketch", "Skizze"],
   "bars.radius.sketch": [

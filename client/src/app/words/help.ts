@@ -279,7 +279,7 @@ export const HELP = {
     "Ast fassen, drehen; mit Umschalt um sich selbst",
   ],
   "help.key.turn": ["Turn the tree, where no branch is held", "Den Baum drehen, wenn kein Ast gefasst ist"],
-  "help.key.frame": ["Show the whole tree", "Ganzen Baum zeigen"],
+  "help.key.fit": ["Show the whole tree", "Ganzen Baum zeigen"],
   "help.key.draw-mode": ["Draw it in another way", "Anders darstellen"],
   "help.key.hide": ["Hide everything, bring it back", "Alles ausblenden, wieder einblenden"],
   "help.key.undo": ["Undo, with Shift redo", "Rückgängig, mit Umschalt wiederholen"],

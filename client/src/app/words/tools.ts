@@ -91,7 +91,7 @@ export const TOOLS = {
   "tools.branch.copy.title": ["Set a copy of it on another limb", "Eine Kopie auf einen anderen Ast setzen"],
   "tools.branch.cut": ["Cut", "Schneiden"],
   "tools.branch.cut.title": ["Cut it off", "Abschneiden"],
-  "tools.branch.foresee.title": ["What would cutting it do?", "Was würde der Schnitt bewirken?"],
+  "tools.branch.predict.title": ["What would cutting it do?", "Was würde der Schnitt bewirken?"],
   "tools.placing.copy": [
     "Tap the limb for the copy, drag to aim it",
     "Ast für die Kopie antippen, ziehen zum Ausrichten",

@@ -75,44 +75,44 @@ describe("the camera", () => {
     expect(before - rig.pose.target[0]).toBeCloseTo((100 / 800) * 40, 4);
   });
 
-  it("goes back to where it was before it framed something", () => {
+  it("goes back to where it was before it fitted something", () => {
     const rig = new CameraRig();
     rig.keep(tree);
     rig.zoom(3, 0.2, 0.1);
     settle(rig);
     const before = structuredClone(rig.pose);
-    rig.frame(tree, 1.4);
+    rig.fit(tree, 1.4);
     settle(rig);
     expect(rig.pose.distance).toBeGreaterThan(before.distance);
-    rig.unframe();
+    rig.restore();
     settle(rig);
     expect(rig.pose).toEqual(before);
   });
 
-  it("stays with what it framed, though nothing may be there yet", () => {
+  it("stays with what it fitted, though nothing may be there yet", () => {
     const rig = new CameraRig();
     rig.keep({ min: [-1, 0, -1], max: [1, 2, 1] });
-    rig.frame({ min: [-40, 0, -40], max: [40, 60, 40] }, 0.45);
+    rig.fit({ min: [-40, 0, -40], max: [40, 60, 40] }, 0.45);
     rig.keep({ min: [-1, 0, -1], max: [1, 3, 1] });
     settle(rig);
     expect(2 * rig.pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.45).toBeGreaterThan(80);
   });
 
-  it("stays where a hand has moved it meanwhile", () => {
+  it("stays where the user has moved it meanwhile", () => {
     const rig = new CameraRig();
     rig.keep(tree);
-    rig.frame(tree, 1.4);
+    rig.fit(tree, 1.4);
     rig.orbit(40, 0);
     settle(rig);
     const moved = structuredClone(rig.pose);
-    rig.unframe();
+    rig.restore();
     settle(rig);
     expect(rig.pose).toEqual(moved);
   });
 
   it("leaves room at the foot of the picture", () => {
     const rig = new CameraRig();
-    rig.frame(tree, 1.4, 0.2);
+    rig.fit(tree, 1.4, 0.2);
     settle(rig);
     const { target, distance } = rig.pose;
     const half = Math.tan(FIELD_OF_VIEW / 2) * distance;

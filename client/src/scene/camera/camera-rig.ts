@@ -3,7 +3,7 @@ import { Damper } from "./damper";
 import type { View } from "./view";
 
 /** Where the camera is: on a sphere around a target, looking at it. */
-export interface Pose {
+export interface CameraPose {
   target: [number, number, number];
   /** Turn around the vertical, in radians; 0 looks along −z. */
   yaw: number;
@@ -39,16 +39,16 @@ const SMALLEST_FIT = 20;
 /** An orbiting camera that follows its goal smoothly and never loses the tree or goes under the ground. */
 export class CameraRig {
   /** What is shown now. */
-  readonly pose: Pose;
-  private readonly goal: Pose;
+  readonly pose: CameraPose;
+  private readonly goal: CameraPose;
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private readonly quick = dampers(HALF_LIFE);
   private readonly slow = dampers(EASE_HALF_LIFE);
   private easing = false;
-  /** Where the goal was before the last `frame`, as long as nobody has moved the camera since. */
-  private before: Pose | null = null;
-  /** What `frame` showed; it may be about to grow there, and stays in reach until somebody moves the camera. */
-  private framed: Box | null = null;
+  /** Where the goal was before the last `fit`, as long as nobody has moved the camera since. */
+  private before: CameraPose | null = null;
+  /** What `fit` showed; it may be about to grow there, and stays in reach until somebody moves the camera. */
+  private fittedBox: Box | null = null;
 
   constructor() {
     const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
@@ -57,7 +57,7 @@ export class CameraRig {
   }
 
   /** Where the eye is. */
-  eye(pose: Pose = this.pose): Vec3 {
+  eye(pose: CameraPose = this.pose): Vec3 {
     const level = pose.distance * Math.cos(pose.pitch);
     return [
       pose.target[0] + level * Math.sin(pose.yaw),
@@ -68,7 +68,7 @@ export class CameraRig {
 
   /** Tells what is to be kept in reach. */
   keep(box: Box): void {
-    this.box = this.framed ? union(box, this.framed) : box;
+    this.box = this.fittedBox ? union(box, this.fittedBox) : box;
     this.limit();
   }
 
@@ -111,9 +111,9 @@ export class CameraRig {
   }
 
   /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
-  frame(box: Box, aspect: number, covered = 0): void {
+  fit(box: Box, aspect: number, covered = 0): void {
     this.before = structuredClone(this.goal);
-    this.framed = box;
+    this.fittedBox = box;
     this.box = union(this.box, box);
     const pose = fitted(box, aspect, this.goal.yaw);
     pose.distance /= 1 - covered;
@@ -139,12 +139,12 @@ export class CameraRig {
     Object.assign(this.pose, structuredClone(this.goal));
   }
 
-  /** Eases back to where the camera was before the last `frame`, unless somebody has moved it since. */
-  unframe(): void {
+  /** Eases back to where the camera was before the last `fit`, unless somebody has moved it since. */
+  restore(): void {
     if (!this.before) return;
     Object.assign(this.goal, this.before);
     this.before = null;
-    this.framed = null;
+    this.fittedBox = null;
     this.easing = true;
     this.limit();
   }
@@ -171,11 +171,11 @@ export class CameraRig {
     return !arrived;
   }
 
-  /** The hand takes the camera. */
+  /** The user takes hold of the camera. */
   private take(): void {
     this.easing = false;
     this.before = null;
-    this.framed = null;
+    this.fittedBox = null;
   }
 
   private furthest(): number {
@@ -195,7 +195,7 @@ export class CameraRig {
 }
 
 /** A pose that shows the whole box with some room around it. */
-export function fitted(box: Box, aspect: number, yaw: number): Pose {
+export function fitted(box: Box, aspect: number, yaw: number): CameraPose {
   const height = Math.max(SMALLEST_FIT, box.max[1] - Math.min(0, box.min[1]));
   const width = Math.max(SMALLEST_FIT, box.max[0] - box.min[0], box.max[2] - box.min[2]);
   const half = Math.tan(FIELD_OF_VIEW / 2);
@@ -218,7 +218,7 @@ export function union(a: Box, b: Box): Box {
 }
 
 /** How far the eye may sink before it touches the ground. */
-function lowestPitch(pose: Pose): number {
+function lowestPitch(pose: CameraPose): number {
   return Math.asin(Math.min(1, Math.max(-1, (EYE_CLEARANCE - pose.target[1]) / pose.distance)));
 }
 

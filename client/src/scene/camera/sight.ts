@@ -1,7 +1,7 @@
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import type { DrawingPlane } from "../../wire/generated";
 import type { Ray, Vec3 } from "../vector";
-import { FIELD_OF_VIEW, type Pose } from "./camera-rig";
+import { type CameraPose, FIELD_OF_VIEW } from "./camera-rig";
 import type { Projection } from "./picking";
 
 /** Ground seen from further off than this many times the eye's distance from the tree is too far to aim at. */
@@ -21,7 +21,7 @@ export class Sight {
   private distance = 1;
 
   /** Puts the eye where a pose has it. */
-  aim(pose: Pose, eye: Vec3, aspect = this.width / this.height): void {
+  aim(pose: CameraPose, eye: Vec3, aspect = this.width / this.height): void {
     const { camera } = this;
     this.pitch = pose.pitch;
     this.distance = pose.distance;

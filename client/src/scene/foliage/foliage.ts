@@ -10,7 +10,7 @@ import type { Painter } from "../painting/painter";
 import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { LeafRows } from "./leaf-rows";
-import { LeafDress } from "./leaf-uniforms";
+import { LeafUniforms } from "./leaf-uniforms";
 import { Ornaments } from "./ornaments";
 import { Sprigs } from "./sprigs";
 
@@ -21,19 +21,19 @@ export class Foliage {
   /** Seen by the sun. */
   readonly casters: readonly Mesh[];
   readonly textures: readonly GradualTextures<Sort>[];
-  private readonly dress: LeafDress;
+  private readonly uniforms: LeafUniforms;
   private readonly leaves: LeafRows;
   private readonly sprigs: Sprigs;
   private readonly flowers: Ornaments<FlowerLook>;
   private readonly fruits: Ornaments<FruitLook>;
 
   constructor(materials: Materials, uniforms: Uniforms, painter: Painter) {
-    this.dress = new LeafDress(uniforms, painter);
+    this.uniforms = new LeafUniforms(uniforms, painter);
     this.leaves = new LeafRows(materials, uniforms);
     this.sprigs = new Sprigs(materials, uniforms);
     this.flowers = new Ornaments(FLOWERS, materials.flower, materials.flowerDepth, uniforms, painter);
     this.fruits = new Ornaments(FRUITS, materials.fruit, materials.fruitDepth, uniforms, painter);
-    this.textures = [this.dress.textures, this.flowers.textures, this.fruits.textures];
+    this.textures = [this.uniforms.textures, this.flowers.textures, this.fruits.textures];
     const parts = [this.leaves, this.sprigs, this.flowers, this.fruits];
     this.meshes = parts.map(({ mesh }) => mesh);
     this.casters = parts.map(({ caster }) => caster);
@@ -43,9 +43,9 @@ export class Foliage {
 
   /** Changes what all of them look like; flowers and fruits may then be elsewhere. */
   setLook(leaves: LeafLook, flowers: FlowerLook, fruits: FruitLook): void {
-    this.dress.wear(leaves);
-    this.flowers.wear(flowers);
-    this.fruits.wear(fruits);
+    this.uniforms.setLook(leaves);
+    this.flowers.setLook(flowers);
+    this.fruits.setLook(fruits);
   }
 
   /** What rows from `rows` on bore is gone. */
@@ -92,12 +92,12 @@ export class Foliage {
 
   /** A restored context has lost every texture. */
   restored(): void {
-    this.dress.restored();
+    this.uniforms.restored();
     this.flowers.restored();
     this.fruits.restored();
   }
 
   dispose(): void {
-    for (const part of [this.dress, this.leaves, this.sprigs, this.flowers, this.fruits]) part.dispose();
+    for (const part of [this.uniforms, this.leaves, this.sprigs, this.flowers, this.fruits]) part.dispose();
   }
 }

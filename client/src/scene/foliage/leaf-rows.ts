@@ -8,7 +8,7 @@ import { leafAzimuth, leafRandom } from "./leaves";
 import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
 
-/** While a hand moves on a slow device, no more leaves than this are drawn, each the larger for it. */
+/** While the user moves on a slow device, no more leaves than this are drawn, each the larger for it. */
 const LEAVES_IN_HASTE = 60_000;
 /** The largest leaf is this much longer than the leaf size (LF2). */
 const LARGEST = 1.25;

@@ -61,8 +61,8 @@ const LEAN: Partial<Record<LeafKind, number>> = { needle: 0.6, scale: 0.72 };
 /** How much a blade bows and folds; long and heavy ones hang. */
 const BEND: Partial<Record<LeafKind, number>> = { lanceolate: 1.3, compound: 1.4, palmate: 0.9, fan: 0.5, needle: 0.3 };
 
-/** What leaves wear: their textures and all the shaders need to know of the look. */
-export class LeafDress {
+/** The textures of leaves and the uniforms that carry their look to the shaders. */
+export class LeafUniforms {
   private readonly form = { value: new Vector4() };
   private readonly season = { value: new Vector4() };
   private readonly traits = { value: new Vector4() };
@@ -88,11 +88,11 @@ export class LeafDress {
       uSprigRelief: sprig!.relief,
       uSprigSpan: sprig!.span,
     });
-    this.wear(DEFAULT_APPEARANCE.leaves);
+    this.setLook(DEFAULT_APPEARANCE.leaves);
   }
 
-  /** Puts a look on. */
-  wear(look: LeafLook): void {
+  /** Shows another look. */
+  setLook(look: LeafLook): void {
     this.textures.choose(look.shape);
     const { unfolded, present, fresh, turned, withered } = seasonOf(look.shape, look.season);
     const reach = reachOf(look.shape);

@@ -48,7 +48,7 @@ describe("flowers", () => {
     table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
     uniforms = {};
     flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, new Painter());
-    flowers.wear(LOOK);
+    flowers.setLook(LOOK);
     sync();
   });
 
@@ -59,7 +59,7 @@ describe("flowers", () => {
       { ...LOOK, place: "tips" },
       { ...LOOK, vigor: -1 },
     ] as const) {
-      flowers.wear(look);
+      flowers.setLook(look);
       flowers.upload(table);
       expect(borne(flowers.mesh.geometry)).toEqual(expected(look, FLOWERS.kinds.rosette.together));
     }
@@ -87,7 +87,7 @@ describe("flowers", () => {
   });
 
   it("that are none take nothing to draw", () => {
-    flowers.wear({ ...LOOK, kind: "none" });
+    flowers.setLook({ ...LOOK, kind: "none" });
     flowers.upload(table);
     expect([flowers.mesh.visible, flowers.caster.visible]).toEqual([false, false]);
     expect(borne(flowers.mesh.geometry).size).toBe(0);
@@ -95,7 +95,7 @@ describe("flowers", () => {
 
   it("only change colour and size in the shaders", () => {
     const before = borne(flowers.mesh.geometry);
-    flowers.wear({ ...LOOK, tint: [255, 0, 0], size: 1.5 });
+    flowers.setLook({ ...LOOK, tint: [255, 0, 0], size: 1.5 });
     flowers.upload(table);
     expect(borne(flowers.mesh.geometry)).toEqual(before);
     expect(uniforms.uFlowerTint!.value.toArray()).toEqual([1, 0, 0]);
@@ -107,7 +107,7 @@ it("a large tree bears fewer at a place, but as many places", () => {
   const table = new TreeTable(() => 0);
   table.apply(sampleTree({ seed: 2, height: 80, orders: 3 }));
   const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, new Painter());
-  flowers.wear({ ...LOOK, share: 1 });
+  flowers.setLook({ ...LOOK, share: 1 });
   flowers.upload(table);
   const counts = borne(flowers.mesh.geometry);
   const rows = Array.from({ length: table.rows }, (_, row) => row);

@@ -64,8 +64,8 @@ export class Ornaments<Look extends OrnamentLook> {
     uniforms[`u${name}Relief`] = relief;
   }
 
-  /** Puts a look on; new places are found with the next upload. */
-  wear(look: Look): void {
+  /** Shows another look; new places are found with the next upload. */
+  setLook(look: Look): void {
     const before = this.look;
     this.look = look;
     const kind = this.kind;

@@ -71,7 +71,7 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
 }
 `;
 
-/** Sweeps a ring along one metamer, from its parent's frame to its own. */
+/** Sweeps a ring along one metamer, from its parent's orientation to its own. */
 export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}
 in vec4 ring; // cosine, place along the metamer 0 to 1 and on to 2 over a cut end, sine, turn; of a strip, its side first
 in uvec4 metamer; // row, parent's row, row where the limb begins, flags with the slopes of its girth below and above

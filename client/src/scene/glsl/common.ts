@@ -15,10 +15,10 @@ uniform vec4 uView; // eye of the camera, also while the sun draws; pixels of an
 uniform float uTime;
 `;
 
-/** Reads the node table and what its rows wear; see \`node-texture.ts\` and \`guises.ts\` for what stands where. */
+/** Reads the node table and the overlay slots of its rows; see \`node-texture.ts\` and \`overlays.ts\` for the layout. */
 export const NODES = /* glsl */ `
 uniform sampler2D uNodes;
-uniform sampler2D uGuises;
+uniform sampler2D uOverlays;
 const float TIP_SECONDS = 0.3;
 struct Node {
   vec3 position;
@@ -37,12 +37,12 @@ vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.
 vec4 product(vec4 a, vec4 b) { return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz)); }
 vec4 whole(vec3 q) { return vec4(q, sqrt(max(0.0, 1.0 - dot(q, q)))); }
 /** Draws a node as its slot says. */
-void wear(inout Node node, int slot, bool own) {
+void applyOverlay(inout Node node, int slot, bool own) {
   ivec2 at = ivec2((slot & 15) * 4, slot >> 4);
-  vec4 rotation = texelFetch(uGuises, at, 0);
-  vec4 offset = texelFetch(uGuises, at + ivec2(1, 0), 0);
-  vec4 mine = texelFetch(uGuises, at + ivec2(2, 0), 0);
-  vec4 swelling = texelFetch(uGuises, at + ivec2(3, 0), 0);
+  vec4 rotation = texelFetch(uOverlays, at, 0);
+  vec4 offset = texelFetch(uOverlays, at + ivec2(1, 0), 0);
+  vec4 mine = texelFetch(uOverlays, at + ivec2(2, 0), 0);
+  vec4 swelling = texelFetch(uOverlays, at + ivec2(3, 0), 0);
   node.position = turned(rotation, node.position) + offset.xyz;
   node.look = offset.w;
   node.turn = own ? whole(mine.xyz) : product(rotation, node.turn);
@@ -61,7 +61,7 @@ Node nodeAt(int row) {
   float slot = floor(abs(b.w));
   float light = (abs(b.w) - slot) * (256.0 / 255.0);
   Node node = Node(a.xyz, a.w, whole(b.xyz), light, c.x, c.y, c.z, c.w, 0.0);
-  if (slot > 0.0) wear(node, int(slot), b.w < 0.0);
+  if (slot > 0.0) applyOverlay(node, int(slot), b.w < 0.0);
   if (node.growing < 0.0) {
     // It has grown long ago, and its radius glides to what it is.
     node.radius = mix(-node.growing, node.radius, eased(uTime - node.birth, ${EASE_SECONDS.toFixed(2)}));

@@ -23,7 +23,7 @@ Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
 }
 `;
 
-/** Cards that wear a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
+/** Cards that show a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
 export const CARD = /* glsl */ `
 const float MARGIN = ${TILE_MARGIN.toFixed(4)};
 const float SPRIG_REACH = ${SPRIG_REACH.toFixed(4)};
@@ -36,9 +36,9 @@ vec3 towardsEye(vec3 place) {
 #endif
 }
 /** One of four pictures, as it is or mirrored. */
-vec2 tileAt(vec2 at, float random, float hand) {
+vec2 tileAt(vec2 at, float random, float mirror) {
   float tile = floor(random * 4.0);
-  return (vec2(mod(tile, 2.0), floor(tile * 0.5)) + vec2(0.5 + 0.5 * hand * at.x, at.y)) * 0.5;
+  return (vec2(mod(tile, 2.0), floor(tile * 0.5)) + vec2(0.5 + 0.5 * mirror * at.x, at.y)) * 0.5;
 }
 `;
 
@@ -155,7 +155,7 @@ void main() {
   d = normalize(mix(d, vec3(0.0, sign(turn), 0.0), 0.92 * abs(turn)) + 1e-4 * side);
   side = normalize(side - dot(side, d) * d);
   vec3 n = cross(side, d);
-  float hand = more.x > 0.5 ? 1.0 : -1.0;
+  float mirror = more.x > 0.5 ? 1.0 : -1.0;
   float across = card.x * uLeafForm.x * (1.0 + 2.0 * MARGIN);
   float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
   float pixels = size * uView.w / max(0.1, distance(uView.xyz, place.base));
@@ -203,8 +203,8 @@ void main() {
   }
   vWorld = world;
   vNormal = n;
-  vSide = vec4(side, hand);
-  vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), hand);
+  vSide = vec4(side, mirror);
+  vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), mirror);
   Hues hues = leafHues(vigor, node.light, vec3(random, more.y, more.w));
   vMiddle = hues.middle;
   vMargin = hues.margin;

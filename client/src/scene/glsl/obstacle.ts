@@ -30,7 +30,7 @@ in vec3 vOwn;
 out vec4 colour;
 /** Turns a place out of the axes of boxes, or the lattice of noise would show on their faces. */
 const mat3 ASKEW = mat3(0.670, 0.470, -0.575, -0.662, 0.735, -0.170, 0.336, 0.489, 0.800);
-/** How high the clay stands, in internodes: marks of the hand that spread it, and its grain. Details finer than a pixel are left out. */
+/** How high the clay stands, in internodes: marks of the user that spread it, and its grain. Details finer than a pixel are left out. */
 float relief(vec3 at, float pixel) {
   vec4 wave = vec4(0.9, 2.7, 6.7, 16.0);
   vec4 shown = 1.0 - smoothstep(vec4(0.2), vec4(0.6), wave * pixel);

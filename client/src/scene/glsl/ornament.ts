@@ -38,7 +38,7 @@ void main() {
   vec3 eye = towardsEye(base);
   float hang = u${name}Form.y;
   vec3 axis = normalize(mix(place.direction, vec3(0.0, sign(hang), 0.0), abs(hang)) + 0.16 * (more - 0.5));
-  float hand = more.x > 0.5 ? 1.0 : -1.0;
+  float mirror = more.x > 0.5 ? 1.0 : -1.0;
   float across = card.x * u${name}Form.x * (1.0 + 2.0 * MARGIN);
   float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
   vec3 side;
@@ -64,8 +64,8 @@ void main() {
   }
   vWorld = world;
   vNormal = n;
-  vSide = vec4(side, hand);
-  vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), hand);
+  vSide = vec4(side, mirror);
+  vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), mirror);
   vMiddle = u${name}Tint * (0.86 + 0.28 * more.z) * vec3(1.0 + 0.10 * (more.y - 0.5), 1.0, 1.0 - 0.08 * (more.y - 0.5));
   vLight = node.look == MARKED ? -1.0 : node.light;
   vTrait = traitOf(int(leaf.x + 0.5));

@@ -1,7 +1,7 @@
-import { updateFrame } from "../table/node-orientations";
+import { updateOrientation } from "../table/node-orientations";
 import type { TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
-import { type Guise, type Rotation, rotated, type SlotWriter, type Wearer } from "./overlays";
+import { type Overlay, type Rotation, rotated, type SlotAssignment, type SlotWriter } from "./overlays";
 
 /** How an internode has moved: places go to rotation · (place − its end) + to. */
 export interface RowMotion {
@@ -12,14 +12,14 @@ export interface RowMotion {
 }
 
 /** A path that is bent or turned: its rows move one by one, and every branch with the row that bears it. */
-export class Bent implements Guise {
+export class BendOverlay implements Overlay {
   readonly slots: number;
   readonly path: readonly number[];
   private readonly index = new Map<number, number>();
   private readonly rest: Vec3[];
   private rotations: Rotation[];
   private ends: Vec3[];
-  /** The path with what stands around it, in rows of its own: the nodes' frames follow from it. */
+  /** The path with what stands around it, in rows of its own: the nodes' orientations follow from it. */
   private readonly skeleton: Chain;
 
   /** `path` goes upwards, each row the child of the one before. */
@@ -49,15 +49,15 @@ export class Bent implements Guise {
     return path.length === this.path.length && path.every((row, i) => row === this.path[i]);
   }
 
-  *wearers(): Iterable<Wearer> {
-    for (const [i, row] of this.path.entries()) yield { row, wears: i, own: true, bears: i };
+  *assignments(): Iterable<SlotAssignment> {
+    for (const [i, row] of this.path.entries()) yield { row, slot: i, own: true, above: i };
   }
 
   write(_table: TreeTable, out: SlotWriter): void {
     for (let i = 0; i < this.path.length; i += 1) {
       out.plain(i);
       out.motion(i, this.rotations[i]!, this.rest[i]!, this.ends[i]!);
-      out.frame(i, this.skeleton.frames, i + 1);
+      out.orientation(i, this.skeleton.orientations, i + 1);
     }
   }
 
@@ -78,7 +78,7 @@ class Chain {
   readonly parent: Int32Array;
   readonly successor: Int32Array;
   readonly startsAxis: Uint8Array;
-  readonly frames: Float32Array;
+  readonly orientations: Float32Array;
   private readonly asideRest: { readonly from: number; readonly place: Vec3 }[] = [];
 
   constructor(
@@ -94,11 +94,11 @@ class Chain {
     this.parent = new Int32Array(count).fill(-1);
     this.successor = new Int32Array(count).fill(-1);
     this.startsAxis = new Uint8Array(count);
-    this.frames = new Float32Array(4 * count);
+    this.orientations = new Float32Array(4 * count);
     const below = table.parent[path[0] ?? 0] ?? -1;
     if (below >= 0) {
       this.position.set(placeOf(table, below));
-      this.frames.set(table.frames.subarray(4 * below, 4 * below + 4));
+      this.orientations.set(table.orientations.subarray(4 * below, 4 * below + 4));
       // What stands below a seed would have nothing to go on from.
       this.parent[0] = table.parent[below]! < 0 ? -1 : 0;
     }
@@ -118,10 +118,10 @@ class Chain {
       this.position.set(placeOf(table, next), 3 * aside);
       aside += 1;
     }
-    for (let i = 1; i <= path.length; i += 1) updateFrame(this, this.frames, i);
+    for (let i = 1; i <= path.length; i += 1) updateOrientation(this, this.orientations, i);
   }
 
-  /** Brings places and frames to where these motions have them. */
+  /** Brings places and orientations to where these motions have them. */
   move(rotations: readonly Rotation[], rest: readonly Vec3[], ends: readonly Vec3[]): void {
     const { length } = this.path;
     for (const [i, end] of ends.entries()) this.position.set(end, 3 * (i + 1));
@@ -130,7 +130,7 @@ class Chain {
       const [x, y, z] = rotated(rotations[from]!, [place[0] - base[0], place[1] - base[1], place[2] - base[2]]);
       this.position.set([x + end[0], y + end[1], z + end[2]], 3 * (1 + length + k));
     }
-    for (let i = 1; i <= length; i += 1) updateFrame(this, this.frames, i);
+    for (let i = 1; i <= length; i += 1) updateOrientation(this, this.orientations, i);
   }
 }
 

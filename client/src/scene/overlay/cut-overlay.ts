@@ -1,8 +1,8 @@
 import type { TreeTable } from "../table/tree-table";
-import type { Guise, Look, SlotWriter, Wearer } from "./overlays";
+import type { Look, Overlay, SlotAssignment, SlotWriter } from "./overlays";
 
 /** Branches that are about to be cut, or are cut and not yet gone from the table. */
-export class Felled implements Guise {
+export class CutOverlay implements Overlay {
   readonly slots = 1;
 
   /** `rows` are those that the branches begin with. */
@@ -11,8 +11,8 @@ export class Felled implements Guise {
     readonly look: Exclude<Look, "plain">,
   ) {}
 
-  *wearers(): Iterable<Wearer> {
-    for (const row of this.rows) yield { row, wears: 0, own: false, bears: 0 };
+  *assignments(): Iterable<SlotAssignment> {
+    for (const row of this.rows) yield { row, slot: 0, own: false, above: 0 };
   }
 
   write(_table: TreeTable, out: SlotWriter): void {

@@ -5,10 +5,10 @@ import { CHUNK_ROWS, POSITION_STEPS } from "../../wire/generated";
 import { normalOf } from "../table/node-orientations";
 import { radiusOf, TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
-import { Bent } from "./bend-overlay";
-import { Felled } from "./cut-overlay";
-import { type Guise, Guises, type Rotation, rotated, SlotWriter } from "./overlays";
-import { borne, Swollen, swelling } from "./width-overlay";
+import { BendOverlay } from "./bend-overlay";
+import { CutOverlay } from "./cut-overlay";
+import { type Overlay, Overlays, type Rotation, rotated, SlotWriter } from "./overlays";
+import { borne, swelling, WidthOverlay } from "./width-overlay";
 
 const SLOT = 16;
 const QUARTER: Rotation = [0, 0, Math.SQRT1_2, Math.SQRT1_2];
@@ -26,20 +26,20 @@ function along(table: TreeTable, from: number, length: number): number[] {
   return path;
 }
 
-/** The rows that wear another slot than before. */
-function dressed(guises: Guises, table: TreeTable): Map<number, number> {
+/** The rows that get another slot than before. */
+function assigned(overlays: Overlays, table: TreeTable): Map<number, number> {
   const slots = new Map<number, number>();
-  guises.dress(table, (row, slot) => slots.set(row, slot), true);
+  overlays.assign(table, (row, slot) => slots.set(row, slot), true);
   return slots;
 }
 
-function written(guise: Guise, table: TreeTable): Float32Array {
-  const texels = new Float32Array(SLOT * guise.slots);
-  guise.write(table, new SlotWriter(texels, 0));
+function written(overlay: Overlay, table: TreeTable): Float32Array {
+  const texels = new Float32Array(SLOT * overlay.slots);
+  overlay.write(table, new SlotWriter(texels, 0));
   return texels;
 }
 
-/** Moves every row as told, as a delta of the server would. */
+/** Moves every row as a delta of the server would. */
 function commit(table: TreeTable, placeOf: (row: number) => Vec3): void {
   const places = Array.from({ length: table.rows }, (_, row) =>
     placeOf(row).map((x) => Math.round(x * POSITION_STEPS)),
@@ -64,7 +64,7 @@ function place({ position }: TreeTable, row: number): Vec3 {
 
 const distance = (a: Vec3, b: Vec3) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 
-/** Swings the upper part of a path about the end of one of its rows, with the guise that shows it. */
+/** Swings the upper part of a path about the end of one of its rows, with the overlay that shows it. */
 function swing(table: TreeTable, path: readonly number[], about: number) {
   const pivot = place(table, path[about]!);
   const swung = (row: number): Vec3 => {
@@ -72,7 +72,7 @@ function swing(table: TreeTable, path: readonly number[], about: number) {
     const [a, b, c] = rotated(QUARTER, [x - pivot[0], y - pivot[1], z - pivot[2]]);
     return [pivot[0] + a, pivot[1] + b, pivot[2] + c];
   };
-  const bent = new Bent(table, path);
+  const bent = new BendOverlay(table, path);
   bent.move(path.slice(about + 1).map((row) => ({ row, rotation: QUARTER, to: swung(row) })));
   return { bent, swung };
 }
@@ -82,9 +82,9 @@ describe("a bent path", () => {
     const table = tree();
     const path = along(table, 5, 6);
     const { bent, swung } = swing(table, path, 2);
-    const guises = new Guises();
-    guises.put(bent);
-    const slots = dressed(guises, table);
+    const overlays = new Overlays();
+    overlays.add(bent);
+    const slots = assigned(overlays, table);
     for (let row = 0; row < table.rows; row += 1) {
       let at = row;
       while (at >= 0 && !path.includes(at)) at = table.parent[at]!;
@@ -92,11 +92,11 @@ describe("a bent path", () => {
       const slot = at < 0 ? undefined : (at === row ? -1 : 1) * (1 + carrier);
       expect(slots.get(row), `row ${row}`).toBe(slot);
       const there = carrier > 2 ? swung(row) : place(table, row);
-      expect(distance(guises.placeOf(table, row), there), `row ${row}`).toBeLessThan(1e-4);
+      expect(distance(overlays.placeOf(table, row), there), `row ${row}`).toBeLessThan(1e-4);
     }
   });
 
-  it("is drawn in the frames that the committed places will have", () => {
+  it("is drawn with the orientations that the committed places will have", () => {
     const [table, after] = [tree(), tree()];
     const path = along(table, 5, 6);
     const { bent, swung } = swing(table, path, 2);
@@ -107,13 +107,13 @@ describe("a bent path", () => {
     const texels = written(bent, table);
     commit(after, (row) => (carried(row) ? swung(row) : place(table, row)));
     for (const [i, row] of path.entries()) {
-      for (const k of [0, 1, 2]) expect(texels[SLOT * i + 8 + k]).toBeCloseTo(after.frames[4 * row + k]!, 2);
+      for (const k of [0, 1, 2]) expect(texels[SLOT * i + 8 + k]).toBeCloseTo(after.orientations[4 * row + k]!, 2);
     }
     // The bark of what is carried turns no further when the places come.
     for (let row = 0; row < table.rows; row += 1) {
       if (!carried(row) || path.includes(row)) continue;
-      const normal = rotated(QUARTER, normalOf(table.frames, row));
-      expect(distance(normal, normalOf(after.frames, row)), `row ${row}`).toBeLessThan(0.25);
+      const normal = rotated(QUARTER, normalOf(table.orientations, row));
+      expect(distance(normal, normalOf(after.orientations, row)), `row ${row}`).toBeLessThan(0.25);
     }
   });
 
@@ -121,15 +121,15 @@ describe("a bent path", () => {
     const table = tree();
     const path = along(table, 5, 6);
     const { bent, swung } = swing(table, path, 2);
-    const guises = new Guises();
-    guises.put(bent);
-    dressed(guises, table);
-    guises.settle(table);
-    expect(guises.has(bent)).toBe(true);
+    const overlays = new Overlays();
+    overlays.add(bent);
+    assigned(overlays, table);
+    overlays.settle(table);
+    expect(overlays.has(bent)).toBe(true);
     commit(table, (row) => (path.indexOf(row) > 2 ? swung(row) : place(table, row)));
-    guises.settle(table);
-    expect(guises.has(bent)).toBe(false);
-    const slots = dressed(guises, table);
+    overlays.settle(table);
+    expect(overlays.has(bent)).toBe(false);
+    const slots = assigned(overlays, table);
     expect(slots.size).toBeGreaterThan(path.length);
     expect(new Set(slots.values())).toEqual(new Set([0]));
   });
@@ -137,9 +137,9 @@ describe("a bent path", () => {
   it("carries what grows on it meanwhile", () => {
     const table = tree();
     const path = along(table, 5, 3);
-    const guises = new Guises();
-    guises.put(new Bent(table, path));
-    dressed(guises, table);
+    const overlays = new Overlays();
+    overlays.add(new BendOverlay(table, path));
+    assigned(overlays, table);
     const row = table.rows;
     const start = row % CHUNK_ROWS;
     const rows = {
@@ -154,32 +154,32 @@ describe("a bent path", () => {
       { change: "append", chunk: (row - start) / CHUNK_ROWS, generation: 2, start, rows },
     ];
     table.apply({ epoch: 1, sequence: 2, catchUp: false, changes });
-    expect([...dressed(guises, table)]).toEqual([[row, 2]]);
+    expect([...assigned(overlays, table)]).toEqual([[row, 2]]);
   });
 });
 
-describe("guises", () => {
+describe("overlays", () => {
   it("of two that meet the later one shows, until it is taken off", () => {
     const table = tree();
     const path = along(table, 5, 4);
-    const [bent, felled] = [new Bent(table, path), new Felled([path[2]!], "hidden")];
-    const guises = new Guises();
-    guises.put(bent);
-    dressed(guises, table);
-    guises.put(felled);
-    const cut = dressed(guises, table);
+    const [bent, felled] = [new BendOverlay(table, path), new CutOverlay([path[2]!], "hidden")];
+    const overlays = new Overlays();
+    overlays.add(bent);
+    assigned(overlays, table);
+    overlays.add(felled);
+    const cut = assigned(overlays, table);
     expect([cut.get(path[2]!), cut.get(path[3]!), cut.get(path[1]!)]).toEqual([5, 5, undefined]);
-    expect([guises.hides(path[3]!), guises.hides(path[1]!)]).toEqual([true, false]);
-    guises.take(felled);
-    expect(dressed(guises, table).get(path[3]!)).toBe(-4);
-    guises.take(bent);
-    dressed(guises, table);
-    expect([guises.active, guises.placeOf(table, path[3]!)]).toEqual([false, place(table, path[3]!)]);
+    expect([overlays.hides(path[3]!), overlays.hides(path[1]!)]).toEqual([true, false]);
+    overlays.remove(felled);
+    expect(assigned(overlays, table).get(path[3]!)).toBe(-4);
+    overlays.remove(bent);
+    assigned(overlays, table);
+    expect([overlays.active, overlays.placeOf(table, path[3]!)]).toEqual([false, place(table, path[3]!)]);
   });
 
   it("a cut branch stays hidden until its rows are dead", () => {
     const table = tree();
-    const felled = new Felled([table.successor[5]!], "hidden");
+    const felled = new CutOverlay([table.successor[5]!], "hidden");
     expect(felled.over(table)).toBe(false);
     const row = felled.rows[0]!;
     const values = Uint16Array.of(0);
@@ -189,12 +189,12 @@ describe("guises", () => {
   });
 
   it("there is no room for more slots than the texture has", () => {
-    const guises = new Guises();
+    const overlays = new Overlays();
     const table = tree();
-    expect(guises.put(new Felled([3], "marked"))).toBe(true);
-    const endless = { ...new Felled([3], "marked"), slots: 4096 } as unknown as Guise;
-    expect(guises.put(endless)).toBe(false);
-    expect(dressed(guises, table).get(3)).toBe(1);
+    expect(overlays.add(new CutOverlay([3], "marked"))).toBe(true);
+    const endless = { ...new CutOverlay([3], "marked"), slots: 4096 } as unknown as Overlay;
+    expect(overlays.add(endless)).toBe(false);
+    expect(assigned(overlays, table).get(3)).toBe(1);
   });
 });
 
@@ -205,15 +205,15 @@ describe("a swollen limb", () => {
     const table = tree();
     const row = along(table, 1, 8)[7]!;
     const before = radiusOf(table.radiusCode[row]!);
-    const swollen = new Swollen(table, row, new Set(), girth, 4 * before);
+    const swollen = new WidthOverlay(table, row, new Set(), girth, 4 * before);
     const texels = written(swollen, table);
     const [exponent, factor] = [texels[12]!, texels[13]!];
     expect(factor * 0.035 ** exponent, "a twig stays a twig").toBeCloseTo(0.035, 5);
     expect(factor * before ** exponent, "what goes on from the limb is as thick").toBeCloseTo(2 * before, 4);
     expect(texels[SLOT + 11], "the limb itself").toBeCloseTo(2 * before, 5);
-    const guises = new Guises();
-    guises.put(swollen);
-    const slots = dressed(guises, table);
+    const overlays = new Overlays();
+    overlays.add(swollen);
+    const slots = assigned(overlays, table);
     const foot = along(table, 1, 8)[0]!;
     expect(slots.get(foot)).toBeLessThan(0);
     const lateral = table.parent.findIndex((parent, at) => parent === foot && table.successor[foot] !== at);
@@ -224,10 +224,10 @@ describe("a swollen limb", () => {
     const table = tree();
     const path = along(table, 1, 12);
     const others = new Set([path[3]!, path[9]!]);
-    const swollen = new Swollen(table, path[6]!, others, girth, 2);
-    const guises = new Guises();
-    guises.put(swollen);
-    const slots = dressed(guises, table);
+    const swollen = new WidthOverlay(table, path[6]!, others, girth, 2);
+    const overlays = new Overlays();
+    overlays.add(swollen);
+    const slots = assigned(overlays, table);
     expect([3, 4, 5, 6].map((i) => slots.get(path[i]!) ?? 0)).toEqual([0, -5, -4, -2]);
     expect([7, 8].map((i) => slots.get(path[i]!))).toEqual([1, 1]);
     expect([9, 10].map((i) => slots.get(path[i]!))).toEqual([3, 3]);

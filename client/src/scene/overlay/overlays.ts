@@ -3,52 +3,56 @@ import { grown } from "../table/column";
 import type { TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
 
-/** Rows that wear a guise are drawn otherwise than the table has them, until it has caught up or the guise is taken off. */
-export interface Guise {
-  /** How many slots it has; each says how some rows are drawn. */
+/**
+ * Draws some rows differently from the table: a bend, a cut or a width that the server has not confirmed yet. It is
+ * removed when the table has caught up, or when the user gives up.
+ */
+export interface Overlay {
+  /** The number of slots it needs; a slot describes how a set of rows is drawn. */
   readonly slots: number;
-  /** Which rows begin to wear what. */
-  wearers(table: TreeTable): Iterable<Wearer>;
-  /** Writes what its slots say, from the table as it is now. */
+  /** The rows from which its slots apply. */
+  assignments(table: TreeTable): Iterable<SlotAssignment>;
+  /** Writes the content of its slots for the present table. */
   write(table: TreeTable, out: SlotWriter): void;
-  /** Whether the table has what the guise showed, or has lost what it was about. */
+  /** Whether it has no purpose any more: the table has caught up, or the rows are gone. */
   over(table: TreeTable): boolean;
 }
 
-export interface Wearer {
+/** Assigns slots to a row and to the rows above it; slots count from 0 within the overlay. */
+export interface SlotAssignment {
   readonly row: number;
-  /** The slot the row itself wears. */
-  readonly wears: number;
-  /** Whether that slot has a frame and a radius for just this row, rather than what a whole branch wears. */
+  /** The slot of the row itself. */
+  readonly slot: number;
+  /** Whether that slot holds an orientation and a radius for this row alone. */
   readonly own: boolean;
-  /** The slot that the rows above it wear, or `PASS` for what they would without it. */
-  readonly bears: number | typeof PASS;
+  /** The slot of the rows above it; `INHERIT`: the slot they have without this assignment. */
+  readonly above: number | typeof INHERIT;
 }
 
-/** What a row bears goes on wearing what the row's parent bears. */
-export const PASS = "pass";
+/** The rows above a row keep the slot that applies above its parent. */
+export const INHERIT = "inherit";
 
 export type Look = "plain" | "marked" | "hidden";
 
 /** A rotation: x, y, z, w. */
 export type Rotation = readonly [number, number, number, number];
 
-/** Numbers a slot has: rotation; offset and look; own frame and radius; exponent and factor of the radius. */
+/** The numbers of a slot: rotation; offset and look; own orientation and radius; exponent and factor of the radius. */
 const SLOT = 16;
 const SLOTS_IN_LINE = 16;
 const LINE = SLOTS_IN_LINE * SLOT;
-/** Slots there are; the first stands for no guise. */
+/** The number of slots; the first means "no overlay". */
 const MOST_SLOTS = 4096;
 const LOOKS: Record<Look, number> = { plain: 0, marked: 1, hidden: 2 };
 
-/** Writes the slots of one guise. */
+/** Writes the slots of one overlay. */
 export class SlotWriter {
   constructor(
     private readonly texels: Float32Array,
     private readonly first: number,
   ) {}
 
-  /** A slot in which nothing is otherwise. */
+  /** Makes a slot neutral: rows are drawn as the table has them. */
   plain(slot: number): void {
     const at = (this.first + slot) * SLOT;
     this.texels.fill(0, at, at + SLOT);
@@ -68,12 +72,12 @@ export class SlotWriter {
     this.texels[(this.first + slot) * SLOT + 7] = LOOKS[look];
   }
 
-  /** The frame of a row's own, x y z w with w ≥ 0. */
-  frame(slot: number, frames: Float32Array, row: number): void {
-    this.texels.set(frames.subarray(4 * row, 4 * row + 3), (this.first + slot) * SLOT + 8);
+  /** The orientation of one row, x y z w with w ≥ 0. */
+  orientation(slot: number, orientations: Float32Array, row: number): void {
+    this.texels.set(orientations.subarray(4 * row, 4 * row + 3), (this.first + slot) * SLOT + 8);
   }
 
-  /** The radius of a row's own. */
+  /** The radius of one row. */
   radius(slot: number, radius: number): void {
     this.texels[(this.first + slot) * SLOT + 11] = radius;
   }
@@ -84,16 +88,17 @@ export class SlotWriter {
   }
 }
 
-/** The guises that are worn, and by which rows. Where two meet, the one put on later shows. */
-export class Guises {
-  /** For the shaders' `uGuises`. */
+/** The overlays that are shown, and the slot of each row. Where two apply to a row, the later one wins. */
+export class Overlays {
+  /** For the shaders' `uOverlays`. */
   readonly uniform: { value: DataTexture };
-  private readonly worn = new Map<Guise, number>();
+  /** Each overlay with its first slot. */
+  private readonly shown = new Map<Overlay, number>();
   private texels = new Float32Array(LINE);
-  /** What each row wears: 0 for nothing, below 0 where it is its own. */
-  private wears = new Int16Array(0);
-  /** What the rows above each wear. */
-  private bears = new Int16Array(0);
+  /** The slot of each row: 0 for none, below 0 where the slot holds its own orientation and radius. */
+  private slots = new Int16Array(0);
+  /** The slot that applies above each row. */
+  private above = new Int16Array(0);
   private lowest = Number.POSITIVE_INFINITY;
   private known = 0;
   private stale = false;
@@ -104,39 +109,39 @@ export class Guises {
 
   /** Whether any row may be elsewhere than the table has it. */
   get active(): boolean {
-    return this.worn.size > 0;
+    return this.shown.size > 0;
   }
 
-  has(guise: Guise): boolean {
-    return this.worn.has(guise);
+  has(overlay: Overlay): boolean {
+    return this.shown.has(overlay);
   }
 
-  /** Puts a guise on; it shows with the next `dress`. False where there is no room for its slots. */
-  put(guise: Guise): boolean {
-    const taken = [...this.worn.keys()].reduce((sum, other) => sum + other.slots, 1);
-    if (this.worn.has(guise) || taken + guise.slots > MOST_SLOTS) return false;
-    this.worn.set(guise, taken);
+  /** Adds an overlay, which shows after the next `assign`. False if there are not enough slots left. */
+  add(overlay: Overlay): boolean {
+    const taken = [...this.shown.keys()].reduce((sum, other) => sum + other.slots, 1);
+    if (this.shown.has(overlay) || taken + overlay.slots > MOST_SLOTS) return false;
+    this.shown.set(overlay, taken);
     this.stale = true;
     return true;
   }
 
-  /** Takes a guise off; says whether it was worn. */
-  take(guise: Guise): boolean {
-    if (!this.worn.delete(guise)) return false;
+  /** Removes an overlay; false if it was not shown. */
+  remove(overlay: Overlay): boolean {
+    if (!this.shown.delete(overlay)) return false;
     this.stale = true;
     return true;
   }
 
-  /** Takes off what the table has caught up with. */
+  /** Removes the overlays that have no purpose any more. */
   settle(table: TreeTable): void {
-    for (const guise of [...this.worn.keys()]) if (guise.over(table)) this.take(guise);
+    for (const overlay of [...this.shown.keys()]) if (overlay.over(table)) this.remove(overlay);
   }
 
   /**
-   * Has the rows wear what they should after the table or the guises changed, and tells of each that wears another
-   * slot; false if nothing but what the slots say can have changed.
+   * Assigns slots to rows after the table or the overlays have changed, and calls `changed` for each row that gets
+   * another slot. False if no assignment can have changed, only the content of the slots.
    */
-  dress(
+  assign(
     table: TreeTable,
     changed: (row: number, slot: number, before: number) => void,
     tableChanged: boolean,
@@ -145,57 +150,57 @@ export class Guises {
     this.stale = false;
     const { rows, parent } = table;
     let next = 1;
-    const wearers = new Map<number, { wears: number; bears: number | null; end: number }>();
+    const assigned = new Map<number, { slot: number; above: number | null; end: number }>();
     let lowest = Number.POSITIVE_INFINITY;
-    for (const guise of this.worn.keys()) {
-      this.worn.set(guise, next);
-      for (const { row, wears, own, bears } of guise.wearers(table)) {
+    for (const overlay of this.shown.keys()) {
+      this.shown.set(overlay, next);
+      for (const { row, slot, own, above } of overlay.assignments(table)) {
         if (row >= rows) continue;
-        const slot = (own ? -1 : 1) * (next + wears);
-        wearers.set(row, { wears: slot, bears: bears === PASS ? null : next + bears, end: next + guise.slots });
+        const signed = (own ? -1 : 1) * (next + slot);
+        assigned.set(row, { slot: signed, above: above === INHERIT ? null : next + above, end: next + overlay.slots });
         lowest = Math.min(lowest, row);
       }
-      next += guise.slots;
+      next += overlay.slots;
     }
-    this.wears = grown(this.wears, table.parent.length);
-    this.bears = grown(this.bears, table.parent.length);
-    // Rows that were cut off and came again have forgotten what they wore.
-    this.wears.fill(0, Math.min(this.known, rows), rows);
+    this.slots = grown(this.slots, table.parent.length);
+    this.above = grown(this.above, table.parent.length);
+    // Rows that were truncated and appended again have no slot.
+    this.slots.fill(0, Math.min(this.known, rows), rows);
     this.known = rows;
     const first = Math.min(lowest, this.lowest);
     for (let row = first; row < rows; row += 1) {
-      const above = parent[row]!;
-      const inherited = above >= first ? this.bears[above]! : 0;
-      let wears = inherited;
-      this.bears[row] = inherited;
-      const wearer = wearers.size > 0 ? wearers.get(row) : undefined;
-      if (wearer !== undefined && inherited < wearer.end) {
-        wears = wearer.wears;
-        this.bears[row] = wearer.bears ?? inherited;
+      const below = parent[row]!;
+      const inherited = below >= first ? this.above[below]! : 0;
+      let slot = inherited;
+      this.above[row] = inherited;
+      const assignment = assigned.size > 0 ? assigned.get(row) : undefined;
+      if (assignment !== undefined && inherited < assignment.end) {
+        slot = assignment.slot;
+        this.above[row] = assignment.above ?? inherited;
       }
-      const before = this.wears[row]!;
-      if (wears === before) continue;
-      this.wears[row] = wears;
-      changed(row, wears, before);
+      const before = this.slots[row]!;
+      if (slot === before) continue;
+      this.slots[row] = slot;
+      changed(row, slot, before);
     }
     this.lowest = lowest;
     this.write(table);
     return true;
   }
 
-  /** Writes what the slots say, as the table is and the guises are now. */
+  /** Writes the content of all slots for the present table and overlays. */
   write(table: TreeTable): void {
     let end = 1;
-    for (const [guise, first] of this.worn) end = Math.max(end, first + guise.slots);
+    for (const [overlay, first] of this.shown) end = Math.max(end, first + overlay.slots);
     const lines = Math.ceil(end / SLOTS_IN_LINE);
     if (lines * LINE > this.texels.length) {
-      let room = this.texels.length;
-      while (room < lines * LINE) room *= 2;
-      this.texels = grown(this.texels, room);
+      let capacity = this.texels.length;
+      while (capacity < lines * LINE) capacity *= 2;
+      this.texels = grown(this.texels, capacity);
       this.uniform.value.dispose();
       this.uniform.value = this.allocate();
     }
-    for (const [guise, first] of this.worn) guise.write(table, new SlotWriter(this.texels, first));
+    for (const [overlay, first] of this.shown) overlay.write(table, new SlotWriter(this.texels, first));
     this.uniform.value.needsUpdate = true;
   }
 
@@ -208,7 +213,7 @@ export class Guises {
   placeOf(table: TreeTable, row: number): Vec3 {
     const { position } = table;
     const place: Vec3 = [position[3 * row]!, position[3 * row + 1]!, position[3 * row + 2]!];
-    const slot = this.slotOf(row);
+    const slot = Math.abs(this.slotOf(row));
     if (slot === 0) return place;
     const at = slot * SLOT;
     const t = this.texels;
@@ -216,12 +221,12 @@ export class Guises {
     return [x + t[at + 4]!, y + t[at + 5]!, z + t[at + 6]!];
   }
 
-  /** What a row wears: 0 for nothing, below 0 where it is its own. */
-  wornBy(row: number): number {
-    return this.active && row < this.known ? this.wears[row]! : 0;
+  /** The slot of a row: 0 for none, below 0 where the slot holds its own orientation and radius. */
+  slotOf(row: number): number {
+    return this.active && row < this.known ? this.slots[row]! : 0;
   }
 
-  /** What a radius becomes in a slot, as the slots were written last. */
+  /** The radius that a slot makes of a radius, as the slots were written last. */
   radiusIn(slot: number, radius: number): number {
     if (slot === 0) return radius;
     const at = Math.abs(slot) * SLOT;
@@ -233,16 +238,12 @@ export class Guises {
 
   /** Whether a row is not drawn at all. */
   hides(row: number): boolean {
-    const slot = this.slotOf(row);
+    const slot = Math.abs(this.slotOf(row));
     return slot !== 0 && this.texels[slot * SLOT + 7] === LOOKS.hidden;
   }
 
   dispose(): void {
     this.uniform.value.dispose();
-  }
-
-  private slotOf(row: number): number {
-    return this.active && row < this.known ? Math.abs(this.wears[row]!) : 0;
   }
 
   private allocate(): DataTexture {

@@ -1,5 +1,5 @@
 import { radiusOf, type TreeTable } from "../table/tree-table";
-import { type Guise, PASS, type SlotWriter, type Wearer } from "./overlays";
+import { INHERIT, type Overlay, type SlotAssignment, type SlotWriter } from "./overlays";
 
 /** What wood is made of, as far as its width goes. */
 export interface Girth {
@@ -18,7 +18,7 @@ const FIRST_BELOW = 3;
  * A limb that is made thicker or slimmer, as it will be if no further width is set: above it every radius becomes
  * r_e (r / r_e)^p, so that twigs stay what they are; below it r^n grows by what the limb's own has grown.
  */
-export class Swollen implements Guise {
+export class WidthOverlay implements Overlay {
   readonly slots: number;
   private below: number[] = [];
   /** `others` are the rows whose widths are set as well: nothing changes beyond them. */
@@ -35,12 +35,12 @@ export class Swollen implements Guise {
     this.slots = FIRST_BELOW + this.below.length;
   }
 
-  *wearers(): Iterable<Wearer> {
-    yield { row: this.row, wears: LIMB, own: true, bears: BRANCH };
-    for (const [i, row] of this.below.entries()) yield { row, wears: FIRST_BELOW + i, own: true, bears: PASS };
+  *assignments(): Iterable<SlotAssignment> {
+    yield { row: this.row, slot: LIMB, own: true, above: BRANCH };
+    for (const [i, row] of this.below.entries()) yield { row, slot: FIRST_BELOW + i, own: true, above: INHERIT };
     for (const row of this.others) {
       // What lies above another set width is not reached by this one.
-      if (row > this.row) yield { row, wears: ABOVE_OTHERS, own: false, bears: ABOVE_OTHERS };
+      if (row > this.row) yield { row, slot: ABOVE_OTHERS, own: false, above: ABOVE_OTHERS };
     }
   }
 
@@ -52,14 +52,14 @@ export class Swollen implements Guise {
     out.plain(BRANCH);
     out.swelling(BRANCH, exponent, tip ** (1 - exponent));
     out.plain(LIMB);
-    out.frame(LIMB, table.frames, this.row);
+    out.orientation(LIMB, table.orientations, this.row);
     // A limb that leaves a thick one is drawn a little thicker than it is.
     out.radius(LIMB, after * (drawn[this.row]! / Math.max(before, 1e-6)));
     out.plain(ABOVE_OTHERS);
     const n = this.girth.exponent;
     for (const [i, row] of this.below.entries()) {
       out.plain(FIRST_BELOW + i);
-      out.frame(FIRST_BELOW + i, table.frames, row);
+      out.orientation(FIRST_BELOW + i, table.orientations, row);
       out.radius(FIRST_BELOW + i, borne(drawn[row]!, before, after, n));
     }
   }

@@ -137,10 +137,10 @@ function nut(random: Random, side?: number): LeafTile {
 function winged(random: Random, side?: number): LeafTile {
   const tile = new LeafTile(0.5, side);
   stalk(tile, [0, 0.02], [0, 0.3], 0.024);
-  for (const hand of [-1, 1]) {
+  for (const sign of [-1, 1]) {
     const spread = 0.95 + 0.16 * (random() - 0.5);
     const place = (t: number, out: number): Point => [
-      hand * (0.05 + (0.4 * t + 0.55 * out) * spread * 0.98),
+      sign * (0.05 + (0.4 * t + 0.55 * out) * spread * 0.98),
       0.32 + 0.6 * t ** 1.2 - 0.42 * out,
     ];
     const wing: Point[] = [];
@@ -157,8 +157,8 @@ function winged(random: Random, side?: number): LeafTile {
       wood: 0.2,
       height: 0.02 * (1 - Math.abs(aside)),
     }));
-    tile.fill(oval([hand * 0.09, 0.35], 0.085, 0.075), (x, y) => {
-      const out = ((x - hand * 0.09) / 0.085) ** 2 + ((y - 0.35) / 0.075) ** 2;
+    tile.fill(oval([sign * 0.09, 0.35], 0.085, 0.075), (x, y) => {
+      const out = ((x - sign * 0.09) / 0.085) ** 2 + ((y - 0.35) / 0.075) ** 2;
       return { shade: 0.9, tone: 0.1, sheer: 0.1, wood: 0.15, height: 0.07 * Math.sqrt(Math.max(0, 1 - out)) };
     });
   }

@@ -107,17 +107,17 @@ function simple(random: Random, { stalk, width, below, above, sway, teeth, pairs
   const half = (t: number) => (broad / peak) * t ** below * (1 - t) ** above;
   // Teeth point towards the tip: they rise slowly and fall at once.
   const tooth = (t: number) => (teeth === 0 ? 1 : 1 + 0.055 * ((t * teeth) % 1) * Math.sin(Math.PI * t));
-  const blade = mirrored(72, (t, hand) => {
+  const blade = mirrored(72, (t, sign) => {
     const [x, y] = middle(t);
-    return [x + hand * half(t) * tooth(t), y];
+    return [x + sign * half(t) * tooth(t), y];
   });
   const veins: Rib[] = chain(8, middle, [0.018, 0.004]);
   for (let pair = 1; pair <= pairs; pair += 1) {
     const start = 0.82 * (pair / (pairs + 0.6)) ** 1.1;
-    for (const hand of [-1, 1]) {
-      const end = Math.min(0.97, start + 0.16 + (hand > 0 ? 0.02 : 0));
+    for (const sign of [-1, 1]) {
+      const end = Math.min(0.97, start + 0.16 + (sign > 0 ? 0.02 : 0));
       const [x, y] = middle(end);
-      veins.push(rib(middle(start), [x + hand * half(end) * 0.93, y], 0.009, 0.003));
+      veins.push(rib(middle(start), [x + sign * half(end) * 0.93, y], 0.009, 0.003));
     }
   }
   return { blades: [blade], veins, stalks: [rib([0, 0], middle(0.04), 0.022, 0.018)], needles: [] };
@@ -129,22 +129,22 @@ function lobed(random: Random): Parts {
   const lobes = 4;
   const phase = 0.1 * (random() - 0.5);
   const middle = (t: number): Point => [0, stalk + (1 - stalk) * t];
-  const wave = (t: number, hand: number) =>
-    0.5 - 0.5 * Math.cos(2 * Math.PI * (lobes * t ** 0.92 + (hand > 0 ? phase : -phase) * Math.sin(Math.PI * t)));
-  const half = (t: number, hand: number) => {
+  const wave = (t: number, sign: number) =>
+    0.5 - 0.5 * Math.cos(2 * Math.PI * (lobes * t ** 0.92 + (sign > 0 ? phase : -phase) * Math.sin(Math.PI * t)));
+  const half = (t: number, sign: number) => {
     const envelope = 0.335 * (t / 0.64) ** 0.75 * ((1 - t) / 0.36) ** 0.42;
-    return envelope * (0.34 + 0.66 * wave(t, hand) ** 0.42);
+    return envelope * (0.34 + 0.66 * wave(t, sign) ** 0.42);
   };
-  const blade = mirrored(120, (t, hand) => {
-    const out = half(t, hand);
-    return [hand * out, middle(t)[1] + 0.16 * out * Math.sin(Math.PI * t)];
+  const blade = mirrored(120, (t, sign) => {
+    const out = half(t, sign);
+    return [sign * out, middle(t)[1] + 0.16 * out * Math.sin(Math.PI * t)];
   });
   const veins = chain(6, middle, [0.02, 0.005]);
   for (let lobe = 0; lobe < lobes; lobe += 1) {
     const tip = ((lobe + 0.5) / lobes) ** (1 / 0.92);
-    for (const hand of [-1, 1]) {
-      const out = half(tip, hand) * 0.85;
-      veins.push(rib(middle(tip * 0.86 - 0.02), [hand * out, middle(tip)[1] + 0.1 * out], 0.011, 0.003));
+    for (const sign of [-1, 1]) {
+      const out = half(tip, sign) * 0.85;
+      veins.push(rib(middle(tip * 0.86 - 0.02), [sign * out, middle(tip)[1] + 0.1 * out], 0.011, 0.003));
     }
   }
   return { blades: [blade], veins, stalks: [rib([0, 0], [0, stalk + 0.03], 0.026, 0.02)], needles: [] };
@@ -188,12 +188,12 @@ function palmate(random: Random): Parts {
   const veins: Rib[] = [];
   for (const { at, reach } of lobes) {
     veins.push(rib(centre, polar(at, reach * 0.96), 0.02, 0.003));
-    for (const hand of [-1, 1]) {
+    for (const sign of [-1, 1]) {
       for (const [from, to] of [
         [0.3, 0.52],
         [0.5, 0.68],
       ] as const) {
-        veins.push(rib(polar(at, reach * from), polar(at + hand * 0.2, reach * to), 0.008, 0.003));
+        veins.push(rib(polar(at, reach * from), polar(at + sign * 0.2, reach * to), 0.008, 0.003));
       }
     }
   }
@@ -236,15 +236,15 @@ function compound(random: Random): Parts {
       from[1] + length * (along[1] * t - along[0] * out),
     ];
     const width = 0.17 + 0.02 * random();
-    blades.push(mirrored(20, (t, hand) => place(t, hand * width * 2.05 * t ** 0.6 * (1 - t) ** 0.75)));
+    blades.push(mirrored(20, (t, sign) => place(t, sign * width * 2.05 * t ** 0.6 * (1 - t) ** 0.75)));
     veins.push(rib(place(0, 0), place(0.92, 0), 0.01, 0.003));
   };
   for (let pair = 0; pair < pairs; pair += 1) {
     const along = 0.17 + (0.6 * pair) / (pairs - 1);
     const length = 0.29 * (0.72 + 0.5 * Math.sin(Math.PI * (0.18 + (0.62 * pair) / pairs)));
-    for (const hand of [-1, 1]) {
+    for (const sign of [-1, 1]) {
       const slip = 0.012 * (random() - 0.5);
-      leaflet([0, along + slip], hand * (1.22 - 0.07 * pair + 0.14 * (random() - 0.5)), length);
+      leaflet([0, along + slip], sign * (1.22 - 0.07 * pair + 0.14 * (random() - 0.5)), length);
     }
   }
   leaflet([0, 0.72], 0.1 * (random() - 0.5), 0.28);
@@ -271,11 +271,11 @@ function needle(random: Random): Parts {
   ] as const) {
     const rows = 7;
     for (let row = 0; row < rows; row += 1) {
-      for (const hand of [-1, 1]) {
-        const out = Math.min(1, (row + 0.25 * (hand + 1) + 0.6 * random()) / rows);
+      for (const sign of [-1, 1]) {
+        const out = Math.min(1, (row + 0.25 * (sign + 1) + 0.6 * random()) / rows);
         bundle(
           out,
-          hand * aside * (1.02 - 0.56 * out) * (0.85 + 0.3 * random()),
+          sign * aside * (1.02 - 0.56 * out) * (0.85 + 0.3 * random()),
           0.36 * reach * (0.85 + 0.3 * random()),
         );
       }
@@ -297,8 +297,8 @@ function scale(random: Random): Parts {
       // What would stick out beyond the tip is left away.
       if (at[1] > 0.96) return;
       const width = wide * (1 - 0.5 * t);
-      for (const hand of [-1, 1]) {
-        const lean = angle + hand * 0.24;
+      for (const sign of [-1, 1]) {
+        const lean = angle + sign * 0.24;
         const to: Point = [at[0] + Math.sin(lean) * step * 1.7, Math.min(0.99, at[1] + Math.cos(lean) * step * 1.7)];
         needles.push({ from: at, to, width: [width, width * 0.3], out: Math.min(1, out + 0.5 * t) });
       }
@@ -307,11 +307,11 @@ function scale(random: Random): Parts {
   const branch = (from: Point, angle: number, length: number, depth: number, out: number) => {
     const laterals = [5, 3, 0][depth]!;
     for (let i = 0; i < laterals; i += 1) {
-      for (const hand of [-1, 1]) {
-        const t = (i + 0.45 + 0.25 * hand + 0.2 * (random() - 0.5)) / (laterals + 0.9);
+      for (const sign of [-1, 1]) {
+        const t = (i + 0.45 + 0.25 * sign + 0.2 * (random() - 0.5)) / (laterals + 0.9);
         const at: Point = [from[0] + Math.sin(angle) * length * t, from[1] + Math.cos(angle) * length * t];
         const reach = length * (depth === 0 ? 0.46 : 0.42) * (1 - 0.55 * t) * (0.8 + 0.4 * random());
-        branch(at, angle + hand * (0.5 + 0.16 * random()), reach, depth + 1, 0.22 * (depth + 1));
+        branch(at, angle + sign * (0.5 + 0.16 * random()), reach, depth + 1, 0.22 * (depth + 1));
       }
     }
     shoot(from, angle, length, depth === 0 ? 0.026 : 0.018, out);
@@ -334,7 +334,7 @@ function chain(parts: number, at: (t: number) => Point, [first, last]: readonly 
 }
 
 /** Up one side and down the other. */
-function mirrored(parts: number, at: (t: number, hand: -1 | 1) => Point): Outline {
+function mirrored(parts: number, at: (t: number, sign: -1 | 1) => Point): Outline {
   const right = Array.from({ length: parts + 1 }, (_, i) => at(i / parts, 1));
   const left = Array.from({ length: parts - 1 }, (_, i) => at((parts - 1 - i) / parts, -1));
   return [...right, ...left];

@@ -1,14 +1,14 @@
 import { describe, expect, it, vi } from "vitest";
 import type { Levels } from "./leaf-atlas";
 import type { Order } from "./paint";
-import { type Hand, Painter } from "./painter";
+import { Painter, type PaintWorker } from "./painter";
 
 const bark = (kind: "furrowed" | "papery" | "smooth"): Order => ({ sort: "bark", kind, coarse: true });
 
-/** A hand that paints when it is told to. */
-class SlowHand implements Hand {
-  onmessage: Hand["onmessage"] = null;
-  onerror: Hand["onerror"] = null;
+/** A worker that paints when the test says so. */
+class SlowWorker implements PaintWorker {
+  onmessage: PaintWorker["onmessage"] = null;
+  onerror: PaintWorker["onerror"] = null;
   readonly orders: Order[] = [];
   terminated = false;
 
@@ -27,43 +27,43 @@ class SlowHand implements Hand {
 
 describe("a painter", () => {
   it("hands one order over at a time, in turn", () => {
-    const hand = new SlowHand();
-    const painter = new Painter(undefined, () => hand);
+    const worker = new SlowWorker();
+    const painter = new Painter(undefined, () => worker);
     const done: string[] = [];
     painter.order(bark("furrowed"), () => done.push("furrowed"));
     painter.order(bark("papery"), () => done.push("papery"));
-    expect(hand.orders).toEqual([bark("furrowed")]);
-    hand.finish();
-    expect(hand.orders).toEqual([bark("furrowed"), bark("papery")]);
-    hand.finish();
+    expect(worker.orders).toEqual([bark("furrowed")]);
+    worker.finish();
+    expect(worker.orders).toEqual([bark("furrowed"), bark("papery")]);
+    worker.finish();
     expect(done).toEqual(["furrowed", "papery"]);
   });
 
   it("never brings what was called off", () => {
-    const hand = new SlowHand();
-    const painter = new Painter(undefined, () => hand);
+    const worker = new SlowWorker();
+    const painter = new Painter(undefined, () => worker);
     const done = vi.fn();
     const first = painter.order(bark("furrowed"), done);
     const second = painter.order(bark("papery"), done);
     painter.order(bark("smooth"), () => done("smooth"));
     first();
     second();
-    hand.finish();
-    hand.finish();
-    expect(hand.orders).toEqual([bark("furrowed"), bark("smooth")]);
+    worker.finish();
+    worker.finish();
+    expect(worker.orders).toEqual([bark("furrowed"), bark("smooth")]);
     expect(done.mock.calls).toEqual([["smooth"]]);
   });
 
   it("tells of a picture after it was taken", () => {
-    const hand = new SlowHand();
+    const worker = new SlowWorker();
     const heard: string[] = [];
     const painter = new Painter(
-      () => heard.push("told"),
-      () => hand,
+      () => heard.push("painted"),
+      () => worker,
     );
     painter.order(bark("furrowed"), () => heard.push("done"));
-    hand.finish();
-    expect(heard).toEqual(["done", "told"]);
+    worker.finish();
+    expect(heard).toEqual(["done", "painted"]);
   });
 
   it("paints on the page where there is no worker", async () => {
@@ -75,11 +75,11 @@ describe("a painter", () => {
   });
 
   it("does what a broken worker left undone", async () => {
-    const hand = new SlowHand();
-    const painter = new Painter(undefined, () => hand);
+    const worker = new SlowWorker();
+    const painter = new Painter(undefined, () => worker);
     const painted = new Promise<Levels[]>((done) => painter.order(bark("papery"), done));
-    hand.onerror?.();
-    expect(hand.terminated).toBe(true);
+    worker.onerror?.();
+    expect(worker.terminated).toBe(true);
     expect((await painted)[0]!.relief).toHaveLength(1);
   });
 });

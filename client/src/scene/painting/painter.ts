@@ -1,8 +1,8 @@
 import type { Levels } from "./leaf-atlas";
 import { type Order, paint } from "./paint";
 
-/** What a painter's hand is: a worker, or what tests have in its place. */
-export interface Hand {
+/** The part of a worker that is used; tests bring their own. */
+export interface PaintWorker {
   onmessage: ((event: { readonly data: Levels[] }) => void) | null;
   onerror: (() => void) | null;
   postMessage(order: Order): void;
@@ -18,16 +18,16 @@ interface Job {
 export class Painter {
   /** Whether anything is to be seen; before that, nobody is to wait for pictures. */
   begun = false;
-  private hand: Hand | null = null;
+  private worker: PaintWorker | null = null;
   private broken = false;
   private current: Job | null = null;
   private waiting: Job[] = [];
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** `told` hears of each picture that is finished. */
+  /** `painted` is called after each finished picture. */
   constructor(
-    private readonly told: () => void = () => {},
-    private readonly hire: () => Hand = worker,
+    private readonly painted: () => void = () => {},
+    private readonly start: () => PaintWorker = startWorker,
   ) {}
 
   /** Has something painted; gives back what calls that off. */
@@ -46,16 +46,16 @@ export class Painter {
     clearTimeout(this.timer);
     this.waiting = [];
     this.current = null;
-    this.hand?.terminate();
-    this.hand = null;
+    this.worker?.terminate();
+    this.worker = null;
   }
 
   private next(): void {
     if (this.current || this.waiting.length === 0) return;
     this.current = this.waiting.shift()!;
     const { order } = this.current;
-    if (!this.broken && !this.hand) this.hand = this.hired();
-    if (this.hand) this.hand.postMessage(order);
+    if (!this.broken && !this.worker) this.worker = this.started();
+    if (this.worker) this.worker.postMessage(order);
     else this.timer = setTimeout(() => this.finish(paint(order)), 0);
   }
 
@@ -63,16 +63,16 @@ export class Painter {
     const job = this.current;
     this.current = null;
     job?.done(painted);
-    this.told();
+    this.painted();
     this.next();
   }
 
-  private hired(): Hand | null {
+  private started(): PaintWorker | null {
     try {
-      const hand = this.hire();
-      hand.onmessage = ({ data }) => this.finish(data);
-      hand.onerror = () => this.giveUp();
-      return hand;
+      const worker = this.start();
+      worker.onmessage = ({ data }) => this.finish(data);
+      worker.onerror = () => this.giveUp();
+      return worker;
     } catch {
       this.broken = true;
       return null;
@@ -81,14 +81,14 @@ export class Painter {
 
   private giveUp(): void {
     this.broken = true;
-    this.hand?.terminate();
-    this.hand = null;
+    this.worker?.terminate();
+    this.worker = null;
     if (this.current) this.waiting.unshift(this.current);
     this.current = null;
     this.next();
   }
 }
 
-function worker(): Hand {
-  return new Worker(new URL("./paint-worker.ts", import.meta.url), { type: "module" }) as unknown as Hand;
+function startWorker(): PaintWorker {
+  return new Worker(new URL("./paint-worker.ts", import.meta.url), { type: "module" }) as unknown as PaintWorker;
 }

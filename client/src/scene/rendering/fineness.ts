@@ -5,6 +5,6 @@ export interface Fineness {
   readonly eye: Vec3;
   /** Pixels that an internode covers at distance one, of those that are drawn. */
   readonly pixels: number;
-  /** 0 while a hand moves on a slow device, to 1 for the picture at rest. */
+  /** 0 while the user moves on a slow device, to 1 for the picture at rest. */
   readonly ease: number;
 }

@@ -7,7 +7,7 @@ describe("a rehearsal", () => {
   let link: () => void;
   let cast: Mesh<InstancedBufferGeometry>[];
   let rehearsal: Rehearsal;
-  const told = vi.fn();
+  const linked = vi.fn();
 
   beforeEach(() => {
     vi.resetAllMocks();
@@ -23,14 +23,14 @@ describe("a rehearsal", () => {
     cast = [0, 1].map(() => new Mesh(new InstancedBufferGeometry()));
     for (const { geometry } of cast) geometry.instanceCount = 0;
     cast[1]!.visible = false;
-    rehearsal = new Rehearsal(renderer as unknown as WebGLRenderer, cast, told);
+    rehearsal = new Rehearsal(renderer as unknown as WebGLRenderer, cast, linked);
   });
 
   it("has nobody wait for programs", async () => {
     expect(rehearsal.prepare()).toBe(false);
     expect(program.getUniforms).not.toHaveBeenCalled();
     link();
-    await vi.waitFor(() => expect(told).toHaveBeenCalled());
+    await vi.waitFor(() => expect(linked).toHaveBeenCalled());
     expect(rehearsal.prepare()).toBe(true);
     expect(rehearsal.prepare()).toBe(true);
     expect(program.getUniforms).toHaveBeenCalledOnce();

@@ -12,16 +12,16 @@ export class Rehearsal {
   private linked = false;
   private played = false;
 
-  /** `told` hears when every program is linked. */
+  /** `linked` is called when every program is linked. */
   constructor(
     private readonly renderer: WebGLRenderer,
     private readonly cast: readonly Mesh[],
-    told: () => void,
+    linked: () => void,
   ) {
     const camera = new PerspectiveCamera();
     void Promise.all(cast.map((mesh) => renderer.compileAsync(mesh, camera))).then(() => {
       this.linked = true;
-      told();
+      linked();
     });
   }
 

@@ -4,7 +4,7 @@ import { QualityControl } from "./quality";
 const FIRST_STEP = 1 / 60;
 
 /** One frame. */
-export interface FrameTime {
+export interface RenderTime {
   /** When it began, in milliseconds. */
   readonly began: number;
   /** How many seconds the movement under way goes on with it. */
@@ -14,12 +14,12 @@ export interface FrameTime {
 }
 
 /** Draws frames only when needed, as well as the device can while something moves, and as well as can be at rest. */
-export class FrameLoop {
+export class RenderLoop {
   readonly control = new QualityControl();
   private request = 0;
   private asked = false;
   /** When the movement under way was last drawn. */
-  private lastFrame: number | null = null;
+  private lastRender: number | null = null;
   /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
   private requested = 0;
   private began: number | null = null;
@@ -33,7 +33,7 @@ export class FrameLoop {
    * `tell` hears when the picture comes to rest for good, and when it no longer is.
    */
   constructor(
-    private readonly draw: (time: FrameTime) => boolean,
+    private readonly draw: (time: RenderTime) => boolean,
     private readonly lacking: () => boolean,
     private readonly tell: (still: boolean) => void,
   ) {}
@@ -74,8 +74,8 @@ export class FrameLoop {
     const { control } = this;
     this.request = 0;
     if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
-    const step = this.lastFrame === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastFrame) / 1000);
-    this.lastFrame = null;
+    const step = this.lastRender === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastRender) / 1000);
+    this.lastRender = null;
     const { asked } = this;
     this.asked = false;
     const goesOn = this.draw({ began, step, asked });
@@ -86,7 +86,7 @@ export class FrameLoop {
       this.settle(control.resting && this.request === 0);
       return;
     }
-    this.lastFrame = milliseconds;
+    this.lastRender = milliseconds;
     this.schedule();
     this.requested = began;
   };

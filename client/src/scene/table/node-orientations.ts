@@ -1,11 +1,11 @@
 /**
- * Frames of reference along an axis: a quaternion per node that turns X, Y, Z to normal, tangent and binormal.
+ * The orientations of nodes along an axis: a quaternion per node that turns X, Y, Z to normal, tangent and binormal.
  *
- * Successive frames follow each other by double reflection (Wang et al. 2008), so a tube swept through them does
+ * Successive orientations follow each other by double reflection (Wang et al. 2008), so a tube swept through them does
  * not twist.
  */
 
-/** What the frames are computed from. */
+/** What the orientations are computed from. */
 export interface Skeleton {
   /** x y z per row. */
   position: Float32Array;
@@ -31,27 +31,27 @@ const BEARER: Vector = [0, 0, 0];
 const STEP: Vector = [0, 0, 0];
 const OUTGOING: Vector = [0, 0, 0];
 
-/** Writes the frame of `row` into `frames` (x y z w per row); says whether it moved noticeably. */
-export function updateFrame(skeleton: Skeleton, frames: Float32Array, row: number): boolean {
+/** Writes the orientation of `row` into `orientations` (x y z w per row); says whether it moved noticeably. */
+export function updateOrientation(skeleton: Skeleton, orientations: Float32Array, row: number): boolean {
   toNodeTangent(TANGENT, skeleton, row);
-  toNormal(NORMAL, skeleton, frames, row, TANGENT);
-  return writeFrame(frames, row, NORMAL, TANGENT);
+  toNormal(NORMAL, skeleton, orientations, row, TANGENT);
+  return writeOrientation(orientations, row, NORMAL, TANGENT);
 }
 
-/** The third column of a frame: its tangent. */
-export function tangentOf(frames: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
+/** The third column of an orientation: its tangent. */
+export function tangentOf(orientations: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
   const at = 4 * row;
-  const [x, y, z, w] = [frames[at]!, frames[at + 1]!, frames[at + 2]!, frames[at + 3]!];
+  const [x, y, z, w] = [orientations[at]!, orientations[at + 1]!, orientations[at + 2]!, orientations[at + 3]!];
   out[0] = 2 * (x * y - w * z);
   out[1] = 1 - 2 * (x * x + z * z);
   out[2] = 2 * (y * z + w * x);
   return out;
 }
 
-/** The first column of a frame: its normal. */
-export function normalOf(frames: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
+/** The first column of an orientation: its normal. */
+export function normalOf(orientations: Float32Array, row: number, out: Vector = [0, 0, 0]): Vector {
   const at = 4 * row;
-  const [x, y, z, w] = [frames[at]!, frames[at + 1]!, frames[at + 2]!, frames[at + 3]!];
+  const [x, y, z, w] = [orientations[at]!, orientations[at + 1]!, orientations[at + 2]!, orientations[at + 3]!];
   out[0] = 1 - 2 * (y * y + z * z);
   out[1] = 2 * (x * y + w * z);
   out[2] = 2 * (x * z - w * y);
@@ -76,15 +76,15 @@ function toNodeTangent(out: Vector, { position, parent, successor }: Skeleton, r
 }
 
 /** A lateral takes its normal from the axis that bears it, so that its bark turns with what bears it. */
-function toNormal(out: Vector, skeleton: Skeleton, frames: Float32Array, row: number, tangent: Vector): void {
+function toNormal(out: Vector, skeleton: Skeleton, orientations: Float32Array, row: number, tangent: Vector): void {
   const parent = skeleton.parent[row]!;
   if (parent < 0 || skeleton.parent[parent]! < 0) {
     toAnyNormal(out, tangent);
     return;
   }
-  normalOf(frames, parent, out);
+  normalOf(orientations, parent, out);
   if (skeleton.startsAxis[row] === 0) {
-    transport(out, skeleton.position, parent, row, tangentOf(frames, parent, BEARER), tangent);
+    transport(out, skeleton.position, parent, row, tangentOf(orientations, parent, BEARER), tangent);
   }
   makePerpendicular(out, tangent);
 }
@@ -125,40 +125,40 @@ function toAnyNormal(out: Vector, tangent: Vector): void {
 }
 
 /** The quaternion of the rotation whose columns are normal, tangent and normal × tangent. */
-function writeFrame(frames: Float32Array, row: number, n: Vector, t: Vector): boolean {
+function writeOrientation(orientations: Float32Array, row: number, n: Vector, t: Vector): boolean {
   const bx = n[1] * t[2] - n[2] * t[1];
   const by = n[2] * t[0] - n[0] * t[2];
   const bz = n[0] * t[1] - n[1] * t[0];
   const trace = n[0] + t[1] + bz;
   if (trace > 0) {
     const s = 2 * Math.sqrt(trace + 1);
-    return write(frames, row, (t[2] - by) / s, (bx - n[2]) / s, (n[1] - t[0]) / s, s / 4);
+    return write(orientations, row, (t[2] - by) / s, (bx - n[2]) / s, (n[1] - t[0]) / s, s / 4);
   }
   if (n[0] > t[1] && n[0] > bz) {
     const s = 2 * Math.sqrt(1 + n[0] - t[1] - bz);
-    return write(frames, row, s / 4, (t[0] + n[1]) / s, (bx + n[2]) / s, (t[2] - by) / s);
+    return write(orientations, row, s / 4, (t[0] + n[1]) / s, (bx + n[2]) / s, (t[2] - by) / s);
   }
   if (t[1] > bz) {
     const s = 2 * Math.sqrt(1 + t[1] - n[0] - bz);
-    return write(frames, row, (t[0] + n[1]) / s, s / 4, (by + t[2]) / s, (bx - n[2]) / s);
+    return write(orientations, row, (t[0] + n[1]) / s, s / 4, (by + t[2]) / s, (bx - n[2]) / s);
   }
   const s = 2 * Math.sqrt(1 + bz - n[0] - t[1]);
-  return write(frames, row, (bx + n[2]) / s, (by + t[2]) / s, s / 4, (n[1] - t[0]) / s);
+  return write(orientations, row, (bx + n[2]) / s, (by + t[2]) / s, s / 4, (n[1] - t[0]) / s);
 }
 
 /** One of the two quaternions of a rotation: w is not negative, so that three numbers are enough to store it. */
-function write(frames: Float32Array, row: number, x: number, y: number, z: number, w: number): boolean {
+function write(orientations: Float32Array, row: number, x: number, y: number, z: number, w: number): boolean {
   const sign = w < 0 ? -1 : 1;
   const at = 4 * row;
   const moved =
-    Math.abs(frames[at]! - sign * x) +
-    Math.abs(frames[at + 1]! - sign * y) +
-    Math.abs(frames[at + 2]! - sign * z) +
-    Math.abs(frames[at + 3]! - sign * w);
-  frames[at] = sign * x;
-  frames[at + 1] = sign * y;
-  frames[at + 2] = sign * z;
-  frames[at + 3] = sign * w;
+    Math.abs(orientations[at]! - sign * x) +
+    Math.abs(orientations[at + 1]! - sign * y) +
+    Math.abs(orientations[at + 2]! - sign * z) +
+    Math.abs(orientations[at + 3]! - sign * w);
+  orientations[at] = sign * x;
+  orientations[at + 1] = sign * y;
+  orientations[at + 2] = sign * z;
+  orientations[at + 3] = sign * w;
   return !(moved < 1e-6);
 }
 

@@ -5,7 +5,7 @@ import { EASE_SECONDS, eased } from "./radius-ease";
 import type { TreeTable } from "./tree-table";
 
 /**
- * Texels each row has: position and radius; frame, and light with the slot; birth, duration, extension and arc. A
+ * Texels each row has: position and radius; orientation, and light with the slot; birth, duration, extension and arc. A
  * duration below 0 says that its radius glides: from minus this, since the birth beside it.
  */
 const TEXELS = 3;
@@ -21,7 +21,7 @@ export class NodeTexture {
   /** For the shaders' `uNodes`; the texture is another one when the table outgrows it. */
   readonly uniform: { value: DataTexture };
   private texels = new Float32Array(4 * LINE);
-  /** What each row wears, see `guises.ts`. */
+  /** The overlay slot of each row, see `overlays.ts`. */
   private slots = new Int16Array(0);
   private readonly stale = new Set<number>();
   /** Whether the graphics card has yet to get all of it: parts of a new texture would leave the others empty. */
@@ -66,10 +66,10 @@ export class NodeTexture {
       texels[4 * TEXELS * parent + 3] = texels[at + 3]!;
       this.stale.add(Math.floor(parent / CHUNK_ROWS));
     }
-    texels[at + 4] = table.frames[4 * row]!;
-    texels[at + 5] = table.frames[4 * row + 1]!;
-    texels[at + 6] = table.frames[4 * row + 2]!;
-    texels[at + 7] = worn(this.slots[row]!, table.light[row]!);
+    texels[at + 4] = table.orientations[4 * row]!;
+    texels[at + 5] = table.orientations[4 * row + 1]!;
+    texels[at + 6] = table.orientations[4 * row + 2]!;
+    texels[at + 7] = packed(this.slots[row]!, table.light[row]!);
     texels[at + 8] = table.birth[row]!;
     texels[at + 9] = table.growing[row]!;
     texels[at + 10] = onward < 0 ? NEVER : table.birth[onward]!;
@@ -83,17 +83,17 @@ export class NodeTexture {
   }
 
   /**
-   * The radius a row is shown with, given how a radius in the table is worn; 0 where nothing is shown, or where the
+   * The radius a row is shown with, given what the overlay makes of a radius in the table; 0 where nothing is shown, or where the
    * row is still growing out and its radius with it.
    */
-  shownRadius(row: number, now: number, worn: (radius: number) => number): number {
+  shownRadius(row: number, now: number, overlaid: (radius: number) => number): number {
     const { texels } = this;
     const at = 4 * TEXELS * row;
     const radius = texels[at + 3] ?? 0;
     if (radius <= 0) return 0;
     const [birth, growing] = [texels[at + 8]!, texels[at + 9]!];
-    if (growing >= 0) return birth + growing + AFTERGROWTH <= now ? worn(radius) : 0;
-    return -growing + (worn(radius) + growing) * eased(now - birth, EASE_SECONDS);
+    if (growing >= 0) return birth + growing + AFTERGROWTH <= now ? overlaid(radius) : 0;
+    return -growing + (overlaid(radius) + growing) * eased(now - birth, EASE_SECONDS);
   }
 
   /** Has the radius of a row, which is in place, glide from another one to its own. */
@@ -109,10 +109,10 @@ export class NodeTexture {
     this.texels.fill(0, 4 * TEXELS * rows);
   }
 
-  /** Has a row wear another slot: 0 for none, below 0 for its own. */
-  dress(table: TreeTable, row: number, slot: number): void {
+  /** Gives a row another overlay slot: 0 for none, below 0 for one of its own. */
+  setSlot(table: TreeTable, row: number, slot: number): void {
     this.slots[row] = slot;
-    this.texels[4 * TEXELS * row + 7] = worn(slot, table.light[row]!);
+    this.texels[4 * TEXELS * row + 7] = packed(slot, table.light[row]!);
     this.stale.add(Math.floor(row / CHUNK_ROWS));
   }
 
@@ -144,8 +144,8 @@ export class NodeTexture {
   }
 }
 
-/** One number for both, as the shaders take them apart. */
-function worn(slot: number, light: number): number {
+/** Slot and light in one number; the shaders separate them. */
+function packed(slot: number, light: number): number {
   const value = Math.abs(slot) + light / LIGHT_STEPS;
   return slot < 0 ? -value : value;
 }

@@ -175,14 +175,14 @@ describe("the table", () => {
     const living = new Uint8Array(n);
     for (let row = 0; row < n; row += 1) {
       const parent = table.parent[row]!;
-      // Nothing is drawn of the dead nor of what hangs on them, and their frames are not kept up.
+      // Nothing is drawn of the dead nor of what hangs on them, and their orientations are not kept up.
       living[row] = parent < 0 || (living[parent] === 1 && table.radiusCode[row] !== 0) ? 1 : 0;
       if (living[row] === 0) continue;
       compared += 1;
       expect(whole.arc[row]).toBeCloseTo(table.arc[row]!, 1);
       for (const column of [tangentOf, normalOf]) {
-        const [a, b] = [column(whole.frames, row), column(table.frames, row)];
-        expect(Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), `frame of row ${row}`).toBeLessThan(2e-3);
+        const [a, b] = [column(whole.orientations, row), column(table.orientations, row)];
+        expect(Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]), `orientation of row ${row}`).toBeLessThan(2e-3);
       }
     }
     expect(compared).toBeGreaterThan(20);
@@ -280,15 +280,15 @@ describe("new growth", () => {
   });
 });
 
-describe("frames along an axis", () => {
+describe("orientations along an axis", () => {
   it("point along the mean of both metamers and do not twist", () => {
     const table = new TreeTable();
     table.apply(sampleTree({ seed: 12, height: 24, orders: 3 }));
     for (let row = 1; row < table.rows; row += 1) {
       const next = table.successor[row]!;
       if (next < 0) continue;
-      const [tangent, normal] = [tangentOf(table.frames, row), normalOf(table.frames, row)];
-      const [tangent2, normal2] = [tangentOf(table.frames, next), normalOf(table.frames, next)];
+      const [tangent, normal] = [tangentOf(table.orientations, row), normalOf(table.orientations, row)];
+      const [tangent2, normal2] = [tangentOf(table.orientations, next), normalOf(table.orientations, next)];
       const dot = (a: number[], b: number[]) => a[0]! * b[0]! + a[1]! * b[1]! + a[2]! * b[2]!;
       expect(dot(tangent, normal)).toBeCloseTo(0, 4);
       // What turns the tangent turns the normal by no more: the rest would be twist.

@@ -5,11 +5,11 @@ import { Cascade } from "./cascade";
 import { grown } from "./column";
 import { Girth } from "./girth";
 import { Limbs } from "./limbs";
-import { type Skeleton, updateFrame } from "./node-orientations";
+import { type Skeleton, updateOrientation } from "./node-orientations";
 
 /** What changed in a row since the last `drain`. */
 export const Dirty = {
-  /** Something the GPU draws with: position, frame, radius, light, birth. */
+  /** Something the GPU draws with: position, orientation, radius, light, birth. */
   Drawn: 1,
   /** Where its metamer runs, whether it lives, or how many leaves it bears. */
   Shape: 2,
@@ -58,8 +58,8 @@ export class TreeTable implements Skeleton {
   born = new Uint32Array(0);
   /** The living row that continues the axis, or -1. */
   successor = new Int32Array(0);
-  /** Quaternion of each node's frame, x y z w with w ≥ 0. */
-  frames = new Float32Array(0);
+  /** The orientation of each node as a quaternion, x y z w with w ≥ 0. */
+  orientations = new Float32Array(0);
   /** Which rows are one limb, as it is drawn. */
   readonly limbs = new Limbs();
   /** How thick they are drawn. */
@@ -82,11 +82,11 @@ export class TreeTable implements Skeleton {
     chunks: new Set(),
     lowWater: 0,
   };
-  private staleFrames = new Uint8Array(0);
+  private staleOrientations = new Uint8Array(0);
   private moved = new Uint8Array(0);
   private turned = new Uint8Array(0);
   private firstStale = Number.POSITIVE_INFINITY;
-  /** What frames are computed from: limbs as they are drawn. */
+  /** What orientations are computed from: limbs as they are drawn. */
   private drawn: Skeleton = this;
   private readonly extent = new Bounds();
   private readonly start: number;
@@ -197,7 +197,7 @@ export class TreeTable implements Skeleton {
       this.limbs.leave(row);
     }
     this.dirty.bits.fill(0, rows, this.rows);
-    this.staleFrames.fill(0, rows, this.rows);
+    this.staleOrientations.fill(0, rows, this.rows);
     this.rows = rows;
     this.dirty.lowWater = Math.min(this.dirty.lowWater, rows);
     this.chunkGenerations.length = Math.ceil(rows / CHUNK_ROWS);
@@ -354,7 +354,7 @@ export class TreeTable implements Skeleton {
   }
 
   private markStale(row: number): void {
-    this.staleFrames[row] = 1;
+    this.staleOrientations[row] = 1;
     this.firstStale = Math.min(this.firstStale, row);
   }
 
@@ -377,36 +377,36 @@ export class TreeTable implements Skeleton {
     this.settledAt = Math.max(this.settledAt, last);
   }
 
-  /** Brings limbs, frames, arcs and girth up to date, in row order so that parents come first. */
+  /** Brings limbs, orientations, arcs and girth up to date, in row order so that parents come first. */
   private derive(): void {
     this.limbs.judge(this, (row) => {
       this.markStale(row);
       this.girth.touch(row);
       this.mark(row, Dirty.Drawn);
     });
-    this.frame();
+    this.orient();
     this.girth.derive(this, (row) => this.mark(row, Dirty.Drawn));
   }
 
-  private frame(): void {
+  private orient(): void {
     for (let row = this.firstStale; row < this.rows; row += 1) {
       const parent = this.parent[row]!;
       if (parent >= 0 && this.moved[parent] === 1) {
         this.mark(row, Dirty.Drawn | Dirty.Shape);
-        this.staleFrames[row] = 1;
+        this.staleOrientations[row] = 1;
       }
-      // A lateral's frame follows from the one of the node that bears it.
-      if (parent >= 0 && this.turned[parent] === 1) this.staleFrames[row] = 1;
-      if (this.staleFrames[row] === 0) continue;
-      this.staleFrames[row] = 0;
-      const turned = updateFrame(this.drawn, this.frames, row);
+      // A lateral's orientation follows from the one of the node that bears it.
+      if (parent >= 0 && this.turned[parent] === 1) this.staleOrientations[row] = 1;
+      if (this.staleOrientations[row] === 0) continue;
+      this.staleOrientations[row] = 0;
+      const turned = updateOrientation(this.drawn, this.orientations, row);
       if (turned) this.turned[row] = 1;
       const measured = this.measure(row, parent);
       if (!turned && !measured) continue;
       this.mark(row, Dirty.Drawn);
       if (measured) this.girth.touch(row);
       const onward = this.limbs.onward[row]!;
-      if (onward >= 0) this.staleFrames[onward] = 1;
+      if (onward >= 0) this.staleOrientations[onward] = 1;
     }
     this.moved.fill(0, Math.min(this.firstStale, this.rows), this.rows);
     this.turned.fill(0, Math.min(this.firstStale, this.rows), this.rows);
@@ -448,12 +448,12 @@ export class TreeTable implements Skeleton {
     this.light = grown(this.light, room);
     this.born = grown(this.born, room);
     this.successor = grown(this.successor, room);
-    this.frames = grown(this.frames, 4 * room);
+    this.orientations = grown(this.orientations, 4 * room);
     this.arc = grown(this.arc, room);
     this.limbOrigin = grown(this.limbOrigin, room);
     this.birth = grown(this.birth, room);
     this.growing = grown(this.growing, room);
-    this.staleFrames = grown(this.staleFrames, room);
+    this.staleOrientations = grown(this.staleOrientations, room);
     this.moved = grown(this.moved, room);
     this.turned = grown(this.turned, room);
     this.dirty.bits = grown(this.dirty.bits, room);

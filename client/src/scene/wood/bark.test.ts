@@ -83,19 +83,19 @@ describe.each(KINDS)("%s bark", (kind) => {
 it("slopes tell how heights rise", () => {
   const { colours, relief } = barkTexels("papery", SIDE);
   let agreeing = 0;
-  let told = 0;
+  let compared = 0;
   for (let y = 0; y < SIDE; y += 1) {
     for (let x = 1; x + 1 < SIDE; x += 1) {
       const at = 4 * (y * SIDE + x);
       const rise = colours[at + 4 + 3]! - colours[at - 4 + 3]!;
       const slope = relief[at]! - 127.5;
       if (Math.abs(rise) < 8) continue;
-      told += 1;
+      compared += 1;
       if (Math.sign(rise) === Math.sign(slope)) agreeing += 1;
     }
   }
-  expect(told).toBeGreaterThan(50);
-  expect(agreeing).toBe(told);
+  expect(compared).toBeGreaterThan(50);
+  expect(agreeing).toBe(compared);
 });
 
 describe("a palette", () => {
@@ -117,34 +117,34 @@ describe("a palette", () => {
 });
 
 describe("the bark worn", () => {
-  const wear = () => {
+  const setUp = () => {
     const uniforms: Uniforms = {};
     return { uniforms, bark: new Bark(uniforms, new Painter()) };
   };
 
   it("keeps its textures while only colour and shape change", () => {
-    const { uniforms, bark } = wear();
-    bark.wear(PLAIN_BARK);
+    const { uniforms, bark } = setUp();
+    bark.setLook(PLAIN_BARK);
     const texture = uniforms.uBarkRelief!.value;
-    bark.wear({ ...PLAIN_BARK, tint: [1, 2, 3], relief: 2, smoothing: 0 });
+    bark.setLook({ ...PLAIN_BARK, tint: [1, 2, 3], relief: 2, smoothing: 0 });
     expect(uniforms.uBarkRelief!.value).toBe(texture);
     expect(uniforms.uBarkShape!.value.toArray()).toEqual([2, 1, 1, 0]);
   });
 
   it("lets go of the textures of the kind before", () => {
-    const { uniforms, bark } = wear();
-    bark.wear(PLAIN_BARK);
+    const { uniforms, bark } = setUp();
+    bark.setLook(PLAIN_BARK);
     const texture = uniforms.uBarkColours!.value;
     const gone = vi.fn();
     texture.addEventListener("dispose", gone);
-    bark.wear({ ...PLAIN_BARK, kind: "papery" });
+    bark.setLook({ ...PLAIN_BARK, kind: "papery" });
     expect(uniforms.uBarkColours!.value).not.toBe(texture);
     expect(gone).toHaveBeenCalledOnce();
   });
 
   it("is uploaded anew to a restored context", () => {
-    const { uniforms, bark } = wear();
-    bark.wear(PLAIN_BARK);
+    const { uniforms, bark } = setUp();
+    bark.setLook(PLAIN_BARK);
     const before = uniforms.uBarkRelief!.value.version;
     bark.restored();
     expect(uniforms.uBarkRelief!.value.version).toBeGreaterThan(before);

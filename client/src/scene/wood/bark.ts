@@ -8,7 +8,7 @@ import type { Painter } from "../painting/painter";
 /** Sharper where a surface is seen at a slant, as most of a limb is. */
 const ANISOTROPY = 2;
 
-/** The bark that all wood wears, as uniforms. */
+/** The bark of all wood, as uniforms. */
 export class Bark {
   readonly textures: GradualTextures<"bark">;
   private readonly palette = { value: Array.from({ length: 5 }, () => new Vector3()) };
@@ -22,10 +22,10 @@ export class Bark {
     uniforms.uBarkRelief = relief;
     uniforms.uBarkPalette = this.palette;
     uniforms.uBarkShape = this.shape;
-    this.wear(DEFAULT_APPEARANCE.bark);
+    this.setLook(DEFAULT_APPEARANCE.bark);
   }
 
-  wear(look: BarkLook): void {
+  setLook(look: BarkLook): void {
     this.shape.value.set(look.relief, look.root_flare, look.collar, look.smoothing);
     for (const [i, colour] of barkPalette(look.kind, look.tint).entries()) this.palette.value[i]!.set(...colour);
     this.textures.choose(look.kind);

@@ -50,7 +50,7 @@ export interface WoodMaterials {
 }
 
 interface Options {
-  /** What all wood wears, unless somebody else looks after it. */
+  /** The bark of all wood; absent where another part sets it. */
   readonly bark?: Bark;
   /** Whether thin wood is drawn as strips, and shadows are; otherwise both passes meet the very same tubes. */
   readonly strips?: boolean;
@@ -108,9 +108,9 @@ export class Branches {
     return [meshes[0]!, meshes[coarsest]!, casters[0]!];
   }
 
-  /** Has all wood wear a bark. */
+  /** Gives all wood a bark. */
   setBark(look: BarkLook): void {
-    this.bark?.wear(look);
+    this.bark?.setLook(look);
   }
 
   /** Rows from `rows` on are gone. */

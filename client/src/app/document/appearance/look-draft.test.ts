@@ -55,7 +55,7 @@ describe("draft of looks", () => {
       ben.drag({ leaves: { tint: [40 * i, 0, 0] } });
       clock.pass(70);
       if (i % 2 === 0) arrive();
-      expect(ann.value.value.leaves.season, "the hand's own counts").toBe(1 + i / 5);
+      expect(ann.value.value.leaves.season, "the user's own counts").toBe(1 + i / 5);
       expect(ben.value.value.leaves.tint).toEqual([40 * i, 0, 0]);
     }
     ann.commit({ leaves: { season: 2 } });

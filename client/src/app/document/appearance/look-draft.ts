@@ -35,8 +35,8 @@ export class LookDraft {
   }
 
   /** The server tells how it is. */
-  receive(told: Appearance): void {
-    this.#fields.receive(fieldsOf(told));
+  receive(appearance: Appearance): void {
+    this.#fields.receive(fieldsOf(appearance));
   }
 
   /** The server has answered all commands up to this one. */
@@ -49,7 +49,7 @@ export class LookDraft {
     this.#fields.clear();
   }
 
-  /** The hand's own values no longer count. */
+  /** Drops the user's own values. */
   letGo(): void {
     this.#fields.letGo();
   }

@@ -51,7 +51,7 @@ export class GrowPacer {
     const rate = growthRate(deflection);
     const speed = Math.abs(rate);
     if (Math.sign(rate) !== Math.sign(this.#rate)) {
-      // The first step follows the hand at once.
+      // The first step follows the pointer at once.
       this.#owed = speed > 0 ? 1 : 0;
       this.#time = now;
     }
@@ -59,7 +59,7 @@ export class GrowPacer {
     const elapsed = (now - (this.#time ?? now)) / 1000;
     this.#time = now;
     const allowed = Math.max(1, speed * BACKLOG_SECONDS);
-    // Steps that could not be asked for in time are forgone, so that growth stops when the hand does.
+    // Steps that could not be asked for in time are forgone, so that growth stops when the user does.
     this.#owed = Math.min(this.#owed + elapsed * speed, allowed);
     const steps = Math.floor(this.#owed + 1e-9);
     if (steps < 1 || backlog.unsettled >= MAX_UNSETTLED || backlog.pendingSteps >= allowed) {

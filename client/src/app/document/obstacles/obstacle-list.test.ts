@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Virtual } from "../../../../test/virtual-clock";
 import type { Command, PlacedObstacle } from "../../../wire/generated";
-import { Hand, ObstacleList } from "./obstacle-list";
+import { ObstacleList, UndoGroup } from "./obstacle-list";
 
 const mesh = { positions: new Float32Array(9), triangles: new Uint32Array(3) };
 
@@ -45,10 +45,10 @@ describe("obstacle list", () => {
     list.chosen.value = 2;
     list.receive([box(1)]);
     expect(list.drawn.value).toEqual([box(1)]);
-    expect(list.chosen.value, "what is gone is no longer at hand").toBeNull();
+    expect(list.chosen.value, "what is gone is no longer chosen").toBeNull();
   });
 
-  it("shows a thing where the hand has it until the server says", () => {
+  it("shows a thing where the user has it until the server says", () => {
     const { list, sent } = setUp();
     list.receive([box(1), box(2, 5)]);
     list.move(2, { position: [7, 0, 0] });
@@ -59,7 +59,7 @@ describe("obstacle list", () => {
     list.receive([box(1), box(2, 6)]);
     expect(
       list.drawn.value.map(({ pose }) => pose.position[0]),
-      "another hand was there",
+      "another user was there",
     ).toEqual([0, 6]);
   });
 
@@ -89,7 +89,7 @@ describe("obstacle list", () => {
     expect(list.poseOf(1)?.position).toEqual([0, 0, 0]);
   });
 
-  it("a thing is where a finger holds it, whatever is told", () => {
+  it("a thing is where a finger holds it, whatever the server sends", () => {
     const { list } = setUp();
     list.receive([box(1)]);
     list.preview({ id: 1, pose: { position: [4, 0, 0] } });
@@ -99,7 +99,7 @@ describe("obstacle list", () => {
     expect(list.poseOf(1)?.position).toEqual([0, 0, 0]);
   });
 
-  it("what this hand placed is at hand when it appears", () => {
+  it("what this user placed is chosen when it appears", () => {
     const { list, sent } = setUp();
     list.receive([box(1)]);
     list.receive([box(1), box(2)]);
@@ -147,16 +147,16 @@ describe("obstacle list", () => {
     expect(list.first(1)).toBeNull();
   });
 
-  it("OB2: what a hand does without letting go has one gesture", () => {
+  it("OB2: what a user does without letting go has one gesture", () => {
     const { list, sent } = setUp();
-    const hand = new Hand();
+    const group = new UndoGroup();
     list.receive([box(1, 4)]);
-    list.move(1, { position: [5, 0, 0] }, hand);
-    list.reshape(1, { kind: "box", size: [9, 9, 9] }, hand);
-    list.move(1, { position: [4, 0, 0] }, hand);
+    list.move(1, { position: [5, 0, 0] }, group);
+    list.reshape(1, { kind: "box", size: [9, 9, 9] }, group);
+    list.move(1, { position: [4, 0, 0] }, group);
     list.remove(1);
     const gestures = sent.map((command) => "gesture" in command && command.gesture);
-    expect(gestures, "the last was another hand").toEqual([1, 1, 1, 4]);
+    expect(gestures, "the last was another group").toEqual([1, 1, 1, 4]);
   });
 
   it("LM6: what is refused is not awaited", () => {
@@ -176,7 +176,7 @@ describe("obstacle list", () => {
     expect(list.chosen.value).toBe(2);
   });
 
-  it("an imported model is at hand, a broken one is told of", async () => {
+  it("an imported model is chosen, a broken one is reported", async () => {
     const { list, world } = setUp();
     await list.import(Promise.resolve([{ name: "a.glb", bytes: new Uint8Array(4) }]));
     expect([list.chosen.value, list.transfer.progress.value]).toEqual([9, null]);

@@ -30,38 +30,38 @@ export type SimpleShape = Exclude<Shape, { kind: "mesh" }>;
 type Field = `${"pose" | "shape"} ${number}`;
 type Fields = { [field in Field]?: Pose | PlacedShape };
 
-/** What a hand does without letting go is one operation for undo (`OB2`). */
-export class Hand {
-  /** Its number, once something of it was sent. */
+/** Changes that one undo takes back together, such as those of one drag (`OB2`). */
+export class UndoGroup {
+  /** Its number as a gesture of commands; null until a command of it was sent. */
   gesture: number | null = null;
 }
 
-/** What stands in the way of growth, as the server has it and as this hand is moving it. */
+/** The obstacles, as the server has them and as this user is moving them. */
 export class ObstacleList {
   readonly list = signal<readonly PlacedObstacle[]>([]);
-  /** The obstacle at hand. */
+  /** The chosen obstacle. */
   readonly chosen = signal<number | null>(null);
   /** A model on its way to the server. */
   readonly transfer = new Transfer();
   /** The list as it is drawn. */
   readonly drawn = computed<readonly DrawnObstacle[]>(() => {
     const [held, meshes, fields] = [this.#held.value, this.#meshes.value, this.#draft.value.value];
-    return this.list.value.map((told) => {
-      const mesh = meshes.get(told.id);
-      const own = (fields[`pose ${told.id}`] ?? told.pose) as Pose;
-      const pose = held?.id === told.id ? held.pose : own;
-      const shape = (fields[`shape ${told.id}`] ?? told.shape) as PlacedShape;
-      return { ...told, pose, shape, ...(mesh ? { mesh } : {}) };
+    return this.list.value.map((obstacle) => {
+      const mesh = meshes.get(obstacle.id);
+      const own = (fields[`pose ${obstacle.id}`] ?? obstacle.pose) as Pose;
+      const pose = held?.id === obstacle.id ? held.pose : own;
+      const shape = (fields[`shape ${obstacle.id}`] ?? obstacle.shape) as PlacedShape;
+      return { ...obstacle, pose, shape, ...(mesh ? { mesh } : {}) };
     });
   });
 
   #options: ObstacleListOptions;
-  /** Poses and shapes as this hand has set them, until the server has them so. */
+  /** Poses and shapes that this user has set and the server has not confirmed yet. */
   #draft: Draft<Fields>;
   #held = signal<{ readonly id: number; readonly pose: Pose } | null>(null);
   #meshes = signal<ReadonlyMap<number, TriangleMesh>>(new Map());
   #fetching = new Set<number>();
-  /** What this hand has placed is chosen when it appears. */
+  /** Obstacles that this user has placed; each is chosen when it appears. */
   #awaited: Placing[] = [];
   /** Each as this page first saw it: what its measures are put back to. */
   #first = new Map<number, PlacedObstacle>();
@@ -79,19 +79,19 @@ export class ObstacleList {
   }
 
   /** The server's list has changed. */
-  receive(told: readonly PlacedObstacle[]): void {
+  receive(obstacles: readonly PlacedObstacle[]): void {
     const known = new Set(this.list.peek().map(({ id }) => id));
     batch(() => {
-      this.list.value = told;
-      this.#draft.receive(fieldsOf(told));
+      this.list.value = obstacles;
+      this.#draft.receive(fieldsOf(obstacles));
     });
-    for (const obstacle of told.filter(({ id }) => !known.has(id))) {
+    for (const obstacle of obstacles.filter(({ id }) => !known.has(id))) {
       this.#appeared(obstacle);
     }
-    if (!told.some(({ id }) => id === this.chosen.peek())) {
+    if (!obstacles.some(({ id }) => id === this.chosen.peek())) {
       this.chosen.value = null;
     }
-    for (const { id, shape } of told) {
+    for (const { id, shape } of obstacles) {
       if (shape.kind === "mesh") {
         void this.#fetch(id);
       }
@@ -133,7 +133,11 @@ export class ObstacleList {
   }
 
   place(shape: Shape, pose: Pose): void {
-    const command: Placing = { kind: "place_obstacle", obstacle: { shape, pose }, gesture: this.#gesture(new Hand()) };
+    const command: Placing = {
+      kind: "place_obstacle",
+      obstacle: { shape, pose },
+      gesture: this.#gesture(new UndoGroup()),
+    };
     this.#awaited.push(command);
     this.#options.submit(command);
   }
@@ -143,17 +147,17 @@ export class ObstacleList {
     return this.#first.get(id) ?? null;
   }
 
-  move(id: number, pose: Pose, hand = new Hand()): void {
-    this.#draft.commit({ [`pose ${id}`]: pose } as Fields, this.#gesture(hand));
+  move(id: number, pose: Pose, group = new UndoGroup()): void {
+    this.#draft.commit({ [`pose ${id}`]: pose } as Fields, this.#gesture(group));
   }
 
   /** Gives one other measures. */
-  reshape(id: number, shape: SimpleShape, hand = new Hand()): void {
-    this.#draft.commit({ [`shape ${id}`]: shape } as Fields, this.#gesture(hand));
+  reshape(id: number, shape: SimpleShape, group = new UndoGroup()): void {
+    this.#draft.commit({ [`shape ${id}`]: shape } as Fields, this.#gesture(group));
   }
 
-  remove(id: number, hand = new Hand()): void {
-    this.#options.submit({ kind: "remove_obstacle", id, gesture: this.#gesture(hand) });
+  remove(id: number, group = new UndoGroup()): void {
+    this.#options.submit({ kind: "remove_obstacle", id, gesture: this.#gesture(group) });
   }
 
   /** The server would not do something: what was to be placed is not awaited. */
@@ -178,7 +182,7 @@ export class ObstacleList {
     }
   }
 
-  /** Tells the server of fields the hand has set; gives the number of the last command. */
+  /** Sends fields that the user has set; gives the number of the last command. */
   #send(fields: Partial<Fields>, gesture: number | undefined): number {
     let command = 0;
     for (const [field, value] of Object.entries(fields)) {
@@ -193,10 +197,10 @@ export class ObstacleList {
     return command;
   }
 
-  /** The number of a hand that is about to send something. */
-  #gesture(hand: Hand): number {
-    hand.gesture ??= this.#options.newGesture();
-    return hand.gesture;
+  /** The number of a group of which a command is about to be sent. */
+  #gesture(group: UndoGroup): number {
+    group.gesture ??= this.#options.newGesture();
+    return group.gesture;
   }
 
   /** One more stands in the scene. */

@@ -29,15 +29,15 @@ export function kinOf(
   const ranked = species
     .map((one) => {
       const differing = changes(one.parameters, parameters);
-      const dressed = looks === null || looksLike(one, looks);
+      const looksAlike = looks === null || looksLike(one, looks);
       // Looks count less than any parameter, the last pick less than looks.
-      const rank = differing + (dressed ? 0 : 0.5) + (one.slug === picked ? 0 : 0.25);
-      return { one, differing, dressed, rank };
+      const rank = differing + (looksAlike ? 0 : 0.5) + (one.slug === picked ? 0 : 0.25);
+      return { one, differing, looksAlike, rank };
     })
     .filter(({ differing }) => differing <= most)
     .sort((a, b) => a.rank - b.rank);
   const nearest = ranked[0];
-  return nearest ? { species: nearest.one, changed: nearest.differing > 0 || !nearest.dressed } : null;
+  return nearest ? { species: nearest.one, changed: nearest.differing > 0 || !nearest.looksAlike } : null;
 }
 
 function changes(one: Parameters, other: Parameters): number {

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Timeline } from "../../../wire/generated";
 import { TimelineControl } from "./timeline-control";
 
-const told = (step: number, last = 40): Timeline => ({
+const timelineAt = (step: number, last = 40): Timeline => ({
   line: 0,
   step,
   last_step: last,
@@ -50,12 +50,12 @@ function control() {
       };
     },
   });
-  time.receive(told(40));
+  time.receive(timelineAt(40));
   return { time, server };
 }
 
 describe("the playhead", () => {
-  it("stands under the hand and comes to rest at the server's step", () => {
+  it("stands under the pointer and comes to rest at the server's step", () => {
     const { time, server } = control();
     time.pull(30);
     expect(time.step).toBe(30);
@@ -71,7 +71,7 @@ describe("the playhead", () => {
     server.unsettled = 0;
     frame();
     expect([time.wanted.peek(), server.held]).toEqual([20, true]);
-    time.receive(told(20));
+    time.receive(timelineAt(20));
     frame();
     expect([time.wanted.peek(), time.step, server.held]).toEqual([null, 20, false]);
     frame();
@@ -100,7 +100,7 @@ describe("the playhead", () => {
     const { time, server } = control();
     time.pull(35);
     frame();
-    time.receive(told(10, 10));
+    time.receive(timelineAt(10, 10));
     expect([time.wanted.peek(), server.held]).toEqual([null, false]);
   });
 

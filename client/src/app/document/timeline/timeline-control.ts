@@ -15,12 +15,12 @@ export interface TimelineControlOptions {
   readonly hold: () => () => void;
 }
 
-/** The line of time as the server tells it, and the hand that travels along it. */
+/** The timeline as the server has it, and the playhead that the user moves along it. */
 export class TimelineControl {
-  readonly told = signal<Timeline | null>(null);
-  /** Where the hand has the playhead; null where it stands at the server's step. */
+  readonly timeline = signal<Timeline | null>(null);
+  /** Where the user holds the playhead; null where it stands at the server's step. */
   readonly wanted = signal<number | null>(null);
-  readonly scale = computed(() => new TimeScale(this.told.value ?? { operations: [], done: 0 }));
+  readonly scale = computed(() => new TimeScale(this.timeline.value ?? { operations: [], done: 0 }));
   #options: TimelineControlOptions;
   #pacer = new TravelPacer();
   #loop = 0;
@@ -34,11 +34,11 @@ export class TimelineControl {
 
   /** Where the playhead is shown. */
   get step(): number {
-    return this.wanted.value ?? this.told.value?.step ?? 0;
+    return this.wanted.value ?? this.timeline.value?.step ?? 0;
   }
 
   receive(timeline: Timeline): void {
-    this.told.value = timeline;
+    this.timeline.value = timeline;
     const wanted = this.wanted.peek();
     if (wanted !== null && wanted > timeline.last_step) {
       // Someone has begun another future: the steps pulled at are no longer on this line.
@@ -46,20 +46,20 @@ export class TimelineControl {
     }
   }
 
-  /** The hand pulls the playhead to a step, and keeps hold of it. */
+  /** The user drags the playhead to a step, and keeps hold of it. */
   pull(step: number): void {
     this.#held = true;
     this.#travel(step);
   }
 
-  /** The hand lets go; the tree comes to where the playhead was left. */
+  /** The user lets go; the tree comes to the step at which the playhead was left. */
   release(): void {
     this.#held = false;
   }
 
   /** Goes so many steps back (below 0) or forth. */
   by(steps: number): void {
-    this.#travel((this.wanted.peek() ?? this.told.peek()?.step ?? 0) + steps);
+    this.#travel((this.wanted.peek() ?? this.timeline.peek()?.step ?? 0) + steps);
   }
 
   /** Goes to a step. */
@@ -69,8 +69,8 @@ export class TimelineControl {
 
   /** Goes to where the operation before began, or the next one ends. */
   toEdge(direction: -1 | 1): void {
-    const step = this.wanted.peek() ?? this.told.peek()?.step ?? 0;
-    this.#travel(edgeBeside(this.told.peek()?.operations ?? [], step, direction));
+    const step = this.wanted.peek() ?? this.timeline.peek()?.step ?? 0;
+    this.#travel(edgeBeside(this.timeline.peek()?.operations ?? [], step, direction));
   }
 
   /** Leaves this line of time for another one that branches off it. */
@@ -92,15 +92,15 @@ export class TimelineControl {
 
   clear(): void {
     this.stop();
-    this.told.value = null;
+    this.timeline.value = null;
   }
 
   #travel(step: number): void {
-    const told = this.told.peek();
-    if (!told) {
+    const timeline = this.timeline.peek();
+    if (!timeline) {
       return;
     }
-    this.wanted.value = Math.min(told.last_step, Math.max(0, Math.round(step)));
+    this.wanted.value = Math.min(timeline.last_step, Math.max(0, Math.round(step)));
     this.#resting = 0;
     if (this.#loop === 0) {
       this.#pacer.take();
@@ -111,23 +111,23 @@ export class TimelineControl {
 
   #beat = (now: number) => {
     this.#loop = requestAnimationFrame(this.#beat);
-    const [wanted, told] = [this.wanted.peek(), this.told.peek()];
-    if (wanted === null || !told || !this.#options.ready()) {
+    const [wanted, timeline] = [this.wanted.peek(), this.timeline.peek()];
+    if (wanted === null || !timeline || !this.#options.ready()) {
       return;
     }
-    const state = { unsettled: this.#options.unsettled(), step: told.step, revision: this.#options.revision() };
+    const state = { unsettled: this.#options.unsettled(), step: timeline.step, revision: this.#options.revision() };
     const step = this.#pacer.tick(now, wanted, state);
     if (step !== null) {
       this.#options.goTo(step);
       this.#resting = 0;
       return;
     }
-    if (this.#held || state.unsettled > 0 || !this.#pacer.followed(wanted, told.step)) {
+    if (this.#held || state.unsettled > 0 || !this.#pacer.followed(wanted, timeline.step)) {
       return;
     }
     this.#resting ||= now;
-    // Where another hand goes on at the same time, the server may never tell of just this step.
-    if (told.step === wanted || now - this.#resting > PATIENCE) {
+    // Where another user travels at the same time, the server may never report this very step.
+    if (timeline.step === wanted || now - this.#resting > PATIENCE) {
       this.stop();
     }
   };

@@ -24,15 +24,15 @@ describe("a playhead that is pulled", () => {
   it("skips steps the finger has left", () => {
     const pacer = new TravelPacer();
     const asked: number[] = [];
-    let told = { ...quiet };
+    let state = { ...quiet };
     for (let frame = 0; frame < 60; frame += 1) {
-      const step = pacer.tick(frame * 16, 99 - frame, told);
+      const step = pacer.tick(frame * 16, 99 - frame, state);
       if (step !== null) {
         asked.push(step);
       }
       // The server needs five frames for each tree.
       if (frame % 5 === 4) {
-        told = { unsettled: 0, step: asked[asked.length - 1] ?? 100, revision: told.revision + 1 };
+        state = { unsettled: 0, step: asked[asked.length - 1] ?? 100, revision: state.revision + 1 };
       }
     }
     expect(asked.length).toBeLessThanOrEqual(13);

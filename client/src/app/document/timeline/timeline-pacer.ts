@@ -5,7 +5,7 @@ export const PATIENCE = 400;
 export interface TravelState {
   /** `go_to` commands that are not yet answered. */
   readonly unsettled: number;
-  /** The step it last told of. */
+  /** The step in its last message. */
   readonly step: number;
   /** Counts the frames of rows that came in. */
   readonly revision: number;
@@ -18,7 +18,7 @@ export interface TravelState {
 export class TravelPacer {
   #asked: { readonly step: number; readonly at: number; readonly revision: number } | null = null;
 
-  /** The hand has taken the playhead. */
+  /** The user has taken hold of the playhead. */
   take(): void {
     this.#asked = null;
   }

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Bent } from "../../../scene/overlay/bend-overlay";
+import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import { BendPoses } from "./bend-poses";
 
 function setUp(own: readonly number[] = []) {
@@ -26,24 +26,24 @@ function setUp(own: readonly number[] = []) {
 }
 
 describe("BE5: bends of other people", () => {
-  it("are worn from the first pose to the one without motions", () => {
+  it("are shown from the first pose to the one without motions", () => {
     const { view, receive } = setUp();
     receive(7, 2, 6, 7);
     receive(7, 2, 6, 7);
     receive(8, 3, 12);
-    expect([...view.worn].map((guise) => (guise as Bent).path)).toEqual([
+    expect([...view.overlays].map((overlay) => (overlay as BendOverlay).path)).toEqual([
       [2, 6, 7],
       [3, 12],
     ]);
     receive(7);
-    expect([...view.worn].map((guise) => (guise as Bent).path)).toEqual([[3, 12]]);
+    expect([...view.overlays].map((overlay) => (overlay as BendOverlay).path)).toEqual([[3, 12]]);
   });
 
-  it("one of one's own hand is left to it, and told when it is over", () => {
+  it("one of this page is left to it, and ended when it is over", () => {
     const { view, over, receive } = setUp([2, 6, 7]);
     receive(7, 2, 6, 7);
     receive(7);
-    expect([view.worn.size, over]).toEqual([0, [[2, 6, 7]]]);
+    expect([view.overlays.size, over]).toEqual([0, [[2, 6, 7]]]);
   });
 
   it("are put on anew after the rows have moved under them", () => {
@@ -53,17 +53,17 @@ describe("BE5: bends of other people", () => {
       SMALL.map((twig, row) => (row === 7 ? { ...twig, at: [2, 2.5, 0] as const } : twig)),
       table,
     );
-    view.worn.clear();
+    view.overlays.clear();
     receive(7, 2, 6, 7);
-    expect(view.worn.size).toBe(1);
-    expect(([...view.worn][0] as Bent).over(table)).toBe(false);
+    expect(view.overlays.size).toBe(1);
+    expect(([...view.overlays][0] as BendOverlay).over(table)).toBe(false);
   });
 
   it("a path that the rows do not have is not drawn", () => {
     const { view, receive } = setUp();
     receive(7, 2, 7);
     receive(8, 13, 14);
-    expect(view.worn.size).toBe(0);
+    expect(view.overlays.size).toBe(0);
   });
 
   it("are forgotten with the connection", () => {
@@ -72,6 +72,6 @@ describe("BE5: bends of other people", () => {
     receive(8, 3, 12);
     poses.clear();
     receive(8);
-    expect([view.worn.size, over]).toEqual([0, []]);
+    expect([view.overlays.size, over]).toEqual([0, []]);
   });
 });

@@ -1,20 +1,20 @@
-import { Bent } from "../../../scene/overlay/bend-overlay";
+import { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { PoseFrame, RowMotion } from "../../../wire/pose";
 import type { ShapingView } from "../shaping-view";
 
-/** The bend that this page's own hand has under way. */
+/** The bend that this page has under way. */
 export interface OwnBends {
   owns(path: readonly number[]): boolean;
   over(path: readonly number[]): void;
 }
 
-/** Draws the branches that are being bent as the server tells (`BE5`), those of one's own hand excepted. */
+/** Draws the branches that are being bent as the server tells (`BE5`), except those of this page. */
 export class BendPoses {
   #table: TreeTable;
   #view: ShapingView;
   #own: OwnBends;
-  #worn = new Map<number, Bent>();
+  #shown = new Map<number, BendOverlay>();
   /** Paths of bends of one's own, by the server's numbers. */
   #mine = new Map<number, readonly number[]>();
 
@@ -39,35 +39,35 @@ export class BendPoses {
 
   /** Forgets all of them: another session, or another connection, which will tell anew. */
   clear(): void {
-    for (const bent of this.#worn.values()) {
-      this.#view.doff(bent);
+    for (const bent of this.#shown.values()) {
+      this.#view.removeOverlay(bent);
     }
-    this.#worn.clear();
+    this.#shown.clear();
     this.#mine.clear();
   }
 
   #pose(bend: number, path: readonly number[], motions: readonly RowMotion[]): void {
-    let bent = this.#worn.get(bend);
-    if (!bent || !this.#view.wears(bent)) {
+    let bent = this.#shown.get(bend);
+    if (!bent || !this.#view.hasOverlay(bent)) {
       if (!isPath(this.#table, path)) {
         return;
       }
-      bent = new Bent(this.#table, path);
-      this.#worn.set(bend, bent);
-      this.#view.wear(bent);
+      bent = new BendOverlay(this.#table, path);
+      this.#shown.set(bend, bent);
+      this.#view.addOverlay(bent);
     }
     bent.move(motions);
-    this.#view.guiseChanged();
+    this.#view.overlayChanged();
   }
 
   /** The change of the table has come right before, if the pose was kept. */
   #end(bend: number): void {
-    const bent = this.#worn.get(bend);
+    const bent = this.#shown.get(bend);
     const mine = this.#mine.get(bend);
-    this.#worn.delete(bend);
+    this.#shown.delete(bend);
     this.#mine.delete(bend);
     if (bent) {
-      this.#view.doff(bent);
+      this.#view.removeOverlay(bent);
     }
     if (mine) {
       this.#own.over(mine);

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Bent } from "../../../scene/overlay/bend-overlay";
+import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import { holdAt, naturalBase, related } from "./bend-hold";
@@ -107,7 +107,7 @@ describe("bending", () => {
         [4, 2, 0],
       ],
     });
-    expect(view.worn.size, "the pose stays until the rows have it").toBe(1);
+    expect(view.overlays.size, "the pose stays until the rows have it").toBe(1);
   });
 
   it("the lowest finger holds the base, whichever came first", () => {
@@ -194,7 +194,7 @@ describe("bending", () => {
     tool.cancel();
     finger(1).by(60, 0, 9);
     finger(1).up();
-    expect([kinds(sent), view.worn.size]).toEqual([["bend_begin", "bend_cancel"], 0]);
+    expect([kinds(sent), view.overlays.size]).toEqual([["bend_begin", "bend_cancel"], 0]);
   });
 
   it("a bend that is refused is shown no more", () => {
@@ -204,7 +204,7 @@ describe("bending", () => {
     tool.refused(1);
     finger(1).by(60, 0, 9);
     tool.tick();
-    expect([kinds(sent), view.worn.size]).toEqual([["bend_begin"], 0]);
+    expect([kinds(sent), view.overlays.size]).toEqual([["bend_begin"], 0]);
   });
 
   it("the next bend waits until the last is in the table", () => {
@@ -220,8 +220,8 @@ describe("bending", () => {
       SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [4, 3, 0] as const } : twig)),
       table,
     );
-    tool.told();
-    view.worn.clear();
+    tool.changed();
+    view.overlays.clear();
     finger(1).by(0, -60, 9);
     expect(sent[before]).toMatchObject({ kind: "bend_begin" });
   });
@@ -239,8 +239,8 @@ describe("bending", () => {
       SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [4, 3, 0] as const } : twig)),
       table,
     );
-    view.worn.clear();
-    tool.told();
+    view.overlays.clear();
+    tool.changed();
     tool.tick();
     // A pixel up is now counted from where the end has come to.
     finger(2).by(0, -50, 9);
@@ -264,8 +264,8 @@ describe("bending", () => {
       SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [5, 3, 0] as const } : twig)),
       table,
     );
-    view.worn.clear();
-    tool.told();
+    view.overlays.clear();
+    tool.changed();
     const before = sent.length;
     finger(1).down(9);
     finger(1).by(0, -50, 9);
@@ -279,13 +279,13 @@ describe("bending", () => {
     finger(1).by(30, 0, 9);
     finger(1).up();
     world.unsettled = 1;
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(9000);
-    expect(view.worn.size).toBe(1);
+    expect(view.overlays.size).toBe(1);
     world.unsettled = 0;
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(9000);
-    expect(view.worn.size).toBe(0);
+    expect(view.overlays.size).toBe(0);
   });
 
   it("a branch that is gone ends its bend and unmarks what was marked", () => {
@@ -298,18 +298,18 @@ describe("bending", () => {
       SMALL.map((twig, row) => (row >= 6 && row <= 11 ? { ...twig, dead: true } : twig)),
       table,
     );
-    tool.told();
-    expect([view.worn.size, tool.base.value, said.length]).toEqual([0, null, 1]);
+    tool.changed();
+    expect([view.overlays.size, tool.base.value, said.length]).toEqual([0, null, 1]);
   });
 
   it("its own bend is known by its path, and ends with the server's", () => {
     const { view, finger, tool } = setUp();
     finger(1).down(9);
     finger(1).by(30, 0, 9);
-    const [guise] = view.worn as Set<Bent>;
+    const [overlay] = view.overlays as Set<BendOverlay>;
     expect([tool.owns([2, 6, 7, 8, 9]), tool.owns([2, 6, 7])]).toEqual([true, false]);
-    expect(guise?.follows([2, 6, 7, 8, 9])).toBe(true);
+    expect(overlay?.follows([2, 6, 7, 8, 9])).toBe(true);
     tool.over([2, 6, 7, 8, 9]);
-    expect(view.worn.size, "the server gave it up").toBe(0);
+    expect(view.overlays.size, "the server gave it up").toBe(0);
   });
 });

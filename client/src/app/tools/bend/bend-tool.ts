@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import type { Bend } from "../../../scene/bend/bend";
-import { Bent } from "../../../scene/overlay/bend-overlay";
+import { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import { radiusOf } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";
@@ -27,7 +27,7 @@ export interface BendOptions {
   readonly submit: (command: Command) => void;
   /** A number no other bend of this client has. */
   readonly newBend: () => number;
-  /** A number for what the hand does without letting go. */
+  /** A number that all commands of one gesture share. */
   readonly newGesture: () => number;
   /** How many commands of a kind the server has not yet answered. */
   readonly unsettled: (kind: Command["kind"]) => number;
@@ -65,7 +65,7 @@ interface Bending {
   readonly number: number;
   readonly hold: Hold;
   readonly touches: readonly Touch[];
-  readonly guise: Bent;
+  readonly overlay: BendOverlay;
   readonly solver: BendSolver;
   /** Fingers that have lifted: what they held stays where they left it. */
   readonly lifted: Set<number>;
@@ -89,7 +89,7 @@ export class BendTool implements GripTool {
   #fingers = new Map<number, Finger>();
   #bending: Bending | null = null;
   /** Bends that were let go and are not yet in the table. */
-  #settling = new Map<Bent, number>();
+  #settling = new Map<BendOverlay, number>();
   /** Bends made without letting go are one operation. */
   #gesture: number | null = null;
   /** The most fingers since the last was lifted: only a lone one taps. */
@@ -214,7 +214,7 @@ export class BendTool implements GripTool {
     const bending = this.#bending;
     this.#bending = null;
     if (bending) {
-      this.#options.view.doff(bending.guise);
+      this.#options.view.removeOverlay(bending.overlay);
     }
     this.gripDrop();
   }
@@ -232,42 +232,42 @@ export class BendTool implements GripTool {
     if (this.#bending?.number === number) {
       this.abandon();
     }
-    for (const [guise, bend] of this.#settling) {
+    for (const [overlay, bend] of this.#settling) {
       if (bend === number) {
-        this.#options.view.doff(guise);
-        this.#settling.delete(guise);
+        this.#options.view.removeOverlay(overlay);
+        this.#settling.delete(overlay);
       }
     }
   }
 
   /** Whether a bend along this path is this tool's own, and so shown already. */
   owns(path: readonly number[]): boolean {
-    return this.#bending?.guise.follows(path) === true || [...this.#settling.keys()].some((own) => own.follows(path));
+    return this.#bending?.overlay.follows(path) === true || [...this.#settling.keys()].some((own) => own.follows(path));
   }
 
   /** The server says that a bend is over: what has not come as a change of the table by now never will. */
   over(path: readonly number[]): void {
-    for (const guise of this.#settling.keys()) {
-      if (guise.follows(path)) {
-        this.#options.view.doff(guise);
-        this.#settling.delete(guise);
+    for (const overlay of this.#settling.keys()) {
+      if (overlay.follows(path)) {
+        this.#options.view.removeOverlay(overlay);
+        this.#settling.delete(overlay);
       }
     }
-    if (this.#bending?.guise.follows(path)) {
+    if (this.#bending?.overlay.follows(path)) {
       this.abandon();
     }
   }
 
-  told(): void {
+  changed(): void {
     const { table, view } = this.#options;
-    for (const guise of [...this.#settling.keys()]) {
-      if (!view.wears(guise) || guise.over(table)) {
-        this.#settling.delete(guise);
+    for (const overlay of [...this.#settling.keys()]) {
+      if (!view.hasOverlay(overlay) || overlay.over(table)) {
+        this.#settling.delete(overlay);
       } else if (this.#options.unsettled("bend_end") === 0) {
-        this.#linger(guise);
+        this.#linger(overlay);
       }
     }
-    if (this.#bending?.guise.over(table)) {
+    if (this.#bending?.overlay.over(table)) {
       this.#options.say("tools.bend-ended");
       this.abandon();
     }
@@ -281,10 +281,10 @@ export class BendTool implements GripTool {
   }
 
   /** A bend that was answered is in the table with the next rows; if not, it came to nothing. */
-  #linger(guise: Bent): void {
+  #linger(overlay: BendOverlay): void {
     setTimeout(() => {
-      if (this.#settling.delete(guise)) {
-        this.#options.view.doff(guise);
+      if (this.#settling.delete(overlay)) {
+        this.#options.view.removeOverlay(overlay);
       }
     }, LINGERS);
   }
@@ -309,7 +309,7 @@ export class BendTool implements GripTool {
 
   #begin(): void {
     const { table, view, submit, newBend, newGesture, stretch, solver, say } = this.#options;
-    if ([...this.#settling.keys()].some((guise) => view.wears(guise) && !guise.over(table))) {
+    if ([...this.#settling.keys()].some((overlay) => view.hasOverlay(overlay) && !overlay.over(table))) {
       // The pose of the last bend is on its way; taking hold of the branch before it comes would make it jump.
       return;
     }
@@ -334,7 +334,7 @@ export class BendTool implements GripTool {
       return { row, rest, anchor: now ?? finger?.point ?? rest, finger: id ?? null, target: rest };
     });
     const { path } = hold;
-    const guise = new Bent(table, path);
+    const overlay = new BendOverlay(table, path);
     const nodes = [view.placeOf(table.parent[path[0] ?? 0] ?? 0), ...path.map((row) => view.placeOf(row))];
     const radii = path.map((row) => radiusOf(table.radiusCode[row] ?? 0));
     const number = newBend();
@@ -342,14 +342,14 @@ export class BendTool implements GripTool {
       number,
       hold,
       touches,
-      guise,
+      overlay,
       solver: solver(nodes, radii, stretch()),
       lifted: new Set(),
       unsent: false,
       rounds: ROUNDS_AT_REST,
     };
     this.base.value = grips.base;
-    view.wear(guise);
+    view.addOverlay(overlay);
     const rows = touches.map(({ row }) => row);
     this.#gesture ??= newGesture();
     const gesture = this.#gesture;
@@ -399,15 +399,15 @@ export class BendTool implements GripTool {
     this.#drag(bending);
   }
 
-  #drag({ solver, hold, touches, guise }: Bending): void {
+  #drag({ solver, hold, touches, overlay }: Bending): void {
     solver.drag(touches.map(({ row, target }) => [hold.path.indexOf(row), target] as const));
-    this.#pose(guise, solver);
+    this.#pose(overlay, solver);
   }
 
-  #pose(guise: Bent, solver: BendSolver): void {
+  #pose(overlay: BendOverlay, solver: BendSolver): void {
     const motions = solver.motions();
-    guise.move(guise.path.flatMap((row, i) => (motions[i] ? [{ row, ...motions[i] }] : [])));
-    this.#options.view.guiseChanged();
+    overlay.move(overlay.path.flatMap((row, i) => (motions[i] ? [{ row, ...motions[i] }] : [])));
+    this.#options.view.overlayChanged();
   }
 
   #send(bending: Bending): void {
@@ -427,8 +427,8 @@ export class BendTool implements GripTool {
     this.#bending = null;
     this.#options.submit({ kind: "bend_end", bend: bending.number });
     bending.solver.relax();
-    this.#pose(bending.guise, bending.solver);
-    this.#settling.set(bending.guise, bending.number);
+    this.#pose(bending.overlay, bending.solver);
+    this.#settling.set(bending.overlay, bending.number);
   }
 
   #pick(x: number, y: number) {

@@ -3,7 +3,7 @@ import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import { BranchTool } from "./branch-tool";
 import { type Rotation, turned } from "./branch-turn";
-import { BranchHand } from "./held-branch";
+import { HeldBranch } from "./held-branch";
 
 const SLOP = 9;
 /** Pixels to the internode; the origin is in the middle of the glass, seen from the front. */
@@ -32,7 +32,7 @@ function setUp() {
   const sent: Command[] = [];
   const said: string[] = [];
   let shown: Rotation | null = null;
-  const hand = new BranchHand({
+  const held = new HeldBranch({
     rows,
     submit: (command) => sent.push(command),
     newGesture: () => 1,
@@ -44,7 +44,7 @@ function setUp() {
     showCopy: () => {},
   });
   const tool = new BranchTool({
-    hand,
+    branch: held,
     say: (sentence) => said.push(sentence),
     view: {
       pick: (x, y, tolerance) => {
@@ -66,7 +66,7 @@ function setUp() {
     tool.gripBegin(1, ...glass(at), SLOP);
     tool.gripEnd(1);
   };
-  return { hand, tool, sent, said, drag, tap, shown: () => shown };
+  return { held, tool, sent, said, drag, tap, shown: () => shown };
 }
 
 const tip: Vec3 = [4, 2, 0];
@@ -78,9 +78,9 @@ const near = (actual: readonly number[], wanted: readonly number[]) => {
 
 describe("one finger", () => {
   it("takes a branch and turns it in one go", () => {
-    const { hand, tool, sent, drag, shown } = setUp();
+    const { held, tool, sent, drag, shown } = setUp();
     drag(tip, [0, 6, 0]);
-    expect(hand.row.peek()).toBe(4);
+    expect(held.row.peek()).toBe(4);
     // The tip was gripped; it is under the finger, above the base.
     near(turned(shown() ?? [0, 0, 0, 1], [4, 0, 0]), [0, 4, 0]);
     tool.gripEnd(1);
@@ -88,19 +88,19 @@ describe("one finger", () => {
   });
 
   it("that only taps turns nothing", () => {
-    const { hand, sent, tap } = setUp();
+    const { held, sent, tap } = setUp();
     tap(tip);
-    expect(hand.row.peek()).toBe(4);
+    expect(held.row.peek()).toBe(4);
     tap(tip);
-    expect(hand.row.peek()).toBe(5);
+    expect(held.row.peek()).toBe(5);
     expect(sent).toEqual([]);
   });
 
   it("lets go with a tap beside everything", () => {
-    const { hand, tap } = setUp();
+    const { held, tap } = setUp();
     tap(tip);
     tap([-6, 5, 0]);
-    expect(hand.row.peek()).toBeNull();
+    expect(held.row.peek()).toBeNull();
   });
 
   it("turns by the ring as well", () => {
@@ -112,9 +112,9 @@ describe("one finger", () => {
   });
 
   it("is told that the whole tree stays where it is", () => {
-    const { hand, said, tap } = setUp();
+    const { held, said, tap } = setUp();
     tap([0, 1, 0]);
-    expect([hand.row.peek(), said.length]).toEqual([null, 1]);
+    expect([held.row.peek(), said.length]).toEqual([null, 1]);
   });
 });
 
@@ -155,18 +155,18 @@ describe("a second finger", () => {
 
 describe("placing", () => {
   it("grafts where the finger lifts from a limb", () => {
-    const { hand, tool, sent, tap } = setUp();
+    const { held, tool, sent, tap } = setUp();
     tap(tip);
-    hand.beginPlacing("copy");
+    held.beginPlacing("copy");
     tap([0, 3, 0]);
     expect(sent).toMatchObject([{ kind: "graft", row: 4, onto: 3, keep: true }]);
     expect(tool.takes()).toBe("take");
   });
 
   it("points the branch where the finger goes from the limb", () => {
-    const { hand, tool, sent, drag, tap } = setUp();
+    const { held, tool, sent, drag, tap } = setUp();
     tap(tip);
-    hand.beginPlacing("move");
+    held.beginPlacing("move");
     drag([0, 3, 0], [-4, 3, 0]);
     tool.gripEnd(1);
     const graft = sent[0];
@@ -175,18 +175,18 @@ describe("placing", () => {
   });
 
   it("says so where there is no limb, and waits for one", () => {
-    const { hand, said, sent, tap } = setUp();
+    const { held, said, sent, tap } = setUp();
     tap(tip);
-    hand.beginPlacing("move");
+    held.beginPlacing("move");
     tap([-6, 5, 0]);
-    expect([said.length, sent, hand.placing.peek()]).toEqual([1, [], "move"]);
+    expect([said.length, sent, held.placing.peek()]).toEqual([1, [], "move"]);
   });
 
   it("ends with Escape, and then lets go of the branch", () => {
-    const { hand, tool, tap } = setUp();
+    const { held, tool, tap } = setUp();
     tap(tip);
-    hand.beginPlacing("move");
-    expect([tool.release(), hand.placing.peek(), hand.row.peek()]).toEqual([true, null, 4]);
-    expect([tool.release(), hand.row.peek(), tool.release()]).toEqual([true, null, false]);
+    held.beginPlacing("move");
+    expect([tool.release(), held.placing.peek(), held.row.peek()]).toEqual([true, null, 4]);
+    expect([tool.release(), held.row.peek(), tool.release()]).toEqual([true, null, false]);
   });
 });

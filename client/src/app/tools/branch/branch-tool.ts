@@ -3,7 +3,7 @@ import type { Grip } from "../../input/gesture-recogniser";
 import type { Key } from "../../words/say";
 import { type GripTool, PICK_TOLERANCE } from "../tool";
 import { about, after, Ball, cross, dot, minus, type Rotation, type ScreenAxes, UNTURNED } from "./branch-turn";
-import type { BranchHand } from "./held-branch";
+import type { HeldBranch } from "./held-branch";
 
 /** How near to the branch's base a finger takes hold of its ring, in pixels. */
 export const RING = 46;
@@ -24,7 +24,7 @@ export interface BranchView {
 
 export interface BranchToolOptions {
   readonly view: BranchView;
-  readonly hand: BranchHand;
+  readonly branch: HeldBranch;
   /** Something a person should know. */
   readonly say: (text: Key) => void;
 }
@@ -93,32 +93,32 @@ export class BranchTool implements GripTool {
   }
 
   gripBegin(id: number, x: number, y: number, slop: number): void {
-    const { view, hand } = this.#options;
+    const { view, branch } = this.#options;
     const finger = { id, slop, begun: { x, y }, now: { x, y }, moved: false };
     if (this.#hold?.kind === "turn") {
       this.#hold.second = finger;
       this.#lift(this.#hold);
       return;
     }
-    if (hand.placing.peek() !== null) {
+    if (branch.placing.peek() !== null) {
       this.#hold = { kind: "place", finger, search: { met: null, aiming: false } };
       this.#search(this.#hold.search, finger.now);
       return;
     }
     const picked = view.pick(x, y, PICK_TOLERANCE);
-    const held = this.#onRing(finger.now) || (picked !== null && hand.holds(picked.row));
-    if (!held && picked && !hand.take(picked.row)) {
+    const held = this.#onRing(finger.now) || (picked !== null && branch.holds(picked.row));
+    if (!held && picked && !branch.take(picked.row)) {
       this.#options.say("tools.trunk-held");
       this.#hold = { kind: "nothing", finger: { ...finger, moved: true } };
       return;
     }
-    const base = hand.base();
+    const base = branch.base();
     if ((!held && !picked) || !base) {
       this.#hold = { kind: "nothing", finger };
       return;
     }
     // A ring that is gripped beside the branch is gripped in the plane it lies in.
-    const on = picked && hand.holds(picked.row) ? picked.point : base;
+    const on = picked && branch.holds(picked.row) ? picked.point : base;
     const axes = view.drawingPlane(base);
     this.#hold = {
       kind: "turn",
@@ -176,9 +176,9 @@ export class BranchTool implements GripTool {
     const turned = this.#hold?.kind === "turn";
     this.#hold = null;
     if (turned) {
-      this.#options.hand.cancelTurn();
+      this.#options.branch.cancelTurn();
     } else {
-      this.#options.hand.hide();
+      this.#options.branch.hide();
     }
   }
 
@@ -196,48 +196,48 @@ export class BranchTool implements GripTool {
 
   end(): void {
     const hold = this.#hold;
-    const { hand, say } = this.#options;
+    const { branch, say } = this.#options;
     this.#hold = null;
     if (hold?.kind === "place") {
-      if (!hand.graft()) {
-        hand.hide();
+      if (!branch.graft()) {
+        branch.hide();
         say("tools.no-limb");
       }
-    } else if (hold?.kind === "turn" && hand.turning.peek()) {
-      hand.endTurn();
+    } else if (hold?.kind === "turn" && branch.turning.peek()) {
+      branch.endTurn();
     } else if (hold?.kind === "turn" && hold.held && hold.picked !== null) {
-      hand.take(hold.picked);
+      branch.take(hold.picked);
     } else if (hold?.kind === "nothing" && !hold.finger.moved) {
-      hand.release();
+      branch.release();
     }
   }
 
   abandon(): void {
     this.#hold = null;
-    this.#options.hand.cancelTurn();
-    this.#options.hand.cancelPlacing();
+    this.#options.branch.cancelTurn();
+    this.#options.branch.cancelPlacing();
   }
 
   hover(x: number, y: number): void {
-    if (this.#options.hand.placing.peek() !== null && this.#hold === null) {
+    if (this.#options.branch.placing.peek() !== null && this.#hold === null) {
       this.#search({ met: null, aiming: false }, { x, y });
     }
   }
 
   leave(): void {
     if (this.#hold === null) {
-      this.#options.hand.hide();
+      this.#options.branch.hide();
     }
   }
 
   release(): boolean {
-    const { hand } = this.#options;
-    if (hand.placing.peek() !== null) {
-      hand.cancelPlacing();
+    const { branch } = this.#options;
+    if (branch.placing.peek() !== null) {
+      branch.cancelPlacing();
       return true;
     }
-    const held = hand.row.peek() !== null;
-    hand.release();
+    const held = branch.row.peek() !== null;
+    branch.release();
     return held;
   }
 
@@ -253,8 +253,8 @@ export class BranchTool implements GripTool {
   /** The branch begins to turn, if it has not yet. */
   #lift({ finger }: Turn): void {
     finger.moved = true;
-    if (!this.#options.hand.turning.peek()) {
-      this.#options.hand.beginTurn();
+    if (!this.#options.branch.turning.peek()) {
+      this.#options.branch.beginTurn();
     }
   }
 
@@ -268,39 +268,39 @@ export class BranchTool implements GripTool {
   #between(a: Spot, b: Spot, c: Spot, d: Spot): number {
     const turn = Math.atan2(b.y - a.y, b.x - a.x) - Math.atan2(d.y - c.y, d.x - c.x);
     const near = Math.atan2(Math.sin(turn), Math.cos(turn));
-    const { hand, view } = this.#options;
-    const { right, up } = view.drawingPlane(hand.base() ?? [0, 0, 0]);
+    const { branch, view } = this.#options;
+    const { right, up } = view.drawingPlane(branch.base() ?? [0, 0, 0]);
     // A branch that points away from the eye is seen from below: there, turning it the same way looks opposite.
-    return dot(hand.heading(), cross(right, up)) < 0 ? -near : near;
+    return dot(branch.heading(), cross(right, up)) < 0 ? -near : near;
   }
 
   #show({ rolled, twist }: Turn): void {
-    const { hand } = this.#options;
-    hand.turn(after(rolled, about(hand.heading(), twist)));
+    const { branch } = this.#options;
+    branch.turn(after(rolled, about(branch.heading(), twist)));
   }
 
   /** Finds the limb under the finger; away from it, which way the branch shall point. */
   #search(search: Search, { x, y }: Spot): void {
-    const { view, hand } = this.#options;
+    const { view, branch } = this.#options;
     const { met } = search;
     search.aiming ||= met !== null && Math.hypot(x - met.x, y - met.y) > AIMS_FROM;
     if (!search.aiming) {
       const picked = view.pick(x, y, PICK_TOLERANCE);
-      if (picked && hand.mayBear(picked.row)) {
+      if (picked && branch.mayBear(picked.row)) {
         search.met = { x: met?.x ?? x, y: met?.y ?? y, onto: picked.row };
       }
     }
-    const base = hand.base();
+    const base = branch.base();
     const place = base && view.pointOnPlane(x, y, base);
     if (search.met) {
-      hand.showOn(search.met.onto, search.aiming ? place : null);
+      branch.showOn(search.met.onto, search.aiming ? place : null);
     } else if (place) {
-      hand.showAt(place);
+      branch.showAt(place);
     }
   }
 
   #onRing({ x, y }: Spot): boolean {
-    const base = this.#options.hand.base();
+    const base = this.#options.branch.base();
     const place = base && this.#options.view.projector()(base);
     return place != null && Math.hypot(x - place[0], y - place[1]) < RING;
   }

@@ -7,7 +7,7 @@ import type { Command } from "../../../wire/generated";
 import type { Key } from "../../words/say";
 import { PruneRule } from "../prune/prune-rule";
 import { GhostStage } from "./ghost-stage";
-import { BranchHand } from "./held-branch";
+import { HeldBranch } from "./held-branch";
 import { Prediction } from "./prediction";
 
 export interface BranchWorkOptions {
@@ -31,7 +31,7 @@ export interface BranchWorkOptions {
 export class BranchWork {
   readonly ghosts: GhostStage;
   readonly prediction: Prediction;
-  readonly hand: BranchHand;
+  readonly held: HeldBranch;
   #options: BranchWorkOptions;
   #stopMarking = () => {};
 
@@ -48,7 +48,7 @@ export class BranchWork {
       end: (becoming) => this.ghosts.endBeside(becoming),
       tell: say,
     });
-    this.hand = new BranchHand({
+    this.held = new HeldBranch({
       rows: table,
       submit,
       newGesture,
@@ -72,26 +72,26 @@ export class BranchWork {
   /** The branch that is held goes to the limb that is tapped next, or a copy of it. */
   place(mode: "move" | "copy"): void {
     this.prediction.discard();
-    this.hand.beginPlacing(mode);
+    this.held.beginPlacing(mode);
   }
 
   /** Turns it by a little: sideways and up on the screen, or about itself; false if none is held. */
   step(right: number, up: number, twist: number): boolean {
-    return this.hand.step(right, up, twist, this.#options.screen(), performance.now());
+    return this.held.step(right, up, twist, this.#options.screen(), performance.now());
   }
 
   /** Cuts it off. */
   cut(): void {
-    const row = this.hand.row.peek();
+    const row = this.held.row.peek();
     if (row !== null) {
-      this.hand.release();
+      this.held.release();
       this.#options.cut([row]);
     }
   }
 
   /** Shows what would become of the tree without it. */
-  foresee(): void {
-    const row = this.hand.row.peek();
+  predictCut(): void {
+    const row = this.held.row.peek();
     if (row !== null) {
       this.predict([row]);
     }
@@ -99,7 +99,7 @@ export class BranchWork {
 
   /** Shows what would become of the tree without the branches at these rows. */
   predict(rows: readonly number[]): void {
-    this.hand.cancelPlacing();
+    this.held.cancelPlacing();
     this.prediction.ask(rows);
   }
 
@@ -108,13 +108,13 @@ export class BranchWork {
     if (command === undefined) {
       this.prediction.refused();
     } else if (command.kind === "turn_branch" || command.kind === "graft") {
-      this.hand.refused();
+      this.held.refused();
     }
   }
 
   /** Another session: nothing that was held is there. */
   clear(): void {
     this.prediction.lost();
-    this.hand.release();
+    this.held.release();
   }
 }

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../../../test/sample-tree";
-import type { Bent } from "../../../scene/overlay/bend-overlay";
+import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { GhostPose } from "../../../scene/overlay/ghost";
-import type { Guise } from "../../../scene/overlay/overlays";
+import type { Overlay } from "../../../scene/overlay/overlays";
 import { TreeTable } from "../../../scene/table/tree-table";
 import type { Viewport } from "../../../scene/viewport";
 import { about } from "./branch-turn";
@@ -16,7 +16,7 @@ function tree(height: number): TreeTable {
 
 function setUp(right: readonly [number, number, number] = [1, 0, 0]) {
   const table = tree(10);
-  const seen = { pose: null as GhostPose | null, shown: false, framed: 0, unframed: 0, worn: new Set<Guise>() };
+  const seen = { pose: null as GhostPose | null, shown: false, fitted: 0, restored: 0, overlays: new Set<Overlay>() };
   const view = {
     drawingPlane: () => ({ origin: [0, 0, 0], right, up: [0, 1, 0] }),
     showGhost: (plants: TreeTable | null) => {
@@ -25,15 +25,15 @@ function setUp(right: readonly [number, number, number] = [1, 0, 0]) {
     placeGhost: (pose: GhostPose) => {
       seen.pose = pose;
     },
-    frameTree: () => {
-      seen.framed += 1;
+    fitTree: () => {
+      seen.fitted += 1;
     },
-    unframe: () => {
-      seen.unframed += 1;
+    restoreView: () => {
+      seen.restored += 1;
     },
-    wear: (guise: Guise) => seen.worn.add(guise),
-    doff: (guise: Guise) => seen.worn.delete(guise),
-    guiseChanged: () => {},
+    addOverlay: (overlay: Overlay) => seen.overlays.add(overlay),
+    removeOverlay: (overlay: Overlay) => seen.overlays.delete(overlay),
+    overlayChanged: () => {},
   } as unknown as Viewport;
   const stage = new GhostStage(table);
   stage.attach(view);
@@ -64,21 +64,21 @@ describe("a prediction beside the tree", () => {
     stage.showBeside(tree(12));
     const first = seen.pose?.to;
     stage.showBeside(tree(16));
-    expect([seen.pose?.to, seen.framed]).toEqual([first, 1]);
+    expect([seen.pose?.to, seen.fitted]).toEqual([first, 1]);
     stage.endBeside(null);
-    expect([seen.shown, seen.unframed, stage.beside.peek()]).toEqual([false, 1, null]);
+    expect([seen.shown, seen.restored, stage.beside.peek()]).toEqual([false, 1, null]);
   });
 });
 
 describe("a branch that is turned", () => {
-  it("is worn about its base, and taken off", () => {
+  it("is shown about its base, and removed", () => {
     const { stage, table, seen } = setUp();
     const row = 5;
     const base = [0, 1, 2].map((axis) => table.position[3 * table.parent[row]! + axis]!) as [number, number, number];
     stage.showTurn({ row, rotation: about([0, 0, 1], 1), about: base });
     stage.showTurn({ row, rotation: about([0, 0, 1], 1.2), about: base });
-    expect([...seen.worn].map((guise) => (guise as Bent).path)).toEqual([[row]]);
+    expect([...seen.overlays].map((overlay) => (overlay as BendOverlay).path)).toEqual([[row]]);
     stage.showTurn(null);
-    expect(seen.worn.size).toBe(0);
+    expect(seen.overlays.size).toBe(0);
   });
 });

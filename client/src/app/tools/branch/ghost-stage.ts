@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
-import { Bent } from "../../../scene/overlay/bend-overlay";
-import { Felled } from "../../../scene/overlay/cut-overlay";
+import { BendOverlay } from "../../../scene/overlay/bend-overlay";
+import { CutOverlay } from "../../../scene/overlay/cut-overlay";
 import type { GhostPose } from "../../../scene/overlay/ghost";
 import { subtreeRows } from "../../../scene/table/branch-rows";
 import type { TreeTable } from "../../../scene/table/tree-table";
@@ -23,9 +23,9 @@ export class GhostStage {
   readonly beside = signal<Vec3 | null>(null);
   #table: TreeTable;
   #view: Viewport | null = null;
-  #turn: { readonly guise: Bent; readonly row: number; readonly rest: Vec3 } | null = null;
+  #turn: { readonly overlay: BendOverlay; readonly row: number; readonly rest: Vec3 } | null = null;
   #copied: number | null = null;
-  #marked: Felled | null = null;
+  #marked: CutOverlay | null = null;
 
   constructor(table: TreeTable) {
     this.#table = table;
@@ -46,11 +46,11 @@ export class GhostStage {
   /** Marks the branches that begin with these rows as what is cut off, and no others. */
   mark(cuts: readonly number[]): void {
     if (this.#marked) {
-      this.#view?.doff(this.#marked);
+      this.#view?.removeOverlay(this.#marked);
     }
-    this.#marked = cuts.length > 0 ? new Felled(cuts, "marked") : null;
+    this.#marked = cuts.length > 0 ? new CutOverlay(cuts, "marked") : null;
     if (this.#marked) {
-      this.#view?.wear(this.#marked);
+      this.#view?.addOverlay(this.#marked);
     }
   }
 
@@ -73,7 +73,7 @@ export class GhostStage {
     view.placeGhost({ turn: UNTURNED, from: [0, 0, 0], to });
     this.beside.value = to;
     if (first) {
-      view.frameTree(COVERED);
+      view.fitTree(COVERED);
     }
   }
 
@@ -83,9 +83,9 @@ export class GhostStage {
     const view = this.#view;
     view?.showGhost(null);
     if (becoming) {
-      view?.frameBox(becoming.bounds(), COVERED);
+      view?.fitBox(becoming.bounds(), COVERED);
     } else {
-      view?.unframe();
+      view?.restoreView();
     }
   }
 
@@ -108,7 +108,7 @@ export class GhostStage {
   showTurn(turn: TurnPreview | null): void {
     const view = this.#view;
     if (this.#turn && this.#turn.row !== turn?.row) {
-      view?.doff(this.#turn.guise);
+      view?.removeOverlay(this.#turn.overlay);
       this.#turn = null;
     }
     if (!turn || !view) {
@@ -118,12 +118,12 @@ export class GhostStage {
     if (!this.#turn) {
       const { position } = this.#table;
       const rest: Vec3 = [position[3 * row] ?? 0, position[3 * row + 1] ?? 0, position[3 * row + 2] ?? 0];
-      this.#turn = { guise: new Bent(this.#table, [row]), row, rest };
-      view.wear(this.#turn.guise);
+      this.#turn = { overlay: new BendOverlay(this.#table, [row]), row, rest };
+      view.addOverlay(this.#turn.overlay);
     }
     const [x, y, z] = turned(rotation, minus(this.#turn.rest, about));
-    this.#turn.guise.move([{ row, rotation, to: [x + about[0], y + about[1], z + about[2]] }]);
-    view.guiseChanged();
+    this.#turn.overlay.move([{ row, rotation, to: [x + about[0], y + about[1], z + about[2]] }]);
+    view.overlayChanged();
   }
 
   /** So far to the right that nothing of the two overlaps, as the camera stands now. */

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { GhostPose } from "../../../scene/overlay/ghost";
 import type { Command } from "../../../wire/generated";
 import { about, type Rotation, turned } from "./branch-turn";
-import { BranchHand, type TurnPreview } from "./held-branch";
+import { HeldBranch, type TurnPreview } from "./held-branch";
 
 /** A trunk of four metamers (1 to 4), a limb to the right on 2 (5 to 7) with a twig on 6 (8). */
 function tree() {
@@ -29,7 +29,7 @@ function setUp() {
   const copies: (GhostPose | null)[] = [];
   let gesture = 40;
   const world = { busy: false };
-  const hand = new BranchHand({
+  const held = new HeldBranch({
     rows,
     submit: (command) => sent.push(command),
     newGesture: () => {
@@ -48,7 +48,7 @@ function setUp() {
     }
     return command as Extract<Command, { kind: Kind }>;
   };
-  return { world, hand, rows, sent, turns, copies, last };
+  return { world, held, rows, sent, turns, copies, last };
 }
 
 const screen = { right: [1, 0, 0], up: [0, 1, 0] } as const;
@@ -63,89 +63,89 @@ afterEach(() => vi.useRealTimers());
 
 describe("taking a branch", () => {
   it("takes the whole axis first, then what is above the place", () => {
-    const { hand } = setUp();
-    expect(hand.take(7)).toBe(true);
-    expect(hand.row.peek()).toBe(5);
-    hand.take(6);
-    expect(hand.row.peek()).toBe(6);
-    hand.take(6);
-    expect(hand.row.peek()).toBe(5);
+    const { held } = setUp();
+    expect(held.take(7)).toBe(true);
+    expect(held.row.peek()).toBe(5);
+    held.take(6);
+    expect(held.row.peek()).toBe(6);
+    held.take(6);
+    expect(held.row.peek()).toBe(5);
   });
 
   it("takes a trunk only from the place up, and never as a whole", () => {
-    const { hand } = setUp();
-    hand.take(3);
-    expect(hand.row.peek()).toBe(3);
-    hand.release();
-    expect(hand.take(1)).toBe(false);
-    expect(hand.row.peek()).toBeNull();
+    const { held } = setUp();
+    held.take(3);
+    expect(held.row.peek()).toBe(3);
+    held.release();
+    expect(held.take(1)).toBe(false);
+    expect(held.row.peek()).toBeNull();
   });
 
   it("knows what is part of it, and where it stands", () => {
-    const { hand } = setUp();
-    hand.take(5);
-    expect([8, 7, 5, 4, 2].map((row) => hand.holds(row))).toEqual([true, true, true, false, false]);
-    expect(hand.base()).toEqual([0, 2, 0]);
-    expect(hand.heading()).toEqual([1, 0, 0]);
+    const { held } = setUp();
+    held.take(5);
+    expect([8, 7, 5, 4, 2].map((row) => held.holds(row))).toEqual([true, true, true, false, false]);
+    expect(held.base()).toEqual([0, 2, 0]);
+    expect(held.heading()).toEqual([1, 0, 0]);
   });
 
   it("lets go of a branch that someone has cut", () => {
-    const { hand, rows } = setUp();
-    hand.take(5);
-    expect(hand.keep()).toBe(true);
+    const { held, rows } = setUp();
+    held.take(5);
+    expect(held.keep()).toBe(true);
     rows.radiusCode[5] = 0;
-    expect(hand.keep()).toBe(false);
-    expect(hand.row.peek()).toBeNull();
+    expect(held.keep()).toBe(false);
+    expect(held.row.peek()).toBeNull();
   });
 });
 
 describe("turning", () => {
   const quarter = about([0, 0, 1], Math.PI / 2);
 
-  it("is one command when the hand lets go", () => {
-    const { hand, sent, turns, last } = setUp();
-    hand.take(5);
-    hand.beginTurn();
-    hand.turn(about([0, 0, 1], 0.4));
-    hand.turn(quarter);
+  it("is one command when the held lets go", () => {
+    const { held, sent, turns, last } = setUp();
+    held.take(5);
+    held.beginTurn();
+    held.turn(about([0, 0, 1], 0.4));
+    held.turn(quarter);
     expect(sent).toEqual([]);
     expect(turns[turns.length - 1]).toEqual({ row: 5, rotation: quarter, about: [0, 2, 0] });
-    hand.endTurn();
+    held.endTurn();
     expect(last("turn_branch")).toEqual({ kind: "turn_branch", row: 5, rotation: [...quarter], gesture: 41 });
   });
 
   it("stays shown until the rows have it", () => {
-    const { hand, rows, turns } = setUp();
-    hand.take(5);
-    hand.beginTurn();
-    hand.turn(quarter);
-    hand.endTurn();
-    hand.keep();
+    const { held, rows, turns } = setUp();
+    held.take(5);
+    held.beginTurn();
+    held.turn(quarter);
+    held.endTurn();
+    held.keep();
     expect(turns[turns.length - 1]).not.toBeNull();
     rows.position.splice(15, 3, 0, 3, 0);
-    hand.keep();
+    held.keep();
     expect(turns[turns.length - 1]).toBeNull();
-    expect(hand.row.peek()).toBe(5);
+    expect(held.row.peek()).toBe(5);
   });
 
   it("that is refused or forgotten goes back", () => {
     for (const end of ["refused", "time"] as const) {
-      const { hand, turns } = setUp();
-      hand.take(5);
-      hand.beginTurn();
-      hand.turn(quarter);
-      hand.endTurn();
-      end === "refused" ? hand.refused() : vi.advanceTimersByTime(10_000);
+      const { held, turns } = setUp();
+      held.take(5);
+      held.beginTurn();
+      held.turn(quarter);
+      held.endTurn();
+      end === "refused" ? held.refused() : vi.advanceTimersByTime(10_000);
       expect(turns[turns.length - 1]).toBeNull();
     }
   });
 
   it("stays where it was turned to while the server has something else to grow first", () => {
-    const { hand, turns, world } = setUp();
-    hand.take(5);
-    hand.beginTurn();
-    hand.turn(quarter);
-    hand.endTurn();
+    const { held, turns, world } = setUp();
+    held.take(5);
+    held.beginTurn();
+    held.turn(quarter);
+    held.endTurn();
     world.busy = true;
     vi.advanceTimersByTime(60_000);
     expect(turns[turns.length - 1]).not.toBeNull();
@@ -155,92 +155,92 @@ describe("turning", () => {
   });
 
   it("by a hair is none, and a cancelled one neither", () => {
-    const { hand, sent } = setUp();
-    hand.take(5);
-    hand.beginTurn();
-    hand.turn(about([0, 0, 1], 0.001));
-    hand.endTurn();
-    hand.beginTurn();
-    hand.turn(quarter);
-    hand.cancelTurn();
-    hand.endTurn();
+    const { held, sent } = setUp();
+    held.take(5);
+    held.beginTurn();
+    held.turn(about([0, 0, 1], 0.001));
+    held.endTurn();
+    held.beginTurn();
+    held.turn(quarter);
+    held.cancelTurn();
+    held.endTurn();
     expect(sent).toEqual([]);
   });
 
   it("BR1: in steps of keys counts from before the first", () => {
-    const { hand, last } = setUp();
-    hand.take(5);
-    hand.step(-1, 0, 0, screen, 0);
+    const { held, last } = setUp();
+    held.take(5);
+    held.step(-1, 0, 0, screen, 0);
     const first = last("turn_branch");
-    hand.step(-1, 0, 0, screen, 200);
+    held.step(-1, 0, 0, screen, 200);
     const second = last("turn_branch");
     expect(second.gesture).toBe(first.gesture);
     near(turned(second.rotation as Rotation, [1, 0, 0]), [Math.cos(Math.PI / 18), Math.sin(Math.PI / 18), 0]);
-    hand.step(-1, 0, 0, screen, 9000);
+    held.step(-1, 0, 0, screen, 9000);
     expect(last("turn_branch").gesture).not.toBe(first.gesture);
     near(last("turn_branch").rotation, first.rotation);
   });
 
   it("about itself leaves where it points", () => {
-    const { hand, last } = setUp();
-    hand.take(5);
-    hand.step(0, 0, 1, screen, 0);
+    const { held, last } = setUp();
+    held.take(5);
+    held.step(0, 0, 1, screen, 0);
     near(turned(last("turn_branch").rotation as Rotation, [1, 0, 0]), [1, 0, 0]);
   });
 });
 
 describe("grafting", () => {
   it("stands to the new limb as it stood to the old one", () => {
-    const { hand, copies, last } = setUp();
-    hand.take(8);
-    hand.beginPlacing("copy");
-    hand.showOn(4, null);
+    const { held, copies, last } = setUp();
+    held.take(8);
+    held.beginPlacing("copy");
+    held.showOn(4, null);
     // The twig stood upright on a limb that goes to the right; on the trunk, which goes up, it points to the left.
     const pose = copies[copies.length - 1];
     expect(pose?.from).toEqual([2, 2, 0]);
     expect(pose?.to).toEqual([0, 4, 0]);
     near(turned(pose?.turn ?? [0, 0, 0, 1], [0, 1, 0]), [-1, 0, 0]);
-    expect(hand.graft()).toBe(true);
+    expect(held.graft()).toBe(true);
     expect(last("graft")).toMatchObject({ row: 8, onto: 4, keep: true });
     near(last("graft").rotation, pose?.turn ?? []);
   });
 
   it("points where the finger is", () => {
-    const { hand, copies } = setUp();
-    hand.take(5);
-    hand.beginPlacing("move");
-    hand.showOn(4, [0, 4, 9]);
+    const { held, copies } = setUp();
+    held.take(5);
+    held.beginPlacing("move");
+    held.showOn(4, [0, 4, 9]);
     // Its furthest end lies at the right of its base.
     near(turned(copies[copies.length - 1]?.turn ?? [0, 0, 0, 1], [1, 0, 0]), [0, 0, 1]);
   });
 
   it("BR2: sets no branch on itself, nor a copy of it", () => {
-    const { hand } = setUp();
-    hand.take(5);
+    const { held } = setUp();
+    held.take(5);
     for (const mode of ["move", "copy"] as const) {
-      hand.beginPlacing(mode);
-      expect([5, 7, 8, 2, 4].map((row) => hand.mayBear(row))).toEqual([false, false, false, true, true]);
+      held.beginPlacing(mode);
+      expect([5, 7, 8, 2, 4].map((row) => held.mayBear(row))).toEqual([false, false, false, true, true]);
     }
   });
 
   it("needs a limb", () => {
-    const { hand, sent } = setUp();
-    hand.take(5);
-    hand.beginPlacing("move");
-    hand.showAt([5, 5, 0]);
-    expect(hand.graft()).toBe(false);
+    const { held, sent } = setUp();
+    held.take(5);
+    held.beginPlacing("move");
+    held.showAt([5, 5, 0]);
+    expect(held.graft()).toBe(false);
     expect(sent).toEqual([]);
-    expect(hand.placing.peek()).toBe("move");
+    expect(held.placing.peek()).toBe("move");
   });
 
   it("shows the copy until its rows have come, and then holds them", () => {
-    const { hand, rows, copies } = setUp();
-    hand.take(5);
-    hand.beginPlacing("move");
-    hand.showOn(4, null);
-    hand.graft();
-    hand.keep();
-    hand.hide();
+    const { held, rows, copies } = setUp();
+    held.take(5);
+    held.beginPlacing("move");
+    held.showOn(4, null);
+    held.graft();
+    held.keep();
+    held.hide();
     expect(copies[copies.length - 1]).not.toBeNull();
     rows.rows = 10;
     rows.parent.push(4);
@@ -248,8 +248,8 @@ describe("grafting", () => {
     rows.radiusCode.push(100);
     rows.radiusCode[5] = 0;
     rows.position.push(1, 5, 0);
-    expect(hand.keep()).toBe(true);
+    expect(held.keep()).toBe(true);
     expect(copies[copies.length - 1]).toBeNull();
-    expect(hand.row.peek()).toBe(9);
+    expect(held.row.peek()).toBe(9);
   });
 });

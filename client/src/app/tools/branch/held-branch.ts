@@ -62,7 +62,7 @@ export interface BranchHandOptions {
 }
 
 /** The branch that is held, to be turned about its base or to be carried to another limb. */
-export class BranchHand {
+export class HeldBranch {
   /** The row the branch begins with. */
   readonly row = signal<number | null>(null);
   readonly turning = signal(false);
@@ -161,7 +161,7 @@ export class BranchHand {
     return row === null || !base ? [0, 1, 0] : minus(placeOf(this.#options.rows, row), base);
   }
 
-  /** The hand begins to turn it. */
+  /** The user begins to turn it. */
   beginTurn(): void {
     this.#settle();
     this.turning.value = true;
@@ -169,7 +169,7 @@ export class BranchHand {
     this.#gesture = this.#options.newGesture();
   }
 
-  /** It is turned so far, counted from where it was when the hand began. */
+  /** It is turned so far, counted from where it was when the user began. */
   turn(rotation: Rotation): void {
     const [row, base] = [this.row.peek(), this.base()];
     if (row !== null && base && this.turning.peek()) {
@@ -178,7 +178,7 @@ export class BranchHand {
     }
   }
 
-  /** The hand lets go: the branch stays as it is shown. */
+  /** The user lets go: the branch stays as it is shown. */
   endTurn(): void {
     const row = this.row.peek();
     if (!this.turning.peek()) {
@@ -194,7 +194,7 @@ export class BranchHand {
     this.#options.submit({ kind: "turn_branch", row, rotation: [x, y, z, w], gesture: this.#gesture });
   }
 
-  /** The branch goes back to where it was before the hand began. */
+  /** The branch goes back to where it was before the user began. */
   cancelTurn(): void {
     if (this.turning.peek()) {
       this.turning.value = false;

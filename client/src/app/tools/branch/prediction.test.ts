@@ -10,7 +10,7 @@ function setUp({ endsWithCommands = false } = {}) {
   const submitted: Command[] = [];
   const shown: (number | null)[] = [];
   const became: (number | null)[] = [];
-  const told: string[] = [];
+  const said: string[] = [];
   const server = { there: true };
   const prediction: Prediction = new Prediction({
     cutsOf: (rows) => rows.filter((row) => row !== 1),
@@ -33,9 +33,9 @@ function setUp({ endsWithCommands = false } = {}) {
       shown.push(null);
       became.push(becoming?.rows ?? null);
     },
-    tell: (text) => told.push(text),
+    tell: (text) => said.push(text),
   });
-  return { prediction, asked, submitted, shown, became, told, server };
+  return { prediction, asked, submitted, shown, became, said, server };
 }
 
 const { changes } = sampleTree({ seed: 3, height: 6, orders: 2 });
@@ -159,16 +159,16 @@ describe("a prediction", () => {
   });
 
   it("does not ask what becomes of a tree without its trunk", () => {
-    const { prediction, told, asked } = setUp();
+    const { prediction, said, asked } = setUp();
     prediction.ask([1]);
-    expect([asked, told.length, prediction.rows.peek()]).toEqual([[], 1, null]);
+    expect([asked, said.length, prediction.rows.peek()]).toEqual([[], 1, null]);
   });
 
   it("says when there is nobody to ask", () => {
-    const { prediction, told, server } = setUp();
+    const { prediction, said, server } = setUp();
     server.there = false;
     prediction.ask([5]);
-    expect(told).toHaveLength(1);
+    expect(said).toHaveLength(1);
     expect(prediction.rows.peek()).toBeNull();
   });
 });

@@ -8,12 +8,12 @@ describe("outline trace", () => {
     trace.draw(null);
     expect(trace.shown.value).toBeNull();
     trace.grow([[0, 0, 0]], 7);
-    trace.told(6, 0);
+    trace.progressed(6, 0);
     expect(trace.shown.value, "the server does not know of it yet").not.toBeNull();
-    trace.told(7, 1);
-    trace.told(9, 3);
+    trace.progressed(7, 1);
+    trace.progressed(9, 3);
     expect(trace.shown.value?.stage).toBe("growing");
-    trace.told(9, 0);
+    trace.progressed(9, 0);
     expect(trace.shown.value).toBeNull();
   });
 
@@ -21,18 +21,18 @@ describe("outline trace", () => {
     const trace = new OutlineTrace();
     trace.grow([[0, 0, 0]], 1);
     trace.draw([[5, 5]]);
-    trace.told(9, 0);
+    trace.progressed(9, 0);
     expect(trace.shown.value?.stage).toBe("drawing");
   });
 
-  it("quick growth may be told of before its command is acknowledged", () => {
+  it("quick growth may end before its command is acknowledged", () => {
     const trace = new OutlineTrace();
-    trace.told(3, 0);
+    trace.progressed(3, 0);
     trace.grow([[0, 0, 0]], 4);
     trace.settled(4);
-    expect(trace.shown.value?.stage, "nothing was told since").toBe("growing");
+    expect(trace.shown.value?.stage, "no message since").toBe("growing");
     trace.grow([[0, 0, 0]], 5);
-    trace.told(4, 0);
+    trace.progressed(4, 0);
     trace.settled(5);
     expect(trace.shown.value).toBeNull();
   });

@@ -12,7 +12,7 @@ export class OutlineTrace {
   readonly shown = signal<Outline | null>(null);
   /** The number of the command that grows it. */
   #command = 0;
-  /** How many steps were left when the server last told since it was sent. */
+  /** The steps left, by the last message of the server after the command was sent. */
   #left: number | null = null;
 
   draw(points: readonly Point2[] | null): void {
@@ -25,13 +25,13 @@ export class OutlineTrace {
     this.#left = null;
   }
 
-  /** The server has told how things stand: all commands up to `settled` are taken, so many steps are left. */
-  told(settled: number, pendingSteps: number): void {
+  /** All commands up to `settled` are answered, and so many steps are left to grow. */
+  progressed(settled: number, pendingSteps: number): void {
     this.#left = pendingSteps;
     this.settled(settled);
   }
 
-  /** All commands up to `settled` are taken. Quick growth is told of before its command is acknowledged. */
+  /** All commands up to `settled` are answered. Growth that is quick ends before its command is acknowledged. */
   settled(settled: number): void {
     if (this.shown.peek()?.stage === "growing" && settled >= this.#command && this.#left === 0) {
       this.clear();

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Felled } from "../../../scene/overlay/cut-overlay";
+import type { CutOverlay } from "../../../scene/overlay/cut-overlay";
 import type { Command } from "../../../wire/generated";
 import { CutLine } from "./cut-line";
 import { PruneRule } from "./prune-rule";
@@ -14,7 +14,7 @@ function setUp(limits: readonly number[] = []) {
   const view = frontView(table);
   const sent: Command[] = [];
   const said: string[] = [];
-  const foreseen: (readonly number[])[] = [];
+  const predicted: (readonly number[])[] = [];
   const world = { unsettled: 0 };
   const tool = new PruneTool({
     table,
@@ -23,15 +23,16 @@ function setUp(limits: readonly number[] = []) {
     unsettled: () => world.unsettled,
     limits: () => new Set(limits),
     say: (sentence) => void said.push(sentence),
-    predict: (rows) => void foreseen.push(rows),
+    predict: (rows) => void predicted.push(rows),
   });
   const draw = (...points: (readonly [number, number])[]) => {
     const [first, ...rest] = points.map(([x, y]) => ({ x, y, pressure: null }));
     tool.begin(first!);
     tool.move(rest);
   };
-  const looks = () => [...view.worn].map((guise) => [(guise as Felled).look, ...(guise as Felled).rows]);
-  return { table, view, tool, sent, said, foreseen, world, draw, looks };
+  const looks = () =>
+    [...view.overlays].map((overlay) => [(overlay as CutOverlay).look, ...(overlay as CutOverlay).rows]);
+  return { table, view, tool, sent, said, predicted, world, draw, looks };
 }
 
 describe("PR1: where a branch comes off", () => {
@@ -131,14 +132,14 @@ describe("shears", () => {
     expect([tool.cutAt(900, 100), sent.length]).toEqual([false, 1]);
   });
 
-  it("that foresee cut nothing, by tap or by line", () => {
-    const { tool, sent, foreseen, draw, looks } = setUp();
-    tool.foresees.value = true;
+  it("in prediction mode cut nothing, by tap or by line", () => {
+    const { tool, sent, predicted, draw, looks } = setUp();
+    tool.predicts.value = true;
     draw([602, 700]);
     tool.end();
     draw([650, 800], [650, 600], [750, 550], [450, 550], [450, 650]);
     tool.end();
-    expect([sent, foreseen, looks()]).toEqual([[], [[6], [4, 6, 12]], []]);
+    expect([sent, predicted, looks()]).toEqual([[], [[6], [4, 6, 12]], []]);
     tool.cut([6]);
     expect(sent, "the menu of a branch cuts all the same").toHaveLength(1);
   });
@@ -164,16 +165,16 @@ describe("shears", () => {
     const { table, tool, view, world, looks } = setUp();
     tool.cutAt(700, 700);
     world.unsettled = 1;
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(5000);
     expect(looks(), "as long as the server has not answered").toEqual([["hidden", 6]]);
     tableOf(
       SMALL.map((twig, row) => (row >= 6 && row <= 11 ? { ...twig, dead: true } : twig)),
       table,
     );
-    view.worn.clear();
+    view.overlays.clear();
     world.unsettled = 0;
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(5000);
     expect(looks()).toEqual([]);
   });
@@ -181,7 +182,7 @@ describe("shears", () => {
   it("what was answered and is still there was not cut", () => {
     const { tool, looks } = setUp();
     tool.cutAt(700, 700);
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(5000);
     expect(looks()).toEqual([]);
   });

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { Felled } from "../../../scene/overlay/cut-overlay";
+import { CutOverlay } from "../../../scene/overlay/cut-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_PRUNED_ROWS } from "../../../wire/generated";
@@ -40,15 +40,15 @@ export class PruneTool implements StrokeTool {
   /** The line as it is drawn. */
   readonly line = signal<readonly (readonly [number, number])[] | null>(null);
   /** Whether what the shears are at is not cut, but shown as it would be without. */
-  readonly foresees = signal(false);
+  readonly predicts = signal(false);
   /** How many branches the shears are at. */
   readonly marked = signal(0);
 
   #options: PruneOptions;
   #cutting: Cutting | null = null;
-  #mark: Felled | null = null;
+  #mark: CutOverlay | null = null;
   /** What is cut and not yet gone from the table. */
-  #falling = new Set<Felled>();
+  #falling = new Set<CutOverlay>();
 
   constructor(options: PruneOptions) {
     this.#options = options;
@@ -94,7 +94,7 @@ export class PruneTool implements StrokeTool {
     const tapped = cutting.length < TAP ? this.#options.view.pick(first[0], first[1], PICK_TOLERANCE) : null;
     const rows = cutting.crossed.size > 0 ? [...cutting.crossed] : tapped ? [tapped.row] : [];
     if (rows.length > 0) {
-      this.foresees.peek() ? this.#foresee(cutting.rule, rows) : this.#cut(cutting.rule, rows);
+      this.predicts.peek() ? this.#predict(cutting.rule, rows) : this.#cut(cutting.rule, rows);
     }
   }
 
@@ -150,16 +150,16 @@ export class PruneTool implements StrokeTool {
   /** The server would not cut: what was hidden is there again. */
   refused(): void {
     for (const felled of this.#falling) {
-      this.#options.view.doff(felled);
+      this.#options.view.removeOverlay(felled);
     }
     this.#falling.clear();
   }
 
-  told(): void {
+  changed(): void {
     const { table, view, unsettled } = this.#options;
     const waiting = unsettled("prune") + unsettled("prune_dim") > 0;
     for (const felled of this.#falling) {
-      if (!view.wears(felled) || felled.over(table)) {
+      if (!view.hasOverlay(felled) || felled.over(table)) {
         this.#falling.delete(felled);
       } else if (!waiting) {
         this.#linger(felled);
@@ -168,15 +168,15 @@ export class PruneTool implements StrokeTool {
   }
 
   /** Branches whose cut is answered are gone with the next rows; if not, they were not cut after all. */
-  #linger(felled: Felled): void {
+  #linger(felled: CutOverlay): void {
     setTimeout(() => {
       if (this.#falling.delete(felled)) {
-        this.#options.view.doff(felled);
+        this.#options.view.removeOverlay(felled);
       }
     }, LINGERS);
   }
 
-  #foresee(rule: PruneRule, rows: readonly number[]): void {
+  #predict(rule: PruneRule, rows: readonly number[]): void {
     const cuts = rule.cutsAtAll(rows);
     cuts.length > 0 ? this.#options.predict(cuts.slice(0, MAX_PRUNED_ROWS)) : this.#options.say(TRUNK_STAYS);
   }
@@ -195,9 +195,9 @@ export class PruneTool implements StrokeTool {
   }
 
   #fell(cuts: readonly number[]): void {
-    const felled = new Felled(cuts, "hidden");
+    const felled = new CutOverlay(cuts, "hidden");
     this.#falling.add(felled);
-    this.#options.view.wear(felled);
+    this.#options.view.addOverlay(felled);
   }
 
   #show(cuts: readonly number[]): void {
@@ -206,11 +206,11 @@ export class PruneTool implements StrokeTool {
       return;
     }
     if (this.#mark) {
-      this.#options.view.doff(this.#mark);
+      this.#options.view.removeOverlay(this.#mark);
     }
-    this.#mark = cuts.length > 0 ? new Felled(cuts, "marked") : null;
+    this.#mark = cuts.length > 0 ? new CutOverlay(cuts, "marked") : null;
     if (this.#mark) {
-      this.#options.view.wear(this.#mark);
+      this.#options.view.addOverlay(this.#mark);
     }
   }
 

@@ -6,7 +6,7 @@ import { SeedTool } from "./seed-tool";
 /** Ground below pixel 500; a pixel is a tenth of an internode. */
 function setUp() {
   const sent: Command[] = [];
-  const told: string[] = [];
+  const calls: string[] = [];
   let shown: Vec3 | null = null;
   const tool = new SeedTool({
     groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
@@ -14,41 +14,41 @@ function setUp() {
     show: (place) => {
       shown = place;
     },
-    planted: () => told.push("planted"),
-    missed: () => told.push("missed"),
+    planted: () => calls.push("planted"),
+    missed: () => calls.push("missed"),
   });
-  return { tool, sent, told, shown: () => shown };
+  return { tool, sent, calls, shown: () => shown };
 }
 
 const at = (x: number, y: number) => ({ x, y, pressure: null });
 
 describe("seed tool", () => {
   it("plants where the finger lifts, once", () => {
-    const { tool, sent, told, shown } = setUp();
+    const { tool, sent, calls, shown } = setUp();
     tool.begin(at(100, 600));
     tool.move([at(150, 700), at(200, 800)]);
     expect([sent, shown()]).toEqual([[], [20, 0, 80]]);
     tool.end();
     tool.end();
     expect(sent).toEqual([{ kind: "plant_seed", position: [20, 0, 80] }]);
-    expect([told, shown()]).toEqual([["planted"], null]);
+    expect([calls, shown()]).toEqual([["planted"], null]);
   });
 
   it("plants nothing in the sky", () => {
-    const { tool, sent, told } = setUp();
+    const { tool, sent, calls } = setUp();
     tool.begin(at(100, 600));
     tool.move([at(100, 400)]);
     tool.end();
-    expect([sent, told]).toEqual([[], ["missed"]]);
+    expect([sent, calls]).toEqual([[], ["missed"]]);
   });
 
   it("a finger that was cancelled plants nothing", () => {
-    const { tool, sent, told } = setUp();
+    const { tool, sent, calls } = setUp();
     tool.begin(at(100, 600));
     tool.abandon();
     tool.move([at(100, 700)]);
     tool.end();
-    expect([sent, told]).toEqual([[], []]);
+    expect([sent, calls]).toEqual([[], []]);
   });
 
   it("LM2: stays within reach", () => {

@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
-import type { Swollen } from "../../../scene/overlay/width-overlay";
+import type { WidthOverlay } from "../../../scene/overlay/width-overlay";
 import type { Command } from "../../../wire/generated";
 import { WidthTool } from "./width-tool";
 
@@ -27,7 +27,7 @@ function setUp() {
 }
 
 const diameters = (sent: Command[]) => sent.map((command) => (command.kind === "set_width" ? command.diameter : null));
-const drawn = (worn: Set<unknown>) => [...worn].map((guise) => (guise as Swollen).diameter);
+const drawn = (overlays: Set<unknown>) => [...overlays].map((overlay) => (overlay as WidthOverlay).diameter);
 
 describe("widening", () => {
   it("two fingers pinch around a limb and scale it", () => {
@@ -39,7 +39,7 @@ describe("widening", () => {
     expect([tool.chosen.value, sent]).toEqual([7, []]);
     tool.gripMove(1, x - 60, y);
     tool.gripMove(2, x + 60, y);
-    expect(drawn(view.worn)).toEqual([Number((1.5 * before).toPrecision(3))]);
+    expect(drawn(view.overlays)).toEqual([Number((1.5 * before).toPrecision(3))]);
     tool.tick();
     tool.gripMove(2, x + 100, y);
     tool.gripEnd(2);
@@ -110,25 +110,25 @@ describe("what is shown", () => {
     tool.choose(7);
     tool.type(1);
     world.unsettled = 1;
-    tool.told();
+    tool.changed();
     vi.advanceTimersByTime(9000);
-    expect([tool.wanted.value, drawn(view.worn)]).toEqual([1, [1]]);
+    expect([tool.wanted.value, drawn(view.overlays)]).toEqual([1, [1]]);
     world.unsettled = 0;
     tableOf(
       SMALL.map((twig, row) => (row === 7 ? { ...twig, radius: 0.5 } : twig)),
       table,
     );
-    tool.told();
-    expect([tool.wanted.value, view.worn.size]).toEqual([null, 0]);
+    tool.changed();
+    expect([tool.wanted.value, view.overlays.size]).toEqual([null, 0]);
   });
 
   it("gives way where the server made something else of it", () => {
     const { tool, view } = setUp();
     tool.choose(7);
     tool.type(50);
-    expect(view.worn.size).toBe(1);
+    expect(view.overlays.size).toBe(1);
     vi.advanceTimersByTime(9000);
-    expect([tool.wanted.value, view.worn.size]).toEqual([null, 0]);
+    expect([tool.wanted.value, view.overlays.size]).toEqual([null, 0]);
   });
 
   it("a limb gets no slimmer than what it bears is held to be", () => {
@@ -136,7 +136,7 @@ describe("what is shown", () => {
     tool.receive([{ row: 8, diameter: 1.2, effective: 1.2 }]);
     tool.choose(7);
     tool.type(0.2);
-    expect(drawn(view.worn)).toEqual([1.2]);
+    expect(drawn(view.overlays)).toEqual([1.2]);
   });
 
   it("a width is removed, and one that was never set sends nothing", () => {
@@ -205,10 +205,10 @@ describe("what is shown", () => {
     tool.tick();
     expect(tool.release()).toBe(true);
     expect(diameters(sent).at(-1), "it was not set before").toBe(null);
-    expect([tool.chosen.value, view.worn.size]).toEqual([7, 0]);
+    expect([tool.chosen.value, view.overlays.size]).toEqual([7, 0]);
     tool.pull(x + 120, y);
     tool.letGo();
-    expect(sent, "the hand that still pulls does nothing more").toHaveLength(2);
+    expect(sent, "the user that still pulls does nothing more").toHaveLength(2);
     expect([tool.release(), tool.chosen.value]).toEqual([true, null]);
   });
 
@@ -220,7 +220,7 @@ describe("what is shown", () => {
       SMALL.map((twig, row) => (row >= 6 && row <= 11 ? { ...twig, dead: true } : twig)),
       table,
     );
-    tool.told();
-    expect([tool.chosen.value, tool.wanted.value, view.worn.size]).toEqual([null, null, 0]);
+    tool.changed();
+    expect([tool.chosen.value, tool.wanted.value, view.overlays.size]).toEqual([null, null, 0]);
   });
 });

@@ -1,5 +1,5 @@
 import { computed, signal } from "@preact/signals";
-import { type Girth, Swollen } from "../../../scene/overlay/width-overlay";
+import { type Girth, WidthOverlay } from "../../../scene/overlay/width-overlay";
 import { axisRows, pathUp } from "../../../scene/table/branch-rows";
 import { radiusOf, type TreeTable } from "../../../scene/table/tree-table";
 import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";
@@ -64,14 +64,14 @@ export class WidthTool implements GripTool {
   readonly widths = signal<readonly WidthConstraint[]>([]);
   /** The place that has the ring. */
   readonly chosen = signal<number | null>(null);
-  /** How thick the hand wants it, until the server's rows have it. */
+  /** How thick the user wants it, until the server's rows have it. */
   readonly wanted = signal<number | null>(null);
   readonly limits = computed<ReadonlySet<number>>(() => new Set(this.widths.value.map(({ row }) => row)));
 
   #options: WidthOptions;
   #fingers = new Map<number, Finger>();
   #setting: Setting | null = null;
-  #guise: Swollen | null = null;
+  #overlay: WidthOverlay | null = null;
   #most = 0;
   #lingering: ReturnType<typeof setTimeout> | undefined;
 
@@ -188,7 +188,7 @@ export class WidthTool implements GripTool {
     if (setting?.unsent) {
       this.#send(setting);
     }
-    this.told();
+    this.changed();
   }
 
   /** A width that was typed. */
@@ -271,7 +271,7 @@ export class WidthTool implements GripTool {
     this.#forget();
   }
 
-  /** The limb is as thick as before it was taken in hand. */
+  /** The limb is as thick as before it was taken hold of. */
   cancel(): void {
     const setting = this.#setting;
     if (setting?.sent) {
@@ -283,7 +283,7 @@ export class WidthTool implements GripTool {
 
   release(): boolean {
     if (this.#setting) {
-      // The ring is in hand: what is most at hand is how far it was pulled.
+      // A ring is held: the first thing to undo is how far it was pulled.
       this.cancel();
       return true;
     }
@@ -302,7 +302,7 @@ export class WidthTool implements GripTool {
   }
 
   /** Has the limb drawn as the server has it, once it has what was wanted. */
-  told(): void {
+  changed(): void {
     const { table, unsettled } = this.#options;
     const row = this.chosen.peek();
     if (row !== null && (row >= table.rows || table.radiusCode[row] === 0)) {
@@ -337,22 +337,22 @@ export class WidthTool implements GripTool {
     const wanted = tidied(Math.min(MAX_DIAMETER, Math.max(setting.least, diameter)));
     this.wanted.value = wanted;
     setting.unsent = true;
-    if (this.#guise && view.wears(this.#guise)) {
-      this.#guise.diameter = wanted;
-      view.guiseChanged();
+    if (this.#overlay && view.hasOverlay(this.#overlay)) {
+      this.#overlay.diameter = wanted;
+      view.overlayChanged();
       return;
     }
     const others = new Set([...this.limits.peek()].filter((row) => row !== setting.row));
-    this.#guise = new Swollen(table, setting.row, others, girth(), wanted);
-    view.wear(this.#guise);
+    this.#overlay = new WidthOverlay(table, setting.row, others, girth(), wanted);
+    view.addOverlay(this.#overlay);
   }
 
   #forget(): void {
     clearTimeout(this.#lingering);
     this.wanted.value = null;
-    if (this.#guise) {
-      this.#options.view.doff(this.#guise);
-      this.#guise = null;
+    if (this.#overlay) {
+      this.#options.view.removeOverlay(this.#overlay);
+      this.#overlay = null;
     }
   }
 

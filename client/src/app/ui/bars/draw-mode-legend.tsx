@@ -3,14 +3,14 @@ import type { Legend } from "../../../scene/mode/draw-mode";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** What is to be learnt from a draw mode, and what its colours mean; nothing while the tree is simply lit. */
 export function DrawModeLegend({ studio }: { studio: Studio }) {
   const mode = studio.drawMode.value;
   const [legend, setLegend] = useState<Legend | null>(null);
   // The range follows the tree, which is brought up to date frame by frame.
-  useFrames(mode !== "lit", () => {
+  useAnimationFrames(mode !== "lit", () => {
     const now = studio.stage.legend();
     if (now?.mode !== legend?.mode || now?.range[0] !== legend?.range[0] || now?.range[1] !== legend?.range[1]) {
       setLegend(now);

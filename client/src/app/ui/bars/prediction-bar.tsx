@@ -5,7 +5,7 @@ import { FIRST_STEPS, MOST_STEPS } from "../../tools/branch/prediction";
 import { say } from "../../words/say";
 import { Slider } from "../controls/slider";
 import { stepsOf } from "../timeline/step-count";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** Branches and twigs of a cut that are marked; of a hundred branches each still gets its mark. */
 const MOST_MARKED = 64;
@@ -77,7 +77,7 @@ export function PredictionMarks({ studio }: { studio: Studio }) {
   // Each frame of rows may have moved them.
   const revision = studio.revision.value;
   const places = useMemo(() => cuts.slice(0, MOST_MARKED).map((row) => borneAt(studio, row)), [cuts, revision]);
-  useFrames(cuts.length > 0, () => {
+  useAnimationFrames(cuts.length > 0, () => {
     const project = studio.stage.projector();
     let [rings, strokes] = ["", ""];
     for (const [x, y, z] of places) {

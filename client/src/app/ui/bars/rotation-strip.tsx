@@ -1,39 +1,39 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** How far an arrow key turns, and how far a page key, in degrees. */
 const KEY_TURN = 5;
 const PAGE_TURN = 45;
-/** How long the ruler follows a view that a hand on the workspace may have turned, in milliseconds. */
+/** How long the ruler follows a view that the user may have turned on the workspace, in milliseconds. */
 const FOLLOWS = 800;
 
 const DEGREE = Math.PI / 180;
 
-/** A strip as long as one turn of the tree: one hand turns it here while the other draws. */
+/** A strip as long as one turn of the tree: one hand of the user turns it here while the other draws. */
 export function RotationStrip({ studio }: { studio: Studio }) {
   const strip = useRef<HTMLDivElement>(null);
-  const hand = useRef<{ readonly id: number; x: number } | null>(null);
+  const pointer = useRef<{ readonly id: number; x: number } | null>(null);
   const letGo = useRef(() => {});
   const [held, setHeld] = useState(false);
   const [followed, follow] = useFollowing();
   const [degrees, setDegrees] = useState(0);
 
-  useFrames(held || followed, () => {
+  useAnimationFrames(held || followed, () => {
     const { turned } = studio.stage;
     setDegrees(Math.round(turned / DEGREE));
     strip.current?.style.setProperty("--turns", String(turned / (2 * Math.PI)));
   });
-  // A strip that is hidden under the hand lets go of the tree.
+  // A strip that is hidden while it is dragged lets go of the tree.
   useEffect(() => () => letGo.current(), []);
   const turn = (by: number) => {
     studio.stage.turn(by * DEGREE);
     follow();
   };
   const release = (event: PointerEvent) => {
-    if (hand.current?.id === event.pointerId) {
-      hand.current = null;
+    if (pointer.current?.id === event.pointerId) {
+      pointer.current = null;
       setHeld(false);
       follow();
       letGo.current();
@@ -66,18 +66,18 @@ export function RotationStrip({ studio }: { studio: Studio }) {
       title={say("rotation.title")}
       data-held={held}
       onPointerDown={(event) => {
-        if (hand.current === null && event.button === 0) {
-          hand.current = { id: event.pointerId, x: event.clientX };
+        if (pointer.current === null && event.button === 0) {
+          pointer.current = { id: event.pointerId, x: event.clientX };
           event.currentTarget.setPointerCapture(event.pointerId);
           setHeld(true);
           letGo.current = studio.stage.hold();
         }
       }}
       onPointerMove={(event) => {
-        if (hand.current?.id === event.pointerId) {
+        if (pointer.current?.id === event.pointerId) {
           const width = event.currentTarget.clientWidth || 1;
-          studio.stage.turn(((event.clientX - hand.current.x) / width) * 2 * Math.PI);
-          hand.current.x = event.clientX;
+          studio.stage.turn(((event.clientX - pointer.current.x) / width) * 2 * Math.PI);
+          pointer.current.x = event.clientX;
         }
       }}
       onPointerUp={release}
@@ -97,7 +97,7 @@ export function RotationStrip({ studio }: { studio: Studio }) {
   );
 }
 
-/** Whether the view may be turning: for a while after a hand was on the page, and when asked to. */
+/** Whether the view may be turning: for a while after the user touched the page, and when asked to. */
 function useFollowing(): readonly [boolean, () => void] {
   const [followed, setFollowed] = useState(true);
   const timer = useRef(0);

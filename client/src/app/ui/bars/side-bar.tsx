@@ -27,7 +27,7 @@ const TOOLS: readonly ToolButton[] = [
   { tool: "seed", label: "bars.seed", title: "bars.seed.title", Icon: SeedIcon },
 ];
 
-/** The tools, at the side of the hand that does not draw. */
+/** The tools, at the side of the user that does not draw. */
 export function SideBar({ studio }: { studio: Studio }) {
   const document = studio.document.value;
   const small = isSmall();
@@ -65,9 +65,9 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
-          aria-label={say("bars.frame")}
-          title={say("bars.frame.title")}
-          onClick={() => studio.stage.frameTree()}
+          aria-label={say("bars.fit")}
+          title={say("bars.fit.title")}
+          onClick={() => studio.stage.fitTree()}
         >
           <FrameIcon />
         </button>
@@ -99,7 +99,7 @@ function Tools({ studio, chosen }: { studio: Studio; chosen?: () => void }) {
   );
 }
 
-/** Where there is no room for all tools: the one at hand, and the others a tap away. */
+/** Where there is no room for all tools: the chosen one, and the others a tap away. */
 function ToolMenu({ studio }: { studio: Studio }) {
   const host = useRef<HTMLDivElement>(null);
   const [open, setOpen] = useState(false);

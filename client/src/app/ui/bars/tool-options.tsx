@@ -6,7 +6,7 @@ import { Slider } from "../controls/slider";
 import { Switch } from "../controls/switch";
 import { CloseIcon } from "../icons";
 
-/** What the tool at hand can be told, in one line at the bottom. */
+/** The options of the chosen tool, in one line at the bottom. */
 export function ToolOptions({ studio }: { studio: Studio }) {
   const tool = studio.tools.chosen.value;
   if (studio.branches.prediction.rows.value !== null || studio.tools.shaping.value === null) {
@@ -122,11 +122,11 @@ function PruneOptions({ studio }: { studio: Studio }) {
       <Switch
         label={say("tools.what-if")}
         help={say("tools.what-if.help")}
-        value={prune?.foresees.value === true}
+        value={prune?.predicts.value === true}
         standard={false}
         onCommit={(on) => {
           if (prune) {
-            prune.foresees.value = on;
+            prune.predicts.value = on;
           }
         }}
       />

@@ -30,7 +30,7 @@ export function ColourField({ label, value, swatches, standard, help, onDrag, on
   const input = useRef<HTMLInputElement>(null);
   const latest = useRef(onCommit);
   latest.current = onCommit;
-  // Preact has one name for both events of a colour input; only the native one tells when the hand lets go.
+  // Preact has one name for both events of a colour input; only the native one tells when the user lets go.
   useEffect(() => {
     const element = input.current;
     const commit = () => {

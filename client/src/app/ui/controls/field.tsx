@@ -80,7 +80,7 @@ export function ResetButton({ name, onReset }: ResetProps) {
   );
 }
 
-/** What the hand sets things with; not where it types, for there the keys of a tablet would come up. */
+/** What the user sets things with; not where it types, for there the keys of a tablet would come up. */
 const CONTROL = 'input[type="range"], input[type="checkbox"], input[type="radio"]:checked, [role="slider"]';
 
 /** The control that a button stands beside, else the nearest other one. */

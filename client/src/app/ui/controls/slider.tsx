@@ -25,18 +25,18 @@ export interface SliderProps {
   readonly marks?: ComponentChildren;
   /** Another colouring of the track. */
   readonly track?: string;
-  /** The value as the hand moves it. */
+  /** The value as the user moves it. */
   readonly onDrag?: (value: number) => void;
   /** Another way back to the standard than to commit it. */
   readonly onReset?: () => void;
-  /** The value when the hand lets go, or one that was typed or reset. */
+  /** The value when the user lets go, or one that was typed or reset. */
   readonly onCommit: (value: number) => void;
 }
 
 /** A slider for one number, which can also be typed. */
 export function Slider(props: SliderProps) {
   const { label, symbol, unit = "", least, most, step, value, standard, help, disabled = false, marks, track } = props;
-  /** Where the hand has it; null while it rests. */
+  /** Where the user has it; null while it rests. */
   const [held, setHeld] = useState<number | null>(null);
   const open = useRef<number | null>(null);
   /** A key is down: its repeats are one drag. */
@@ -58,7 +58,7 @@ export function Slider(props: SliderProps) {
       latest.current.onCommit(to);
     }
   };
-  // What is taken away under the hand is let go.
+  // What is taken away under the pointer is let go.
   useEffect(
     () => () => {
       if (open.current !== null) {

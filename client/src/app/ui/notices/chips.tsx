@@ -7,12 +7,12 @@ import { CloseIcon, StopIcon } from "../icons";
 
 /** Growth that is done sooner is not worth a word. */
 const WORTH_A_WORD = 200;
-/** So many steps are, whatever the hand is doing. */
+/** So many steps are, whatever the user is doing. */
 const LONG_GROWTH = 20;
 
 /** What is under way and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
 export function Chips({ studio }: { studio: Studio }) {
-  const placing = studio.branches.hand.placing.value;
+  const placing = studio.branches.held.placing.value;
   return (
     <div class="chips" role="status">
       <GrowthChip studio={studio} />
@@ -25,7 +25,7 @@ export function Chips({ studio }: { studio: Studio }) {
             type="button"
             aria-label={say("tools.placing.cancel")}
             title={say("tools.placing.cancel.title")}
-            onClick={() => studio.branches.hand.cancelPlacing()}
+            onClick={() => studio.branches.held.cancelPlacing()}
           >
             <CloseIcon />
           </button>

@@ -54,7 +54,7 @@ export function ToastList({ studio }: { studio: Studio }) {
   );
 }
 
-/** The one line a first use needs; it fades once the hand has done it. */
+/** The one line a first use needs; it fades once the user has done it. */
 export function Hint({ studio }: { studio: Studio }) {
   const text = hint(studio);
   // The text stays while the line fades.

@@ -2,13 +2,13 @@ import { TOUR_STEPS } from "../../help/tour";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { GestureSketch } from "../sheets/gesture-sketch";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** The gesture the tour is at: what to do, and what it looks like; the workspace stays in use. */
 export function TourCard({ studio }: { studio: Studio }) {
   const { tour } = studio;
   const step = tour.step.value;
-  useFrames(step === "turn", () => tour.look());
+  useAnimationFrames(step === "turn", () => tour.look());
   if (step === null) {
     return null;
   }

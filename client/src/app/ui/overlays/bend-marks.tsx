@@ -1,7 +1,7 @@
 import { useRef } from "preact/hooks";
 import { pathUp } from "../../../scene/table/branch-rows";
 import type { Studio } from "../../studio";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** What is held of a branch that is bent: its base, the places that stay put, and the way between them. */
 export function BendMarks({ studio }: { studio: Studio }) {
@@ -20,7 +20,7 @@ export function BendMarks({ studio }: { studio: Studio }) {
     ...handles.map((row) => ({ row, kind: "pin" })),
     ...held.filter((row) => row !== foot).map((row) => ({ row, kind: "grip" })),
   ];
-  useFrames(marks.length > 0, () => {
+  useAnimationFrames(marks.length > 0, () => {
     const project = studio.stage.projector();
     const place = (row: number) => {
       const at = studio.stage.placeOf(row);

@@ -6,7 +6,7 @@ import { RING } from "../../tools/branch/branch-tool";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
 import { GraftIcon, PruneIcon, TimeIcon } from "../timeline/timeline-icons";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** Room the menu needs below the ring, in pixels, and beside its middle. */
 const MENU_BELOW = 62;
@@ -28,7 +28,7 @@ const CopyIcon = () => (
 export function BranchHandle({ studio }: { studio: Studio }) {
   const [ring, menu] = [useRef<SVGGElement>(null), useRef<HTMLDivElement>(null)];
   const [casing, trace] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
-  const { hand: branch } = studio.branches;
+  const { held: branch } = studio.branches;
   const row = branch.row.value;
   const placing = branch.placing.value;
   // Each frame of rows may have moved it, or added to it.
@@ -37,7 +37,7 @@ export function BranchHandle({ studio }: { studio: Studio }) {
   const menuShown = placing === null && !branch.turning.value;
   const { table } = studio;
   const traced = useMemo(() => (row === null ? [] : subtreeRows(table, row, MOST_TRACED)), [row, table, revision]);
-  useFrames(row !== null && !predicted, () => {
+  useAnimationFrames(row !== null && !predicted, () => {
     const base = branch.base();
     const project = studio.stage.projector();
     const place = base && project?.(base);
@@ -102,8 +102,8 @@ export function BranchHandle({ studio }: { studio: Studio }) {
           </MenuButton>
           <MenuButton
             label={say("tools.what-if")}
-            title={say("tools.branch.foresee.title")}
-            act={() => studio.branches.foresee()}
+            title={say("tools.branch.predict.title")}
+            act={() => studio.branches.predictCut()}
           >
             <TimeIcon />
           </MenuButton>

@@ -2,7 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import { axisStart, branchRows } from "../../../scene/table/branch-rows";
 import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** Metamers of a branch that are traced; a marked limb is known by less than all its twigs. */
 const MOST_TRACED = 500;
@@ -16,7 +16,7 @@ export function BudMarker({ studio }: { studio: Studio }) {
   // Each frame of rows may have added to the branch.
   const revision = studio.revision.value;
   const segments = useMemo(() => (row === null ? [] : branchRows(table, row, MOST_TRACED)), [row, table, revision]);
-  useFrames(row !== null, () => {
+  useAnimationFrames(row !== null, () => {
     const project = studio.stage.projector();
     const place = row === null ? null : project?.(positionOf(row));
     ring.current?.setAttribute("transform", place ? `translate(${place[0]} ${place[1]})` : "translate(-99 -99)");

@@ -1,13 +1,13 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
-import { closedPath, useFrames } from "../use-animation-frames";
+import { closedPath, useAnimationFrames } from "../use-animation-frames";
 
 /** The lasso's outline: on the glass while it is drawn, in the world while the tree grows into it. */
 export function OutlineOverlay({ studio }: { studio: Studio }) {
   const fill = useRef<SVGPathElement>(null);
   const outline = studio.tools.outline.shown.value;
   const growing = outline?.stage === "growing" ? outline.places : null;
-  useFrames(growing !== null, () => {
+  useAnimationFrames(growing !== null, () => {
     const project = studio.stage.projector();
     const places = project && growing?.map((place) => project(place));
     const all = places?.every((place) => place !== null) ? places : [];

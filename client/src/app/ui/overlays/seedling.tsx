@@ -2,7 +2,7 @@ import { useMemo, useRef } from "preact/hooks";
 import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 import { seedsToGrow } from "../../view/places";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** How high a seedling stands, in internodes, and at least in pixels: from afar it must still be found. */
 const HEIGHT = 1.6;
@@ -18,7 +18,7 @@ export function Seedlings({ studio }: { studio: Studio }) {
   const waiting = useMemo(() => seedsToGrow(studio.table, MOST_SHOWN), [studio, revision]);
   const coming = studio.tools.seed.value;
   const places: readonly Vec3[] = coming ? [...waiting, coming] : waiting;
-  useFrames(places.length > 0, () => {
+  useAnimationFrames(places.length > 0, () => {
     const project = studio.stage.projector();
     places.forEach((place, i) => {
       const sprout = bed.current?.children[i];

@@ -14,7 +14,7 @@ import {
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 
 /** How far an arrow key moves the sun, and with shift, in degrees. */
 const KEY_STEP = 3;
@@ -54,7 +54,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   const host = useRef<HTMLDivElement>(null);
   const [front, back] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
   /** The finger on the sun, and how far beside its middle it took hold, in dome radii. */
-  const hand = useRef<{ readonly id: number; readonly drag: SunDrag; readonly beside: Beside } | null>(null);
+  const pointer = useRef<{ readonly id: number; readonly drag: SunDrag; readonly beside: Beside } | null>(null);
   const letGo = useRef(() => {});
   const [held, setHeld] = useState(false);
   /** Whether arrow keys have moved it and none was let go since. */
@@ -87,7 +87,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   useEffect(
     () => () => {
       // The panel has gone while the sun was on its way: it stays where it has come to.
-      if (hand.current || (eye.current && eye.current.still < REST_FRAMES)) {
+      if (pointer.current || (eye.current && eye.current.still < REST_FRAMES)) {
         commit(now());
       }
       letGo.current();
@@ -95,7 +95,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
     [],
   );
 
-  useFrames(true, () => {
+  useAnimationFrames(true, () => {
     const axes = studio.stage.screenAxes();
     const dome = host.current && domeOver(host.current);
     if (!axes || !dome) {
@@ -139,10 +139,10 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
   }
 
   const release = (event: PointerEvent) => {
-    if (hand.current?.id !== event.pointerId) {
+    if (pointer.current?.id !== event.pointerId) {
       return;
     }
-    hand.current = null;
+    pointer.current = null;
     setHeld(false);
     commit(now());
     letGo.current();
@@ -193,11 +193,11 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
         onPointerDown={(event) => {
           const axes = studio.stage.screenAxes();
           const dome = host.current && domeOver(host.current);
-          if (hand.current === null && event.button === 0 && axes && dome) {
+          if (pointer.current === null && event.button === 0 && axes && dome) {
             const shown = shownAt(now(), axes);
             const [right, up] = dome.place(event.clientX, event.clientY);
             const beside: Beside = [shown.right - right, shown.up - up];
-            hand.current = { id: event.pointerId, drag: new SunDrag(shown.before), beside };
+            pointer.current = { id: event.pointerId, drag: new SunDrag(shown.before), beside };
             event.currentTarget.setPointerCapture(event.pointerId);
             setHeld(true);
             letGo.current = studio.stage.hold();
@@ -207,14 +207,14 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
           const axes = studio.stage.screenAxes();
           const dome = host.current && domeOver(host.current);
           if (
-            hand.current?.id === event.pointerId &&
+            pointer.current?.id === event.pointerId &&
             axes &&
             dome &&
             (event.movementX !== 0 || event.movementY !== 0)
           ) {
             const [right, up] = dome.place(event.clientX, event.clientY);
-            const { beside } = hand.current;
-            drag(standingAt(hand.current.drag.to(right + beside[0], up + beside[1]), axes));
+            const { beside } = pointer.current;
+            drag(standingAt(pointer.current.drag.to(right + beside[0], up + beside[1]), axes));
           }
         }}
         onPointerUp={release}

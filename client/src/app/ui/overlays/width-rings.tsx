@@ -5,7 +5,7 @@ import { LEAST_DIAMETER, type WidthTool } from "../../tools/width/width-tool";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
-import { useFrames } from "../use-animation-frames";
+import { useAnimationFrames } from "../use-animation-frames";
 import { type Ring, ringAt } from "./ring";
 
 /** Room between a ring and its knobs. */
@@ -16,7 +16,7 @@ const ALONG = 60;
 /** Which way a key goes: to a thicker limb, or towards the limb's tip. */
 const WAYS: Record<string, -1 | 1> = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 };
 
-/** Rings around the limbs whose width is set, and the one in hand with its knobs. */
+/** Rings around the limbs whose width is set, and the chosen one with its knobs. */
 export function WidthRings({ studio }: { studio: Studio }) {
   const width = studio.tools.shaping.value?.width;
   const drawn = useRef<SVGGElement>(null);
@@ -27,11 +27,11 @@ export function WidthRings({ studio }: { studio: Studio }) {
   // Each frame of rows may have moved a limb.
   void studio.revision.value;
   const set = width?.widths.value ?? [];
-  // The one in hand comes last, over the others, and keeps its element and the focus wherever it is moved.
+  // The chosen one comes last, over the others, and keeps its element and the focus wherever it is moved.
   const others = set.filter(({ row }) => row !== chosen);
   const rings = shown ? [...others, ...(chosen === null ? [] : [{ row: chosen, diameter: 0, effective: 0 }])] : [];
   const diameter = (row: number) => (row === chosen && wanted !== null ? wanted : (width?.diameterOf(row) ?? 0));
-  useFrames(rings.length > 0, () => {
+  useAnimationFrames(rings.length > 0, () => {
     for (const [i, { row }] of rings.entries()) {
       const ring = ringAt(studio, row, diameter(row));
       const [back, casing, front] = [...(drawn.current?.children[i]?.children ?? [])];
@@ -89,7 +89,7 @@ interface WidgetProps {
   readonly diameter: number;
 }
 
-/** The ring in hand: a knob on either side, a dot to move it by, its width as a number, and a way to take it away. */
+/** The held ring: a knob on either side, a dot to move it by, its width as a number, and a way to take it away. */
 function Widget({ studio, width, row, diameter }: WidgetProps) {
   const set = width.limits.value.has(row);
   const place = width.place();

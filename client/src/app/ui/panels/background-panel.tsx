@@ -47,7 +47,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
             label: say(`background.sky.${value}`),
             picture: <SkyPicture sky={value} backdrop={backdrop} />,
           }))}
-          onCommit={(value) => studio.dress(patch({ sky: value }))}
+          onCommit={(value) => studio.setAppearance(patch({ sky: value }))}
         />
         {sky === "studio" && (
           <ColourField
@@ -71,7 +71,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
             label: say(`background.ground.${value}`),
             picture: <GroundPicture ground={value} />,
           }))}
-          onCommit={(value) => studio.dress(patch({ ground: value }))}
+          onCommit={(value) => studio.setAppearance(patch({ ground: value }))}
         />
       </Section>
       <ResetAll studio={studio} parts={["background"]} />

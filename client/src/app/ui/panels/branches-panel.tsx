@@ -36,7 +36,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
             label: say(`bark.kind.${value}`),
             picture: <BarkPicture kind={value} tint={bark.tint} />,
           }))}
-          onCommit={(kind) => studio.dress({ bark: { kind } })}
+          onCommit={(kind) => studio.setAppearance({ bark: { kind } })}
         />
         <ColourField
           label={say("bark.tint")}

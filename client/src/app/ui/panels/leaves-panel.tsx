@@ -44,7 +44,10 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
         middle
         inWords={seasonName}
         marks={
-          <SeasonButtons season={leaves.season} pick={(season) => studio.dress(withNumber("leaves.season", season))} />
+          <SeasonButtons
+            season={leaves.season}
+            pick={(season) => studio.setAppearance(withNumber("leaves.season", season))}
+          />
         }
       />
       <Section name="leaves.leaves" title={say("leaves.leaves")} open>
@@ -68,7 +71,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
               </svg>
             ),
           }))}
-          onCommit={(shape) => studio.dress({ leaves: { shape } })}
+          onCommit={(shape) => studio.setAppearance({ leaves: { shape } })}
         />
         <ColourField
           label={say("leaves.tint")}

@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
 import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../../../wire/generated";
-import { Hand, type SimpleShape } from "../../document/obstacles/obstacle-list";
+import { type SimpleShape, UndoGroup } from "../../document/obstacles/obstacle-list";
 import { rotationOf, turningOf } from "../../document/obstacles/turning";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
@@ -110,17 +110,17 @@ function ModelButton({ studio, disabled }: { studio: Studio; disabled: boolean }
   );
 }
 
-/** Where the obstacle at hand stands, how it is turned and how large it is, in numbers. */
+/** Where the chosen obstacle stands, how it is turned and how large it is, in numbers. */
 function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstacle }) {
   const { id, pose, shape } = obstacle;
   const [x, y, z] = pose.position;
-  const hand = useRef(new Hand());
+  const group = useRef(new UndoGroup());
   const another = () => {
-    hand.current = new Hand();
+    group.current = new UndoGroup();
   };
   const turning = turningOf(pose.rotation);
-  const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to }, hand.current);
-  const reshape = (to: SimpleShape) => studio.obstacles.reshape(id, to, hand.current);
+  const move = (to: Partial<Pose>) => studio.obstacles.move(id, { ...pose, ...to }, group.current);
+  const reshape = (to: SimpleShape) => studio.obstacles.reshape(id, to, group.current);
   const turn = (to: Partial<typeof turning>) => move({ rotation: rotationOf({ ...turning, ...to }) });
   const first = studio.obstacles.first(id) ?? obstacle;
   const [firstX, firstY, firstZ] = first.pose.position;
@@ -129,9 +129,9 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
     <div
       class="measures"
       onPointerDownCapture={another}
-      // A key that is held down is one hand.
+      // A key that is held down is one undo.
       onKeyDownCapture={(event) => event.repeat || another()}
-      // What was typed is sent as its field is left, and is not of the hand that went on to something else.
+      // What was typed is sent as its field is left, and does not belong to what was begun meanwhile.
       onFocusOut={another}
     >
       <Measure

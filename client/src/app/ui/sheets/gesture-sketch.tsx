@@ -1,7 +1,7 @@
 import type { ComponentChildren } from "preact";
 import type { SketchName } from "../../help/help-topics";
 
-/** A small drawing of what the hand does and what becomes of it, moving where the system allows. */
+/** A small drawing of a gesture and its effect, moving where the system allows. */
 export function GestureSketch({ name }: { name: SketchName }) {
   return (
     <svg class={`gesture gesture-${name}`} viewBox="0 0 120 90" aria-hidden="true">

@@ -45,7 +45,7 @@ function placeNamed(place: PlaceName): Element | null {
   return document.querySelector(`[data-place="${place}"]`) ?? document.querySelector('[data-place="more"]');
 }
 
-/** A control of the panel that is pulled down or of the tool at hand: its name, which unfolds its sentence. */
+/** A control of the panel that is pulled down or of the chosen tool: its name, which unfolds its sentence. */
 function controlNamed({ label }: Control): Element | null {
   const names = [...document.querySelectorAll(":is(.drawer, .tool-options) .field-name > span:first-child")];
   const name = names.find(({ firstChild }) => firstChild?.textContent?.trim() === softly(say(label)));

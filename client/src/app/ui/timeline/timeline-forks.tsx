@@ -16,7 +16,7 @@ const MOST_SIGNS = 6;
 export function Forks({ studio, width }: { studio: Studio; width: number }) {
   const [open, setOpen] = useState<number | null>(null);
   const host = useRef<HTMLDivElement>(null);
-  const timeline = studio.time.told.value;
+  const timeline = studio.time.timeline.value;
   const found = forks(timeline?.futures ?? [], studio.time.scale.value, width, ROOM);
   const shown = found.find(({ futures }) => futures[0]?.future.future === open);
   const people = timeline ? peopleOf(timeline) : 0;
@@ -91,18 +91,18 @@ function FutureButton({ branching: { future }, people, take }: FutureProps) {
         })}
         {left > 0 && <b>+{left}</b>}
       </span>
-      <span class="timeline-told">
-        {say(operations.length === 1 ? "timeline.told.one" : "timeline.told.many", {
+      <span class="timeline-summary">
+        {say(operations.length === 1 ? "timeline.summary.one" : "timeline.summary.many", {
           count: operations.length,
           steps: stepsOf(future.steps),
         })}
         <em>
           {people > 1 && authors.length > 0
-            ? say("timeline.told.by", {
+            ? say("timeline.summary.by", {
                 step: future.from,
                 people: new Intl.ListFormat(language.value).format(authors.map(authorName)),
               })
-            : say("timeline.told.from", { step: future.from })}
+            : say("timeline.summary.from", { step: future.from })}
         </em>
       </span>
     </button>

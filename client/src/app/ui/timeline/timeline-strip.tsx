@@ -14,7 +14,7 @@ const ROOM = 32;
 
 /** The line of time along the bottom: what was done, and where in it the tree is now. */
 export function TimelineStrip({ studio }: { studio: Studio }) {
-  const timeline = studio.time.told.value;
+  const timeline = studio.time.timeline.value;
   const { timelineOpen } = studio.settings;
   if (timeline === null || !isWorthShowing(timeline)) {
     return null;
@@ -77,7 +77,7 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
 
 /** Whether the strip lies along the bottom. */
 export function hasTimeline(studio: Studio): boolean {
-  const timeline = studio.time.told.value;
+  const timeline = studio.time.timeline.value;
   return timeline !== null && isWorthShowing(timeline) && studio.settings.timelineOpen.value;
 }
 
@@ -92,7 +92,7 @@ function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {
   const scrubbing = useScrubbing(studio, track);
   const scale = studio.time.scale.value;
   const step = studio.time.step;
-  // While the hand has it the playhead stands under the finger, and not at the step nearest to it.
+  // While the user has it the playhead stands under the finger, and not at the step nearest to it.
   const place = scrubbing.place ?? scale.placeOf(step);
   const looked = scrubbing.looked ?? (scrubbing.shown ? operationAtStep(timeline, step) : null);
   return (

@@ -19,7 +19,7 @@ interface Pull {
   moved: boolean;
 }
 
-/** What a hand does on the strip: it pulls the playhead, taps an operation, or only looks at one. */
+/** What the user does on the strip: it pulls the playhead, taps an operation, or only looks at one. */
 export function useScrubbing(studio: Studio, track: { readonly current: HTMLElement | null }) {
   const pull = useRef<Pull | null>(null);
   const timer = useRef(0);
@@ -60,7 +60,7 @@ export function useScrubbing(studio: Studio, track: { readonly current: HTMLElem
   const move = (event: PointerEvent) => {
     const held = pull.current;
     if (!held) {
-      const looks = event.pointerType !== "touch" && time.told.peek() !== null;
+      const looks = event.pointerType !== "touch" && time.timeline.peek() !== null;
       setLooked(looks ? time.scale.peek().operationAt(placeAt(event.clientX)) : null);
       return;
     }
@@ -87,7 +87,7 @@ export function useScrubbing(studio: Studio, track: { readonly current: HTMLElem
     pull.current = null;
     setPlace(null);
     time.release();
-    const operation = time.told.peek()?.operations[time.scale.peek().operationAt(placeAt(event.clientX))];
+    const operation = time.timeline.peek()?.operations[time.scale.peek().operationAt(placeAt(event.clientX))];
     if (!held.moved && event.type === "pointerup" && operation) {
       // A tap goes to where the operation was done; there already, to where it began.
       time.to(time.step === operation.last ? operation.first : operation.last);
@@ -103,7 +103,7 @@ export function useScrubbing(studio: Studio, track: { readonly current: HTMLElem
       PageDown: () => time.toEdge(-1),
       PageUp: () => time.toEdge(1),
       Home: () => time.to(0),
-      End: () => time.to(time.told.peek()?.last_step ?? 0),
+      End: () => time.to(time.timeline.peek()?.last_step ?? 0),
     };
     const act = acts[event.key];
     if (act) {

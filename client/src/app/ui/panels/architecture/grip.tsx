@@ -15,13 +15,13 @@ interface GripProps {
   readonly disabled?: boolean;
   /** Marks the sign on it: along which way it goes. */
   readonly way?: "any" | "level" | "upright" | "around";
-  /** The hand pulls it to a place. */
+  /** The user pulls it to a place. */
   readonly onPull: (to: Place) => void;
   /** A key sets the value. */
   readonly onValue: (value: number) => void;
   /** Arrow keys move it in the plane instead: steps to the right and up. */
   readonly onArrows?: (right: number, up: number) => void;
-  /** The hand has let go. */
+  /** The user has let go. */
   readonly onRelease: () => void;
 }
 
@@ -35,7 +35,7 @@ export function Grip(props: GripProps) {
   const keyed = useRef(false);
   const latest = useRef(props);
   latest.current = props;
-  // What is taken away under the hand is let go.
+  // What is taken away under the pointer is let go.
   useEffect(
     () => () => {
       if (held.current !== null || keyed.current) {

@@ -16,7 +16,7 @@ export function away(from: Place, degrees: number, distance: number): Place {
 
 /**
  * The angle between up and the way from one place to another, in degrees, measured on the right side and kept within a
- * range. Beyond up and down it stays there, so that a hand that slips over to the left does not jump.
+ * range. Beyond up and down it stays there, so that a pointer that slips over to the left does not jump.
  */
 export function angleOnRight(from: Place, to: Place, [least, most]: readonly [number, number]): number {
   const [dx, dy] = [to.x - from.x, to.y - from.y];

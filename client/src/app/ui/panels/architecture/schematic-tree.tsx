@@ -23,7 +23,7 @@ const RETRY_AFTER = 1000;
 /** The length of the arrow, as a share of the frame's height, and at most in pixels. */
 const ARROW = { share: 0.36, most: 84 };
 
-/** A small flat tree that the server grows as the hand changes what trees grow by, and on it the arrow of tropism. */
+/** A small flat tree that the server grows as the user changes what trees grow by, and on it the arrow of tropism. */
 export function SchematicTree({ studio }: WidgetProps) {
   const frame = useRef<HTMLDivElement>(null);
   const now = studio.parameters.value;
@@ -111,7 +111,7 @@ interface Sketch {
   readonly failed: boolean;
 }
 
-/** The tree of the parameters as the hand has them; the old one stays until the new one is there. */
+/** The tree of the parameters as the user has them; the old one stays until the new one is there. */
 function useSketch(studio: WidgetProps["studio"]): Sketch {
   const [sketch, setSketch] = useState<Sketch>({ picture: SEEDLING, of: null, failed: false });
   useEffect(() => {

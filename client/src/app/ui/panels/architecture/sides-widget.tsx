@@ -24,7 +24,7 @@ export function SidesWidget({ studio }: WidgetProps) {
   const [held, setHeld] = useState(false);
   const begin = useRef<Ellipse | null>(null);
   const { above, below, aside } = reachOf(now ?? PLAIN);
-  // The scale stays while a hand pulls, or the ellipse would run away from it.
+  // The scale stays while the user pulls, or the ellipse would run away from it.
   const scale = useEased(ROOM / Math.max(LEAST_SIGHT, above, below, aside), held);
   if (now === null) {
     return null;
@@ -49,7 +49,7 @@ export function SidesWidget({ studio }: WidgetProps) {
       title={say("architecture.sides")}
       help={say("architecture.sides.help")}
       parameters={WIDGETS.sides}
-      told={say(`architecture.sides.${favoured(now)}`)}
+      note={say(`architecture.sides.${favoured(now)}`)}
     >
       <Diagram
         width={WIDTH}

@@ -66,7 +66,7 @@ function pick(studio: Studio, { slug, parameters, appearance: { leaves, flowers,
   lastPicked.value = slug;
   const gesture = studio.newGesture();
   studio.setParameters(parameters, gesture);
-  studio.dress({ leaves, flowers, fruits, bark }, gesture);
+  studio.setAppearance({ leaves, flowers, fruits, bark }, gesture);
 }
 
 interface SpeciesCardProps {

@@ -28,7 +28,7 @@ interface FrameProps {
   /** What the widget sets; each can be typed as well. */
   readonly parameters: readonly NumberParameter[];
   /** What its values come to, in words. */
-  readonly told?: string;
+  readonly note?: string;
   /** The diagram. */
   readonly children?: ComponentChildren;
   /** What else belongs to it, under all else. */
@@ -36,7 +36,7 @@ interface FrameProps {
 }
 
 /** A widget with its name, its values, its reset and its sentence. */
-export function WidgetFrame({ studio, title, help, parameters, told, children, more }: FrameProps) {
+export function WidgetFrame({ studio, title, help, parameters, note, children, more }: FrameProps) {
   const now = studio.parameters.value;
   const standard = standardOf(studio);
   /** The value that is being explained. */
@@ -79,7 +79,7 @@ export function WidgetFrame({ studio, title, help, parameters, told, children, m
           </>
         )}
       </p>
-      {told !== undefined && <p class="widget-told">{told}</p>}
+      {note !== undefined && <p class="widget-note">{note}</p>}
       <p class="widget-help">{help}</p>
       {more}
     </section>

@@ -16,7 +16,7 @@ describe("places", () => {
     }
   });
 
-  it("a hand that slips to the other side stays at the end", () => {
+  it("a pointer that slips to the other side stays at the end", () => {
     expect(angleOnRight(MIDDLE, away(MIDDLE, -20, 50), [0, 180])).toBe(0);
     expect(angleOnRight(MIDDLE, away(MIDDLE, -160, 50), [0, 180])).toBe(180);
     expect(angleOnRight(MIDDLE, away(MIDDLE, -160, 50), [10, 120])).toBe(120);
@@ -72,7 +72,7 @@ describe("triangle of weights", () => {
     expect(weightsAt(pointOf(weights, corners), corners)).toEqual(weights);
   });
 
-  it("weights are 1 together and none below 0, wherever the hand goes", () => {
+  it("weights are 1 together and none below 0, wherever the user goes", () => {
     for (let x = -60; x <= 260; x += 7) {
       for (let y = -60; y <= 260; y += 7) {
         const weights = weightsAt({ x, y }, corners);
@@ -104,7 +104,7 @@ describe("ellipse of sides", () => {
     expect(favoured(under)).toBe("hypotony");
   });
 
-  it.each(["above", "below"] as const)("pulled %s, it stays in range however far the hand goes", (end) => {
+  it.each(["above", "below"] as const)("pulled %s, it stays in range however far the user goes", (end) => {
     const { gravimorphism_vertical: v, gravimorphism_shift: s } = NUMBERS;
     for (const from of [plain, withPatch({ gravimorphism_shift: 0.99 }), withPatch({ gravimorphism_vertical: 0.05 })]) {
       for (const distance of [-50, 0, 0.01, 1, 7, 400]) {

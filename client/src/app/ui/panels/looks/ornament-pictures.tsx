@@ -119,8 +119,8 @@ export function FruitPicture({ kind, tint }: Painted & { kind: FruitKind }) {
       return (
         <Frame>
           <path d="M20 4v8" {...STALK} />
-          {[1, -1].map((hand) => (
-            <g key={hand} transform={`translate(20 0) scale(${hand} 1)`}>
+          {[1, -1].map((side) => (
+            <g key={side} transform={`translate(20 0) scale(${side} 1)`}>
               <path d="M1 13c6-1 13 5 14 15 .3 4-3.5 5.5-6 2C6 26 3.5 21 1 19Z" fill={fill} {...EDGE} />
               <path d="M3 16c5 2 8 7 9 12M3 17.500c3 3 5 6 6.5 10" fill="none" stroke="rgb(40 30 20 / 30%)" />
               <circle cx="2.5" cy="16" r="3" fill="#8a6b48" />

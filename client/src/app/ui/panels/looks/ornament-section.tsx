@@ -31,7 +31,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
           label: say(`flowers.kind.${value}`),
           picture: <FlowerPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.dress({ flowers: { kind: value } })}
+        onCommit={(value) => studio.setAppearance({ flowers: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="flowers" />}
     </Section>
@@ -54,7 +54,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
           label: say(`fruits.kind.${value}`),
           picture: <FruitPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.dress({ fruits: { kind: value } })}
+        onCommit={(value) => studio.setAppearance({ fruits: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="fruits" />}
     </Section>
@@ -90,7 +90,7 @@ function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" })
           label: say(`leaves.place.${value}`),
           picture: <PlacePicture place={value} tint={now.tint} />,
         }))}
-        onCommit={(place) => studio.dress({ [part]: { place } })}
+        onCommit={(place) => studio.setAppearance({ [part]: { place } })}
       />
       <LookSlider
         studio={studio}

@@ -32,7 +32,7 @@ export function ResetAll({ studio, parts, parameters = [] }: ResetAllProps) {
       onClick={() => {
         const gesture = studio.newGesture();
         if (looks.length > 0) {
-          studio.dress(Object.fromEntries(looks.map((part) => [part, looksThen[part]])), gesture);
+          studio.setAppearance(Object.fromEntries(looks.map((part) => [part, looksThen[part]])), gesture);
         }
         if (grown.length > 0) {
           studio.setParameters(Object.fromEntries(grown.map((name) => [name, grownThen[name]])), gesture);

@@ -17,7 +17,7 @@ import { Field } from "../../controls/field";
 import { Polar } from "../../controls/polar";
 import { Slider } from "../../controls/slider";
 import { TypedNumber } from "../../controls/typed-number";
-import { useFrames } from "../../use-animation-frames";
+import { useAnimationFrames } from "../../use-animation-frames";
 
 /** Radius of the dial's ring and of the arc, of 60 from the middle of the drawing to its edge. */
 const RING = 44;
@@ -88,7 +88,7 @@ const STANDARD_PLACE: SunPlace = {
 
 /** The sun's way over the day it is on, from dawn to dusk. */
 function TimeSlider({ place, drag, commit }: TimeSliderProps) {
-  // While the hand moves it stays on one day, however the sun's place is rounded.
+  // While the user moves it stays on one day, however the sun's place is rounded.
   const day = useRef<TimeOfDay | null>(null);
   const { hours, declination } = day.current ?? timeAt(place);
   const [dawn, dusk] = daylight(declination);
@@ -133,7 +133,7 @@ function Typed({ name, value, set }: { name: LookNumber; value: number; set: (va
 /** The sun around the tree, seen from above; below is who looks at it, wherever they have gone. */
 function Ring({ azimuth, elevation, turned }: SunPlace & { turned: () => number }) {
   const group = useRef<SVGGElement>(null);
-  useFrames(true, () => group.current?.setAttribute("transform", `rotate(${-(azimuth + turned())})`));
+  useAnimationFrames(true, () => group.current?.setAttribute("transform", `rotate(${-(azimuth + turned())})`));
   const shadow = Math.min(40, 10 / Math.max(0.2, Math.tan(radians(Math.max(1, elevation)))));
   return (
     <svg viewBox="-60 -60 120 120" aria-hidden="true">
