@@ -68,7 +68,7 @@ export class Studio {
   readonly panel = signal<PanelName | null>(null);
   /** What is shown of the tree, on this device alone. */
   readonly drawMode = signal<DrawMode>("lit");
-  /** Whether the sun keeps its place on the glass while the tree is turned. */
+  /** Whether the sun keeps its place on the screen while the tree is turned. */
   readonly sunPinned = signal(false);
   /** Whether nothing but the workspace is shown. */
   readonly bare = signal(false);
@@ -186,7 +186,7 @@ export class Studio {
     this.submit({ kind: "redo" });
   }
 
-  /** Ends growth that is under way; what has grown stays. */
+  /** Ends growth that is in progress; what has grown stays. */
   stop(): void {
     this.submit({ kind: "stop" });
   }
@@ -261,14 +261,14 @@ export class Studio {
     return (this.document.peek()?.pending_steps ?? 0) > 0;
   }
 
-  /** What it has still to grow; of an outline nobody knows how many steps, only how many at most (`LA1`). */
+  /** The growth that is left; of an outline only the greatest number of steps is known (`LA1`). */
   #ahead(): GrowthAhead {
     const { step = 0, pending_steps: pending = 0 } = this.document.peek() ?? {};
     const outlined = pending > 0 && this.tools.outline.shown.peek()?.stage === "growing";
     return { step, pending: outlined ? Math.max(pending, OUTLINE_STEPS) : pending };
   }
 
-  /** What the session tells goes to whom it concerns. */
+  /** Hands each event of the session to the parts that it concerns. */
   #events(): SessionEvents {
     return {
       opened: () => this.#onOpened(),

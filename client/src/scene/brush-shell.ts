@@ -5,7 +5,7 @@ import type { Vec3 } from "./vector";
 /** A brush without width still shows as a point of this share of its distance. */
 const POINT_SHARE = 0.0045;
 
-/** Shows where the brush is and how wide. */
+/** The sphere that shows the place and the radius of the brush. */
 export class BrushShell {
   readonly mesh: Mesh;
   private readonly place = new Vector4();

@@ -1,7 +1,7 @@
-/** Meshes with more triangles are taken for open: to look at every edge would be felt. */
+/** Meshes with more triangles count as open: checking every edge would be slow. */
 const MOST_TRIANGLES = 100_000;
 
-/** The triangles of a mesh, all of them facing outwards; null if it is not closed, so that its inside may be seen. */
+/** The triangles of a mesh, all facing outwards; null if the mesh is not closed. */
 export function facingOut(positions: Float32Array, triangles: Uint32Array): Uint32Array | null {
   if (!isClosed(triangles, positions.length / 3)) return null;
   if (volume(positions, triangles) >= 0) return triangles;

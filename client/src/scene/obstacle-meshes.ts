@@ -39,14 +39,14 @@ export interface DrawnObstacle {
 
 interface Entry {
   readonly shape: PlacedShape;
-  /** Whether nobody can look into it. */
+  /** Whether its surface is closed. */
   readonly closed: boolean;
   readonly body: Mesh;
   /** Shares the body's geometry; a plane casts no shadow of its own. */
   readonly caster: Mesh | null;
 }
 
-/** What stands in the way of growth, in clay. */
+/** The meshes of the obstacles. */
 export class ObstacleMeshes {
   readonly bodies = new Group();
   readonly casters = new Group();
@@ -76,7 +76,7 @@ export class ObstacleMeshes {
     }
   }
 
-  /** The box around all that has an end; null if nothing has. */
+  /** The box around all obstacles except planes; null if there are none. */
   bounds(): Box | null {
     const { min, max } = this.extent;
     return this.extent.isEmpty() ? null : { min: [min.x, min.y, min.z], max: [max.x, max.y, max.z] };

@@ -19,9 +19,9 @@ import { Branches } from "./wood/branches";
 /** The tree as it is drawn: its table on the graphics card, its bark and leaves, or the lines of a draw mode. */
 export class TreeView {
   readonly overlays = new Overlays();
-  /** Seen by the camera. */
+  /** Drawn into the picture. */
   readonly group = new Group();
-  /** Seen by the sun. */
+  /** Drawn into the shadow map. */
   readonly casters = new Group();
   private readonly textures: readonly GradualTextures<Sort>[];
   private readonly solid = new Group();

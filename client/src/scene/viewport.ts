@@ -56,7 +56,7 @@ export class Viewport {
   private readonly unfollow: () => void;
   private readonly eye = new Vector4();
   private drawMode: DrawMode = "lit";
-  /** Whether there has been no tree yet. */
+  /** Whether no tree has been shown yet. */
   private empty = true;
   /** Whether details are still to be chosen. */
   private unsettled = false;

@@ -37,7 +37,7 @@ describe("a pose", () => {
     await expect(decodePose(pose([1, 1, 7, ...infinite]))).rejects.toThrow(/finite/);
   });
 
-  it("is told from a mesh delta by its kind", async () => {
+  it("is distinguished from a mesh delta by its kind", async () => {
     expect((await decodeServerFrame(pose([1, 0]))).kind).toBe(2);
     await expect(decodeServerFrame(headed([1, 0, 0]))).rejects.toThrow(FrameError);
   });

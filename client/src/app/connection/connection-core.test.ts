@@ -186,7 +186,7 @@ describe("commands", () => {
     expect(core.settled).toBe(2);
   });
 
-  it("CM3: a refusal is told once and counts as settled", () => {
+  it("CM3: a refusal is reported once and counts as settled", () => {
     const { core, connect } = setUp();
     connect();
     core.submit(undo);

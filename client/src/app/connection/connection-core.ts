@@ -237,7 +237,7 @@ export class ConnectionCore {
     this.#send({ type: "received", sequence: frame.sequence });
   }
 
-  /** A frame beside the rows has come: say so; false if it is of another epoch and tells nothing. */
+  /** Takes a frame that does not change rows; false if it belongs to another epoch and does not count. */
   took(kind: number, { epoch, sequence }: AsideHead): boolean {
     if (this.#phase !== "connected") {
       return false;

@@ -40,7 +40,7 @@ export interface AsideFrame {
   readonly frame: AsideHead;
 }
 
-/** What the page is told. */
+/** The events of a connection. */
 export interface ConnectionEvents<Aside> {
   phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void;
   commands(sent: number, settled: number): void;
@@ -59,7 +59,7 @@ export interface ConnectionEvents<Aside> {
   problem(problem: Problem, command?: Command): void;
   /** Rows have changed; draw. */
   rows(): void;
-  /** The client goes on under another key: a stroke under way is lost. */
+  /** The client goes on under another key: a stroke in progress is lost. */
   rekeyed(): void;
   /** The server speaks another version of the protocol: load the page again. */
   reload(): void;
@@ -119,7 +119,7 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     return this.#core.unsettled(kind);
   }
 
-  /** Asks for a ghost: how the plants would grow on without some branches; false while there is nobody to ask. */
+  /** Asks for a ghost: how the plants would grow on without some branches; false while no session is connected. */
   predict(rows: number[], steps: number): boolean {
     const asked = this.#core.ask({ type: "predict", rows, steps });
     this.#settle();

@@ -87,7 +87,7 @@ describe("commands that outlive their page or key", () => {
     before.refuse(2);
     const after = new Outbox(JSON.parse(JSON.stringify(before.record())));
     expect(after.record()).toEqual(before.record());
-    // It was refused to the page before; this one is told anew.
+    // It was refused to the page before; this one gets the refusal again.
     expect([numbers(after), after.settled]).toEqual([[2, 3], 1]);
   });
 

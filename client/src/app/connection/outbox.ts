@@ -63,7 +63,7 @@ export class Outbox {
     return id;
   }
 
-  /** Whether what is kept follows on what the server says it has: a gap would be refused for ever (`CM1`). */
+  /** Whether the kept commands continue those that the server has: it would refuse a gap every time (`CM1`). */
   follows(acknowledged: number): boolean {
     return acknowledged + 1 >= (this.#pending[0]?.id ?? this.#next);
   }

@@ -18,7 +18,7 @@ export class PartedSessions {
     return record;
   }
 
-  /** The page goes: a later page of this tab goes on with it. */
+  /** The page is left: a later page of this tab continues with it. */
   leave(store: Storage): void {
     if (this.#records.size === 0) {
       store.removeItem(STORE_KEY);

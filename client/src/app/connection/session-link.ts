@@ -19,7 +19,7 @@ const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */
 const SILENT_AFTER = 2;
 
-/** What the session tells, beside what its server does. */
+/** The events of a session: those of its connection and its own. */
 export interface SessionEvents
   extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows"> {
   /** Another session is opened: nothing of the one before counts any more. */
@@ -29,7 +29,7 @@ export interface SessionEvents
   settled(settled: number): void;
   /** The server is out of reach for a while. */
   lost(): void;
-  /** The session or the page is left: what is under way ends now. */
+  /** The session or the page is left: what is in progress ends now. */
   leaving(): void;
   /** A session was left that will only later have all that was done in it. */
   parted(): void;
@@ -109,7 +109,7 @@ export class SessionLink implements PageEvents {
 
   /** Leaves this session for a new one, empty or from a saved tree; false if there is none to be had now. */
   async change(tree?: string): Promise<boolean> {
-    // Whoever taps twice wants one.
+    // Two taps begin one session.
     if (this.#changing) {
       return false;
     }
@@ -146,7 +146,7 @@ export class SessionLink implements PageEvents {
     return this.#connection?.next ?? 1;
   }
 
-  /** The highest number that is answered, this moment; `settled` follows once all is told. */
+  /** The highest number that is answered at present; `settled` follows after all listeners have run. */
   get answered(): number {
     return this.#connection?.settled ?? 0;
   }
@@ -156,12 +156,12 @@ export class SessionLink implements PageEvents {
     return this.#connection?.unsettled(kind) ?? 0;
   }
 
-  /** Asks for a ghost; false while there is nobody to ask. */
+  /** Asks for a ghost; false while no session is connected. */
   predict(rows: number[], steps: number): boolean {
     return this.#connection?.predict(rows, steps) ?? false;
   }
 
-  /** Ends what is under way and lets the session go. */
+  /** Ends what is in progress and lets the session go. */
   leave(): void {
     this.#options.events.leaving();
     this.#part();
@@ -169,7 +169,7 @@ export class SessionLink implements PageEvents {
     this.#connection = null;
   }
 
-  /** The page may never come back: a page after it goes on with what is unsent. */
+  /** The page may never come back: the next page of this tab continues with what is unsent. */
   leaving(): void {
     const { events, page } = this.#options;
     events.leaving();

@@ -195,7 +195,7 @@ describe("draft", () => {
     draft.settle(1);
     draft.receive({ ...FIRST, hue: 2 });
     for (let i = 0; i < 10; i++) {
-      // Others set something else, and this user too: each is told and answered.
+      // Others set something else, and this user too: each is sent and answered.
       draft.receive({ hue: 2, bark: { kind: "smooth", relief: i } });
       draft.commit({ bark: { kind: "papery", relief: i } });
       draft.settle(sent.length);

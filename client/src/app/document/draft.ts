@@ -19,7 +19,7 @@ export interface GrowthAhead {
 export interface DraftOptions<Whole extends object, None extends Whole | null> {
   /** What is shown before the server has said anything. */
   readonly none: None;
-  /** Sends a change and gives the number of the command; 0 where there is nobody to send it to. */
+  /** Sends a change and gives the number of the command; 0 where no session is open. */
   readonly submit: (patch: Partial<Whole>, gesture: number | undefined) => number;
   /** A number that no other gesture of this client has. */
   readonly newGesture: () => number;
@@ -49,7 +49,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
   #received: Whole | None;
   #own = new Map<keyof Whole, Own<Whole[keyof Whole]>>();
   #queued: Partial<Whole> | null = null;
-  /** That of the drag under way, once something of it was sent. */
+  /** That of the drag in progress, once something of it was sent. */
   #gesture: number | undefined;
   #sentAt = Number.NEGATIVE_INFINITY;
   #settled = 0;
@@ -162,7 +162,7 @@ export class Draft<Whole extends object, None extends Whole | null = Whole> {
     if (command > this.#settled) {
       this.#underWay.push(command);
     } else {
-      // There was nobody to send it to: after a while it is as it was.
+      // No session was open: after a while the old value returns.
       this.#reconcile();
     }
   }

@@ -11,7 +11,7 @@ describe("help", () => {
     language.value = "en";
   });
 
-  it("every topic has a title and a text, and is told apart", () => {
+  it("every topic has a title and a text, and is distinct", () => {
     const topics = helpGroups().flatMap(({ topics }) => topics);
     expect(topics.length).toBeGreaterThan(40);
     expect(topics.every(({ title, text }) => title !== "" && text !== "")).toBe(true);

@@ -32,7 +32,7 @@ export interface Control {
   readonly section?: string;
 }
 
-/** One thing help knows. */
+/** One entry of the help. */
 export interface Topic {
   readonly id: string;
   readonly title: string;
@@ -135,7 +135,7 @@ const KEYS: readonly (readonly [Key, () => string])[] = [
   ["help.key.help", () => "?"],
 ];
 
-/** All that help knows, in the language spoken now. */
+/** All entries of the help, in the present language. */
 export function helpGroups(): readonly TopicGroup[] {
   const about = ([name, subject]:
     | (typeof DRAWING)[number]

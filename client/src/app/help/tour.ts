@@ -5,7 +5,7 @@ import type { Settings } from "../page/settings";
 export const TOUR_STEPS = ["draw", "turn", "grow"] as const;
 export type TourStep = (typeof TOUR_STEPS)[number];
 
-/** How long what was done is left to be looked at before the tour goes on, in milliseconds. */
+/** How long the tour waits after a gesture was done, in milliseconds. */
 const SAVOURED = 1200;
 
 export interface TourOptions {

@@ -32,7 +32,7 @@ type State =
   /** Two or more fingers move the view; `rotated` once three did, until all are lifted. */
   | { readonly kind: "fingers"; rotated: boolean };
 
-/** One is down that may yet become a stroke, choose what is under it, or be the first of two fingers. */
+/** One pointer is down; it may become a stroke, choose what is under it, or be the first of two fingers. */
 interface Waiting {
   readonly kind: "waiting";
   readonly id: number;
@@ -85,7 +85,7 @@ export class GestureRecogniser {
     return state.kind === "waiting" ? state.since + (state.shown ? CHOOSE : HOLD) : null;
   }
 
-  /** Whether a stroke is under way. */
+  /** Whether a stroke is in progress. */
   get stroking(): boolean {
     return this.#state.kind === "stroke";
   }
@@ -359,7 +359,7 @@ export class GestureRecogniser {
         return [];
       }
       if (state.ids.size === 0) {
-        // Fingers that were only resting on the glass do not draw either.
+        // Fingers that were only resting on the screen do not draw either.
         this.#state = this.#fingers.size > 0 ? { kind: "fingers", rotated: true } : { kind: "idle" };
       }
       return [{ kind: "grip-end", id }];

@@ -141,7 +141,7 @@ export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop():
   return { panHeld: () => space, stop: () => stop.abort() };
 }
 
-/** A sign says which way; where Shift or Alt has made another sign of it, its place does. */
+/** The character gives the direction; where Shift or Alt has changed the character, the place of the key does. */
 function travel({ key, code, shiftKey, altKey }: KeyboardEvent, actions: KeyActions): void {
   const placed = shiftKey || altKey ? TIME_KEYS[code] : undefined;
   const direction = TIME_SIGNS[key] ?? placed;

@@ -16,7 +16,7 @@ export function radiusShare(pressure: number): number {
 export class FeltPressure {
   #felt: number | null = null;
 
-  /** Takes the next sample; null where the device knows no pressure. */
+  /** Takes the next sample; null where the device measures no pressure. */
   follow(pressure: number | null): number | null {
     this.#felt = pressure === null || this.#felt === null ? pressure : this.#felt + FOLLOW * (pressure - this.#felt);
     return this.#felt;

@@ -36,7 +36,7 @@ export class Exports {
   }
 }
 
-/** Has the browser keep a file, as if a link to it had been followed. */
+/** Saves a file through the browser, as a download link does. */
 export function keepFile(file: Blob, name: string): void {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(file);

@@ -17,7 +17,7 @@ describe("plain words", () => {
     expect(plainly(problem)).toBe("That branch is the foot of a trunk, which cannot be turned.");
   });
 
-  it("known sentences are told in the language of the page", () => {
+  it("known sentences are shown in the language of the page", () => {
     language.value = "de";
     try {
       expect(plainly({ code: "refused", message: "there is nothing to undo" })).toMatch(/rückgängig/);
@@ -30,7 +30,7 @@ describe("plain words", () => {
     }
   });
 
-  it("what a request came to is told like any other problem", () => {
+  it("what a request came to is shown like any other problem", () => {
     const failed = new RequestFailed(409, { code: "refused", message: "there is nothing to redo" });
     language.value = "de";
     try {

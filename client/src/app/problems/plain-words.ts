@@ -6,7 +6,7 @@ import { ALLOWED, REFUSALS } from "./refusal-table";
 /** Fields that name wood by its rows, which a person does not. */
 const WOOD = /^(row|onto|base|touches)/;
 
-/** What a person is told about a problem: in their language, without numbers of rows, and as a sentence. */
+/** The sentence that a user reads about a problem: in their language and without numbers of rows. */
 export function plainly({ code, field, allowed, message }: Problem): string {
   if (code === "not_found" && WOOD.test(field ?? "")) {
     return say("problems.branch-gone");
@@ -37,7 +37,7 @@ function matched(table: readonly (readonly [RegExp, Key])[], text: string): stri
   return null;
 }
 
-/** What to tell a person about an error. */
+/** The sentence that a user reads about an error. */
 export function sentence(error: unknown): string {
   if (error instanceof RequestFailed) {
     return plainly(error.problem);

@@ -113,7 +113,7 @@ function refusals(): readonly Wording[] {
 
 const known = (table: typeof REFUSALS, words: string) => table.some(([pattern]) => pattern.test(words));
 
-/** What a client of this very server can only say wrongly; it is told in one sentence. */
+/** What a client of this very server can only say wrongly; it is shown in one sentence. */
 const FOR_PROGRAMMERS =
   /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has/;
 /** Why a session was not restored is written to the log, why a socket closes to nobody. */
@@ -142,19 +142,19 @@ describe("what the server refuses", () => {
     language.value = "de";
     try {
       for (const { words } of ofFiles) {
-        const told = plainly({ code: "malformed", message: `The file cannot be an obstacle: ${words}.` });
-        expect(told, `${words}`).toMatch(/Datei|Modell/);
+        const shown = plainly({ code: "malformed", message: `The file cannot be an obstacle: ${words}.` });
+        expect(shown, `${words}`).toMatch(/Datei|Modell/);
       }
       for (const { words } of ofShapes) {
-        const told = plainly({ code: "out_of_range", message: `the shape cannot be an obstacle: ${words}` });
-        expect(told, `${words}`).toMatch(/Form|Modell/);
+        const shown = plainly({ code: "out_of_range", message: `the shape cannot be an obstacle: ${words}` });
+        expect(shown, `${words}`).toMatch(/Form|Modell/);
       }
     } finally {
       language.value = "en";
     }
   });
 
-  it("what would be allowed is told as well", () => {
+  it("what would be allowed is shown as well", () => {
     const all = wordings(SOURCES, /\bProblem::out_of_range\(/g, "", last).map((one) => {
       // The last of three arguments.
       const [words] = literalsIn(one.source.slice(lastComma(one.source)));
@@ -186,5 +186,5 @@ function lastComma(call: string): number {
   return at;
 }
 
-/** What no user can do wrongly, only a program: it is told without what would be allowed. */
+/** What no user can do wrongly, only a program: it is shown without what would be allowed. */
 const OF_HANDS = /length 1|perpendicular|finite number|touched once|^7 to 7 rows|^parameters$|path/;

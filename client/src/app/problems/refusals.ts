@@ -18,7 +18,7 @@ export interface RefusalTargets {
   loseBud(): void;
 }
 
-/** What follows from a command the server refused; a person is told where it is news to them. */
+/** Undoes the previews of a command that the server refused, and shows the reason where the user does not know it yet. */
 export function refused(page: RefusalTargets, problem: Problem, command?: Command): void {
   if (command?.kind === "lasso") {
     page.tools.outline.clear();
@@ -36,7 +36,7 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     return;
   }
   if (problem.code === "not_found" && problem.field === "stroke") {
-    // Someone went back in time, which ends every stroke; what was still under way of this one is refused.
+    // Someone went back in time, which ends every stroke; what was still in progress of this one is refused.
     if (page.tools.drawing.peek()) {
       page.toasts.show(say("notices.stroke-ended"));
     }
@@ -44,7 +44,7 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     return;
   }
   if (problem.code === "not_found" && problem.field === "bend") {
-    // What was still under way of a bend that was refused or given up says nothing new.
+    // What was still in progress of a bend that was refused or given up says nothing new.
     return;
   }
   page.toasts.show(plainly(problem));

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { Exports } from "../library/exports";
 import { bytesOf, type Progress, Transfer } from "./transfer";
 
-/** Work that goes on until it is told to end. */
+/** Work that goes on until it is aborted. */
 function endless() {
   let [finish, stopped] = [(_: string) => {}, false];
   const work = (signal: AbortSignal) =>

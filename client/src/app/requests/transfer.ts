@@ -9,11 +9,11 @@ export interface Progress {
 
 /** Something large on its way to or from the server, one at a time: shown while it lasts, and can be given up. */
 export class Transfer {
-  /** Null where nothing is under way. */
+  /** Null where nothing is in progress. */
   readonly progress = signal<Progress | null>(null);
   #stop: AbortController | null = null;
 
-  /** Runs it; null if it was given up, or one was under way already. */
+  /** Runs it; null if it was given up, or one was in progress already. */
   async run<Result>(
     work: (signal: AbortSignal, tell: (progress: Progress) => void) => Promise<Result>,
   ): Promise<Result | null> {
@@ -45,7 +45,7 @@ export class Transfer {
   }
 }
 
-/** Reads an answer to its end, telling how far it has come. */
+/** Reads an answer to its end and reports the progress. */
 export async function bytesOf(response: Response, tell: (progress: Progress) => void): Promise<Blob> {
   const type = response.headers.get("content-type") ?? "";
   // The length counts what travels, which is fewer bytes where it is compressed.
@@ -68,7 +68,7 @@ export async function bytesOf(response: Response, tell: (progress: Progress) => 
   }
 }
 
-/** Posts bytes, telling how many have gone; the answer's JSON. `fetch` does not tell. */
+/** Posts bytes and reports how many are sent, which `fetch` cannot; gives the answer's JSON. */
 export function send(
   path: string,
   { type, body }: { readonly type: string; readonly body: Uint8Array<ArrayBuffer> },

@@ -1,12 +1,12 @@
 import type { Grip, StrokePoint } from "../input/gesture-recogniser";
 
-/** What works on the tree with fingers, a pen or the left mouse button. */
+/** A tool that works on the tree with fingers, a pen or the left mouse button. */
 export interface Tool {
-  /** What is under way ends where it is. */
+  /** What is in progress ends where it is. */
   end(): void;
-  /** Forgets what is under way: nothing more of it is sent. */
+  /** Forgets what is in progress: nothing more of it is sent. */
   abandon(): void;
-  /** Called again and again while something is under way. */
+  /** Called again and again while something is in progress. */
   tick?(): void;
   /** A mouse or pen is over the canvas and not down. */
   hover?(x: number, y: number): void;
@@ -14,7 +14,7 @@ export interface Tool {
   leave?(): void;
   /** Rows have changed, or commands were answered. */
   changed?(): void;
-  /** Escape, when nothing is under way: whether there was anything to let go of. */
+  /** Releases what is marked, as Escape does while nothing is in progress; false if there was nothing. */
   release?(): boolean;
 }
 

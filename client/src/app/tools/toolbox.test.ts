@@ -140,7 +140,7 @@ describe("toolbox", () => {
     const motion = vi.fn();
     const out = { plain: () => {}, orientation: () => {}, motion } as unknown as SlotWriter;
     [...world.overlays][0]?.write(tableOf(SMALL), out);
-    expect(motion.mock.lastCall?.[3], "as it was told last").toEqual([9, 7, 0]);
+    expect(motion.mock.lastCall?.[3], "the pose received last").toEqual([9, 7, 0]);
     tools.receivePose(pose(7, []));
     expect(shown()).toEqual([]);
     tools.receivePose(pose(9, [3, 12]));

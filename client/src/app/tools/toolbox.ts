@@ -51,7 +51,7 @@ export interface Workshop {
   readonly predict: (rows: readonly number[]) => void;
   /** The picture is not at rest until what this returns was called. */
   readonly hold: () => () => void;
-  /** Whether a stroke would come to anything. */
+  /** Whether a stroke can be sent. */
   readonly ready: () => boolean;
   /** Whether a finger on an obstacle moves it. */
   readonly arranging: () => boolean;
@@ -77,7 +77,7 @@ export interface Shaping {
   readonly poses: BendPoses;
 }
 
-/** The tools, and which of them has the finger. */
+/** The tools, and the one that has the pointers. */
 export class Toolbox {
   readonly chosen = signal<ToolName>("brush");
   readonly drawing = signal(false);
@@ -88,16 +88,16 @@ export class Toolbox {
   /** Those with something to show beside the picture; null without a view. */
   readonly shaping = signal<Shaping | null>(null);
   #widths: readonly WidthConstraint[] = [];
-  /** The newest pose of each bend that is under way. */
+  /** The newest pose of each bend that is in progress. */
   #poses = new Map<number, PoseFrame>();
 
   #workshop: Workshop;
   #view: Viewport | null = null;
   #tools: Record<ToolName, StrokeTool | GripTool> | null = null;
   #mover: ObstacleTool | null = null;
-  /** The tool that has the stroke under way. */
+  /** The tool that has the stroke in progress. */
   #active: StrokeTool | GripTool | null = null;
-  /** Fingers that the tool under way has taken. */
+  /** Fingers that the tool in progress has taken. */
   #grips = new Set<number>();
   #stopPacing = () => {};
   #letGo = () => {};
@@ -335,7 +335,7 @@ export class Toolbox {
     return bud.row.peek() !== null || this.#view?.pick(x, y, PICK_TOLERANCE) != null;
   }
 
-  /** The stroke under way ends where it is. */
+  /** The stroke in progress ends where it is. */
   end(): void {
     this.#stopPacing();
     const tool = this.#active;
@@ -349,7 +349,7 @@ export class Toolbox {
     tool.end();
   }
 
-  /** The stroke under way is as if it had not been; what the brush has grown stays. */
+  /** Takes the stroke in progress back; what the brush has grown stays. */
   cancel(): void {
     if (this.#active instanceof BrushTool) {
       this.end();
@@ -361,7 +361,7 @@ export class Toolbox {
     }
   }
 
-  /** Forgets the stroke under way, for the server no longer knows it. */
+  /** Forgets the stroke in progress, for the server no longer knows it. */
   abandon(): void {
     this.#stopPacing();
     this.hold.value = null;
@@ -423,7 +423,7 @@ export class Toolbox {
     this.#stopPacing = pace(SEND_EVERY, () => tool.tick?.());
   }
 
-  /** Nothing is under way any more. */
+  /** Nothing is in progress any more. */
   #rest(): void {
     this.#stopPacing();
     this.#grips.clear();

@@ -18,7 +18,7 @@ export function useAnimationFrames(active: boolean, draw: () => void): void {
   }, [active]);
 }
 
-/** A closed path through places on the glass, for an SVG. */
+/** A closed path through places on the screen, for an SVG. */
 export function closedPath(places: readonly (readonly [number, number])[]): string {
   return places.length === 0 ? "" : `M${places.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join("L")}Z`;
 }

@@ -1,9 +1,9 @@
-/** Who keeps something held: it is let go once the last of them has let go. */
+/** Counts the holders of something; it is released when the last of them has released it. */
 export class Holds {
   #tell: (held: boolean) => void;
   #holders = new Set<object>();
 
-  /** `tell` is called when the first takes hold and when the last lets go. */
+  /** `tell` is called when the first holder comes and when the last one leaves. */
   constructor(tell: (held: boolean) => void) {
     this.#tell = tell;
   }

@@ -12,7 +12,7 @@ import { nearestBase, scaleAt } from "./places";
 /** How long the brush stays visible after its radius changed. */
 const RADIUS_SHOWN_FOR = 900;
 
-/** The picture, and what lies over it needs to know of it; there may be none yet. */
+/** The picture of the tree as the tools and the interface use it; the view may not exist yet. */
 export class Stage {
   #table: TreeTable;
   #settings: Settings;
@@ -29,7 +29,7 @@ export class Stage {
   #look: View | null = null;
   #holds = new Holds((held) => this.#view?.hold(held));
 
-  /** `busy` tells whether a tool shows itself, which the radius then must not. */
+  /** `busy` says whether a tool shows its own preview; then the radius is not shown. */
   constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
     this.#table = table;
     this.#settings = settings;

@@ -11,7 +11,7 @@ export type Key = keyof typeof TABLE;
 /** The language spoken now; what is said with it is said anew when it changes. */
 export const language = signal<Language>("en");
 
-/** A text in the language spoken now; `{name}` in it stands for a value of that name. */
+/** A text in the present language; `{name}` in it stands for a value of that name. */
 export function say(key: Key, values: Readonly<Record<string, string | number>> = {}): string {
   const text: string = TABLE[key][LANGUAGES.indexOf(language.value)] ?? TABLE[key][0];
   return text.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole));

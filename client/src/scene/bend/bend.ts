@@ -20,8 +20,8 @@ const MOST_TURN = 1;
 const REST = 1e-7;
 
 /**
- * A branch that is being bent: what `server/plant/src/bend.rs` finds, found here, so that the branch follows the
- * finger before the server answers. Says nothing that is not said there; both read `server/plant/golden/bend.json`.
+ * Solves a bend as `server/plant/src/bend.rs` does, in the client, so that the branch follows the
+ * finger before the server answers. Both must give the same poses, which `server/plant/golden/bend.json` holds.
  */
 export class Bend {
   private readonly chain: Chain;

@@ -62,7 +62,7 @@ function armsOf({ centres }: Chain, { prism, share }: Place, node: Vec3): Float6
   return arms;
 }
 
-/** A direction across the way from the base to a node. */
+/** A direction perpendicular to the way from the base to a node. */
 function aside(chain: Chain, node: Vec3): Vec3 {
   const base = chain.node(0);
   const [x, y, z] = [node[0] - base[0], node[1] - base[1], node[2] - base[2]];

@@ -131,7 +131,7 @@ export class Tridiagonal {
     b[i + 35]! -= weight * (xx + yy);
   }
 
-  /** Where the model is least; undefined if rounding has made the system singular. Valid until the next call. */
+  /** The minimum of the model; undefined if rounding has made the system singular. Valid until the next call. */
   solve(): Float64Array | undefined {
     for (let row = 0; row < this.blocks; row += 1) if (!this.factor(row)) return undefined;
     const { solution: x, lowers, factors } = this;

@@ -66,7 +66,7 @@ export class CameraRig {
     ];
   }
 
-  /** Tells what is to be kept in reach. */
+  /** Sets the box that is kept in reach. */
   keep(box: Box): void {
     this.box = this.fittedBox ? union(box, this.fittedBox) : box;
     this.limit();

@@ -1,7 +1,7 @@
 import { radiusOf, type TreeTable } from "../table/tree-table";
 import type { Vec3 } from "../vector";
 
-/** What a finger on the glass meets. */
+/** The row under a place on the screen. */
 export interface Pick {
   row: number;
   point: Vec3;

@@ -11,7 +11,7 @@ const NEAR_ENOUGH = 150;
 /** An eye that looks down more steeply than this, in radians, sees the ground rather than what rises from it. */
 const LOOKS_DOWN = 0.5;
 
-/** The eye: where it is, and what a place on the glass means to it. Places are in CSS pixels of the canvas. */
+/** The eye of the camera, and how places on the screen and in the world correspond. Screen places are CSS pixels of the canvas. */
 export class Sight {
   readonly camera = new PerspectiveCamera((FIELD_OF_VIEW * 180) / Math.PI, 1, 0.1, 2000);
   readonly worldFromClip = new Matrix4();
@@ -75,7 +75,7 @@ export class Sight {
     return { origin: [...through], right: [right.x, right.y, right.z], up: [up.x, up.y, up.z] };
   }
 
-  /** What turns points of the world into places on the glass; null for those behind the eye. */
+  /** Projects points of the world onto the screen; null for those behind the eye. */
   projector(): (point: Vec3) => readonly [number, number] | null {
     const m = this.clipFromWorld();
     const [halfWidth, halfHeight] = [this.width / 2, this.height / 2];

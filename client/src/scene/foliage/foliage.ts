@@ -16,9 +16,9 @@ import { Sprigs } from "./sprigs";
 
 /** Leaves, flowers and fruits. */
 export class Foliage {
-  /** Seen by the camera. */
+  /** Drawn into the picture. */
   readonly meshes: readonly Mesh[];
-  /** Seen by the sun. */
+  /** Drawn into the shadow map. */
   readonly casters: readonly Mesh[];
   readonly textures: readonly GradualTextures<Sort>[];
   private readonly uniforms: LeafUniforms;
@@ -48,7 +48,7 @@ export class Foliage {
     this.fruits.setLook(fruits);
   }
 
-  /** What rows from `rows` on bore is gone. */
+  /** Removes everything on rows from `rows` on. */
   truncate(rows: number): void {
     this.leaves.truncate(rows);
     this.sprigs.truncate(rows);
@@ -72,7 +72,7 @@ export class Foliage {
     this.sprigs.detail(fineness, box, this.leaves);
   }
 
-  /** What nearly every tree bears. */
+  /** The meshes that nearly every tree uses. */
   get essential(): readonly Mesh[] {
     return [this.leaves, this.sprigs].flatMap(({ mesh, caster }) => [mesh, caster]);
   }
@@ -82,7 +82,7 @@ export class Foliage {
     return this.sprigs.share;
   }
 
-  /** Has three.js upload what was written since the last call. */
+  /** Uploads what was written since the last call. */
   upload(table: TreeTable): void {
     this.leaves.upload();
     this.sprigs.upload();

@@ -48,5 +48,5 @@ export function levelFor(levels: readonly Card[], leaves: number, pixels: number
 
 /** Flowers and fruits are pictures that turn towards the eye. */
 export const ORNAMENT_CARDS: Card = cards(1, 1, 1);
-/** A sprig is never so near that it would have to be more. */
+/** A sprig is always far enough away for a flat card. */
 export const SPRIG_CARD: Card = cards(1, 1, 1);

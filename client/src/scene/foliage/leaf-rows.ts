@@ -22,9 +22,9 @@ export interface LeafMaterials {
 
 /** All leaves as instances of one card, placed by the rules LF1 to LF4. */
 export class LeafRows {
-  /** Seen by the camera. */
+  /** Drawn into the picture. */
   readonly mesh: Mesh;
-  /** Seen by the sun. */
+  /** Drawn into the shadow map. */
   readonly caster: Mesh;
   private readonly instances = new RowInstances(BLADE_CARDS);
   private spray = false;
@@ -50,7 +50,7 @@ export class LeafRows {
     return this.instances.countOf(row);
   }
 
-  /** Leaves of rows from `rows` on are gone. */
+  /** Removes the leaves of rows from `rows` on. */
   truncate(rows: number): void {
     this.instances.truncate(rows);
   }
@@ -85,7 +85,7 @@ export class LeafRows {
     this.caster.visible = this.mesh.visible;
   }
 
-  /** Has three.js upload what was written since the last call. */
+  /** Uploads what was written since the last call. */
   upload(): void {
     this.instances.upload();
     this.show(true);

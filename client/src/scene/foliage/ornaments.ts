@@ -22,9 +22,9 @@ interface OrnamentLook extends Placing {
 
 /** All flowers, or all fruits, as instances of one card. */
 export class Ornaments<Look extends OrnamentLook> {
-  /** Seen by the camera. */
+  /** Drawn into the picture. */
   readonly mesh: Mesh;
-  /** Seen by the sun. */
+  /** Drawn into the shadow map. */
   readonly caster: Mesh;
   private readonly instances = new RowInstances([ORNAMENT_CARDS]);
   private readonly form = { value: new Vector4(0.5, 0, 0, 0) };
@@ -83,7 +83,7 @@ export class Ornaments<Look extends OrnamentLook> {
     this.second.value.set(...linear(kind.second));
   }
 
-  /** What rows from `rows` on bore is gone. */
+  /** Removes everything on rows from `rows` on. */
   truncate(rows: number): void {
     this.instances.truncate(rows);
     // What was too much for a large tree may not be for what is left of it.
@@ -104,7 +104,7 @@ export class Ornaments<Look extends OrnamentLook> {
     }
   }
 
-  /** Has three.js upload what was written since the last call. */
+  /** Uploads what was written since the last call. */
   upload(table: TreeTable): void {
     if (this.stale) this.search(table, this.kind?.together ?? 0);
     while (this.instances.filled > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));

@@ -11,7 +11,7 @@ function bearing(placing: Placing, salt = 1): number[] {
   return Array.from({ length: table.rows }, (_, row) => row).filter((row) => isBearing(table, row, placing, salt));
 }
 
-it("tips, leafy twigs and bare wood are told apart", () => {
+it("tips, leafy twigs and bare wood are distinguished", () => {
   const rows = (place: Placing["place"]) =>
     Array.from({ length: table.rows }, (_, row) => row).filter((row) => isPlace(table, row, place));
   const [tips, twigs, wood] = [rows("tips"), rows("twigs"), rows("wood")];

@@ -90,7 +90,7 @@ export class RowInstances {
     instances[to + TINT] = vigor + Math.min(random, 0.999);
   }
 
-  /** Has three.js upload what was written since the last call. */
+  /** Uploads what was written since the last call. */
   upload(): void {
     if (this.slots.end > MOST_ROOM * this.slots.filled + SLACK) {
       this.slots.compact((to, from, count) => {

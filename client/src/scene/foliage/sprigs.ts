@@ -35,9 +35,9 @@ export interface SprigMaterials {
  * moment in which one is put for the other, so nothing pops, and nothing has to remember which it was.
  */
 export class Sprigs {
-  /** Seen by the camera. */
+  /** Drawn into the picture. */
   readonly mesh: Mesh;
-  /** Seen by the sun. */
+  /** Drawn into the shadow map. */
   readonly caster: Mesh;
   /** How far leaves have given way in the middle of the tree, 0 to 1. */
   share = 0;
@@ -106,7 +106,7 @@ export class Sprigs {
     leaves.show(!any || length(nearest - size) > low);
   }
 
-  /** Has three.js upload what was written since the last call. */
+  /** Uploads what was written since the last call. */
   upload(): void {
     this.instances.upload();
   }

@@ -11,7 +11,7 @@ const EXPOSURE = 0.85;
 const MAX_FEET = 8;
 
 const GROUNDS: readonly Ground[] = ["grass", "earth", "sand", "snow", "plain"];
-/** Behind numbers shown as colours: a light grey that takes sides with none of them. */
+/** The background of false colours: a light grey that is close to none of them. */
 const NEUTRAL = { sky: "studio", ground: "plain", backdrop: [232, 232, 230] } as const;
 
 /** Sky and ground, and the colours of their light. */
@@ -66,13 +66,13 @@ export class Environment {
     this.light();
   }
 
-  /** Stands back behind numbers that are shown as colours, or comes forth again. */
+  /** Shows a neutral background for false colours, or the sky again. */
   setNeutral(neutral: boolean): void {
     this.neutral = neutral;
     this.light();
   }
 
-  /** Lets the ground know where trunks stand and how far the crown reaches. */
+  /** Passes the places of trunks and the extent of the crown to the ground. */
   update(table: TreeTable): void {
     let found = 0;
     for (const foot of this.feet) foot.w = 0;
@@ -88,7 +88,7 @@ export class Environment {
     this.crown.set((min[0] + max[0]) / 2, (min[2] + max[2]) / 2, Math.max(1, reach), Math.min(1, reach / 8));
   }
 
-  /** Suits ground and air to how far off the eye looks, so that a tall tree stands in air as clear as a seedling. */
+  /** Scales ground and haze with the distance of the eye, so that a tall tree is as clear as a seedling. */
   reach(distance: number): void {
     const { uAir, uGroundReach } = this.colours;
     uGroundReach.value = Math.max(GROUND_RADIUS, GROUND_REACH * distance);

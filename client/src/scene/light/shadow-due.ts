@@ -1,9 +1,9 @@
 /** Shadows are drawn anew once so many more or fewer of the leaves are drawn as sprigs. */
 const MERGED_STEP = 0.125;
 
-/** When the map of shadows is to be drawn anew: after what casts them has changed, but not more often than the quality allows. */
+/** Decides when the shadow map is drawn again: after a change of what casts shadows, but not more often than the quality allows. */
 export class ShadowDue {
-  /** Whether something casts another shadow than the one on the map. */
+  /** Whether the map is out of date. */
   stale = true;
   #drawnAt = Number.NEGATIVE_INFINITY;
   /** How far leaves had given way to sprigs then. */

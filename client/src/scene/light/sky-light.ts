@@ -1,7 +1,7 @@
 import type { Background, Sky } from "../../wire/generated";
 import type { Vec3 } from "../vector";
 
-/** What a sky gives to see by; colours are linear. */
+/** The light of a sky; colours are linear. */
 export interface SkyLight {
   /** Towards the sun, or towards the moon once it has set. */
   readonly towards: Vec3;
@@ -23,13 +23,13 @@ export interface SkyLight {
   readonly hills: number;
   /** How wide the penumbra is: tangent of the sun's half angle. */
   readonly spread: number;
-  /** How far the eye has opened for the dark, from 1 by day. */
+  /** Exposure: 1 by day, more in the dark. */
   readonly opened: number;
-  /** How much of the colours it sees: more than there is by day, less by night. */
+  /** Saturation: 1 keeps colours as they are; it is higher by day than by night. */
   readonly vivid: number;
 }
 
-/** What changes with the hour. */
+/** The part of the light that depends on the time of day. */
 interface Hour {
   readonly elevation: number;
   readonly sun: Vec3;
@@ -116,7 +116,7 @@ const MOON_ASIDE = 130;
 const LOWEST_LIGHT = 4;
 /** How much brighter the sky is to look at than what it gives to see by, as eyes and films have it. */
 const SKY_GAIN = 1.7;
-/** A film's look is flat, and a little more colour brings it back to what the eye remembers; by moonlight it sees little. */
+/** Tone mapping flattens colours; a little more saturation restores them. By moonlight less is right. */
 const DAY_VIVID = 1.3;
 const NIGHT_VIVID = 1.2;
 /** How green or bright the ground sends light back. */
@@ -230,7 +230,7 @@ function hourAt(elevation: number): Omit<Hour, "elevation"> {
   };
 }
 
-/** What sun and sky leave on the ground comes back up. */
+/** The light that the ground reflects. */
 function bounced(hour: Omit<Hour, "elevation">, towards: Vec3, albedo: Vec3): Vec3 {
   return times(add(scale(hour.sun, 0.22 * towards[1]), scale(hour.above, 0.55)), albedo);
 }

@@ -91,7 +91,7 @@ export class Sun {
     this.sheet.add(this.whole);
   }
 
-  /** What softens shadows, for it to be made before there are any. */
+  /** The mesh that softens shadows, so that its program can be made in advance. */
   get essential(): readonly Mesh[] {
     return [this.whole];
   }

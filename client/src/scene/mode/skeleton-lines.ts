@@ -4,7 +4,7 @@ import type { TreeTable } from "../table/tree-table";
 
 const STRIDE = 2;
 
-/** The axes as thin lines, one strip a metamer; made afresh when the tree changes, and only while it is looked at so. */
+/** The axes as thin lines, one strip a metamer; rebuilt when the tree changes, and only while this mode is shown. */
 export class SkeletonLines {
   readonly mesh: Mesh;
   private geometry = strips(new Uint32Array(0));

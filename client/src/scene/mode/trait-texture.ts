@@ -23,7 +23,7 @@ export class TraitTexture {
     Object.assign(uniforms, { uMode: this.mode, uTraitEnds: this.ends, uRamp: this.ramp, uTraits: this.texture });
   }
 
-  /** Shows what a mode is about. */
+  /** Shows the number that a mode is for. */
   show(mode: DrawMode): void {
     this.drawMode = mode;
     this.mode.value = DRAW_MODES.indexOf(mode);
@@ -42,7 +42,7 @@ export class TraitTexture {
     this.firstStale = Math.min(this.firstStale, rows);
   }
 
-  /** A row has changed; `moved` if perhaps where it belongs has. */
+  /** A row has changed; `moved` if its axis order may be another one. */
   update(row: number, moved: boolean): void {
     if (moved) this.orders.forget(row);
     this.firstStale = Math.min(this.firstStale, row);

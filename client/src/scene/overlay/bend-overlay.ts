@@ -61,7 +61,7 @@ export class BendOverlay implements Overlay {
     }
   }
 
-  /** The committed places have come, or the branch is gone. */
+  /** The table has the committed places, or the branch is gone. */
   over(table: TreeTable): boolean {
     return this.path.some((row, i) => {
       if (row >= table.rows || table.radiusCode[row] === 0) return true;
@@ -99,7 +99,7 @@ class Chain {
     if (below >= 0) {
       this.position.set(placeOf(table, below));
       this.orientations.set(table.orientations.subarray(4 * below, 4 * below + 4));
-      // What stands below a seed would have nothing to go on from.
+      // The node below a seed has no orientation to continue from.
       this.parent[0] = table.parent[below]! < 0 ? -1 : 0;
     }
     let aside = 1 + path.length;

@@ -19,7 +19,7 @@ export interface GhostPose {
 
 const PALE = new Vector4(0.86, 0.93, 1, 0.7);
 
-/** Plants that are not there, or a branch that is about to be: drawn translucent, wherever it is put. */
+/** A predicted plant or a branch that is being placed: drawn translucent, at any place. */
 export class Ghost {
   readonly group = new Group();
   private readonly nodes = new NodeTexture();
@@ -33,7 +33,7 @@ export class Ghost {
     const uniforms: Uniforms = {
       ...shared,
       uNodes: this.nodes.uniform,
-      // A ghost is always lit: numbers of its rows are not told apart from the tree's.
+      // A ghost is always lit: draw modes have no numbers for its rows.
       uMode: { value: 0 },
       // Both passes must meet the very same leaves, however they are looked at.
       uLeafLevel: { value: new Vector2(2, 1) },
@@ -83,7 +83,7 @@ export class Ghost {
     return this.box && carried(this.box, this.pose);
   }
 
-  /** Takes the form of these rows of a table, or of all; what was shown before is gone. */
+  /** Shows these rows of a table, or all of them, in place of what was shown before. */
   show(table: TreeTable, rows: Iterable<number> | null): void {
     this.hide();
     this.nodes.reserve(table.rows);
@@ -112,7 +112,7 @@ export class Ghost {
     this.box = low[0] <= high[0] ? { min: low, max: high } : { min: [0, 0, 0], max: [0, 0, 0] };
   }
 
-  /** Puts it somewhere. */
+  /** Places the ghost. */
   place({ turn, from, to }: GhostPose): void {
     this.pose.turn.set(...turn);
     this.pose.from.set(...from);

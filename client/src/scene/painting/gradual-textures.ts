@@ -40,7 +40,7 @@ export class GradualTextures<S extends Sort> {
   private kind: Kinds[S] | null = null;
   private pairs: Pair[] | null = null;
   private finer: Levels[] | null = null;
-  /** What is drawn with while nothing is to be seen: the graphics card can tell what will be asked of it. */
+  /** Blank textures until the picture is visible, so that the graphics card can prepare its programs. */
   private blank: Pair[] | null = null;
   private callOff: (() => void) | null = null;
 

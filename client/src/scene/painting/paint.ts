@@ -16,7 +16,7 @@ export interface Kinds {
 }
 export type Sort = keyof Kinds;
 
-/** A picture somebody wants. */
+/** An order for one picture. */
 export type Order = {
   readonly [S in Sort]: { readonly sort: S; readonly kind: Kinds[S]; readonly coarse: boolean };
 }[Sort];

@@ -16,7 +16,7 @@ interface Job {
 
 /** Paints beside the page, so that no frame waits for it; where no worker is to be had, on the page after all. */
 export class Painter {
-  /** Whether anything is to be seen; before that, nobody is to wait for pictures. */
+  /** Whether the picture is visible yet; before that no picture is painted. */
   begun = false;
   private worker: PaintWorker | null = null;
   private broken = false;
@@ -30,14 +30,14 @@ export class Painter {
     private readonly start: () => PaintWorker = startWorker,
   ) {}
 
-  /** Has something painted; gives back what calls that off. */
+  /** Orders a picture; the result cancels the order. */
   order(order: Order, done: (painted: Levels[]) => void): () => void {
     const job = { order, done };
     this.waiting.push(job);
     this.next();
     return () => {
       this.waiting = this.waiting.filter((other) => other !== job);
-      // What is on the easel is finished, but nobody looks at it.
+      // The picture that is being painted is finished and then dropped.
       if (this.current === job) this.current = { order, done: () => {} };
     };
   }

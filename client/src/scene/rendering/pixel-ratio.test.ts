@@ -19,7 +19,7 @@ function screens() {
 
 afterEach(() => vi.unstubAllGlobals());
 
-it("another screen's pixels are told, each time, until it ends", () => {
+it("reports another screen's pixels, each time, until it ends", () => {
   const moveTo = screens();
   const ratios: number[] = [];
   const stop = followPixelRatio(() => ratios.push(devicePixelRatio));

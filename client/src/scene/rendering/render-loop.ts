@@ -7,7 +7,7 @@ const FIRST_STEP = 1 / 60;
 export interface RenderTime {
   /** When it began, in milliseconds. */
   readonly began: number;
-  /** How many seconds the movement under way goes on with it. */
+  /** How many seconds the movement in progress goes on with it. */
   readonly step: number;
   /** Whether it was asked for, rather than that the one before it goes on by itself. */
   readonly asked: boolean;
@@ -18,9 +18,9 @@ export class RenderLoop {
   readonly control = new QualityControl();
   private request = 0;
   private asked = false;
-  /** When the movement under way was last drawn. */
+  /** When the movement in progress was last drawn. */
   private lastRender: number | null = null;
-  /** When the frame under way was asked for, and when the one before it began; both tell how long that one took. */
+  /** When the frame in progress was asked for, and when the one before it began; both tell how long that one took. */
   private requested = 0;
   private began: number | null = null;
   private restTimer = 0;

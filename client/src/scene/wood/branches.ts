@@ -185,7 +185,7 @@ export class Branches {
     for (const [i, geometry] of (detailed ? this.fine : this.quick).entries()) this.meshes[i]!.geometry = geometry;
   }
 
-  /** Has three.js upload what was written since the last call; ends are judged by the table, where rows are left. */
+  /** Uploads what was written since the last call; ends are judged by the table, where rows are left. */
   upload(table?: TreeTable): void {
     if (table && this.changed) this.judgeEnds(table);
     const bins = [...this.bins, this.ends];

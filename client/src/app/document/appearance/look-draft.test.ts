@@ -29,7 +29,7 @@ function shared() {
     ben,
     sent: underWay,
     looks: () => looks,
-    /** All that is under way arrives, and everybody is told. */
+    /** All commands arrive, and every client gets the new value. */
     arrive: () => {
       for (const { patch, person, command } of underWay.splice(0)) {
         looks = patched(looks, patch);

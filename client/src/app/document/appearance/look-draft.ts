@@ -6,7 +6,7 @@ import { Draft, type DraftOptions } from "../draft";
 type Fields = Record<string, unknown>;
 
 interface LookDraftOptions extends Pick<DraftOptions<Fields, Fields>, "newGesture" | "ahead" | "clock"> {
-  /** Sends a change and gives the number of the command; 0 where there is nobody to send it to. */
+  /** Sends a change and gives the number of the command; 0 where no session is open. */
   readonly submit: (patch: AppearancePatch, gesture: number | undefined) => number;
 }
 
@@ -34,7 +34,7 @@ export class LookDraft {
     this.#fields.commit(fieldsOf(patch), gesture);
   }
 
-  /** The server tells how it is. */
+  /** The server has sent the present value. */
   receive(appearance: Appearance): void {
     this.#fields.receive(fieldsOf(appearance));
   }

@@ -16,7 +16,7 @@ export interface Rectangle {
   readonly height: number;
 }
 
-/** The dome on the glass: around the middle of the workspace. */
+/** The dome on the screen: around the middle of the workspace. */
 export interface Dome {
   /** Where in the workspace the sun is drawn. */
   pixels(place: DomePlace): readonly [x: number, y: number];
@@ -24,7 +24,7 @@ export interface Dome {
   place(clientX: number, clientY: number): readonly [right: number, up: number];
 }
 
-/** The dome of a workspace; the sun keeps off a bar at its side, under which nobody could take hold of it. */
+/** The dome of a workspace; the sun stays clear of the bar at its side, under which it could not be dragged. */
 export function domeOf({ left, top, width, height }: Rectangle, bar: Rectangle | null): Dome {
   const radius = RADIUS * Math.min(width, height);
   const [middleX, middleY] = [width / 2, height / 2 + 0.06 * height];

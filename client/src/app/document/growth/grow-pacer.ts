@@ -7,7 +7,7 @@ export const FASTEST = 8;
 export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
-/** Commands that may be under way. */
+/** Commands that may be in progress. */
 const MAX_UNSETTLED = 2;
 /** How much of a second's steps may wait on the server before more are asked for. */
 const BACKLOG_SECONDS = 0.3;

@@ -188,7 +188,7 @@ export const DEFAULTS: Parameters = {
   leaf_size: 1,
 };
 
-/** A parameter's name in the language spoken now. */
+/** A parameter's name in the present language. */
 export function nameOf({ name }: GrowthParameter): string {
   return say(`parameters.${name}`);
 }
@@ -219,7 +219,7 @@ export function patchFrom(source: Parameters, parameters: readonly GrowthParamet
   return Object.fromEntries(parameters.map(({ name }) => [name, source[name]]));
 }
 
-/** The unit of a number in the language spoken now; empty if it has none. */
+/** The unit of a number in the present language; empty if it has none. */
 export function unitOf({ unit }: NumberParameter): string {
   return unit === "parameters.unit.steps" ? say(unit) : (unit ?? "");
 }

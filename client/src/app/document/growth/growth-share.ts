@@ -1,7 +1,7 @@
-/** Growth this short is not measured: a bar that fills in a blink tells nothing. */
+/** Growth of fewer steps shows no progress bar: it would fill at once. */
 const WORTH_A_BAR = 8;
 
-/** How much is done of growth whose steps are told as they are left, from the most that were left since it began. */
+/** The finished share of growth, from the steps that are left and the most that were left since it began. */
 export class GrowthShare {
   #most = 0;
 

@@ -8,7 +8,7 @@ import { type NamedBytes, packedModel } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
 
 export interface ObstacleListOptions {
-  /** Sends a command and gives its number; 0 where there is nobody to send it to. */
+  /** Sends a command and gives its number; 0 where no session is open. */
   readonly submit: (command: Command) => number;
   /** A number that no other gesture of this client has, if it is sent at once. */
   readonly newGesture: () => number;
@@ -108,7 +108,7 @@ export class ObstacleList {
     this.#draft.letGo();
   }
 
-  /** Another session: nothing here is of it. */
+  /** Forgets everything, for another session. */
   forget(): void {
     this.#awaited = [];
     this.#first.clear();

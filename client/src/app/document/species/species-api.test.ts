@@ -17,7 +17,7 @@ describe("species", () => {
     expect(await listSpecies()).toEqual([]);
   });
 
-  it("a server that is silent is told of", async () => {
+  it("a server that is silent is reported", async () => {
     vi.stubGlobal("fetch", async () => {
       throw new TypeError("no network");
     });

@@ -51,12 +51,12 @@ function looksLike({ appearance }: Species, looks: Appearance): boolean {
   );
 }
 
-/** A species' name in the language spoken now; one that came with a newer server has only its own. */
+/** A species' name in the present language; one that came with a newer server has only its own. */
 export function speciesName({ slug, name }: Species): string {
   return (language.value === "de" && german(slug)?.[0]) || name;
 }
 
-/** What tells a species from others, in the language spoken now. */
+/** What distinguishes a species from others, in the present language. */
 export function speciesSentence({ slug, sentence }: Species): string {
   return (language.value === "de" && german(slug)?.[1]) || sentence;
 }

@@ -50,7 +50,7 @@ describe("species of the server", () => {
     expect(waits.every((wait, i) => i === 0 || wait > waits[i - 1]!)).toBe(true);
   });
 
-  it("a server that stays silent is told of once", async () => {
+  it("a server that stays silent is reported once", async () => {
     const { asked, failures, ask, pass } = setUp(1000);
     ask();
     await pass(20);

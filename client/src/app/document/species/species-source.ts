@@ -24,7 +24,7 @@ export class SpeciesSource {
     this.known = this.#known;
   }
 
-  /** Asks if nobody has; `failed` is told once, of the first attempt that came to nothing. */
+  /** Asks the server unless that was done; `failed` is called once, for the first attempt that fails. */
   ask(failed: (error: unknown) => void): void {
     if (this.#asking) {
       return;

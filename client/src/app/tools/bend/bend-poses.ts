@@ -3,13 +3,13 @@ import type { TreeTable } from "../../../scene/table/tree-table";
 import type { PoseFrame, RowMotion } from "../../../wire/pose";
 import type { ShapingView } from "../shaping-view";
 
-/** The bend that this page has under way. */
+/** The bend that this page has in progress. */
 export interface OwnBends {
   owns(path: readonly number[]): boolean;
   over(path: readonly number[]): void;
 }
 
-/** Draws the branches that are being bent as the server tells (`BE5`), except those of this page. */
+/** Draws the branches that others are bending (`BE5`); those of this page are drawn by its own tool. */
 export class BendPoses {
   #table: TreeTable;
   #view: ShapingView;
@@ -37,7 +37,7 @@ export class BendPoses {
     this.#pose(bend, path, motions);
   }
 
-  /** Forgets all of them: another session, or another connection, which will tell anew. */
+  /** Forgets all of them, for another session or another connection, which sends them again. */
   clear(): void {
     for (const bent of this.#shown.values()) {
       this.#view.removeOverlay(bent);

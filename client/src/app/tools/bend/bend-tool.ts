@@ -13,7 +13,7 @@ import { type Hold, holdAt, naturalBase, related } from "./bend-hold";
 
 /** Rounds that are played again for a finger that rests, so that the branch comes up to it. */
 const ROUNDS_AT_REST = 8;
-/** Moves that may be under way; beyond it the newest waits for its turn. */
+/** Moves that may be in progress; beyond it the newest waits for its turn. */
 const MAX_UNSETTLED = 6;
 /** How long after its answer a bend may take to show in the rows, in milliseconds. */
 const LINGERS = 1500;
@@ -167,7 +167,7 @@ export class BendTool implements GripTool {
 
   gripDrop(): void {
     if (this.#bending) {
-      // What was bent stays so, for a bend that nobody ends would keep others from this branch.
+      // The bend is kept: a bend without an end would block this branch for others.
       this.#finish();
     }
     this.#fingers.clear();

@@ -6,7 +6,7 @@ import { type Rotation, turned } from "./branch-turn";
 import { HeldBranch } from "./held-branch";
 
 const SLOP = 9;
-/** Pixels to the internode; the origin is in the middle of the glass, seen from the front. */
+/** Pixels to the internode; the origin is in the middle of the screen, seen from the front. */
 const SCALE = 50;
 const glass = ([x, y]: Vec3): readonly [number, number] => [400 + SCALE * x, 400 - SCALE * y];
 const world = (x: number, y: number, z = 0): Vec3 => [(x - 400) / SCALE, (400 - y) / SCALE, z];
@@ -111,7 +111,7 @@ describe("one finger", () => {
     expect(sent.map(({ kind }) => kind)).toEqual(["turn_branch"]);
   });
 
-  it("is told that the whole tree stays where it is", () => {
+  it("a message says that the whole tree stays where it is", () => {
     const { held, said, tap } = setUp();
     tap([0, 1, 0]);
     expect([held.row.peek(), said.length]).toEqual([null, 1]);

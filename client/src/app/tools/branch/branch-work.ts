@@ -15,7 +15,7 @@ export interface BranchWorkOptions {
   readonly submit: (command: Command) => void;
   /** A number that no other operation of this client has. */
   readonly newGesture: () => number;
-  /** Asks for a ghost; false while there is nobody to ask. */
+  /** Asks for a ghost; false while no session is connected. */
   readonly predict: (rows: number[], steps: number) => boolean;
   /** The rows whose width is set. */
   readonly limits: () => ReadonlySet<number>;

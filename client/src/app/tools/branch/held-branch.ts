@@ -20,7 +20,7 @@ import {
 
 /** Turns smaller than this, in radians, are the finger's trembling. */
 const SMALLEST_TURN = 0.004;
-/** Rows that tell whether the table has a branch's new pose. */
+/** Rows that show whether the table has a branch's new pose. */
 const MOST_WITNESSES = 40;
 /** What one press of a key turns by, in radians. */
 const STEP = (5 * Math.PI) / 180;

@@ -9,7 +9,7 @@ import { SampleQueue } from "./sample-queue";
 
 /** How often the brush is sent while it is down, in milliseconds. */
 export const SEND_EVERY = 33;
-/** Messages that may be under way; beyond it places gather for the next one. */
+/** Messages that may be in progress; beyond it places gather for the next one. */
 const MAX_UNSETTLED = 8;
 
 export interface BrushOptions {
@@ -105,7 +105,7 @@ export class BrushTool implements Tool {
     this.#options.view.hideBrush();
   }
 
-  /** Forgets the stroke without a word to the server, which no longer knows it. */
+  /** Forgets the stroke without a command, for the server does not know it any more. */
   abandon(): void {
     this.#stroke = null;
     this.#options.view.hideBrush();

@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import type { Vec3 } from "../../../scene/vector";
 import type { Point2 } from "./outline";
 
-/** An outline on the glass while it is drawn, in the world while the tree grows into it. */
+/** An outline on the screen while it is drawn, in the world while the tree grows into it. */
 export type Outline =
   | { readonly stage: "drawing"; readonly points: readonly Point2[] }
   | { readonly stage: "growing"; readonly places: readonly Vec3[] };

@@ -7,14 +7,14 @@ interface Rows {
   readonly radiusCode: ArrayLike<number>;
 }
 
-/** Which metamers a line on the glass crosses, as long as the view stands still. */
+/** Which metamers a line on the screen crosses, as long as the view stands still. */
 export class CutLine {
   #rows: Rows;
-  /** x and y of each row's end on the glass; not a number behind the eye. */
+  /** x and y of each row's end on the screen; not a number behind the eye. */
   #places: Float32Array;
   #last: readonly [number, number] | null = null;
 
-  /** `project` tells where a row's end lies on the glass. */
+  /** `project` tells where a row's end lies on the screen. */
   constructor(rows: Rows, placeOf: (row: number) => Vec3, project: (point: Vec3) => readonly [number, number] | null) {
     this.#rows = rows;
     this.#places = new Float32Array(2 * rows.rows);

@@ -1,6 +1,6 @@
 import type { Key } from "../../words/say";
 
-/** What a person is told where nothing comes off (`PR1`). */
+/** The text for a user where nothing can be cut off (`PR1`). */
 export const TRUNK_STAYS: Key = "tools.trunk-stays";
 
 /** What is asked of the rows. */

@@ -13,7 +13,7 @@ export const LEAST_DIAMETER = 0.01;
 const WIDEST_PINCH = 320;
 /** How near to the middle between two fingers a limb has to be. */
 const PINCH_TOLERANCE = 16;
-/** Changes that may be under way; beyond it the newest waits for its turn. */
+/** Changes that may be in progress; beyond it the newest waits for its turn. */
 const MAX_UNSETTLED = 4;
 /** Widths that differ by less than this share are the same to the eye, and to the radius codes. */
 const SAME = 0.015;
@@ -31,7 +31,7 @@ export interface WidthOptions {
   readonly girth: () => Girth;
   /** How many pixels an internode is long where a row is. */
   readonly scaleAt: (row: number) => number;
-  /** Where a row is on the glass. */
+  /** Where a row is on the screen. */
   readonly placeOnGlass: (row: number) => readonly [number, number] | null;
 }
 
@@ -226,7 +226,7 @@ export class WidthTool implements GripTool {
       const gesture = newGesture();
       submit({ kind: "set_width", row, diameter: null, gesture });
       submit({ kind: "set_width", row: to, diameter, gesture });
-      // Until the server tells all widths, this one is already where it goes.
+      // Until the server sends all widths, this one is already at its new place.
       this.widths.value = this.widths
         .peek()
         .filter((width) => width.row !== to)
@@ -386,7 +386,7 @@ export class WidthTool implements GripTool {
     return this.#pick((a.x + b.x) / 2, (a.y + b.y) / 2, PINCH_TOLERANCE);
   }
 
-  /** How far a place on the glass is from where a row is, in pixels. */
+  /** How far a place on the screen is from where a row is, in pixels. */
   #away(row: number, x: number, y: number): number {
     const place = this.#options.placeOnGlass(row);
     return place ? Math.hypot(x - place[0], y - place[1]) : 0;

@@ -10,7 +10,7 @@ const WORTH_A_WORD = 200;
 /** So many steps are, whatever the user is doing. */
 const LONG_GROWTH = 20;
 
-/** What is under way and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
+/** What is in progress and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
 export function Chips({ studio }: { studio: Studio }) {
   const placing = studio.branches.held.placing.value;
   return (

@@ -2,7 +2,7 @@ import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { closedPath, useAnimationFrames } from "../use-animation-frames";
 
-/** The lasso's outline: on the glass while it is drawn, in the world while the tree grows into it. */
+/** The lasso's outline: on the screen while it is drawn, in the world while the tree grows into it. */
 export function OutlineOverlay({ studio }: { studio: Studio }) {
   const fill = useRef<SVGPathElement>(null);
   const outline = studio.tools.outline.shown.value;

@@ -3,10 +3,10 @@ import type { Studio } from "../../studio";
 
 /** Corners of a ring. */
 const CORNERS = 36;
-/** A ring is never smaller on the glass than this, in pixels, and stands so far off the bark. */
+/** A ring is never smaller on the screen than this, in pixels, and stands so far off the bark. */
 const LEAST_RING = 9;
 const OFF_THE_BARK = 1.12;
-/** Where a ring lies on the glass: what is in front of the limb, what behind it, and its ends across the limb. */
+/** Where a ring lies on the screen: what is in front of the limb, what behind it, and its ends across the limb. */
 export interface Ring {
   readonly front: string;
   readonly back: string;

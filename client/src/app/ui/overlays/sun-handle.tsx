@@ -114,7 +114,7 @@ function Sphere({ studio, pinned, setPinned }: SphereProps) {
     }
   });
 
-  /** A sun that is pinned or held goes round with the eye, so that it keeps its place on the glass. */
+  /** A sun that is pinned or held goes round with the eye, so that it keeps its place on the screen. */
   function follow(axes: ScreenAxes): void {
     const looksFrom = azimuthOfEye(axes);
     const last = eye.current;

@@ -8,7 +8,7 @@ const GRASP = 24;
 /** A finger so far above the strip pulls slowly, so that single steps can be met. */
 const FINE_FROM = 56;
 const FINE = 0.2;
-/** How long what was touched is still told, in milliseconds. */
+/** How long the description of what was touched stays, in milliseconds. */
 const LINGERS = 1600;
 
 interface Pull {

@@ -14,7 +14,7 @@ const AXIS: Place = { x: WIDTH / 2, y: HEIGHT / 2 };
 const ROOM = 60;
 /** So much is in sight at least, in units of the ellipse. */
 const LEAST_SIGHT = 1.45;
-/** Grips stand outside the ellipse, so that those of a small one can be told apart. */
+/** Grips stand outside the ellipse, so that those of a small one can be distinguished. */
 const OUTSIDE = 22;
 const DIRECTIONS = Array.from({ length: 16 }, (_, i) => (360 * i) / 16);
 

@@ -27,7 +27,7 @@ interface FrameProps {
   readonly help: string;
   /** What the widget sets; each can be typed as well. */
   readonly parameters: readonly NumberParameter[];
-  /** What its values come to, in words. */
+  /** What its values mean, in words. */
   readonly note?: string;
   /** The diagram. */
   readonly children?: ComponentChildren;
