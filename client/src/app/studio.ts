@@ -172,7 +172,7 @@ export class Studio {
   /** Leaves this session for a new one, empty or from a saved tree. */
   async newSession(tree?: string): Promise<void> {
     const from = this.sheet.peek();
-    // Whoever has waved the card away meanwhile may have another one open.
+    // The user may have closed the sheet meanwhile and opened another one.
     if ((await this.link.change(tree)) && this.sheet.peek() === from) {
       this.sheet.value = null;
     }

@@ -96,7 +96,7 @@ export class Viewport {
     this.loop = new RenderLoop(
       this.draw,
       () => this.loop.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
-      // Whoever takes pictures of the page, a test or a script, need not guess when this one is finished.
+      // Tests and scripts that take pictures of the page can read when this one is finished.
       (still) =>
         canvas.toggleAttribute("data-still", still && !this.lost && this.rehearsal.prepared && !this.tree.unfinished),
     );
@@ -199,7 +199,7 @@ export class Viewport {
     this.stir();
   }
 
-  /** Eases it back to where it was before it framed something, unless somebody has moved it since. */
+  /** Eases it back to where it was before the last fit, unless the user has moved it since. */
   restoreView(): void {
     this.rig.restore();
     this.stir();

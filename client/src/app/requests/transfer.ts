@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { refusal, silence } from "./request";
 
-/** How far something on its way has come; `total` is null where nobody knows. */
+/** How far something on its way has come; `total` is null where it is not known. */
 export interface Progress {
   readonly bytes: number;
   readonly total: number | null;

@@ -13,7 +13,7 @@ describe("holds", () => {
     expect([calls, holds.held]).toEqual([[true, false], false]);
   });
 
-  it("nobody lets go for another", () => {
+  it("each holder lets go for itself only", () => {
     const calls: boolean[] = [];
     const holds = new Holds((held) => calls.push(held));
     const sun = holds.take();

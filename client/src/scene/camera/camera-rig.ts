@@ -45,9 +45,9 @@ export class CameraRig {
   private readonly quick = dampers(HALF_LIFE);
   private readonly slow = dampers(EASE_HALF_LIFE);
   private easing = false;
-  /** Where the goal was before the last `fit`, as long as nobody has moved the camera since. */
+  /** Where the goal was before the last `fit`, as long as the user has not moved the camera since. */
   private before: CameraPose | null = null;
-  /** What `fit` showed; it may be about to grow there, and stays in reach until somebody moves the camera. */
+  /** What `fit` showed; it may be about to grow there, and stays in reach until the user moves the camera. */
   private fittedBox: Box | null = null;
 
   constructor() {
@@ -139,7 +139,7 @@ export class CameraRig {
     Object.assign(this.pose, structuredClone(this.goal));
   }
 
-  /** Eases back to where the camera was before the last `fit`, unless somebody has moved it since. */
+  /** Eases back to where the camera was before the last `fit`, unless the user has moved it since. */
   restore(): void {
     if (!this.before) return;
     Object.assign(this.goal, this.before);

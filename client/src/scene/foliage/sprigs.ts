@@ -14,7 +14,7 @@ import { RowInstances } from "./row-instances";
 
 /** Leaves shorter than the first, in pixels, have all given way to sprigs; longer than the second, none. */
 const BAND = [2.2, 3.6] as const;
-/** With more leaves than this they do so sooner, up to so much, for then nobody tells one from another. */
+/** With more leaves than this they do so sooner, up to so much, for then single leaves are not seen. */
 const MANY = 40_000;
 const SOONER = 2.15;
 /** A tree with fewer leaves than this keeps them however far it is. */

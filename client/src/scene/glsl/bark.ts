@@ -21,7 +21,7 @@ void squareAt(vec2 at, vec2 dx, vec2 dy, out vec4 shares, out vec4 relief) {
   shares = textureGrad(uBarkColours, at, dx, dy);
   relief = textureGrad(uBarkRelief, at, dx, dy);
 }
-/** Squares are shifted against each other in drifts, one passing into the next: nobody sees them come again. */
+/** Squares are shifted against each other in drifts, one passing into the next: the repetition is not seen. */
 void octaveAt(float octave, vec2 place, vec2 dx, vec2 dy, out vec4 shares, out vec4 relief) {
   float squares = squaresAround(octave);
   float side = 6.2831853 * THINNEST * exp2(octave) / squares;

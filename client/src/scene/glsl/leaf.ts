@@ -27,7 +27,7 @@ Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
 export const CARD = /* glsl */ `
 const float MARGIN = ${TILE_MARGIN.toFixed(4)};
 const float SPRIG_REACH = ${SPRIG_REACH.toFixed(4)};
-/** Towards whoever looks: the eye, or the sun while it draws. */
+/** Towards the viewer: the eye, or the sun while shadows are drawn. */
 vec3 towardsEye(vec3 place) {
 #ifdef CASTER
   return uSun;
@@ -189,7 +189,7 @@ void main() {
     vec3 level = n;
     n = cos(roll) * n + sin(roll) * side;
     side = cos(roll) * side - sin(roll) * level;
-    // The tip bows, each leaf by its own measure, and the halves rise from the midrib; far off nobody sees it.
+    // The tip bows, each leaf by its own measure, and the halves rise from the midrib; far off this is left out.
     float near = smoothstep(7.0, 22.0, pixels) * uLeafForm.w;
 #if defined(CASTER) || defined(SPRIG)
     near = 0.0;

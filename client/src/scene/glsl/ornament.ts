@@ -45,7 +45,7 @@ void main() {
   vec3 n;
   vec3 world;
   if (u${name}Form.z < 0.0) {
-    // A disc looks outward and up, and a little towards whoever looks, so that none is seen from its edge.
+    // A disc looks outward and up, and a little towards the eye, so that none is seen from its edge.
     n = normalize(axis + 0.55 * eye);
     side = normalize(cross(abs(n.y) > 0.95 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), n));
     float spin = 6.2832 * more.y;

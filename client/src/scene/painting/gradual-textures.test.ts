@@ -56,7 +56,7 @@ describe("textures", () => {
     expect(textures.unfinished).toBe(false);
   });
 
-  it("call off what nobody wants any more", () => {
+  it("call off what is not needed any more", () => {
     shown();
     textures.choose("smooth");
     expect(orders[0]!.off).toBe(true);

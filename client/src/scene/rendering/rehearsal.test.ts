@@ -26,7 +26,7 @@ describe("a rehearsal", () => {
     rehearsal = new Rehearsal(renderer as unknown as WebGLRenderer, cast, linked);
   });
 
-  it("has nobody wait for programs", async () => {
+  it("prepares programs without blocking", async () => {
     expect(rehearsal.prepare()).toBe(false);
     expect(program.getUniforms).not.toHaveBeenCalled();
     link();

@@ -1,8 +1,8 @@
 import { InstancedBufferGeometry, type Mesh, PerspectiveCamera, type WebGLRenderer } from "three";
 
 /**
- * Sees to it that nobody waits for programs. It says when all are linked; and it has one instance of everything essential
- * drawn before there is anything to draw, where nobody sees it: a linked program is not yet one that the graphics card can
+ * Prepares the shader programs in advance. It says when all are linked; and it draws one instance of everything essential
+ * before there is anything to draw, outside the visible picture: a linked program is not yet one that the graphics card can
  * run. Drivers finish it when it is first drawn with, and whatever they are asked next waits for that.
  */
 export class Rehearsal {

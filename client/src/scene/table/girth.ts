@@ -21,7 +21,7 @@ export const SLOPE_STEPS = 64;
 export const NO_SLOPE = 128;
 const WAITING = 1;
 const DONE = 2;
-/** A share of the radius that nobody sees. */
+/** A share of the radius that is too small to be seen. */
 const UNSEEN = 0.01;
 
 /**

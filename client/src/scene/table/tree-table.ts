@@ -22,7 +22,7 @@ const MAX_QUANTISED = 1 << 22;
 /** Rows at which the table refuses to grow: four times the largest document. */
 const MAX_ROWS = 1 << 22;
 
-/** Radii of codes that somebody has asked for; a step in time asks for those of a whole tree. */
+/** Radii of codes that were asked for; a step in time asks for those of a whole tree. */
 const RADII = new Float64Array(1 << 16);
 
 /** Radius in internodes of a code; 0 for the dead. */

@@ -71,7 +71,7 @@ export function foundSpecies(species: readonly Species[], words: string): readon
   });
 }
 
-/** Small letters without signs above them, for nobody types those into a search; ö may be typed o or oe. */
+/** Small letters without signs above them, which are rarely typed into a search; ö may be typed o or oe. */
 function plain(text: string): string {
   return text
     .toLowerCase()

@@ -117,7 +117,7 @@ export class Prediction {
     }
   }
 
-  /** Nobody will answer what was asked: the connection is another one, or this client does something else (`PD2`). */
+  /** What was asked will not be answered: the connection is another one, or this client does something else (`PD2`). */
   lost(): void {
     if (this.rows.peek() !== null) {
       this.#end();

@@ -99,7 +99,7 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
           : say(`sheets.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
   return (
     <p class="chip">
-      {/* Where nobody knows how long it takes, the bar only moves. */}
+      {/* Where the duration is not known, the bar only moves. */}
       {percent === null ? (
         <progress aria-label={text} key="some" />
       ) : (

@@ -37,7 +37,7 @@ export function SunHandle({ studio }: { studio: Studio }) {
   const setPinned = (to: boolean) => {
     studio.sunPinned.value = to;
   };
-  // With everything hidden a sun that is pinned still goes round with the eye, only nobody sees its handle.
+  // With everything hidden a sun that is pinned still goes round with the eye, only its handle is hidden.
   const shown = pinned || (studio.panel.value === "background" && !studio.bare.value);
   return shown ? <Sphere studio={studio} pinned={pinned} setPinned={setPinned} /> : null;
 }

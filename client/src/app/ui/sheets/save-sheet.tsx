@@ -27,7 +27,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
       const thumbnail = await picture(studio);
       await saveTree({ session, name: trimmed, ...(thumbnail === undefined ? {} : { thumbnail }) });
       studio.toasts.show(say("sheets.save.done", { name: trimmed }));
-      // Whoever has waved the card away meanwhile may have another one open.
+      // The user may have closed the sheet meanwhile and opened another one.
       if (studio.sheet.peek() === "save") {
         studio.sheet.value = null;
       }
