@@ -114,7 +114,7 @@ async fn what_was_acknowledged_is_there_even_if_nobody_resends() {
 }
 
 #[tokio::test]
-async fn sigterm_stops_cleanly_and_keeps_everything() {
+async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     let scratch = Scratch::new();
     let database = scratch.path("trees.db");
     let server = Server::start(&database);

@@ -135,6 +135,27 @@ describe("handshake", () => {
   });
 });
 
+describe.each([1001, 1011])("a server that closes with %i", (code) => {
+  it("HS5: is come back to, and what it had not acknowledged is sent again", () => {
+    const held = { epoch: 7, generations: [3], rows: 200 };
+    const { core, connect, welcome } = setUp({ resume: () => held });
+    connect();
+    core.submit(undo);
+    core.submit(undo);
+    core.message(1, { type: "acknowledged", id: 1 });
+    core.effects();
+    core.closed(2, code);
+    expect([core.phase, core.stopReason]).toEqual(["waiting", null]);
+    const again = core.deadline ?? Number.NaN;
+    core.tick(again);
+    expect(kinds(core.effects())).toEqual(["open"]);
+    core.opened(again);
+    expect(core.effects()).toMatchObject([{ message: { type: "hello", client: "key-1-of-the-test", resume: held } }]);
+    welcome(again, 1, { resumed: true });
+    expect(sentIds(core.effects())).toEqual([2]);
+  });
+});
+
 describe("commands", () => {
   it("CM1: numbers commands from 1 and sends them at once", () => {
     const { core, connect } = setUp();

@@ -53,7 +53,7 @@ fn commands_gather_while_the_disk_is_busy() {
 }
 
 #[test]
-fn a_failed_journal_ends_the_session() {
+fn hs5_a_failed_journal_closes_with_1011_and_a_restart_goes_on() {
     let mut world = World::new();
     let birch = world.join("birch-01");
     let maple = world.join("maple-01");

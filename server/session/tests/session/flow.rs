@@ -1,6 +1,6 @@
 //! `FL`: windows, catch-up, bounded memory for slow readers; and growth that is seen while it goes on.
 
-use espalier_proto::{ChunkChange, ClientMessage, Command, ProblemCode, version::CloseCode};
+use espalier_proto::{ChunkChange, ClientMessage, Command, ProblemCode, ServerMessage, version::CloseCode};
 use espalier_session::{ClientId, Input};
 
 use crate::world::{World, grow};
@@ -136,6 +136,51 @@ fn fl3_a_client_that_reads_may_ask_forever() {
         }
     }
     assert_eq!(world.peer(client).closed, None);
+}
+
+#[test]
+fn fl4_the_state_is_told_at_most_every_50_ms() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.settle();
+    let states = |world: &World| {
+        world.peer(client).texts.iter().filter(|text| matches!(text, ServerMessage::State { .. })).count()
+    };
+    // The first one follows a rest.
+    let (mut told, mut last) = (states(&world), None);
+    let before = told;
+    for ms in 0..1_000 {
+        world.pass(1);
+        if ms % 5 == 0 {
+            let command = if ms % 10 == 0 { grow(1) } else { Command::Ungrow { steps: 1 } };
+            world.command(client, ms / 5 + 1, command);
+        }
+        let now = states(&world);
+        assert!(now <= told + 1, "two at once");
+        if now > told {
+            let gap = last.map_or(50, |last| ms - last);
+            assert!(gap >= 50, "another after {gap} ms");
+            (told, last) = (now, Some(ms));
+        }
+    }
+    assert!(told - before > 10, "{} in a second in which the tree always changed", told - before);
+    world.settle();
+    let state = world.peer(client).last_state().unwrap();
+    assert_eq!(state.step, world.document().figures().step, "the last change is told as well");
+}
+
+#[test]
+fn fl4_a_ping_is_answered_at_once() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    (world.work_ms, world.write_ms) = (10_000, 10_000);
+    world.command(client, 1, grow(200));
+    world.pass(20);
+    assert!(world.working.is_some() || world.writing.is_some(), "the session is busy");
+    for nonce in [7, 8] {
+        world.send(client, &ClientMessage::Ping { nonce });
+        assert_eq!(world.peer(client).texts.last(), Some(&ServerMessage::Pong { nonce }));
+    }
 }
 
 #[test]

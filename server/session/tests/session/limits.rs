@@ -1,6 +1,6 @@
 //! `LM`: what has the right form to become part of a document.
 
-use espalier_proto::{Command, ProblemCode, version::CloseCode};
+use espalier_proto::{ClientMessage, Command, ProblemCode, version::CloseCode};
 use espalier_session::Action;
 
 use crate::{obstacles::tetrahedron, world::World};
@@ -182,6 +182,43 @@ fn lm6_a_mesh_that_is_none_is_refused() {
     let mut flat = sound;
     flat.triangles = vec![[0, 0, 1]];
     check(&text(&flat.to_base64(), 1.0), Err((OUT, field)));
+}
+
+#[test]
+fn lm8_diameters_and_rotations_have_their_ranges() {
+    let width = |diameter: &str| format!(r#"{{"kind":"set_width","row":1,"diameter":{diameter}}}"#);
+    for good in ["0.01", "1", "100", "null"] {
+        check(&width(good), Ok(()));
+    }
+    for bad in ["0.0099", "100.1", "-1", "0"] {
+        check(&width(bad), Err((OUT, Some("diameter"))));
+    }
+    let turn = |rotation: &str| format!(r#"{{"kind":"turn_branch","row":1,"rotation":{rotation}}}"#);
+    let graft =
+        |rotation: &str| format!(r#"{{"kind":"graft","row":1,"onto":2,"keep":true,"rotation":{rotation}}}"#);
+    for rotation in ["[0,0,0,1]", "[0,0,0,1.009]", "[0,-0.991,0,0]", "[0.5,0.5,0.5,-0.5]"] {
+        check(&turn(rotation), Ok(()));
+        check(&graft(rotation), Ok(()));
+    }
+    for rotation in ["[0,0,0,1.011]", "[0,0.989,0,0]", "[1,1,1,1]", "[0,0,0,0]"] {
+        check(&turn(rotation), Err((OUT, Some("rotation"))));
+        check(&graft(rotation), Err((OUT, Some("rotation"))));
+    }
+}
+
+#[test]
+fn lm10_a_prediction_has_up_to_100_steps() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for (steps, ghosts) in [(100, 1), (101, 1), (1, 2)] {
+        world.send(client, &ClientMessage::Predict { rows: Vec::new(), steps });
+        world.settle();
+        assert_eq!(world.peer(client).ghosts.len(), ghosts, "{steps} steps");
+    }
+    let problems = world.peer(client).problems();
+    let [problem] = problems.as_slice() else { panic!("{problems:?}") };
+    assert_eq!((problem.code, problem.field.as_deref()), (OUT, Some("steps")));
+    assert!(problem.allowed.as_deref().is_some_and(|allowed| allowed.contains("100")), "{problem:?}");
 }
 
 #[test]

@@ -2,9 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod bending;
 mod commands;
+mod cutting;
 mod durability;
 mod flow;
+mod futures;
 mod fuzz;
 mod guiding;
 mod handshake;
@@ -12,6 +15,7 @@ mod limits;
 mod looks;
 mod mirror;
 mod obstacles;
+mod rows;
 mod shaping;
 mod stopping;
 mod world;

@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Some wood far from the foot of the tree, and wood six metamers below it.
-fn limb(world: &World) -> (u32, u32) {
+pub fn limb(world: &World) -> (u32, u32) {
     let plant = world.document().plant();
     let down = |id: MetamerId| std::iter::successors(Some(id), |&id| plant.metamers().parent(id));
     let rows = (0..plant.metamer_count()).rev().map(MetamerId::new).filter(|&id| plant.is_alive(id));
@@ -29,7 +29,7 @@ fn drag(x: f32) -> Command {
     Command::BendMove { bend: 1, targets: vec![[x, 6.0, 0.0]] }
 }
 
-fn timeline(peer: &Peer) -> Timeline {
+pub fn timeline(peer: &Peer) -> Timeline {
     let told = peer.texts.iter().rev().find_map(|text| match text {
         ServerMessage::Timeline(timeline) => Some(Timeline::clone(timeline)),
         _ => None,
@@ -45,7 +45,7 @@ fn widths(peer: &Peer) -> Option<Vec<WidthConstraint>> {
 }
 
 /// A tree in a session, and two who look at it.
-fn grown() -> (World, u64, u64) {
+pub fn grown() -> (World, u64, u64) {
     let mut world = World::new();
     let (ann, bob) = (world.join("birch-01"), world.join("maple-01"));
     world.command(ann, 1, grow(9));
