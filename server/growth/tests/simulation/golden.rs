@@ -1,11 +1,12 @@
 //! The same commands give the same plant, bit for bit: in debug and release, on any number of threads.
 //!
-//! A change of these hashes is a change of the simulation: raise `SIMULATION_VERSION` with it.
+//! A change of these hashes is a change of the simulation: raise `SIMULATION_VERSION` with it. The summaries beside them,
+//! in `snapshots`, say what the change does; `INSTA_UPDATE=always` on the test's command keeps new ones.
 
-use super::*;
+use super::{summary::summary, *};
 
 /// A life with everything in it: brush, pencil, autonomous growth, shedding, time travel, a second seed.
-fn life(seed: u32) -> u64 {
+fn life(seed: u32) -> Simulation {
     let mut simulation = simulation(seed);
     brush(
         &mut simulation,
@@ -21,12 +22,22 @@ fn life(seed: u32) -> u64 {
     simulation.sow(Vec3::new(20.0, 0.0, 5.0));
     grow(&mut simulation, 14);
     assert!(simulation.plant().living_count() > 5000, "{}", simulation.plant().living_count());
+    simulation
+}
+
+fn hash(simulation: &Simulation) -> u64 {
     simulation.plant().hash()
 }
 
 #[test]
 fn lives_give_their_golden_hashes() {
-    let hashes = [1, 2, 3].map(life);
+    let lives = [1, 2, 3].map(life);
+    let hashes = lives.each_ref().map(hash);
+    // Shown with whatever fails first.
+    eprintln!("hashes {hashes:#x?}");
+    for (seed, life) in (1..).zip(&lives) {
+        insta::assert_snapshot!(format!("life_{seed}"), summary(life));
+    }
     assert_eq!(hashes, [0xff14_ca0b_bbfd_d1f9, 0x59cd_bf00_51a2_eb5a, 0xb34a_83a2_d0be_040f], "{hashes:#x?}");
 }
 
@@ -34,7 +45,7 @@ fn lives_give_their_golden_hashes() {
 fn threads_do_not_change_the_plant() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-        pool.install(|| life(1))
+        pool.install(|| hash(&life(1)))
     };
-    assert_eq!([on(1), on(2), on(8)], [life(1); 3]);
+    assert_eq!([on(1), on(2), on(8)], [hash(&life(1)); 3]);
 }

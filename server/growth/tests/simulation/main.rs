@@ -8,6 +8,7 @@ mod invariants;
 mod obstructing;
 mod selecting;
 mod shaping;
+mod summary;
 
 use espalier_growth::{
     BrushPiece, BrushSample, NoObserver, ParameterValues, Parameters, Simulation, StepInput, StrokeId,
