@@ -1,0 +1,40 @@
+//! Documents, as saved trees and snapshots hold them.
+
+use espalier_session::{Action, Document, Session};
+
+use crate::{METAMERS, SEED, command};
+
+/// So many operations are taken back and done again.
+const OPERATIONS: usize = 40;
+
+/// Reads a document, or a snapshot with one in it; what can be read is the same when it is written and read again, and
+/// goes back to its beginning and forth again.
+pub fn read(bytes: &[u8]) -> bool {
+    let restored = Session::restore("fuzzed", 1, Some(bytes), SEED, []);
+    let Ok(mut document) = Document::from_bytes(bytes) else { return restored.is_ok() };
+    let hash = document.hash();
+    let again = Document::from_bytes(&document.to_bytes()).map(|document| document.hash());
+    assert_eq!(again.as_ref().ok(), Some(&hash), "{again:?}");
+    document.set_metamer_budget(METAMERS);
+    let all = |document: &mut Document, action: &Action| {
+        (0..OPERATIONS).take_while(|_| document.apply("someone", action).is_ok()).count()
+    };
+    all(&mut document, &Action::Undo);
+    all(&mut document, &Action::Redo);
+    true
+}
+
+/// A tree with a history and a future, as it is saved, and as the first snapshot of a session.
+pub fn seeds() -> Vec<Vec<u8>> {
+    let mut document = Document::new(SEED);
+    document.set_metamer_budget(METAMERS);
+    for line in command::lines() {
+        // Some are refused by a tree so small.
+        let _ = Action::from_json(line).and_then(|action| document.apply("someone", &action));
+    }
+    // What is being drawn or bent cannot be kept.
+    document.lift_hands();
+    let bytes = document.to_bytes();
+    let snapshot = Session::first_snapshot(&bytes, METAMERS);
+    [document.to_saved_bytes(), bytes].into_iter().chain(snapshot).collect()
+}
