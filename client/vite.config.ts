@@ -2,7 +2,8 @@ import { defineConfig } from "vitest/config";
 import { shellWorker } from "./shell-plugin.ts";
 import { leanThree } from "./three-plugin.ts";
 
-const server = "http://127.0.0.1:7700";
+// `./dev` starts both.
+const server = `http://127.0.0.1:${process.env.ESPALIER_PORT ?? 7700}`;
 
 export default defineConfig({
   base: "/",
