@@ -8,6 +8,7 @@ mod flow;
 mod fuzz;
 mod guiding;
 mod handshake;
+mod kept;
 mod limits;
 mod looks;
 mod mirror;
