@@ -29,6 +29,7 @@ mod place_grid;
 pub mod random;
 #[cfg(test)]
 mod reference;
+mod rules;
 mod schematic;
 mod selection;
 mod shedding;
@@ -51,10 +52,10 @@ pub use observer::{NoObserver, Observer, Phase};
 pub use obstacles::{MAX_TRIANGLES, Obstacle, ObstacleError, Obstacles, Shape, TriangleMesh};
 pub use parameter_table::ParameterTable;
 pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorModel};
+#[cfg(feature = "next-simulation")]
+pub use rules::use_next_simulation;
+pub use rules::{SIMULATION_VERSION, simulation_version};
 pub use schematic::{SCHEMATIC_METAMERS, schematic};
 pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
 pub use space::Space;
 pub use step::{StepInput, StepOutcome};
-
-/// Version of the simulation's arithmetic: it rises when the same commands would give another plant.
-pub const SIMULATION_VERSION: u32 = 3;

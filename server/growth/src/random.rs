@@ -3,6 +3,8 @@
 //! Every draw is a hash of the seed and of keys (an axis, a step, a purpose, a count). So growth is the same
 //! on any number of threads, after undo and after replay, and an edit here does not change chance elsewhere.
 
+use crate::rules;
+
 /// What a draw is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u32)]
@@ -26,7 +28,7 @@ pub struct Draw(u64);
 impl Draw {
     /// The stream for `purpose` with two more keys.
     pub fn new(seed: u32, purpose: Purpose, first: u32, second: u32) -> Self {
-        let base = mix(u64::from(seed) | u64::from(purpose as u32) << 32);
+        let base = mix((u64::from(seed) | u64::from(purpose as u32) << 32) ^ rules::salt());
         Self(mix(base ^ (u64::from(first) | u64::from(second) << 32)))
     }
 

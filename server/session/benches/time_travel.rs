@@ -1,9 +1,11 @@
-//! Back and forth in a tree of 100k metamers: each journey ends with one frame.
+//! Back and forth in a tree of 100k metamers, each journey ending with one frame; and the tree as bytes and back.
 
 mod support;
 
-use espalier_session::Action;
-use support::{Cost, Followed, report};
+use std::time::Instant;
+
+use espalier_session::{Action, Document};
+use support::{Cost, Followed, Percentiles, report};
 
 const METAMERS: u32 = 100_000;
 /// Steps back at a time, one by one.
@@ -20,6 +22,22 @@ fn bench() {
     travel(&mut tree, "ungrow, one step", STEPS, &each, &Action::Redo);
     travel(&mut tree, "undo, one operation of one step", STEPS, &Action::Undo, &Action::Redo);
     travel(&mut tree, "ungrow, eight steps at once", 1, &Action::Ungrow { steps: STEPS }, &Action::Redo);
+    write_and_read(&tree.document);
+}
+
+/// The document as bytes and back.
+fn write_and_read(document: &Document) {
+    let bytes = document.to_bytes();
+    let timed = |act: &dyn Fn()| {
+        Percentiles::of_milliseconds((0..ROUNDS).map(|_| {
+            let begun = Instant::now();
+            act();
+            begun.elapsed()
+        }))
+    };
+    println!("the document, {} bytes, in {ROUNDS} rounds       median       p99      most", bytes.len());
+    println!("  written, ms                  {}", timed(&|| drop(document.to_bytes())));
+    println!("  read, ms                     {}", timed(&|| drop(Document::from_bytes(&bytes))));
 }
 
 /// Goes back so many times and forth again, round after round.

@@ -25,8 +25,10 @@ use espalier_proto::{Problem, ProblemCode};
 use glam::Vec3;
 
 pub use self::bytes::DocumentError;
+pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
 use self::{
     bending::OpenBends,
+    bytes::Section,
     futures::Futures,
     growing::Pending,
     history::{History, Kind, Setting},
@@ -56,6 +58,8 @@ pub struct Document {
     steps_begun: u32,
     /// Where growth ends, as counted by `steps_begun`.
     stop_at: Option<u32>,
+    /// Sections of a later program that this one carries along unread.
+    unknown: Vec<Section>,
 }
 
 /// Figures of a document as a whole. Leaves are counted by whoever draws it.
@@ -111,6 +115,7 @@ impl Document {
             pending: VecDeque::new(),
             steps_begun: 0,
             stop_at: None,
+            unknown: Vec::new(),
         }
     }
 

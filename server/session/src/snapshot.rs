@@ -1,4 +1,6 @@
-//! A session as bytes: the document, who did how much, and where the journal goes on.
+//! A session as bytes: the document with one section more, that says who did how much and where the journal goes on.
+
+mod format_1;
 
 use std::{collections::BTreeMap, sync::Arc};
 
@@ -6,13 +8,8 @@ use espalier_proto::Problem;
 
 use crate::{
     author::LastCommand,
-    document::{Document, DocumentError},
+    document::{Container, Document, DocumentError, Reader, SESSION, Writer},
 };
-
-const MAGIC: [u8; 4] = *b"ESPS";
-const VERSION: u32 = 1;
-/// Magic, version, entry and count before the keys; the checksum behind the document.
-const FIXED_BYTES: usize = 4 + 4 + 8 + 4 + 4;
 
 /// Why a session cannot be loaded.
 #[derive(Debug, thiserror::Error)]
@@ -20,11 +17,8 @@ pub enum RestoreError {
     /// The bytes are no snapshot, or are damaged.
     #[error("the snapshot is damaged")]
     Damaged,
-    /// A snapshot of another version of this program.
-    #[error("the snapshot has version {0}; this program reads version 1")]
-    Version(u32),
-    /// The document inside cannot be read.
-    #[error("the snapshot's document cannot be read")]
+    /// The document inside cannot be read: it is damaged, or a later program wrote it.
+    #[error("the snapshot cannot be read: {0}")]
     Document(#[from] DocumentError),
     /// A journal entry is missing.
     #[error("the journal goes on with entry {found}, but entry {expected} is missing")]
@@ -47,76 +41,55 @@ pub enum RestoreError {
 /// What a snapshot holds.
 #[derive(Debug)]
 pub(crate) struct Snapshot {
+    /// The last journal entry in it.
     pub(crate) through: u64,
+    /// The last command of each author up to there.
     pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
     pub(crate) document: Document,
+    /// The version of the simulation that was at work when it was written.
+    pub(crate) simulation: u32,
 }
 
-/// Little-endian: magic, version, last entry, count of authors; per author key length, key, id, entry;
-/// the document; a CRC-32 of all before.
+/// Writes a snapshot.
 pub(crate) fn to_bytes(
     through: u64,
     last_commands: &BTreeMap<Arc<str>, LastCommand>,
-    document: &[u8],
+    document: &Document,
 ) -> Vec<u8> {
-    let mut out = Vec::with_capacity(FIXED_BYTES + 48 * last_commands.len() + document.len());
-    out.extend_from_slice(&MAGIC);
-    out.extend_from_slice(&VERSION.to_le_bytes());
-    out.extend_from_slice(&through.to_le_bytes());
-    out.extend_from_slice(&(last_commands.len() as u32).to_le_bytes());
+    let mut session = Writer::default();
+    session.u64(through);
+    session.u32(last_commands.len() as u32);
     for (key, last) in last_commands {
-        out.push(key.len() as u8);
-        out.extend_from_slice(key.as_bytes());
-        out.extend_from_slice(&last.id.to_le_bytes());
-        out.extend_from_slice(&last.entry.to_le_bytes());
+        session.text(key);
+        session.u32(last.id);
+        session.u64(last.entry);
     }
-    out.extend_from_slice(document);
-    let sum = checksum(&out);
-    out.extend_from_slice(&sum.to_le_bytes());
-    out
+    document.to_snapshot_bytes(session)
 }
 
 /// Reads a snapshot; any bytes at all give one or an error.
 pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Snapshot, RestoreError> {
-    let (contents, sum) = bytes.split_last_chunk().ok_or(RestoreError::Damaged)?;
-    if checksum(contents) != u32::from_le_bytes(*sum) {
-        return Err(RestoreError::Damaged);
+    if let Some(snapshot) = format_1::from_bytes(bytes)? {
+        return Ok(snapshot);
     }
-    read(contents)
+    let container = Container::read_any(bytes).map_err(|error| match error {
+        DocumentError::NotADocument => RestoreError::Damaged,
+        error => error.into(),
+    })?;
+    let session = container.read(&SESSION, read_session)?;
+    let (through, last_commands) = session.ok_or(RestoreError::Damaged)?;
+    let document = Document::from_container(&container)?;
+    Ok(Snapshot { through, last_commands, document, simulation: container.simulation })
 }
 
-fn read(contents: &[u8]) -> Result<Snapshot, RestoreError> {
-    let mut rest = contents;
-    if take(&mut rest)? != MAGIC {
-        return Err(RestoreError::Damaged);
-    }
-    let version = u32::from_le_bytes(take(&mut rest)?);
-    if version != VERSION {
-        return Err(RestoreError::Version(version));
-    }
-    let through = u64::from_le_bytes(take(&mut rest)?);
-    let count = u32::from_le_bytes(take(&mut rest)?);
-    let mut last_commands = BTreeMap::new();
-    for _ in 0..count {
-        let [length] = take(&mut rest)?;
-        let (key, after) = rest.split_at_checked(length.into()).ok_or(RestoreError::Damaged)?;
-        rest = after;
-        let key = std::str::from_utf8(key).map_err(|_| RestoreError::Damaged)?;
-        let id = u32::from_le_bytes(take(&mut rest)?);
-        let entry = u64::from_le_bytes(take(&mut rest)?);
-        last_commands.insert(Arc::from(key), LastCommand { id, entry });
-    }
-    Ok(Snapshot { through, last_commands, document: Document::from_bytes(rest)? })
-}
+/// What the section of a session holds: the last entry, and the last command of each author.
+type Progress = (u64, BTreeMap<Arc<str>, LastCommand>);
 
-fn take<const N: usize>(bytes: &mut &[u8]) -> Result<[u8; N], RestoreError> {
-    let (taken, rest) = bytes.split_first_chunk().ok_or(RestoreError::Damaged)?;
-    *bytes = rest;
-    Ok(*taken)
-}
-
-fn checksum(bytes: &[u8]) -> u32 {
-    let mut sum = flate2::Crc::new();
-    sum.update(bytes);
-    sum.sum()
+fn read_session(reader: &mut Reader<'_>) -> Result<Progress, DocumentError> {
+    let through = reader.u64()?;
+    let last_commands = reader.list(|r| {
+        let key = Arc::from(r.text()?);
+        Ok((key, LastCommand { id: r.u32()?, entry: r.u64()? }))
+    })?;
+    Ok((through, last_commands.into_iter().collect()))
 }

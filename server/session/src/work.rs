@@ -233,8 +233,7 @@ impl Work {
         }
         if self.snapshot_wanted {
             self.snapshot_wanted = false;
-            let bytes = self.document.to_bytes();
-            let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &bytes);
+            let snapshot = snapshot::to_bytes(self.applied, &self.last_commands, &self.document);
             self.report.snapshot = Some((self.applied, snapshot));
         }
         if !self.reads.is_empty() {

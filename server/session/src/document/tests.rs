@@ -1,6 +1,7 @@
 //! The document's timeline: whatever is done can be undone, redone, written down and read again, bit for bit.
 
 mod arranging;
+mod damage;
 mod histories;
 mod looks;
 mod shaping;

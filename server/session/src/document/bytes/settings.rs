@@ -3,170 +3,225 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_growth::{Parameters, appearance::Appearance};
-use glam::Quat;
+use espalier_proto::{AppearancePatch, ParametersPatch};
 
-use super::{DocumentError, Reader, Writer, damaged};
+use super::{
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+    later,
+};
 use crate::{
+    appearance::{self, AppearanceChange},
     document::{
         futures::Futures,
         history::{History, Setting},
-        obstacles::Standings,
+        obstacles::{Obstacles, Standings},
+        parameters,
     },
     obstacle::{Form, Mesh, Obstacle, Pose, Standing},
 };
 
 /// All sets of parameters, looks, meshes and sets of obstacles of a document, by number.
 #[derive(Debug, Default)]
-pub(super) struct Shelf {
+pub(super) struct Pool {
     parameters: Vec<Arc<Parameters>>,
     looks: Vec<Arc<Appearance>>,
     meshes: Vec<Arc<Mesh>>,
     sets: Vec<Standings>,
 }
 
-impl Shelf {
+impl Pool {
     /// Everything the history and the present hold.
     pub(super) fn of(history: &History, futures: &Futures, present: &Setting) -> Self {
-        let mut shelf = Self::default();
+        let mut pool = Self::default();
         let ahead = futures.all.iter().flat_map(|future| &future.operations);
         let settings = history.operations.iter().chain(ahead).map(|operation| &operation.after);
         for setting in std::iter::once(&history.initial).chain(settings) {
-            shelve(&mut shelf.parameters, &setting.parameters);
-            shelve(&mut shelf.looks, &setting.appearance);
-            shelf.shelve_set(&setting.obstacles);
+            add(&mut pool.parameters, &setting.parameters);
+            add(&mut pool.looks, &setting.appearance);
+            pool.add_set(&setting.obstacles);
         }
-        shelve(&mut shelf.looks, &present.appearance);
-        shelf.shelve_set(&present.obstacles);
-        shelf
+        add(&mut pool.looks, &present.appearance);
+        pool.add_set(&present.obstacles);
+        pool
     }
 
-    fn shelve_set(&mut self, set: &Standings) {
-        if shelve(&mut self.sets, set) {
+    fn add_set(&mut self, set: &Standings) {
+        if add(&mut self.sets, set) {
             for mesh in set.iter().filter_map(|standing| standing.obstacle.mesh()) {
-                shelve(&mut self.meshes, mesh);
+                add(&mut self.meshes, mesh);
             }
         }
     }
 
-    pub(super) fn write(&self, out: &mut Writer) {
-        out.list(&self.parameters, |out, set| out.parameters(set));
-        out.list(&self.looks, |out, looks| out.appearance(looks));
-        out.list(&self.meshes, |out, mesh| out.list(&mesh.to_bytes(), |out, &byte| out.0.push(byte)));
-        out.list(&self.sets, |out, set| out.list(set, |out, standing| self.write_standing(out, standing)));
+    /// A pool of what was read.
+    pub(super) fn new(
+        parameters: Vec<Arc<Parameters>>,
+        looks: Vec<Arc<Appearance>>,
+        sets: Vec<Standings>,
+    ) -> Self {
+        Self { parameters, looks, meshes: Vec::new(), sets }
     }
 
-    pub(super) fn read(reader: &mut Reader<'_>) -> Result<Self, DocumentError> {
-        let parameters = reader.list(|r| Ok(Arc::new(r.parameters()?)))?;
-        let looks = reader.list(|r| Ok(Arc::new(r.appearance()?)))?;
-        let meshes = reader.list(|r| {
-            let bytes = r.list(Reader::u8)?;
-            Mesh::from_bytes(&bytes).map(Arc::new).map_err(|problem| damaged(problem.message))
-        })?;
-        let mut shelf = Self { parameters, looks, meshes, sets: Vec::new() };
-        // An obstacle that was moved stands in many sets, but its mesh is made once.
-        let mut forms = BTreeMap::new();
-        shelf.sets = reader.list(|r| {
-            let set = r.list(|r| shelf.read_standing(r, &mut forms))?;
-            if !set.is_sorted_by(|a, b| a.id < b.id) {
-                return Err(damaged("obstacles are out of order"));
-            }
-            Ok(Arc::new(set))
-        })?;
-        Ok(shelf)
+    pub(super) fn write_parameters(&self, out: &mut Writer) {
+        out.list(&self.parameters, |out, set| write_set(out, set));
+    }
+
+    /// All looks, and the number of the present ones.
+    pub(super) fn write_looks(&self, out: &mut Writer, present: &Arc<Appearance>) {
+        // Plain numbers and names always have a JSON form.
+        let text =
+            |looks: &Appearance| serde_json::to_string(&appearance::to_proto(looks)).unwrap_or_default();
+        out.list(&self.looks, |out, looks| out.text(&text(looks)));
+        out.u32(number(&self.looks, present));
+    }
+
+    /// All meshes and sets of obstacles, the number of the present one, and how many were ever placed.
+    pub(super) fn write_obstacles(&self, out: &mut Writer, present: &Obstacles) {
+        out.list(&self.meshes, |out, mesh| out.bytes(&mesh.to_bytes()));
+        out.list(&self.sets, |out, set| out.list(set, |out, standing| self.write_standing(out, standing)));
+        out.u32(number(&self.sets, &present.standing));
+        out.u32(present.placed);
     }
 
     pub(super) fn write_setting(&self, out: &mut Writer, setting: &Setting) {
         out.u32(number(&self.parameters, &setting.parameters));
-        out.u32(self.set_number(&setting.obstacles));
-        out.u32(self.looks_number(&setting.appearance));
+        out.u32(number(&self.sets, &setting.obstacles));
+        out.u32(number(&self.looks, &setting.appearance));
     }
 
     pub(super) fn read_setting(&self, reader: &mut Reader<'_>) -> Result<Setting, DocumentError> {
-        let parameters = self.parameters.get(reader.u32()? as usize).cloned();
-        let parameters = parameters.ok_or_else(|| damaged("parameters are missing"))?;
-        Ok(Setting { parameters, obstacles: self.read_set(reader)?, appearance: self.read_looks(reader)? })
+        Ok(Setting {
+            parameters: numbered(&self.parameters, reader.u32()?, "parameters")?,
+            obstacles: self.standing(reader.u32()?)?,
+            appearance: self.look(reader.u32()?)?,
+        })
     }
 
-    pub(super) fn looks_number(&self, looks: &Arc<Appearance>) -> u32 {
-        number(&self.looks, looks)
+    /// The look with this number.
+    pub(super) fn look(&self, number: u32) -> Result<Arc<Appearance>, DocumentError> {
+        numbered(&self.looks, number, "looks")
     }
 
-    pub(super) fn read_looks(&self, reader: &mut Reader<'_>) -> Result<Arc<Appearance>, DocumentError> {
-        self.looks.get(reader.u32()? as usize).cloned().ok_or_else(|| damaged("looks are missing"))
-    }
-
-    pub(super) fn set_number(&self, set: &Standings) -> u32 {
-        number(&self.sets, set)
-    }
-
-    pub(super) fn read_set(&self, reader: &mut Reader<'_>) -> Result<Standings, DocumentError> {
-        self.sets.get(reader.u32()? as usize).cloned().ok_or_else(|| damaged("obstacles are missing"))
+    /// The set of obstacles with this number.
+    pub(super) fn standing(&self, number: u32) -> Result<Standings, DocumentError> {
+        numbered(&self.sets, number, "obstacles")
     }
 
     fn write_standing(&self, out: &mut Writer, Standing { id, obstacle }: &Standing) {
         out.u32(*id);
         out.vector(obstacle.pose.position);
-        obstacle.pose.rotation.to_array().into_iter().for_each(|c| out.f32(c));
+        out.rotation(obstacle.pose.rotation);
         match &obstacle.form {
             Form::Box { size } => {
-                out.0.push(0);
+                out.u8(0);
                 out.vector(*size);
             }
             Form::Sphere { radius } => {
-                out.0.push(1);
+                out.u8(1);
                 out.f32(*radius);
             }
-            Form::Plane => out.0.push(2),
+            Form::Plane => out.u8(2),
             Form::Mesh { mesh, scale, .. } => {
-                out.0.push(3);
+                out.u8(3);
                 out.u32(number(&self.meshes, mesh));
                 out.f32(*scale);
             }
         }
     }
-
-    fn read_standing(
-        &self,
-        r: &mut Reader<'_>,
-        forms: &mut BTreeMap<(u32, u32), Form>,
-    ) -> Result<Standing, DocumentError> {
-        let (id, position) = (r.u32()?, r.vector()?);
-        let rotation = Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?]);
-        let form = match r.u8()? {
-            0 => Form::Box { size: r.vector()? },
-            1 => Form::Sphere { radius: r.f32()? },
-            2 => Form::Plane,
-            3 => {
-                let (number, scale) = (r.u32()?, r.f32()?);
-                match forms.get(&(number, scale.to_bits())) {
-                    Some(form) => form.clone(),
-                    None => {
-                        let mesh = self.meshes.get(number as usize).cloned();
-                        let mesh = mesh.ok_or_else(|| damaged("a mesh is missing"))?;
-                        let form = Form::mesh(mesh, scale).map_err(|problem| damaged(problem.message))?;
-                        forms.insert((number, scale.to_bits()), form.clone());
-                        form
-                    }
-                }
-            }
-            _ => return Err(damaged("an obstacle of unknown shape")),
-        };
-        let obstacle = Obstacle::new(form, Pose { position, rotation });
-        Ok(Standing { id, obstacle: obstacle.map_err(|problem| damaged(problem.message))? })
-    }
 }
 
-/// Puts a thing on the shelf unless it, the very same, is there; whether it was put.
-fn shelve<T>(shelf: &mut Vec<Arc<T>>, thing: &Arc<T>) -> bool {
+/// One set of parameters, as JSON: what a document does not name has its default.
+pub(super) fn write_set(out: &mut Writer, set: &Parameters) {
+    // Plain numbers and switches always have a JSON form.
+    out.text(&serde_json::to_string(&parameters::to_proto(set.values())).unwrap_or_default());
+}
+
+pub(super) fn read_set(reader: &mut Reader<'_>) -> Result<Parameters, DocumentError> {
+    let patch: ParametersPatch = serde_json::from_str(reader.text()?).map_err(|error| unreadable(&error))?;
+    let defaults = parameters::to_proto(Parameters::default().values());
+    parameters::parse(&defaults.patched(&patch)).map_err(|problem| damaged(problem.message))
+}
+
+pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<Arc<Parameters>>, DocumentError> {
+    reader.list(|r| read_set(r).map(Arc::new))
+}
+
+pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>, DocumentError> {
+    reader.list(|r| {
+        let patch: AppearancePatch = serde_json::from_str(r.text()?).map_err(|error| unreadable(&error))?;
+        let change = AppearanceChange::parse(&patch).map_err(|problem| damaged(problem.message))?;
+        Ok(Arc::new(change.applied_to(&Appearance::default())))
+    })
+}
+
+/// All sets of obstacles.
+pub(super) fn read_obstacles(reader: &mut Reader<'_>) -> Result<Vec<Standings>, DocumentError> {
+    let meshes = reader
+        .list(|r| Mesh::from_bytes(r.bytes()?).map(Arc::new).map_err(|problem| damaged(problem.message)))?;
+    // An obstacle that was moved stands in many sets, but its mesh is made once.
+    let mut forms = BTreeMap::new();
+    reader.list(|r| {
+        let set = r.list(|r| read_standing(r, &meshes, &mut forms))?;
+        if !set.is_sorted_by(|a, b| a.id < b.id) {
+            return Err(damaged("obstacles are out of order"));
+        }
+        Ok(Arc::new(set))
+    })
+}
+
+fn read_standing(
+    r: &mut Reader<'_>,
+    meshes: &[Arc<Mesh>],
+    forms: &mut BTreeMap<(u32, u32), Form>,
+) -> Result<Standing, DocumentError> {
+    let (id, position, rotation) = (r.u32()?, r.vector()?, r.rotation()?);
+    let form = match r.u8()? {
+        0 => Form::Box { size: r.vector()? },
+        1 => Form::Sphere { radius: r.f32()? },
+        2 => Form::Plane,
+        3 => {
+            let (number, scale) = (r.u32()?, r.f32()?);
+            match forms.get(&(number, scale.to_bits())) {
+                Some(form) => form.clone(),
+                None => {
+                    let mesh = numbered(meshes, number, "meshes")?;
+                    let form = Form::mesh(mesh, scale).map_err(|problem| damaged(problem.message))?;
+                    forms.insert((number, scale.to_bits()), form.clone());
+                    form
+                }
+            }
+        }
+        _ => return Err(damaged("an obstacle of unknown shape")),
+    };
+    let obstacle = Obstacle::new(form, Pose { position, rotation });
+    Ok(Standing { id, obstacle: obstacle.map_err(|problem| damaged(problem.message))? })
+}
+
+/// Names in a JSON text that are not known are those of a later version: parameters and looks are added without
+/// another version of their section.
+fn unreadable(error: &serde_json::Error) -> DocumentError {
+    let sentence = error.to_string();
+    if sentence.starts_with("unknown ") { later(sentence) } else { damaged(sentence) }
+}
+
+/// Adds a value unless it, the very same, is there; whether it was added.
+fn add<T>(pool: &mut Vec<Arc<T>>, value: &Arc<T>) -> bool {
     // What is looked for was mostly put there last.
-    let is_new = !shelf.iter().rev().any(|there| Arc::ptr_eq(there, thing));
+    let is_new = !pool.iter().rev().any(|there| Arc::ptr_eq(there, value));
     if is_new {
-        shelf.push(Arc::clone(thing));
+        pool.push(Arc::clone(value));
     }
     is_new
 }
 
-/// The number of a thing on the shelf; everything looked for was put there before.
-fn number<T>(shelf: &[Arc<T>], thing: &Arc<T>) -> u32 {
-    shelf.iter().rposition(|there| Arc::ptr_eq(there, thing)).unwrap_or(0) as u32
+/// The number of a value in the pool; everything looked for was put there before.
+fn number<T>(pool: &[Arc<T>], value: &Arc<T>) -> u32 {
+    pool.iter().rposition(|there| Arc::ptr_eq(there, value)).unwrap_or(0) as u32
+}
+
+/// The value with a number.
+fn numbered<T>(pool: &[Arc<T>], number: u32, name: &str) -> Result<Arc<T>, DocumentError> {
+    let value = pool.get(number as usize).cloned();
+    value.ok_or_else(|| damaged(format!("{name} of number {number} are missing")))
 }

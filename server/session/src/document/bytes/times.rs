@@ -1,10 +1,11 @@
 //! The present line of time and all others.
 
 use espalier_plant::Plant;
-use glam::Quat;
 
 use super::{
-    DocumentError, Reader, Shelf, Writer, damaged,
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+    settings::Pool,
     wood::{read_future, write_future},
 };
 use crate::document::{
@@ -12,10 +13,10 @@ use crate::document::{
     history::{Before, History, Kind, Latest, Operation},
 };
 
-pub(super) fn write_history(out: &mut Writer, history: &History, shelf: &Shelf) {
-    shelf.write_setting(out, &history.initial);
+pub(super) fn write_history(out: &mut Writer, history: &History, pool: &Pool) {
+    pool.write_setting(out, &history.initial);
     out.u32(history.done as u32);
-    write_operations(out, &history.operations, shelf);
+    write_operations(out, &history.operations, pool);
     write_latest(out, history.latest);
     out.list(history.before.as_slice(), |out, before| {
         out.u32(before.done as u32);
@@ -28,32 +29,23 @@ fn write_latest(out: &mut Writer, latest: Option<Latest>) {
     out.list(latest.as_slice(), |out, latest| {
         out.u32(latest.step);
         out.u32(latest.row);
-        out.list(latest.rotation.as_slice(), |out, rotation| {
-            rotation.to_array().into_iter().for_each(|c| out.f32(c));
-        });
+        out.list(latest.rotation.as_slice(), |out, &rotation| out.rotation(rotation));
     });
 }
 
 fn read_latest(reader: &mut Reader<'_>) -> Result<Option<Latest>, DocumentError> {
     let latest = reader.list(|r| {
         let (step, row) = (r.u32()?, r.u32()?);
-        let rotation = r.list(|r| Ok(Quat::from_array([r.f32()?, r.f32()?, r.f32()?, r.f32()?])))?;
+        let rotation = r.list(Reader::rotation)?;
         Ok(Latest { step, row, rotation: rotation.first().copied() })
     })?;
     Ok(latest.first().copied())
 }
 
-pub(super) fn read_history(
-    reader: &mut Reader<'_>,
-    plant: &Plant,
-    shelf: &Shelf,
-) -> Result<History, DocumentError> {
-    let initial = shelf.read_setting(reader)?;
+pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<History, DocumentError> {
+    let initial = pool.read_setting(reader)?;
     let done = reader.u32()? as usize;
-    let operations = read_operations(reader, shelf)?;
-    if operations.iter().any(|operation| operation.last > plant.last_step()) {
-        return Err(damaged("an operation spans steps that are not there"));
-    }
+    let operations = read_operations(reader, pool)?;
     if done > operations.len() {
         return Err(damaged("more operations are in force than there are"));
     }
@@ -67,7 +59,7 @@ pub(super) fn read_history(
     Ok(History { operations, done, initial, latest, before })
 }
 
-pub(super) fn write_futures(out: &mut Writer, futures: &Futures, shelf: &Shelf) {
+pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
     out.u32(futures.present);
     out.u32(futures.newest);
     out.list(&futures.all, |out, future| {
@@ -75,22 +67,17 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, shelf: &Shelf) 
         out.option(future.on);
         out.u32(future.fork.shared as u32);
         out.u32(future.fork.step);
-        write_operations(out, &future.operations, shelf);
+        write_operations(out, &future.operations, pool);
         write_future(out, &future.rows);
     });
 }
 
-pub(super) fn read_futures(
-    reader: &mut Reader<'_>,
-    plant: &Plant,
-    history: &History,
-    shelf: &Shelf,
-) -> Result<Futures, DocumentError> {
+pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futures, DocumentError> {
     let (present, newest) = (reader.u32()?, reader.u32()?);
     let all = reader.list(|r| {
         let (line, on) = (r.u32()?, r.option()?);
         let fork = Fork { shared: r.u32()? as usize, step: r.u32()? };
-        let operations = read_operations(r, shelf)?;
+        let operations = read_operations(r, pool)?;
         let rows = read_future(r)?;
         if rows.step() != fork.step {
             return Err(damaged("a future begins elsewhere than its rows"));
@@ -100,25 +87,31 @@ pub(super) fn read_futures(
         }
         Ok(Future { line, on, fork, operations, rows })
     })?;
-    check(&all, present, newest, [history.operations.len(), plant.last_step() as usize])?;
     Ok(Futures { all, present, newest })
 }
 
+/// Checks that every operation spans steps of the plant.
+pub(super) fn check_history(history: &History, plant: &Plant) -> Result<(), DocumentError> {
+    if history.operations.iter().any(|operation| operation.last > plant.last_step()) {
+        return Err(damaged("an operation spans steps that are not there"));
+    }
+    Ok(())
+}
+
 /// Checks that the lines are a tree, and that each leaves the other where that has steps and operations.
-/// The present line is so many operations and steps long.
-fn check(
-    all: &[Future],
-    present: u32,
-    newest: u32,
-    [operations, steps]: [usize; 2],
+pub(super) fn check_futures(
+    Futures { all, present, newest }: &Futures,
+    history: &History,
+    plant: &Plant,
 ) -> Result<(), DocumentError> {
+    let (operations, steps) = (history.operations.len(), plant.last_step() as usize);
     let find = |line: u32| all.iter().find(|future| future.line == line);
     if present > newest {
         return Err(damaged("the present line has no number"));
     }
     for (index, future) in all.iter().enumerate() {
-        let is_taken = future.line == present || all[..index].iter().any(|other| other.line == future.line);
-        if is_taken || future.line > newest {
+        let is_taken = future.line == *present || all[..index].iter().any(|other| other.line == future.line);
+        if is_taken || future.line > *newest {
             return Err(damaged("two lines of time have one number"));
         }
         let mut below = future.on;
@@ -146,27 +139,27 @@ fn check(
     Ok(())
 }
 
-fn write_operations(out: &mut Writer, operations: &[Operation], shelf: &Shelf) {
+fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
     out.list(operations, |out, operation| {
-        out.0.push(operation.kind as u8);
+        out.u8(operation.kind as u8);
         out.text(&operation.author);
         out.option(operation.gesture);
         out.u32(operation.first);
         out.u32(operation.last);
         out.u32(operation.places);
-        shelf.write_setting(out, &operation.after);
+        pool.write_setting(out, &operation.after);
     });
 }
 
-fn read_operations(reader: &mut Reader<'_>, shelf: &Shelf) -> Result<Vec<Operation>, DocumentError> {
+fn read_operations(reader: &mut Reader<'_>, pool: &Pool) -> Result<Vec<Operation>, DocumentError> {
     reader.list(|r| {
         let kind = Kind::from_code(r.u8()?).ok_or_else(|| damaged("an operation of unknown kind"))?;
-        let (author, gesture) = (r.text()?, r.option()?);
+        let (author, gesture) = (r.text()?.to_owned(), r.option()?);
         let (first, last) = (r.u32()?, r.u32()?);
         if first > last {
             return Err(damaged("an operation ends before it begins"));
         }
         let places = r.u32()?;
-        Ok(Operation { kind, author, gesture, first, last, places, after: shelf.read_setting(r)? })
+        Ok(Operation { kind, author, gesture, first, last, places, after: pool.read_setting(r)? })
     })
 }

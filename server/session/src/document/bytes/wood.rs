@@ -1,17 +1,16 @@
 //! Plants and their futures as bytes.
 
+use espalier_growth::WORLD_EXTENT;
 use espalier_plant::{AxisId, Carried, Edit, Future, FutureParts, MetamerId, PlantParts};
+use glam::Vec3;
 
-use super::{DocumentError, Reader, Writer, damaged};
+use super::{
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+};
 
-pub(super) fn write_plant(out: &mut Writer, parts: &PlantParts) {
-    out.u32(parts.now);
-    write_ends(out, &parts.ends);
-    write_edits(out, &parts.edits);
-    out.list(&parts.widths, |out, &(row, diameter)| {
-        out.u32(row);
-        out.f32(diameter);
-    });
+/// The columns of metamers and axes.
+pub(super) fn write_columns(out: &mut Writer, parts: &PlantParts) {
     for column in [&parts.parent, &parts.axis, &parts.death] {
         out.numbers(column);
     }
@@ -23,21 +22,42 @@ pub(super) fn write_plant(out: &mut Writer, parts: &PlantParts) {
     out.numbers(&parts.axis_death);
 }
 
-pub(super) fn read_plant(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
+/// A plant of these columns, without time and widths.
+pub(super) fn read_columns(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
     Ok(PlantParts {
-        now: reader.u32()?,
-        ends: read_ends(reader)?,
-        edits: reader.list(read_edit)?,
-        widths: reader.list(|r| Ok((r.u32()?, r.f32()?)))?,
-        parent: reader.list(Reader::u32)?,
-        axis: reader.list(Reader::u32)?,
-        death: reader.list(Reader::u32)?,
-        end: reader.list(Reader::vector)?,
-        normal: reader.list(Reader::vector)?,
-        bearer: reader.list(Reader::u32)?,
-        direction: reader.list(Reader::vector)?,
-        axis_death: reader.list(Reader::u32)?,
+        parent: reader.numbers()?,
+        axis: reader.numbers()?,
+        death: reader.numbers()?,
+        end: read_places(reader)?,
+        normal: reader.vectors()?,
+        bearer: reader.numbers()?,
+        direction: reader.vectors()?,
+        axis_death: reader.numbers()?,
+        ..PlantParts::default()
     })
+}
+
+pub(super) fn write_timeline(out: &mut Writer, parts: &PlantParts) {
+    out.u32(parts.now);
+    write_ends(out, &parts.ends);
+    write_edits(out, &parts.edits);
+}
+
+/// The present step, where steps end, and what was done to wood; without rows.
+pub(super) fn read_timeline(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
+    let (now, ends, edits) = (reader.u32()?, read_ends(reader)?, reader.list(read_edit)?);
+    Ok(PlantParts { now, ends, edits, ..PlantParts::default() })
+}
+
+pub(super) fn write_widths(out: &mut Writer, parts: &PlantParts) {
+    out.list(&parts.widths, |out, &(row, diameter)| {
+        out.u32(row);
+        out.f32(diameter);
+    });
+}
+
+pub(super) fn read_widths(reader: &mut Reader<'_>) -> Result<Vec<(u32, f32)>, DocumentError> {
+    reader.list(|r| Ok((r.u32()?, r.f32()?)))
 }
 
 pub(super) fn write_future(out: &mut Writer, future: &Future) {
@@ -69,16 +89,16 @@ pub(super) fn read_future(reader: &mut Reader<'_>) -> Result<Future, DocumentErr
         step,
         ends,
         edits,
-        parent: reader.list(Reader::u32)?,
-        axis: reader.list(Reader::u32)?,
-        death: reader.list(Reader::u32)?,
-        lateral: reader.list(Reader::u32)?,
-        end: reader.list(Reader::vector)?,
-        normal: reader.list(Reader::vector)?,
-        direction: reader.list(Reader::vector)?,
-        bearer: reader.list(Reader::u32)?,
-        order: reader.list(Reader::u32)?,
-        axis_death: reader.list(Reader::u32)?,
+        parent: reader.numbers()?,
+        axis: reader.numbers()?,
+        death: reader.numbers()?,
+        lateral: reader.numbers()?,
+        end: read_places(reader)?,
+        normal: reader.vectors()?,
+        direction: reader.vectors()?,
+        bearer: reader.numbers()?,
+        order: reader.numbers()?,
+        axis_death: reader.numbers()?,
         deaths: deaths(reader)?,
         axis_deaths: deaths(reader)?,
     };
@@ -91,6 +111,15 @@ fn write_ends(out: &mut Writer, ends: &[[u32; 4]]) {
 
 fn read_ends(reader: &mut Reader<'_>) -> Result<Vec<[u32; 4]>, DocumentError> {
     reader.list(|r| Ok([r.u32()?, r.u32()?, r.u32()?, r.u32()?]))
+}
+
+/// Places of wood, which lie in the world.
+fn read_places(reader: &mut Reader<'_>) -> Result<Vec<Vec3>, DocumentError> {
+    let places = reader.vectors()?;
+    if places.iter().any(|place| place.abs().max_element() > WORLD_EXTENT) {
+        return Err(damaged("wood stands outside the world"));
+    }
+    Ok(places)
 }
 
 fn write_edits(out: &mut Writer, edits: &[Edit]) {
@@ -130,10 +159,10 @@ fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
         2 => Edit::Grafted(axis(row)),
         3 => Edit::Carried(Box::new(Carried {
             metamers: reader.list(|r| r.row().map(metamer))?,
-            ends: reader.list(Reader::vector)?,
-            normals: reader.list(Reader::vector)?,
+            ends: read_places(reader)?,
+            normals: reader.vectors()?,
             axes: reader.list(|r| r.row().map(axis))?,
-            directions: reader.list(Reader::vector)?,
+            directions: reader.vectors()?,
         })),
         4 => Edit::Width(metamer(row), reader.option()?.map(f32::from_bits)),
         5 => Edit::Scarred(metamer(row), reader.u32()?),

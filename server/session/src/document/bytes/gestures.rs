@@ -3,13 +3,44 @@
 use espalier_growth::{BrushSample, StrokeId};
 use espalier_plant::{Bend, BendState, MetamerId, Plant};
 
-use super::{DocumentError, Reader, Writer, damaged};
+use super::{
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+};
 use crate::document::{
     bending::{OpenBend, OpenBends},
     strokes::{OpenStroke, OpenStrokes},
 };
 
-pub(super) fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
+pub(super) fn write(out: &mut Writer, strokes: &OpenStrokes, bends: &OpenBends) {
+    write_strokes(out, strokes);
+    write_bends(out, bends);
+}
+
+pub(super) fn read(reader: &mut Reader<'_>) -> Result<(OpenStrokes, OpenBends), DocumentError> {
+    Ok((read_strokes(reader)?, read_bends(reader)?))
+}
+
+/// Checks that all of it is about wood of the plant.
+pub(super) fn check(strokes: &OpenStrokes, bends: &OpenBends, plant: &Plant) -> Result<(), DocumentError> {
+    let is_there = |id: MetamerId| id.index() < plant.metamer_count();
+    if strokes.open.iter().filter_map(|stroke| stroke.chosen).any(|id| !is_there(id)) {
+        return Err(damaged("a metamer is not there"));
+    }
+    let is_wood = |id: MetamerId| is_there(id) && plant.is_alive(id) && !plant.is_seed(id);
+    let is_path = |path: &[MetamerId]| {
+        path.len() > 1
+            && path.iter().all(|&id| is_wood(id))
+            && path.windows(2).all(|pair| plant.metamers().parent(pair[1]) == Some(pair[0]))
+    };
+    if bends.open.iter().all(|bend| is_path(&bend.path)) {
+        Ok(())
+    } else {
+        Err(damaged("a bend follows no branch"))
+    }
+}
+
+fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
     out.u32(strokes.begun);
     out.list(&strokes.open, |out, stroke| {
         out.text(&stroke.author);
@@ -23,18 +54,18 @@ pub(super) fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
     });
 }
 
-pub(super) fn read_strokes(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenStrokes, DocumentError> {
+fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
     let begun = reader.u32()?;
     let open = reader.list(|r| {
-        let (author, number, id) = (r.text()?, r.u32()?, StrokeId(r.u32()?));
-        let chosen = r.metamer(plant)?;
+        let (author, number, id) = (r.text()?.to_owned(), r.u32()?, StrokeId(r.u32()?));
+        let chosen = r.metamer()?;
         let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
         Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
     })?;
     Ok(OpenStrokes { open, begun })
 }
 
-pub(super) fn write_bends(out: &mut Writer, bends: &OpenBends) {
+fn write_bends(out: &mut Writer, bends: &OpenBends) {
     out.u32(bends.begun);
     out.list(&bends.open, |out, bend| {
         out.text(&bend.author);
@@ -42,7 +73,7 @@ pub(super) fn write_bends(out: &mut Writer, bends: &OpenBends) {
         out.u32(bend.id);
         out.list(&bend.path, |out, row| out.u32(row.raw()));
         out.list(&bend.touches, |out, &touch| out.u32(touch as u32));
-        out.0.push(u8::from(bend.is_moved));
+        out.u8(u8::from(bend.is_moved));
         out.option(bend.gesture);
         let state = bend.solver.state();
         out.vectors(&state.nodes);
@@ -56,26 +87,22 @@ pub(super) fn write_bends(out: &mut Writer, bends: &OpenBends) {
     });
 }
 
-pub(super) fn read_bends(reader: &mut Reader<'_>, plant: &Plant) -> Result<OpenBends, DocumentError> {
+fn read_bends(reader: &mut Reader<'_>) -> Result<OpenBends, DocumentError> {
     let begun = reader.u32()?;
     let open = reader.list(|r| {
-        let (author, number, id) = (r.text()?, r.u32()?, r.u32()?);
+        let (author, number, id) = (r.text()?.to_owned(), r.u32()?, r.u32()?);
         let path = r.list(|r| r.row().map(|row| MetamerId::new(row as usize)))?;
         let touches = r.list(|r| r.u32().map(|touch| touch as usize))?;
         let is_moved = r.u8()? != 0;
         let gesture = r.option()?;
         let state = BendState {
-            nodes: r.list(Reader::vector)?,
+            nodes: r.vectors()?,
             radii: r.list(Reader::f32)?,
             stretch: r.f32()?,
             poses: r.list(read_all)?,
             targets: r.list(|r| Ok((r.u32()?, read_all(r)?)))?,
         };
-        let is_wood = |id: MetamerId| id.index() < plant.metamer_count() && plant.is_alive(id);
-        let is_path = path.len() > 1
-            && path.iter().all(|&id| is_wood(id) && !plant.is_seed(id))
-            && path.windows(2).all(|pair| plant.metamers().parent(pair[1]) == Some(pair[0]));
-        if !is_path || state.radii.len() != path.len() || touches.iter().any(|&touch| touch >= path.len()) {
+        if state.radii.len() != path.len() || touches.iter().any(|&touch| touch >= path.len()) {
             return Err(damaged("a bend follows no branch"));
         }
         let solver = Bend::from_state(&state).ok_or_else(|| damaged("a bend cannot go on"))?;

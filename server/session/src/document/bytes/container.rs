@@ -1,0 +1,224 @@
+//! The outside of a document: a header, a table of sections, and the sections, each packed and with a checksum.
+//!
+//! `docs/document.md` has the layout. What a section holds is of no concern here.
+
+use std::io::{Read, Write};
+
+use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
+
+use super::{
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+    later,
+    sections::{Kind, Release},
+};
+
+pub(crate) const MAGIC: [u8; 8] = *b"ESPALIER";
+/// The container's own format. The one before it, 4, was one piece.
+const FORMAT: u32 = 5;
+const HEADER: usize = 28;
+const ENTRY: usize = 28;
+/// No document has more sections.
+const MAX_SECTIONS: usize = 256;
+/// No document unpacks to more: the budget's metamers with all their columns fit many times over.
+const MAX_UNPACKED: u64 = 4 << 30;
+
+const REQUIRED: u8 = 1;
+const RAW: u8 = 0;
+const DEFLATED: u8 = 1;
+
+/// A section as it lies in the container.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Section {
+    pub(crate) tag: [u8; 4],
+    pub(crate) version: u16,
+    pub(crate) flags: u8,
+    pub(crate) codec: u8,
+    /// How long it is when it is unpacked.
+    pub(crate) unpacked: u64,
+    pub(crate) packed: Vec<u8>,
+}
+
+/// A container that is sound from the outside: every section is there once, whole, and of a known version or optional.
+#[derive(Clone, Debug)]
+pub(crate) struct Container {
+    /// The version of the simulation that was at work when it was written.
+    pub(crate) simulation: u32,
+    pub(crate) sections: Vec<Section>,
+}
+
+impl Section {
+    /// A section of this kind that holds these bytes.
+    pub(crate) fn new(kind: &Kind, bytes: Vec<u8>) -> Self {
+        let deflated = deflate(&bytes);
+        let section = Self::raw(kind, kind.version, bytes);
+        if deflated.len() < section.packed.len() {
+            Self { codec: DEFLATED, packed: deflated, ..section }
+        } else {
+            section
+        }
+    }
+
+    /// The same in any version, not packed.
+    pub(crate) fn raw(kind: &Kind, version: u16, bytes: Vec<u8>) -> Self {
+        let unpacked = bytes.len() as u64;
+        Self { tag: kind.tag, version, flags: REQUIRED, codec: RAW, unpacked, packed: bytes }
+    }
+
+    /// What it holds, within what was announced.
+    pub(crate) fn unpack(&self) -> Result<Vec<u8>, DocumentError> {
+        let mut bytes = Vec::new();
+        let read = match self.codec {
+            RAW => (&*self.packed).take(self.unpacked + 1).read_to_end(&mut bytes),
+            DEFLATED => DeflateDecoder::new(&*self.packed).take(self.unpacked + 1).read_to_end(&mut bytes),
+            codec => return Err(later(format!("it is packed by codec {codec}"))),
+        };
+        read.map_err(|_| damaged("it does not unpack"))?;
+        if bytes.len() as u64 == self.unpacked { Ok(bytes) } else { Err(damaged("it has another length")) }
+    }
+
+    fn is_required(&self) -> bool {
+        self.flags & REQUIRED != 0
+    }
+
+    fn name(&self) -> String {
+        Kind::of(self.tag).map_or_else(|| self.tag.escape_ascii().to_string(), |kind| kind.name.to_owned())
+    }
+}
+
+impl Container {
+    /// The container as bytes; the same container always gives the same.
+    pub(crate) fn to_bytes(&self) -> Vec<u8> {
+        let known = self.sections.iter().filter_map(|section| Kind::of(section.tag));
+        let needs = known.map(|kind| kind.since).max().unwrap_or_default();
+        let mut out = Writer::default();
+        MAGIC.into_iter().for_each(|byte| out.u8(byte));
+        out.u32(FORMAT);
+        out.u32(needs.to_number());
+        out.u32(self.simulation);
+        out.u32(self.sections.len() as u32);
+        let mut table = Writer::default();
+        for section in &self.sections {
+            section.tag.into_iter().for_each(|byte| table.u8(byte));
+            table.u32(
+                u32::from(section.version) | u32::from(section.flags) << 16 | u32::from(section.codec) << 24,
+            );
+            table.u64(section.packed.len() as u64);
+            table.u64(section.unpacked);
+            table.u32(checksum(&[&section.packed]));
+        }
+        let (mut bytes, table) = (out.into_bytes(), table.into_bytes());
+        bytes.extend_from_slice(&checksum(&[&bytes, &table]).to_le_bytes());
+        bytes.extend_from_slice(&table);
+        self.sections.iter().for_each(|section| bytes.extend_from_slice(&section.packed));
+        bytes
+    }
+
+    /// Reads a container; any bytes at all give one or an error.
+    pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, DocumentError> {
+        let mut reader = Reader::new(bytes);
+        let magic: [u8; 8] = reader.array().map_err(|_| DocumentError::NotADocument)?;
+        if magic != MAGIC {
+            return Err(DocumentError::NotADocument);
+        }
+        let (format, needs) = (reader.u32()?, Release::from_number(reader.u32()?));
+        if format > FORMAT {
+            return Err(later(format!("it has format {format}, which version {needs} and later ones read")));
+        }
+        if format < FORMAT {
+            return Err(damaged(format!("it has format {format}, which no released version wrote")));
+        }
+        let (simulation, count, sum) = (reader.u32()?, reader.u32()? as usize, reader.u32()?);
+        if count > MAX_SECTIONS {
+            return Err(damaged(format!("it has {count} sections, and at most {MAX_SECTIONS} are possible")));
+        }
+        let table = reader.slice(count * ENTRY)?;
+        if checksum(&[&bytes[..HEADER - 4], table]) != sum {
+            return Err(damaged("the checksum of its table of sections differs"));
+        }
+        let mut entries = Reader::new(table);
+        let mut sections: Vec<Section> = Vec::with_capacity(count);
+        let mut unpacked: u64 = 0;
+        for _ in 0..count {
+            let section = read_section(&mut entries, &mut reader)?;
+            if sections.iter().any(|other| other.tag == section.tag) {
+                return Err(damaged(format!("its section {} is there twice", section.name())));
+            }
+            unpacked = unpacked.saturating_add(section.unpacked);
+            if unpacked > MAX_UNPACKED {
+                return Err(damaged(format!("its section {} is too long to be true", section.name())));
+            }
+            let is_later = Kind::of(section.tag).map(|kind| section.version > kind.version);
+            if is_later.unwrap_or(section.is_required()) {
+                let (name, version) = (section.name(), section.version);
+                return Err(later(format!(
+                    "it has a section {name} of version {version}, which version {needs} and later ones read"
+                )));
+            }
+            sections.push(section);
+        }
+        reader.end()?;
+        Ok(Self { simulation, sections })
+    }
+
+    /// What a section of this kind holds; nothing if it is not there. All of it must be read.
+    pub(crate) fn read<T>(
+        &self,
+        kind: &Kind,
+        read: impl FnOnce(&mut Reader<'_>) -> Result<T, DocumentError>,
+    ) -> Result<Option<T>, DocumentError> {
+        let Some(section) = self.sections.iter().find(|section| section.tag == kind.tag) else {
+            return Ok(None);
+        };
+        let within = |error: DocumentError| error.within(kind.name);
+        let bytes = section.unpack().map_err(within)?;
+        let mut reader = Reader::new(&bytes);
+        let value = read(&mut reader).map_err(within)?;
+        reader.end().map_err(within)?;
+        Ok(Some(value))
+    }
+
+    /// The same of a section that every document has.
+    pub(crate) fn require<T>(
+        &self,
+        kind: &Kind,
+        read: impl FnOnce(&mut Reader<'_>) -> Result<T, DocumentError>,
+    ) -> Result<T, DocumentError> {
+        self.read(kind, read)?.ok_or_else(|| damaged(format!("its section {} is missing", kind.name)))
+    }
+
+    /// The sections that this program does not know: it carries them along.
+    pub(crate) fn unknown(&self) -> Vec<Section> {
+        self.sections.iter().filter(|section| Kind::of(section.tag).is_none()).cloned().collect()
+    }
+}
+
+/// Reads one entry of the table, and the section it speaks of.
+fn read_section(entries: &mut Reader<'_>, sections: &mut Reader<'_>) -> Result<Section, DocumentError> {
+    let tag = entries.array()?;
+    let [low, high, flags, codec] = entries.array()?;
+    let version = u16::from_le_bytes([low, high]);
+    let (length, unpacked, sum) = (entries.u64()?, entries.u64()?, entries.u32()?);
+    let mut section = Section { tag, version, flags, codec, unpacked, packed: Vec::new() };
+    let within = |what: &str| damaged(format!("its section {} {what}", section.name()));
+    let length = usize::try_from(length).map_err(|_| within("is cut short"))?;
+    let packed = sections.slice(length).map_err(|_| within("is cut short"))?;
+    if checksum(&[packed]) != sum {
+        return Err(within("differs from its checksum"));
+    }
+    section.packed = packed.to_vec();
+    Ok(section)
+}
+
+fn deflate(bytes: &[u8]) -> Vec<u8> {
+    let mut deflate = DeflateEncoder::new(Vec::with_capacity(bytes.len() / 2), Compression::new(3));
+    // Writing into memory does not fail.
+    let _ = deflate.write_all(bytes);
+    deflate.finish().unwrap_or_default()
+}
+
+fn checksum(parts: &[&[u8]]) -> u32 {
+    let mut sum = Crc::new();
+    parts.iter().for_each(|part| sum.update(part));
+    sum.sum()
+}

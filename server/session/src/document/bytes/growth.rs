@@ -1,0 +1,73 @@
+//! What the next step of growth depends on beside plant and obstacles, as bytes.
+
+use std::collections::BTreeMap;
+
+use espalier_growth::{Guide, Marker, MarkerSource, SimulationState, StrokeId, Waypoint};
+use espalier_plant::{AxisId, Plant};
+
+use super::{
+    DocumentError, damaged,
+    fields::{Reader, Writer},
+    settings,
+};
+
+/// All but the obstacles, which stand in a section of their own.
+pub(super) fn write(out: &mut Writer, state: &SimulationState) {
+    out.u32(state.seed);
+    out.u32(state.metamer_budget);
+    out.u32(state.tick);
+    settings::write_set(out, &state.parameters);
+    out.list(&state.markers, |out, marker| {
+        out.vector(marker.position);
+        out.u32(marker.born);
+        out.u8(match marker.source {
+            MarkerSource::Brush => 0,
+            MarkerSource::Lasso => 1,
+        });
+    });
+    let guides: Vec<_> = state.guides.iter().collect();
+    out.list(&guides, |out, (stroke, guide)| {
+        out.u32(stroke.0);
+        out.option(guide.leader.map(AxisId::raw));
+        let path: Vec<_> = guide.path.iter().collect();
+        out.list(&path, |out, waypoint| {
+            out.vector(waypoint.position);
+            out.f32(waypoint.weight);
+        });
+    });
+}
+
+pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentError> {
+    let (seed, metamer_budget, tick) = (reader.u32()?, reader.u32()?, reader.u32()?);
+    let parameters = settings::read_set(reader)?;
+    let markers = reader.list(|r| {
+        let (position, born) = (r.vector()?, r.u32()?);
+        let source = match r.u8()? {
+            0 => MarkerSource::Brush,
+            1 => MarkerSource::Lasso,
+            _ => return Err(damaged("a marker of unknown source")),
+        };
+        Ok(Marker { position, born, source })
+    })?;
+    let guides = reader.list(|r| {
+        let stroke = StrokeId(r.u32()?);
+        let leader = r.axis()?;
+        let path = r.list(|r| Ok(Waypoint { position: r.vector()?, weight: r.f32()? }))?;
+        Ok((stroke, Guide { leader, path: path.into() }))
+    })?;
+    Ok(SimulationState {
+        seed,
+        parameters,
+        markers,
+        guides: BTreeMap::from_iter(guides),
+        obstacles: Vec::new(),
+        metamer_budget,
+        tick,
+    })
+}
+
+/// Checks that every guide leads an axis of the plant.
+pub(super) fn check(state: &SimulationState, plant: &Plant) -> Result<(), DocumentError> {
+    let is_there = |guide: &Guide| guide.leader.is_none_or(|axis| axis.index() < plant.axis_count());
+    if state.guides.values().all(is_there) { Ok(()) } else { Err(damaged("an axis is not there")) }
+}

@@ -1,0 +1,87 @@
+//! The kinds of sections: one line each. Another section or version is a line here and a module beside.
+
+use std::fmt;
+
+/// A released version of the program: major, minor, patch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Release(pub u8, pub u8, pub u16);
+
+impl Release {
+    /// Patch in the low 16 bits, minor and major above.
+    pub(super) fn to_number(self) -> u32 {
+        u32::from(self.0) << 24 | u32::from(self.1) << 16 | u32::from(self.2)
+    }
+
+    pub(super) fn from_number(number: u32) -> Self {
+        Self((number >> 24) as u8, (number >> 16) as u8, number as u16)
+    }
+}
+
+impl fmt::Display for Release {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}.{}", self.0, self.1, self.2)
+    }
+}
+
+/// What this program knows of a section.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Kind {
+    pub(super) tag: [u8; 4],
+    /// What errors call it.
+    pub(super) name: &'static str,
+    /// The version that is written; all up to it are read.
+    pub(super) version: u16,
+    /// The first release that reads this version.
+    pub(super) since: Release,
+}
+
+/// The first release with sections.
+const FIRST: Release = Release(0, 2, 0);
+
+const fn first(tag: [u8; 4], name: &'static str) -> Kind {
+    Kind { tag, name, version: 1, since: FIRST }
+}
+
+/// Rows: metamers and axes.
+pub(super) const PLANT: Kind = first(*b"PLNT", "plant");
+/// Where steps end, what was done to wood, the present.
+pub(super) const TIMELINE: Kind = first(*b"TIME", "timeline");
+/// Width constraints of the present; none if it is not there.
+pub(super) const WIDTHS: Kind = first(*b"WIDT", "widths");
+/// What the next step of growth depends on beside plant and obstacles.
+pub(super) const GROWTH: Kind = first(*b"GROW", "growth");
+/// Every set of parameters that an operation holds.
+pub(super) const PARAMETERS: Kind = first(*b"PARA", "parameters");
+/// Every look that an operation holds, and the present one.
+pub(super) const LOOKS: Kind = first(*b"LOOK", "looks");
+/// Meshes, every set of obstacles that an operation holds, and the present one.
+pub(super) const OBSTACLES: Kind = first(*b"OBST", "obstacles");
+/// The operations of the present line.
+pub(super) const HISTORY: Kind = first(*b"HIST", "history");
+/// All other lines; none if it is not there.
+pub(super) const FUTURES: Kind = first(*b"FUTU", "futures");
+/// Strokes and bends in progress; none if it is not there.
+pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
+/// Of a session's snapshot alone: who has done how much. A document is whole without it.
+pub(crate) const SESSION: Kind = first(*b"SESS", "session");
+
+const ALL: [&Kind; 11] = [
+    &PLANT,
+    &TIMELINE,
+    &WIDTHS,
+    &GROWTH,
+    &PARAMETERS,
+    &LOOKS,
+    &OBSTACLES,
+    &HISTORY,
+    &FUTURES,
+    &GESTURES,
+    &SESSION,
+];
+
+impl Kind {
+    /// The kind with this tag, if it is known.
+    pub(super) fn of(tag: [u8; 4]) -> Option<&'static Self> {
+        ALL.into_iter().find(|kind| kind.tag == tag)
+    }
+}

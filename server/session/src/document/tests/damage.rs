@@ -1,0 +1,215 @@
+//! Bytes that are no document, not any more, or not yet: a sentence each time, and nothing else.
+
+use std::sync::LazyLock;
+
+use proptest::{prelude::*, sample::Index};
+
+use super::*;
+use crate::document::bytes::{Container, Section};
+
+/// Where the table of sections begins, and how long an entry of it is.
+const TABLE: usize = 28;
+const ENTRY: usize = 28;
+
+/// A document with something in every section.
+static BYTES: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    let mut document = tree();
+    apply(&mut document, &Action::SetWidth { row: 3, diameter: Some(0.4), gesture: None });
+    apply(&mut document, &Action::Ungrow { steps: 2 });
+    grow(&mut document, 1, None);
+    stroke(&mut document, 1);
+    apply(&mut document, &Action::StrokeBegin { stroke: 2, bud: None });
+    document.to_bytes()
+});
+
+fn container() -> Container {
+    Container::from_bytes(&BYTES).expect("our own bytes")
+}
+
+fn sentence(bytes: &[u8]) -> String {
+    Document::from_bytes(bytes).expect_err("it is refused").to_string()
+}
+
+/// The sentence about a document whose sections were changed, with checksums that are right.
+fn changed(change: impl FnOnce(&mut Vec<Section>)) -> String {
+    let mut container = container();
+    change(&mut container.sections);
+    sentence(&container.to_bytes())
+}
+
+/// The bytes with others at places of the header or the table, and the checksum made to fit.
+fn resealed(changes: &[(usize, &[u8])]) -> Vec<u8> {
+    let mut bytes = BYTES.clone();
+    let count = u32::from_le_bytes(bytes[20..24].try_into().expect("four bytes")) as usize;
+    for (at, with) in changes {
+        bytes[*at..at + with.len()].copy_from_slice(with);
+    }
+    let mut sum = flate2::Crc::new();
+    sum.update(&bytes[..24]);
+    sum.update(&bytes[TABLE..TABLE + count * ENTRY]);
+    bytes[24..28].copy_from_slice(&sum.sum().to_le_bytes());
+    bytes
+}
+
+/// A section that no program knows yet.
+fn unknown(flags: u8) -> Section {
+    Section { tag: *b"WIND", version: 7, flags, codec: 9, unpacked: 60, packed: b"breeze".to_vec() }
+}
+
+#[test]
+fn what_is_no_document_is_called_so() {
+    for bytes in [&b""[..], b"ESP", b"SQLite format 3\0", b"espalier and more", &[0; 200]] {
+        assert_eq!(sentence(bytes), "this is not an Espalier document");
+    }
+}
+
+#[test]
+fn a_document_cut_off_anywhere_is_refused() {
+    for len in (0..BYTES.len()).step_by(7).chain(0..TABLE + 12 * ENTRY) {
+        assert!(Document::from_bytes(&BYTES[..len]).is_err(), "{len} bytes are not all");
+    }
+    assert!(sentence(&BYTES[..BYTES.len() - 1]).contains("section gestures is cut short"));
+    let longer = [&**BYTES, b"x"].concat();
+    assert!(sentence(&longer).contains("something follows its end"));
+}
+
+#[test]
+fn a_section_that_was_changed_is_named() {
+    let mut bytes = BYTES.clone();
+    let last = bytes.len() - 1;
+    bytes[last] ^= 16;
+    assert!(sentence(&bytes).contains("section gestures differs from its checksum"));
+    let mut header = BYTES.clone();
+    header[16] ^= 1;
+    assert!(sentence(&header).contains("checksum of its table of sections differs"));
+}
+
+#[test]
+fn sections_may_stand_in_any_order_but_not_twice() {
+    let mut reversed = container();
+    reversed.sections.reverse();
+    let read = Document::from_bytes(&reversed.to_bytes()).expect("the order says nothing");
+    assert_eq!(read.to_bytes(), *BYTES);
+    for at in 0..reversed.sections.len() {
+        assert!(changed(|sections| sections.push(sections[at].clone())).contains("is there twice"));
+    }
+}
+
+#[test]
+fn a_missing_section_is_named_unless_it_stands_for_nothing() {
+    for section in container().sections {
+        let name = section.tag;
+        let mut without = container();
+        without.sections.retain(|other| other.tag != name);
+        let read = Document::from_bytes(&without.to_bytes());
+        if [*b"WIDT", *b"FUTU", *b"GEST"].contains(&name) {
+            assert!(read.is_ok(), "{}", name.escape_ascii());
+        } else {
+            let error = read.expect_err("it cannot do without").to_string();
+            assert!(error.contains("is missing"), "{error}");
+        }
+    }
+}
+
+#[test]
+fn announced_lengths_cost_nothing() {
+    let first = TABLE + 8;
+    for length in [1u64 << 63, u64::MAX, 1 << 32] {
+        assert!(
+            sentence(&resealed(&[(first, &length.to_le_bytes())])).contains("section plant is cut short")
+        );
+        let error = sentence(&resealed(&[(first + 8, &length.to_le_bytes())]));
+        assert!(error.contains("section plant") || error.contains("too long to be true"), "{error}");
+    }
+    let unpacked = u64::from_le_bytes(BYTES[first + 8..first + 16].try_into().expect("eight bytes"));
+    for other in [unpacked - 1, unpacked + 1, 0] {
+        assert!(
+            sentence(&resealed(&[(first + 8, &other.to_le_bytes())]))
+                .contains("section plant, it has another length")
+        );
+    }
+    assert!(sentence(&resealed(&[(20, &257u32.to_le_bytes())])).contains("257 sections"));
+    assert!(sentence(&resealed(&[(20, &u32::MAX.to_le_bytes())])).contains("sections"));
+    // A list that says it has four billion items.
+    let error = changed(|sections| {
+        let section = &mut sections[0];
+        *section = Section { codec: 0, unpacked: 4, packed: vec![0xff; 4], ..section.clone() };
+    });
+    assert!(error.contains("in its section plant, it is cut short"), "{error}");
+}
+
+#[test]
+fn a_section_of_a_later_program_is_carried_along_or_refused() {
+    let mut later = container();
+    later.sections.insert(3, unknown(0));
+    let mut document = Document::from_bytes(&later.to_bytes()).expect("nobody needs it");
+    assert_eq!(document.hash(), Document::from_bytes(&BYTES).expect("our own bytes").hash());
+    grow(&mut document, 1, None);
+    for bytes in [document.to_bytes(), document.to_saved_bytes()] {
+        let written = Container::from_bytes(&bytes).expect("our own bytes");
+        assert_eq!(written.sections.iter().filter(|section| **section == unknown(0)).count(), 1);
+    }
+    let error = changed(|sections| sections.push(unknown(1)));
+    assert!(error.starts_with("a later version of Espalier wrote the document"), "{error}");
+    assert!(error.contains("section WIND of version 7"), "{error}");
+}
+
+#[test]
+fn a_later_program_is_named() {
+    // The header says which version of the program reads it all: 1.12.3.
+    let later = resealed(&[(12, &[3, 0, 12, 1]), (TABLE + 4, &[200])]);
+    let error = sentence(&later);
+    assert!(
+        error.contains("a section plant of version 200, which version 1.12.3 and later ones read"),
+        "{error}"
+    );
+    let later = resealed(&[(12, &[3, 0, 12, 1]), (8, &[6])]);
+    assert!(sentence(&later).contains("it has format 6, which version 1.12.3 and later ones read"));
+    assert!(sentence(&resealed(&[(8, &[3])])).contains("it has format 3, which no released version wrote"));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(128))]
+
+    #[test]
+    fn flipped_bits_are_noticed(at: Index, bit in 0..8u32, and_at: Index, and: u8) {
+        let mut bytes = BYTES.clone();
+        bytes[at.index(BYTES.len())] ^= 1 << bit;
+        prop_assert!(Document::from_bytes(&bytes).is_err());
+        bytes[and_at.index(BYTES.len())] ^= and;
+        if let Ok(read) = Document::from_bytes(&bytes) {
+            prop_assert_eq!(&read.to_bytes(), &*BYTES);
+        }
+    }
+
+    #[test]
+    fn any_bytes_give_a_document_or_an_error(bytes in prop::collection::vec(any::<u8>(), 0..400), has_magic: bool) {
+        let bytes = if has_magic { [b"ESPALIER\x05\0\0\0", &*bytes].concat() } else { bytes };
+        prop_assert!(Document::from_bytes(&bytes).is_err());
+    }
+
+    #[test]
+    fn any_contents_give_a_document_or_an_error(at: Index, contents in prop::collection::vec(any::<u8>(), 0..200)) {
+        let mut container = container();
+        let section = at.get_mut(&mut container.sections);
+        *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
+        prop_assert!(Document::from_bytes(&container.to_bytes()).is_err());
+    }
+
+    /// Checksums are right here, so that what reads the sections sees what was changed.
+    #[test]
+    fn changed_contents_never_panic(at: Index, place: Index, with: u8, cut in 0usize..3) {
+        let mut container = container();
+        let section = at.get_mut(&mut container.sections);
+        let mut contents = section.unpack().expect("our own section");
+        *place.get_mut(&mut contents) ^= with;
+        contents.truncate(contents.len() - cut.min(contents.len()));
+        *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
+        if let Ok(mut read) = Document::from_bytes(&container.to_bytes()) {
+            // Whatever it is, it is a document: it can be gone through and grows on.
+            while read.apply("ann", &Action::Undo).is_ok() {}
+            let _full = read.apply("ann", &Action::Grow { steps: 1, gesture: None, bud: None });
+            prop_assert!(Document::from_bytes(&read.to_bytes()).is_ok());
+        }
+    }
+}
