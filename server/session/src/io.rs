@@ -46,11 +46,11 @@ pub enum Input {
     Read(ReadId),
     /// Someone outside, who is no client, wants something done (an uploaded mesh placed).
     Act(ActId, Box<Command>),
-    /// The program is about to stop: a snapshot of all that was done is wanted now, whatever the time.
-    /// Go on as usual until [`crate::Session::is_kept`], or until there is no time left.
-    Stopping,
     /// The time asked for by `WakeAt` has come.
     Woken,
+    /// The session is to be put away: as soon as all commands are done, keep a snapshot that contains them.
+    /// It can be dropped when nothing it asked for is under way any more.
+    Stopping,
 }
 
 /// Something to do.

@@ -13,7 +13,6 @@ use std::{
     sync::Arc,
 };
 
-use espalier_growth::simulation_version;
 use espalier_proto::{
     Appearance, ClientMessage, FrameKind, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage,
     Timeline, WidthConstraint,
@@ -67,8 +66,6 @@ pub struct Session {
     /// Predictions that are being made.
     foreseeing: usize,
     upkeep: Upkeep,
-    /// The simulation that the journal behind the snapshot was made with, if it is not the present one.
-    replayed_from: Option<u32>,
     failed: bool,
     outputs: VecDeque<Output>,
 }
@@ -93,9 +90,9 @@ impl Session {
     /// Loads a session: its last snapshot, if there is one, and the journal entries behind it.
     ///
     /// Without a snapshot the document starts from `seed`; without entries either, the session is new.
-    /// `epoch` must differ from load to load (`RS2`). Entries the snapshot contains are skipped. The snapshot may be
-    /// that of an earlier simulation: what stands in it stays as it is, and only the entries behind it are done by the
-    /// present one; see [`Session::replayed_from`].
+    /// `epoch` must differ from load to load (`RS2`). Entries the snapshot contains are skipped.
+    /// The snapshot may be that of an earlier simulation: what stands in it stays as it is, and only the entries
+    /// behind it are done by the present one.
     pub fn restore(
         name: impl Into<String>,
         epoch: u32,
@@ -103,14 +100,9 @@ impl Session {
         seed: u32,
         entries: impl IntoIterator<Item = JournalEntry>,
     ) -> Result<Self, RestoreError> {
-        let Snapshot { through, mut last_commands, mut document, simulation } = match snapshot {
+        let Snapshot { through, mut last_commands, mut document } = match snapshot {
             Some(bytes) => snapshot::from_bytes(bytes)?,
-            None => Snapshot {
-                through: 0,
-                last_commands: BTreeMap::new(),
-                document: Document::new(seed),
-                simulation: simulation_version(),
-            },
+            None => Snapshot { through: 0, last_commands: BTreeMap::new(), document: Document::new(seed) },
         };
         let mut last = through;
         let mut orders = Vec::new();
@@ -132,12 +124,7 @@ impl Session {
             let _refused_again = document.apply(&client, &action);
             note_last(&mut last_commands, &Arc::from(client), LastCommand { id, entry: number });
         }
-        let mut session = Self::with_document(name.into(), epoch, document, through, last, last_commands);
-        if simulation != simulation_version() {
-            session.replayed_from = Some(simulation).filter(|_| last > through);
-            session.upkeep.ask_for_snapshot();
-        }
-        Ok(session)
+        Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
     }
 
     /// The first snapshot of a session that starts from a seed and may hold so many metamers (`LM4`).
@@ -193,7 +180,6 @@ impl Session {
             foreseeing: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
-            replayed_from: None,
             failed: false,
             outputs: VecDeque::new(),
         }
@@ -225,8 +211,8 @@ impl Session {
             Input::Foreseen(foresight) => self.foreseen(*foresight),
             Input::Read(read) => self.reads.push(read),
             Input::Act(act, command) => self.act(act, *command),
-            Input::Stopping => self.upkeep.stopping(),
             Input::Woken => self.upkeep.woken(),
+            Input::Stopping => self.upkeep.keep_through(self.journal.last()),
         }
         if !self.failed {
             self.answer_acts();
@@ -249,20 +235,9 @@ impl Session {
     /// Whether nobody is here and nothing is left to do or to keep: it can be dropped and restored later.
     pub fn is_idle(&self) -> bool {
         let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
-        let kept = self.is_kept() && self.upkeep.is_done();
+        let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
         let answered = self.reads.is_empty() && self.acts.is_empty() && self.foreseeing == 0;
         self.clients.is_empty() && self.outputs.is_empty() && answered && settled && kept
-    }
-
-    /// Whether a snapshot that was handed out holds everything that was done, and the journal ends with it.
-    pub fn is_kept(&self) -> bool {
-        self.journal.durable() == self.journal.last() && self.upkeep.is_snapshotted(self.journal.last())
-    }
-
-    /// The version of the simulation that journal entries behind the snapshot were made with, if it is not the present
-    /// one: they were done again when the session was loaded, and the tree may have grown otherwise than it had.
-    pub fn replayed_from(&self) -> Option<u32> {
-        self.replayed_from
     }
 
     /// The document, unless it is away on the simulation pool.

@@ -46,8 +46,6 @@ pub(crate) struct Snapshot {
     /// The last command of each author up to there.
     pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
     pub(crate) document: Document,
-    /// The version of the simulation that was at work when it was written.
-    pub(crate) simulation: u32,
 }
 
 /// Writes a snapshot.
@@ -79,7 +77,7 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Snapshot, RestoreError> {
     let session = container.read(&SESSION, read_session)?;
     let (through, last_commands) = session.ok_or(RestoreError::Damaged)?;
     let document = Document::from_container(&container)?;
-    Ok(Snapshot { through, last_commands, document, simulation: container.simulation })
+    Ok(Snapshot { through, last_commands, document })
 }
 
 /// What the section of a session holds: the last entry, and the last command of each author.

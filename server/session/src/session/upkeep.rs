@@ -48,13 +48,11 @@ pub(super) struct Upkeep {
     pub(super) widths_changed: bool,
     widths_due: u64,
     pub(super) last_command_at: u64,
-    /// How long a pause lets a snapshot be made, in milliseconds.
-    pause_ms: u64,
     /// The last entry in a snapshot that was handed out.
     snapshotted: u64,
     snapshot_asked: bool,
-    /// Whether a snapshot is due whatever the time.
-    snapshot_wanted: bool,
+    /// When the document contains this entry a snapshot is made, without waiting for a pause.
+    keep_through: Option<u64>,
     /// A snapshot whose entries are not all durable yet, with the last of them.
     snapshot: Option<(u64, Vec<u8>)>,
     wake_at: Option<u64>,
@@ -75,10 +73,9 @@ impl Upkeep {
             widths_changed: false,
             widths_due: 0,
             last_command_at: 0,
-            pause_ms: SNAPSHOT_PAUSE_MS,
             snapshotted,
             snapshot_asked: false,
-            snapshot_wanted: false,
+            keep_through: None,
             snapshot: None,
             wake_at: None,
         }
@@ -89,14 +86,9 @@ impl Upkeep {
         self.wake_at = None;
     }
 
-    /// A snapshot is due, even if the last one holds everything.
-    pub(super) fn ask_for_snapshot(&mut self) {
-        self.snapshot_wanted = true;
-    }
-
-    /// The program stops: what no snapshot holds is due now and from now on.
-    pub(super) fn stopping(&mut self) {
-        self.pause_ms = 0;
+    /// A snapshot is wanted as soon as the document contains this entry.
+    pub(super) fn keep_through(&mut self, entry: u64) {
+        self.keep_through = Some(entry);
     }
 
     /// The document came home with a snapshot.
@@ -105,14 +97,9 @@ impl Upkeep {
         self.snapshot = Some((through, bytes));
     }
 
-    /// Whether a snapshot holds everything up to `last`, and none is asked for.
-    pub(super) fn is_snapshotted(&self, last: u64) -> bool {
-        self.snapshotted == last && !self.snapshot_wanted && !self.snapshot_asked
-    }
-
-    /// Whether nothing waits for the clock.
-    pub(super) fn is_done(&self) -> bool {
-        self.absences.is_empty() && self.overdue.is_empty()
+    /// Whether nothing waits for the clock and a snapshot holds everything up to `last`.
+    pub(super) fn is_done(&self, last: u64) -> bool {
+        self.absences.is_empty() && self.overdue.is_empty() && self.snapshotted == last
     }
 }
 
@@ -207,13 +194,12 @@ impl Session {
     pub(super) fn snapshot_due(&mut self, applied: u64) -> bool {
         let since = applied - self.upkeep.snapshotted;
         let many = SNAPSHOT_COMMANDS.max(u64::from(self.figures.metamers) / SNAPSHOT_METAMERS);
-        let pause = self.now >= self.upkeep.last_command_at + self.upkeep.pause_ms;
+        let pause = self.now >= self.upkeep.last_command_at + SNAPSHOT_PAUSE_MS;
         let asked = self.upkeep.snapshot_asked || self.upkeep.snapshot.is_some();
-        let due = !asked && (self.upkeep.snapshot_wanted || since >= many || since > 0 && pause);
-        if due {
-            self.upkeep.snapshot_asked = true;
-            self.upkeep.snapshot_wanted = false;
-        }
+        let there = self.upkeep.keep_through.is_some_and(|entry| applied >= entry);
+        let due = !asked && (since >= many || since > 0 && (pause || there));
+        self.upkeep.snapshot_asked |= due;
+        self.upkeep.keep_through.take_if(|_| there && !asked);
         due
     }
 
@@ -234,7 +220,7 @@ impl Session {
         let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
         let unkept =
             self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked && upkeep.snapshot.is_none();
-        let pause = (unkept && self.home.is_some()).then_some(upkeep.last_command_at + upkeep.pause_ms);
+        let pause = (unkept && self.home.is_some()).then_some(upkeep.last_command_at + SNAPSHOT_PAUSE_MS);
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let earliest = [state, timeline, widths, pause, hello, absence].into_iter().flatten().min();

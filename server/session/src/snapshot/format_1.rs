@@ -7,7 +7,7 @@ use flate2::Crc;
 use super::{Progress, RestoreError, Snapshot};
 use crate::{
     author::LastCommand,
-    document::{Container, Document, DocumentError, Reader},
+    document::{Document, DocumentError, Reader},
 };
 
 const MAGIC: &[u8] = b"ESPS";
@@ -29,9 +29,8 @@ pub(super) fn from_bytes(bytes: &[u8]) -> Result<Option<Snapshot>, RestoreError>
     }
     let mut reader = Reader::new(&contents[MAGIC.len()..]);
     let (through, last_commands) = read_header(&mut reader).map_err(|_| RestoreError::Damaged)?;
-    let container = Container::read_any(reader.rest())?;
-    let document = Document::from_container(&container)?;
-    Ok(Some(Snapshot { through, last_commands, document, simulation: container.simulation }))
+    let document = Document::from_bytes(reader.rest())?;
+    Ok(Some(Snapshot { through, last_commands, document }))
 }
 
 fn read_header(reader: &mut Reader<'_>) -> Result<Progress, DocumentError> {
