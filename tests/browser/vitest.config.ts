@@ -9,6 +9,7 @@ export default defineConfig({
     include: ["src/**/*.test.ts"],
     exclude: process.env.BROWSER_TESTS === "quick" ? LONG : [],
     environment: "node",
+    globalSetup: "src/one-browser.ts",
     fileParallelism: false,
     testTimeout: 240_000,
     hookTimeout: 240_000,

@@ -60,7 +60,7 @@ export class Player {
   async #photograph(address: string, session: string, { shot, undone = 0 }: Entry): Promise<Buffer> {
     const { size, oversampling } = this.#care;
     const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
-    const screen = { width, height, detail: oversampling };
+    const screen = { width, height, detail: oversampling, watched: true };
     const tablet = await Tablet.open(this.#browser, this.#darkroom, address + query(shot), screen);
     try {
       tablet.page.setDefaultTimeout(PATIENCE);

@@ -8,7 +8,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { chosen, type Entry, FOLDER, query, readCatalogue, readScript } from "../gallery/catalogue";
 import { readOrder } from "../gallery/order";
 import { DRAFT, Player } from "../gallery/player";
-import { launchBrowser } from "./browser";
+import { theBrowser } from "./one-browser";
 import { becameTree, changed, colours, Darkroom } from "./picture";
 import { program, Server } from "./server";
 
@@ -75,7 +75,7 @@ describe("the player", () => {
 
   beforeAll(async () => {
     await server.start();
-    browser = await launchBrowser();
+    browser = await theBrowser();
     player = await Player.open(server, browser, DRAFT);
     darkroom = await Darkroom.open(browser);
   });

@@ -2,7 +2,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { launchBrowser } from "./browser";
+import { theBrowser } from "./one-browser";
 import { Darkroom } from "./picture";
 
 const folder = join(import.meta.dirname, "../../../client/public");
@@ -37,7 +37,7 @@ describe("icons", () => {
   let browser: Browser;
   let darkroom: Darkroom;
   beforeAll(async () => {
-    browser = await launchBrowser();
+    browser = await theBrowser();
     darkroom = await Darkroom.open(browser);
   });
   afterAll(() => browser.close());

@@ -1,7 +1,7 @@
 import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { perform } from "../gallery/performance";
-import { launchBrowser } from "./browser";
+import { theBrowser } from "./one-browser";
 import { Darkroom } from "./picture";
 import { Server } from "./server";
 import { type Point, type Screen, Tablet, way } from "./tablet";
@@ -92,7 +92,7 @@ export class Workshop {
 
   async #start(): Promise<void> {
     await this.server.start();
-    this.#browser = await launchBrowser();
+    this.#browser = await theBrowser();
     this.#darkroom = await Darkroom.open(this.#browser);
   }
 
