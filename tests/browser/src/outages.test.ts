@@ -32,7 +32,7 @@ describe("without a server", () => {
 
 describe("a picture that the device drops", () => {
   it("is spoken of until it is back, also when another tree is opened", async () => {
-    const { tablet } = await workshop.fresh(SMALL);
+    const { tablet } = await workshop.fresh({ ...SMALL, watched: true });
     const { page } = tablet;
     const card = page.getByRole("heading", { name: "The picture is gone" });
     /** Has the picture dropped, and gives after how many milliseconds something is said of it. */

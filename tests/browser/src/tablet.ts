@@ -64,10 +64,12 @@ export type Tool = keyof typeof TOOLS;
 
 /** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
 export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
-/** The same with still coarser ones, for tests that are not about looks. */
+/** That tablet for tests of the drawing itself, which goes on as it does for people. */
+export const WATCHED: Screen = { ...LANDSCAPE, watched: true };
+/** One with still coarser ones, for tests that are not about looks. */
 export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
 
-/** For tests in which nothing is looked at. */
+/** For tests in which no picture is taken. */
 export const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 export const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
@@ -90,6 +92,8 @@ const PATIENCE = 150_000;
 const TOUCHED = 10_000;
 /** And so long two frames. */
 const FRAMES = 5000;
+/** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
+const ALBUM = process.env.ALBUM === "1";
 /** The page's picture. */
 const CANVAS = "#workspace";
 /** The attribute by which the page knows that nobody looks at it. */
@@ -321,12 +325,25 @@ export class Tablet {
     });
   }
 
-  /** What is on the screen once it is at rest, kept under a name for people to look at. */
+  /** What is on the screen once it is at rest; kept under a name. */
   async photograph(name: string): Promise<Picture> {
+    // Of what moves until then nothing is drawn.
+    await this.untilStill();
     return this.#looking(async () => {
       await this.untilStill();
       return this.#taken(name);
     });
+  }
+
+  /** A picture at rest for people to look at, of which the test asks nothing; it waits for it even where none is taken. */
+  async show(name: string): Promise<void> {
+    await this.untilStill();
+    if (ALBUM) await this.photograph(name);
+  }
+
+  /** The same of a moment within a movement. */
+  async showNow(name: string): Promise<void> {
+    if (ALBUM) await this.glimpse(name);
   }
 
   async #taken(name: string): Promise<Picture> {
