@@ -6,7 +6,7 @@ export default defineConfig({
   test: {
     include: ["src/**/*.test.ts"],
     environment: "node",
-    globalSetup: "src/one-browser.ts",
+    globalSetup: "src/shared.ts",
     isolate: false,
     maxWorkers: 2,
     testTimeout: 240_000,

@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { theBrowser } from "./one-browser";
+import { theBrowser } from "./shared";
 
 test("the browser draws with WebGL2", async () => {
   const browser = await theBrowser();

@@ -9,7 +9,7 @@ const top = { x: 597, y: 330 };
 const swept: Box = { x: 540, y: 350, width: 114, height: 380 };
 const away: Box = { x: 930, y: 100, width: 200, height: 200 };
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 const { server } = workshop;
 
 test("a finger draws a tree that grows during the stroke", async () => {

@@ -3,7 +3,7 @@ import { type Box, becameTree, changed } from "./picture";
 import { LANDSCAPE, loop, type Point, type Tablet, way } from "./tablet";
 import { SEED as base, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 const { server } = workshop;
 
 async function widen(tablet: Tablet): Promise<void> {

@@ -2,8 +2,8 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { theBrowser } from "./one-browser";
 import { Darkroom } from "./picture";
+import { theBrowser } from "./shared";
 
 const folder = join(import.meta.dirname, "../../../client/public");
 /** `WRITE_ICONS=1` draws the pictures anew, for when the drawing has changed. */

@@ -2,8 +2,8 @@ import { expect, test } from "vitest";
 import { leafAzimuth } from "../../../client/src/scene/foliage/leaves";
 import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
 import { perform } from "../gallery/performance";
-import { theBrowser } from "./one-browser";
 import type { Picture } from "./picture";
+import { theBrowser } from "./shared";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

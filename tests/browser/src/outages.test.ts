@@ -4,7 +4,7 @@ import { inTime, until } from "./server";
 import { SMALL } from "./tablet";
 import { Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 describe("without a server", () => {
   it("the page opens all the same, says so, and finds it again", async () => {

@@ -5,7 +5,7 @@ import { until } from "./server";
 import { LANDSCAPE, type Point, type Tablet, WATCHED, way } from "./tablet";
 import { SEED, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 /** A place on the stem that the sketch has drawn. */
 const onStem = (y: number): Point => ({ x: SEED.x, y });

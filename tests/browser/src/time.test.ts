@@ -4,7 +4,7 @@ import { until } from "./server";
 import { LANDSCAPE, type Point, type Screen, type Tablet, WATCHED, way } from "./tablet";
 import { type Grown, SEED, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 /** Where the stroke of the limb begins, beside the stem: on it a finger that is slow to move would choose. */
 const fork: Point = { x: SEED.x + 30, y: 560 };

@@ -4,7 +4,7 @@ import { until } from "./server";
 import { PHONE, SMALL } from "./tablet";
 import { Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 describe("long work", () => {
   it("an export ends with a file", async () => {
