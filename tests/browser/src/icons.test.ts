@@ -28,6 +28,8 @@ async function drawn(browser: Browser, { side, share, filled }: (typeof PICTURES
     `<body style="margin: 0; display: grid; place-items: center; height: 100vh; ${filled ? `background: ${GROUND}` : ""}">
       <div style="width: ${share * side}px; height: ${share * side}px">${svg}</div></body>`,
   );
+  // Before its first frame a page has nothing that could be taken.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const picture = await page.screenshot({ omitBackground: true });
   await page.close();
   return picture;
