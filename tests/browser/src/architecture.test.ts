@@ -142,7 +142,8 @@ test("a species is picked by its picture, and undone as one", async () => {
   );
   await until("the sketch is the species' again", async () => (await sketch(tablet)) === willowy);
 
-  for (let operations = (await tablet.untilQuiet()).done; operations > 0; operations--) {
+  await tablet.until("picked, dragged and reset", ({ done }) => done === 3);
+  for (let operations = 3; operations > 0; operations--) {
     await tablet.tap("Undo");
     await tablet.until("one less", (facts) => facts.done === operations - 1);
   }
