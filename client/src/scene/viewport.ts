@@ -21,6 +21,7 @@ import { followPixelRatio } from "./rendering/pixel-ratio";
 import { OPENING } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
+import { RenderPause } from "./rendering/render-pause";
 import { Screen } from "./rendering/screen";
 import { encodePicture } from "./rendering/thumbnail";
 import type { TreeTable } from "./table/tree-table";
@@ -51,6 +52,7 @@ export class Viewport {
   private readonly ghost: Ghost;
   private readonly screen: Screen;
   private readonly loop: RenderLoop;
+  private readonly pause: RenderPause;
   private readonly rehearsal: Rehearsal;
   private readonly resizing: ResizeObserver;
   private readonly unfollow: () => void;
@@ -97,9 +99,9 @@ export class Viewport {
       this.draw,
       () => this.loop.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
       // Tests and scripts that take pictures of the page can read when this one is finished.
-      (still) =>
-        canvas.toggleAttribute("data-still", still && !this.lost && this.rehearsal.prepared && !this.tree.unfinished),
+      (still) => canvas.toggleAttribute("data-still", still && this.complete),
     );
+    this.pause = new RenderPause(canvas, this.resume);
     this.loop.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
@@ -337,6 +339,7 @@ export class Viewport {
     this.loop.dispose();
     this.resizing.disconnect();
     this.unfollow();
+    this.pause.dispose();
     this.canvas.removeEventListener("webglcontextlost", this.lose);
     this.canvas.removeEventListener("webglcontextrestored", this.restored);
     for (const part of [
@@ -354,6 +357,19 @@ export class Viewport {
     for (const material of Object.values(this.materials)) material.dispose();
     this.renderer.dispose();
   }
+
+  /** Whether the picture has everything in it; while drawing pauses its textures are not waited for. */
+  private get complete(): boolean {
+    return !this.lost && this.rehearsal.prepared && (this.pause.on || !this.tree.unfinished);
+  }
+
+  /** Draws the whole picture after a pause, at once in the quality that is due. */
+  private readonly resume = (): void => {
+    const { scale, smooth } = this.loop.control.quality;
+    this.screen.fit(scale, smooth);
+    this.shadow.stale = true;
+    this.loop.invalidate();
+  };
 
   /** Draws again, as part of a movement. */
   private stir(): void {
@@ -373,6 +389,7 @@ export class Viewport {
     const growing = now < Math.max(this.table.settledAt + AFTERGROWTH_SECONDS, this.tree.glidesUntil);
     const moving = this.rig.step(step);
     if (growing || moving) control.moved(began);
+    if (this.pause.on) return growing || moving;
     const { quality } = control;
     const { camera } = this.aimed();
     // Finer textures wait for the picture at rest, which comes over that before it: nobody sees one put for another.

@@ -1,6 +1,6 @@
 import type { Browser, Page } from "playwright-core";
 import { Darkroom } from "../src/picture";
-import type { Server } from "../src/server";
+import type { RunningServer } from "../src/server";
 import { Tablet } from "../src/tablet";
 import { type Entry, query } from "./catalogue";
 import { perform } from "./performance";
@@ -28,14 +28,14 @@ const PATIENCE = 240_000;
 
 /** Plays sketches on a real server and takes their pictures in a real browser. */
 export class Player {
-  readonly #server: Server;
+  readonly #server: RunningServer;
   readonly #browser: Browser;
   readonly #darkroom: Darkroom;
   /** A page of the server without the client, for its sockets and its canvas. */
   readonly #blank: Page;
   readonly #care: Care;
 
-  private constructor(server: Server, browser: Browser, darkroom: Darkroom, blank: Page, care: Care) {
+  private constructor(server: RunningServer, browser: Browser, darkroom: Darkroom, blank: Page, care: Care) {
     this.#server = server;
     this.#browser = browser;
     this.#darkroom = darkroom;
@@ -43,7 +43,7 @@ export class Player {
     this.#care = care;
   }
 
-  static async open(server: Server, browser: Browser, care: Care): Promise<Player> {
+  static async open(server: RunningServer, browser: Browser, care: Care): Promise<Player> {
     const blank = await browser.newPage();
     await blank.goto(`${server.address}/health`);
     return new Player(server, browser, await Darkroom.open(browser), blank, care);
@@ -60,7 +60,7 @@ export class Player {
   async #photograph(address: string, session: string, { shot, undone = 0 }: Entry): Promise<Buffer> {
     const { size, oversampling } = this.#care;
     const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
-    const screen = { width, height, detail: oversampling };
+    const screen = { width, height, detail: oversampling, watched: true };
     const tablet = await Tablet.open(this.#browser, this.#darkroom, address + query(shot), screen);
     try {
       tablet.page.setDefaultTimeout(PATIENCE);

@@ -104,11 +104,11 @@ test("each widget follows a finger, and one undo takes the whole drag back", asy
 
 test("the sketch changes while the finger is still down", async () => {
   const { tablet } = await opened("Form", LANDSCAPE);
-  await tablet.photograph("80-architecture-form");
+  await tablet.show("80-architecture-form");
   const drawn = await sketch(tablet);
   await drag(tablet, "Set-point angle", { x: 80, y: 84 }, false);
   await otherSketch(tablet, drawn);
-  await tablet.photograph("81-architecture-dragging");
+  await tablet.show("81-architecture-dragging");
   await tablet.touch("touchEnd", []);
   await untilTyped(tablet, "Set-point angle", (value) => Math.abs(Number(value) - 90) < 4);
 });
@@ -123,7 +123,7 @@ test("a species is picked by its picture, and undone as one", async () => {
   await tablet.until("one operation", (facts) => facts.done === 1);
   await expect.poll(() => willow.getAttribute("aria-pressed")).toBe("true");
   const willowy = await otherSketch(tablet, drawn);
-  await tablet.photograph("82-architecture-species");
+  await tablet.show("82-architecture-species");
 
   const witness = await workshop.open(address);
   await pullDown(witness, "Species");
@@ -142,7 +142,8 @@ test("a species is picked by its picture, and undone as one", async () => {
   );
   await until("the sketch is the species' again", async () => (await sketch(tablet)) === willowy);
 
-  for (let operations = (await tablet.untilQuiet()).done; operations > 0; operations--) {
+  await tablet.until("picked, dragged and reset", ({ done }) => done === 3);
+  for (let operations = 3; operations > 0; operations--) {
     await tablet.tap("Undo");
     await tablet.until("one less", (facts) => facts.done === operations - 1);
   }
@@ -193,7 +194,7 @@ test("a slider is dragged as one operation too", async () => {
   const { operations } = await tablet.until("one operation", (facts) => facts.done === 1);
   expect(operations).toBe("parameters");
   await otherSketch(tablet, drawn);
-  await tablet.photograph("83-architecture-growth");
+  await tablet.show("83-architecture-growth");
   await tablet.tap("Undo");
   await untilTyped(tablet, "Apical dominance", (value) => value === "0.520");
 });
@@ -204,7 +205,7 @@ test("the panel of the brush says what the brush does", async () => {
   const panel = tablet.page.locator(".drawer");
   const says = () => panel.locator(".brush-does").innerText();
   await expect.poll(says).toMatch(/^Fills its sweep/);
-  await tablet.photograph("84-brush-panel");
+  await tablet.show("84-brush-panel");
   await drag(tablet, "Rim of the brush", { x: -200, y: 0 });
   await expect.poll(says).toMatch(/^Sketches one limb/);
   await drag(tablet, "Rim of the brush", { x: 12, y: 0 });
@@ -226,5 +227,5 @@ test.each([
   const { tablet } = await opened("Form", screen);
   await drag(tablet, "Angle of perception", { x: 10, y: 40 });
   await untilTyped(tablet, "Angle of perception", (value) => Number(value) > 100);
-  await tablet.photograph(`85-architecture-${name}`);
+  await tablet.show(`85-architecture-${name}`);
 });

@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
-import { launchBrowser } from "./browser";
+import { theBrowser } from "./shared";
 
 test("the browser draws with WebGL2", async () => {
-  const browser = await launchBrowser();
+  const browser = await theBrowser();
   try {
     const page = await browser.newPage();
     const pixel = await page.evaluate(() => {

@@ -4,7 +4,7 @@ import { mkdir, readFile, rename, rm, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { delimiter, dirname, join } from "node:path";
 import { brotliDecompressSync } from "node:zlib";
-import { type Browser, chromium } from "playwright-core";
+import { type Browser, type BrowserServer, chromium, type LaunchOptions } from "playwright-core";
 
 /** WebGL2 without a graphics card: ANGLE over SwiftShader. */
 const flags = [
@@ -13,6 +13,9 @@ const flags = [
   "--use-gl=angle",
   "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader",
+  // Each page compiles the same shaders: they are kept for the next one, and none before something is drawn with it.
+  "--enable-angle-features=preferGlobalPipelineCache",
+  "--disable-angle-features=warmUpPipelineCacheAtLink",
   "--hide-scrollbars",
   "--touch-events=enabled",
 ];
@@ -30,13 +33,22 @@ interface Program {
  * pages together as a tablet does: then the page never waits for what the canvas shows.
  */
 export async function launchBrowser({ asOnTablets = false } = {}): Promise<Browser> {
+  return chromium.launch(await options(asOnTablets ? flags : [...flags, PLAIN]));
+}
+
+/** Starts one that several processes can use at a time, by its address. */
+export async function serveBrowser(): Promise<BrowserServer> {
+  return chromium.launchServer(await options([...flags, PLAIN]));
+}
+
+async function options(args: string[]): Promise<LaunchOptions> {
   const program = process.env.CHROMIUM ? { path: process.env.CHROMIUM, env: {} } : await packagedChromium();
-  return chromium.launch({
+  return {
     executablePath: program.path,
     headless: true,
-    args: asOnTablets ? flags : [...flags, PLAIN],
+    args,
     env: { ...(process.env as Record<string, string>), ...program.env },
-  });
+  };
 }
 
 /**

@@ -146,8 +146,11 @@ test("every control can be reset once it is changed", async () => {
     }
     const left = (part.picks ?? []).length;
     await until(`${part.panel} is as it was`, async () => (await reset.count()) <= left);
-    for (let i = 0; i < left; i++) await reset.first().evaluate((button: HTMLElement) => button.click());
-    await until(`all of ${part.panel} is as it was`, async () => (await reset.count()) === 0);
+    // One after the other: the next is the first only once the one before it has gone.
+    for (let rest = await reset.count(); rest > 0; rest--) {
+      await reset.first().evaluate((button: HTMLElement) => button.click());
+      await until(`${rest - 1} of ${part.panel} are left`, async () => (await reset.count()) < rest);
+    }
   }
 });
 

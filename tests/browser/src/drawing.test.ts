@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { type Box, becameTree, changed, colours } from "./picture";
-import { type Facts, LANDSCAPE, way } from "./tablet";
+import { type Facts, WATCHED, way } from "./tablet";
 import { SEED as base, Workshop } from "./workshop";
 
 /** Where a stroke up from the seed goes. */
@@ -9,11 +9,11 @@ const top = { x: 597, y: 330 };
 const swept: Box = { x: 540, y: 350, width: 114, height: 380 };
 const away: Box = { x: 930, y: 100, width: 200, height: 200 };
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 const { server } = workshop;
 
 test("a finger draws a tree that grows during the stroke", async () => {
-  const { tablet } = await workshop.fresh(LANDSCAPE);
+  const { tablet } = await workshop.fresh(WATCHED);
   const before = await tablet.photograph("1-seedling");
   expect(colours(before), "ground and sky are there").toBeGreaterThan(8);
 
@@ -76,7 +76,7 @@ test("killing the server in the middle of a stroke loses nothing", async () => {
   await tablet.touch("touchEnd", []);
   const facts = await tablet.untilQuiet();
   expect(facts.metamers).toBeGreaterThan(20);
-  await tablet.photograph("9-after-a-kill");
+  await tablet.show("9-after-a-kill");
 
   await tablet.page.reload();
   await tablet.until("the tree is back", ({ metamers }) => metamers === facts.metamers);
@@ -114,7 +114,7 @@ test("the grow control grows and ungrows", async () => {
     return tablet.untilQuiet();
   };
   const grown = await hold(box.y + 12, "it grows", (now) => now > metamers);
-  await tablet.photograph("10-grown");
+  await tablet.show("10-grown");
   const ungrown = await hold(box.y + box.height - 12, "it ungrows", (now) => now < metamers);
   expect(ungrown.step).toBeLessThan(grown.step);
 });
@@ -156,7 +156,7 @@ test("a tree is saved, found in the library and opened again", async () => {
   expect(
     await picture.evaluate((image: HTMLImageElement) => image.decode().then(() => image.naturalWidth)),
   ).toBeGreaterThan(100);
-  await tablet.photograph("11-library");
+  await tablet.show("11-library");
   const address = page.url();
   await card.tap();
   await tablet.until("the tree is open", (facts) => facts.metamers === metamers);

@@ -8,9 +8,9 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { chosen, type Entry, FOLDER, query, readCatalogue, readScript } from "../gallery/catalogue";
 import { readOrder } from "../gallery/order";
 import { DRAFT, Player } from "../gallery/player";
-import { launchBrowser } from "./browser";
 import { becameTree, changed, colours, Darkroom } from "./picture";
-import { program, Server } from "./server";
+import { program } from "./server";
+import { theBrowser, theServer } from "./shared";
 
 const ENTRY: Entry = { name: "test", seed: 5, shot: { yaw: 20, width: 600, height: 600 } };
 const GROWN = ['{"kind":"grow","steps":9}'];
@@ -68,22 +68,17 @@ describe("the gallery", () => {
 });
 
 describe("the player", () => {
-  const server = new Server();
   let browser: Browser;
   let player: Player;
   let darkroom: Darkroom;
 
   beforeAll(async () => {
-    await server.start();
-    browser = await launchBrowser();
-    player = await Player.open(server, browser, DRAFT);
+    browser = await theBrowser();
+    player = await Player.open(theServer(), browser, DRAFT);
     darkroom = await Darkroom.open(browser);
   });
 
-  afterAll(async () => {
-    await browser?.close();
-    await server.stop();
-  });
+  afterAll(() => browser?.close());
 
   it("shows the tree of a script and nothing else", async () => {
     const bare = await darkroom.develop(await player.play(ENTRY, ['{"kind":"grow","steps":1}']));

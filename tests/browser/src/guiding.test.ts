@@ -3,7 +3,7 @@ import { type Box, becameTree, changed } from "./picture";
 import { LANDSCAPE, loop, type Point, type Tablet, way } from "./tablet";
 import { SEED as base, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 const { server } = workshop;
 
 async function widen(tablet: Tablet): Promise<void> {
@@ -20,7 +20,7 @@ test("a lasso grows a crown that fills its outline", async () => {
   await tablet.lead([loop({ x: 597, y: 330 }, { x: 210, y: 170 })]);
   const shown = tablet.page.locator('.outline[data-stage="drawing"] .outline-body');
   await expect.poll(() => shown.getAttribute("d"), { message: "it shows while it is drawn" }).toContain("L");
-  await tablet.glimpse("21-outline");
+  await tablet.showNow("21-outline");
   expect((await tablet.facts()).metamers, "nothing grows before the finger lifts").toBe(metamers);
   await tablet.touch("touchEnd", []);
   const grown = await tablet.untilQuiet();
@@ -88,7 +88,7 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
   await filled();
   expect(chosen.sent, "holding draws nothing").toBe(limbed.sent);
   await tablet.page.getByText("Only this branch grows").waitFor();
-  await tablet.glimpse("23-chosen");
+  await tablet.showNow("23-chosen");
 
   await widen(tablet);
   const aroundTip = [way(at(390), at(300))];
@@ -99,7 +99,7 @@ test("SG1: a branch pressed and held grows alone until it is let go", async () =
   await tablet.swipe([way({ x: 795, y: 510 }, { x: 880, y: 420 })]);
   const followed = await tablet.untilQuiet();
   expect(followed.metamers, "the limb does").toBeGreaterThan(limbed.metamers);
-  await tablet.photograph("24-grew-alone");
+  await tablet.show("24-grew-alone");
 
   await tablet.tap("Let every branch grow");
   await tablet.until("it is let go", ({ bud }) => bud === "");
@@ -133,7 +133,7 @@ test("a seed is planted where the ground is tapped, and grows", async () => {
   expect(planted.tool, "the brush is at hand again").toBe("brush");
   const seedlings = () => tablet.page.locator(".seedling").count();
   await expect.poll(seedlings).toBe(2);
-  await tablet.photograph("25-two-seeds");
+  await tablet.show("25-two-seeds");
   await tablet.swipe([way({ x: 860, y: 745 }, { x: 860, y: 460 })]);
   expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(5);
   await expect.poll(seedlings).toBe(1);

@@ -2,8 +2,8 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
-import { launchBrowser } from "./browser";
 import { Darkroom } from "./picture";
+import { theBrowser } from "./shared";
 
 const folder = join(import.meta.dirname, "../../../client/public");
 /** `WRITE_ICONS=1` draws the pictures anew, for when the drawing has changed. */
@@ -28,6 +28,8 @@ async function drawn(browser: Browser, { side, share, filled }: (typeof PICTURES
     `<body style="margin: 0; display: grid; place-items: center; height: 100vh; ${filled ? `background: ${GROUND}` : ""}">
       <div style="width: ${share * side}px; height: ${share * side}px">${svg}</div></body>`,
   );
+  // Before its first frame a page has nothing that could be taken.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   const picture = await page.screenshot({ omitBackground: true });
   await page.close();
   return picture;
@@ -37,7 +39,7 @@ describe("icons", () => {
   let browser: Browser;
   let darkroom: Darkroom;
   beforeAll(async () => {
-    browser = await launchBrowser();
+    browser = await theBrowser();
     darkroom = await Darkroom.open(browser);
   });
   afterAll(() => browser.close());

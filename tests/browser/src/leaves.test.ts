@@ -2,8 +2,8 @@ import { expect, test } from "vitest";
 import { leafAzimuth } from "../../../client/src/scene/foliage/leaves";
 import { LEAF_PLACE } from "../../../client/src/scene/glsl/leaf";
 import { perform } from "../gallery/performance";
-import { launchBrowser } from "./browser";
 import type { Picture } from "./picture";
+import { theBrowser } from "./shared";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -50,7 +50,7 @@ void main() {
 
 /** Expected numbers come from a separate program that follows the rules in double precision. */
 test("LF1, LF2, LF4: the graphics card places leaves by the rules", async () => {
-  const browser = await launchBrowser();
+  const browser = await theBrowser();
   try {
     const page = await browser.newPage();
     const inputs = leaves.map(({ of: [row, k, count], from, to }) => [

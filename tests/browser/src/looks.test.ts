@@ -300,7 +300,7 @@ test("long German names fit, upright and on a phone", async () => {
       await tablet.untilSettled();
       expect(await overflowing(tablet), `${panel} at ${screen.width}`).toEqual([]);
       expect(await tooSmall(tablet), `${panel} at ${screen.width}`).toEqual([]);
-      await tablet.photograph(`looks-${panel}-${screen.width}`);
+      await tablet.show(`looks-${panel}-${screen.width}`);
       await tablet.tap(panel);
       await tablet.page.locator(".drawer").waitFor({ state: "detached" });
     }

@@ -4,7 +4,7 @@ import { inTime, until } from "./server";
 import { SMALL } from "./tablet";
 import { Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 describe("without a server", () => {
   it("the page opens all the same, says so, and finds it again", async () => {
@@ -32,7 +32,7 @@ describe("without a server", () => {
 
 describe("a picture that the device drops", () => {
   it("is spoken of until it is back, also when another tree is opened", async () => {
-    const { tablet } = await workshop.fresh(SMALL);
+    const { tablet } = await workshop.fresh({ ...SMALL, watched: true });
     const { page } = tablet;
     const card = page.getByRole("heading", { name: "The picture is gone" });
     /** Has the picture dropped, and gives after how many milliseconds something is said of it. */

@@ -8,8 +8,31 @@ export const program = process.env.ESPALIER_PROGRAM ?? join(import.meta.dirname,
 /** Only keeps a test from hanging. */
 const GUARD = 60_000;
 
-/** The real server, with a database of its own. */
-export class Server {
+/** What tests ask of a server wherever it runs. */
+export abstract class RunningServer {
+  abstract readonly address: string;
+
+  /** A session of its own for a test; returns its address. */
+  async newSession(seed: number): Promise<string> {
+    const answer = await fetch(`${this.address}/api/sessions`, {
+      method: "POST",
+      headers: { "content-type": "application/json" },
+      body: JSON.stringify({ seed }),
+    });
+    const { session } = (await answer.json()) as { session: string };
+    return `${this.address}/s/${session}`;
+  }
+}
+
+/** One that was started elsewhere. */
+export class ServerAt extends RunningServer {
+  constructor(readonly address: string) {
+    super();
+  }
+}
+
+/** One that is started here, with a database of its own. */
+export class Server extends RunningServer {
   port = 0;
   readonly #folder = mkdtempSync(join(tmpdir(), "espalier-browser-"));
   #child: ChildProcess | null = null;
@@ -47,17 +70,6 @@ export class Server {
       const health = await fetch(`${this.address}/health`).catch(() => null);
       return health?.ok === true;
     });
-  }
-
-  /** A session of its own for a test; returns its address. */
-  async newSession(seed: number): Promise<string> {
-    const answer = await fetch(`${this.address}/api/sessions`, {
-      method: "POST",
-      headers: { "content-type": "application/json" },
-      body: JSON.stringify({ seed }),
-    });
-    const { session } = (await answer.json()) as { session: string };
-    return `${this.address}/s/${session}`;
   }
 
   /** As a power cut would. */

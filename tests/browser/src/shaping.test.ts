@@ -2,10 +2,10 @@ import { expect, test } from "vitest";
 import { extentOf } from "./extent";
 import { type Box, becameTree, changed } from "./picture";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Tablet, way } from "./tablet";
+import { LANDSCAPE, type Point, type Tablet, WATCHED, way } from "./tablet";
 import { SEED, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 /** A place on the stem that the sketch has drawn. */
 const onStem = (y: number): Point => ({ x: SEED.x, y });
@@ -45,7 +45,7 @@ async function limbed() {
 }
 
 test("three fingers bend a branch between its base and its end", async () => {
-  const { tablet, address, metamers } = await workshop.stem(LANDSCAPE);
+  const { tablet, address, metamers } = await workshop.stem(WATCHED);
   const straight = await extentOf(address);
   await tablet.take("Bend");
   const before = await tablet.photograph("30-straight");
@@ -92,7 +92,7 @@ test("a mouse bends a branch it has marked the base of, and Escape puts it back"
     }
   };
   await pull();
-  await tablet.glimpse("33-mouse-bends");
+  await tablet.showNow("33-mouse-bends");
   await keyboard.press("Escape");
   await mouse.up();
   await tablet.untilQuiet();
@@ -176,7 +176,7 @@ test("a mouse pulls the ring around a limb, and a width can be typed", async () 
   await tablet.untilQuiet();
   const width = async () => Number(await ring.inputValue());
   await expect.poll(width).toBeGreaterThan(slim + 0.2);
-  await tablet.photograph("43-ring");
+  await tablet.show("43-ring");
   await ring.fill("0,9");
   await keyboard.press("Enter");
   await tablet.untilQuiet();
@@ -295,7 +295,7 @@ test("a line cuts all that it crosses, in one go", async () => {
   await tablet.touch("touchStart", [line[0]!]);
   for (const point of [...line, ...way({ x: 560, y: 690 }, { x: 560, y: 690 }, 2)])
     await tablet.touch("touchMove", [point]);
-  await tablet.glimpse("48-marked");
+  await tablet.showNow("48-marked");
   expect((await tablet.facts()).metamers, "nothing is cut before the finger lifts").toBe(metamers);
   await tablet.touch("touchEnd", []);
   const one = await tablet.untilQuiet();
@@ -319,7 +319,7 @@ test("branches in the dark are marked and cut", async () => {
   for (let step = 0; step < 45; step++) await tablet.page.keyboard.press("ArrowRight");
   const cut = tablet.page.getByRole("button", { name: /^Cut \d+ branch/ });
   await cut.waitFor();
-  await tablet.photograph("49-dim");
+  await tablet.show("49-dim");
   await cut.tap();
   await tablet.until("they are gone", (facts) => facts.metamers < metamers);
   expect((await tablet.untilQuiet()).metamers, "what has light stays").toBeGreaterThan(0);
@@ -333,7 +333,7 @@ test("an upright tablet has room for every tool", async () => {
   for (const label of ["Bend", "Width", "Prune"] as const) {
     await tablet.take(label);
     if (label !== "Prune") await tablet.tapAt({ x: 417, y: 800 });
-    await tablet.photograph(`50-upright-${label.toLowerCase()}`);
+    await tablet.show(`50-upright-${label.toLowerCase()}`);
     const options = await tablet.boxOf(tablet.page.locator(".tool-options"));
     expect(options.x >= 0 && options.x + options.width <= 834 && options.y + options.height <= 1194, label).toBe(true);
     for (const target of await tablet.page.locator(".side-bar button, .tool-options button, .width-box button").all()) {

@@ -169,7 +169,7 @@ describe("the strip that turns", () => {
     expect(Math.max(...radii) / Math.min(...radii)).toBeLessThan(1.5);
     expect(places.at(-1)![1] - places[0]![1]).toBeGreaterThan(5);
     await tablet.until("it is one stroke", ({ operations }) => operations === "stroke");
-    await tablet.photograph("helix");
+    await tablet.show("helix");
   });
 });
 

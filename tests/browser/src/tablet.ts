@@ -43,6 +43,8 @@ export interface Screen {
   readonly height: number;
   /** Device pixels per pixel of the page. */
   readonly detail: number;
+  /** Whether the picture is drawn all the time, and not only while one is taken of it: for tests of the drawing itself. */
+  readonly watched?: boolean;
 }
 
 /** A tab of the panel of architecture. */
@@ -62,10 +64,12 @@ export type Tool = keyof typeof TOOLS;
 
 /** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
 export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
-/** The same with still coarser ones, for tests that are not about looks. */
+/** That tablet for tests of the drawing itself, which goes on as it does for people. */
+export const WATCHED: Screen = { ...LANDSCAPE, watched: true };
+/** One with still coarser ones, for tests that are not about looks. */
 export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
 
-/** For tests in which nothing is looked at. */
+/** For tests in which no picture is taken. */
 export const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
 export const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 
@@ -88,6 +92,12 @@ const PATIENCE = 150_000;
 const TOUCHED = 10_000;
 /** And so long two frames. */
 const FRAMES = 5000;
+/** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
+const ALBUM = process.env.ALBUM === "1";
+/** The page's picture. */
+const CANVAS = "#workspace";
+/** The attribute by which the page knows that nobody looks at it. */
+const UNSEEN = "data-unseen";
 /** The canvas once its picture is at rest. */
 const STILL = "canvas[data-still]";
 /** A finger that has gone so far, in pixels, is no longer where it came down. */
@@ -101,28 +111,29 @@ export class Tablet {
   readonly #context: BrowserContext;
   readonly #touch: CDPSession;
   readonly #darkroom: Darkroom;
-  readonly #detail: number;
+  readonly #screen: Screen;
 
-  private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom, detail: number) {
+  private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom, screen: Screen) {
     this.#context = context;
     this.page = page;
     this.#touch = touch;
     this.#darkroom = darkroom;
-    this.#detail = detail;
+    this.#screen = screen;
     page.on("pageerror", (error) => this.errors.push(String(error)));
   }
 
   static async open(browser: Browser, darkroom: Darkroom, address: string, screen = COARSE): Promise<Tablet> {
-    const { width, height, detail } = screen;
+    const { width, height, detail, watched = false } = screen;
     const viewport = { width, height };
     const context = await browser.newContext({ viewport, hasTouch: true, isMobile: true, deviceScaleFactor: detail });
     // Who tests knows the gestures; a test of the tour says otherwise and loads the page again.
     await context.addInitScript(() => {
       if (localStorage.getItem("espalier.tour") === null) localStorage.setItem("espalier.tour", "true");
     });
+    if (!watched) await context.addInitScript(lookAway, { canvas: CANVAS, unseen: UNSEEN });
     if (client) await context.route("**/*", (route) => substitute(route, client));
     const page = await context.newPage();
-    const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, detail);
+    const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, screen);
     await page.goto(address);
     await tablet.untilReady();
     return tablet;
@@ -308,16 +319,50 @@ export class Tablet {
 
   /** What is on the screen this moment, at rest or not: while the server is silent something always moves. */
   async glimpse(name: string): Promise<Picture> {
+    return this.#looking(async () => {
+      await this.frames();
+      return this.#taken(name);
+    });
+  }
+
+  /** What is on the screen once it is at rest; kept under a name. */
+  async photograph(name: string): Promise<Picture> {
+    // Of what moves until then nothing is drawn.
+    await this.untilStill();
+    return this.#looking(async () => {
+      await this.untilStill();
+      return this.#taken(name);
+    });
+  }
+
+  /** A picture at rest for people to look at, of which the test asks nothing; it waits for it even where none is taken. */
+  async show(name: string): Promise<void> {
+    await this.untilStill();
+    if (ALBUM) await this.photograph(name);
+  }
+
+  /** The same of a moment within a movement. */
+  async showNow(name: string): Promise<void> {
+    if (ALBUM) await this.glimpse(name);
+  }
+
+  async #taken(name: string): Promise<Picture> {
     await mkdir(screenshots, { recursive: true });
     const path = join(screenshots, `${name}.png`);
     const taken = await this.page.screenshot({ path, animations: "disabled" });
-    return this.#darkroom.develop(taken, this.#detail);
+    return this.#darkroom.develop(taken, this.#screen.detail);
   }
 
-  /** What is on the screen once it is at rest, kept under a name for people to look at. */
-  async photograph(name: string): Promise<Picture> {
-    await this.untilStill();
-    return this.glimpse(name);
+  /** Does something while the picture is drawn; else nobody looks at it. */
+  async #looking<Result>(act: () => Promise<Result>): Promise<Result> {
+    if (this.#screen.watched) return act();
+    const canvas = this.page.locator(CANVAS);
+    await canvas.evaluate((canvas, unseen) => canvas.removeAttribute(unseen), UNSEEN);
+    try {
+      return await act();
+    } finally {
+      await canvas.evaluate((canvas, unseen) => canvas.setAttribute(unseen, ""), UNSEEN);
+    }
   }
 
   /** Shows one of the tabs of the panel of architecture, with all that is on it. */
@@ -393,6 +438,17 @@ export class Tablet {
       return text ?? "";
     };
   }
+}
+
+/** Has the page's picture not drawn from when there is one. */
+function lookAway({ canvas, unseen }: { canvas: string; unseen: string }): void {
+  const watcher = new MutationObserver(() => {
+    const found = document.querySelector(canvas);
+    if (found === null) return;
+    found.setAttribute(unseen, "");
+    watcher.disconnect();
+  });
+  watcher.observe(document, { subtree: true, childList: true });
 }
 
 /** Waits for an answer, for so many milliseconds at most. */

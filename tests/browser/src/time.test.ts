@@ -1,10 +1,10 @@
 import { expect, test } from "vitest";
 import { type Box, changed } from "./picture";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Screen, type Tablet, way } from "./tablet";
+import { LANDSCAPE, type Point, type Screen, type Tablet, WATCHED, way } from "./tablet";
 import { type Grown, SEED, Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 /** Where the stroke of the limb begins, beside the stem: on it a finger that is slow to move would choose. */
 const fork: Point = { x: SEED.x + 30, y: 560 };
@@ -31,7 +31,7 @@ async function scrub(tablet: Tablet, from: number, to: number, lift = true): Pro
 }
 
 test("the strip scrubs back through growth and forth again", async () => {
-  const { tablet, metamers } = await limbed(LANDSCAPE);
+  const { tablet, metamers } = await limbed(WATCHED);
   const before = await tablet.facts();
   expect([before.operations, before.done, before.present]).toEqual(["stroke stroke", 2, before.lastStep]);
   const grown = await tablet.photograph("50-strip");
@@ -90,7 +90,7 @@ test("another future stays reachable from where it branched off", async () => {
 
   await page.getByRole("button", { name: "Another future" }).tap();
   await page.getByText("1 operation,").waitFor();
-  await tablet.photograph("52-futures");
+  await tablet.show("52-futures");
   await page.getByText("1 operation,").tap();
   await tablet.until("the first future is back", (facts) => facts.metamers === metamers);
   const back = await tablet.untilQuiet();
@@ -121,7 +121,7 @@ test("the strip and its targets fit an upright tablet", async () => {
   const tablet = await workshop.open(await workshop.server.newSession(5), { width: 834, height: 1194, detail: 0.5 });
   await tablet.swipe([way({ x: 417, y: 1000 }, { x: 417, y: 600 })]);
   await tablet.untilQuiet();
-  await tablet.photograph("53-upright-strip");
+  await tablet.show("53-upright-strip");
   for (const label of ["Hide the timeline", "One step back", "Time", "One step forth"]) {
     const box = await tablet.boxOf(tablet.page.getByLabel(label, { exact: true }));
     expect(box.x >= 0 && box.x + box.width <= 834 && box.y + box.height <= 1194, label).toBe(true);
@@ -181,12 +181,12 @@ test("a branch is copied to another limb, and moved there", async () => {
   await page.getByRole("button", { name: "Copy" }).tap();
   const onto: Point = { x: SEED.x, y: 470 };
   await tablet.lead([way(onto, { x: 420, y: 430 })]);
-  await tablet.glimpse("57-copy-on-its-way");
+  await tablet.showNow("57-copy-on-its-way");
   await tablet.touch("touchEnd", []);
   await tablet.until("the copy is there", (facts) => facts.operations === "stroke stroke graft");
   const held = await tablet.untilQuiet();
   expect(held.metamers).toBeGreaterThan(metamers);
-  await tablet.photograph("58-copied");
+  await tablet.show("58-copied");
 
   await page.getByRole("button", { name: "Move" }).tap();
   await tablet.tapAt({ x: SEED.x, y: 640 });
@@ -224,7 +224,7 @@ test("a prediction grows beside the tree and is kept as it was seen", async () =
   await page.getByRole("button", { name: "Keep this" }).tap();
   await tablet.until("it is done", (facts) => facts.operations === "stroke stroke prune" && facts.ghost === "");
   const kept = await tablet.untilQuiet();
-  await tablet.photograph("62-kept");
+  await tablet.show("62-kept");
   expect(kept.lastStep).toBeGreaterThan(2);
   await tablet.tap("Undo");
   await tablet.until("one operation is undone", (facts) => facts.metamers === metamers && facts.done === 2);

@@ -4,7 +4,7 @@ import { until } from "./server";
 import { PHONE, SMALL } from "./tablet";
 import { Workshop } from "./workshop";
 
-const workshop = Workshop.forThisFile();
+const workshop = Workshop.withItsOwnServer();
 
 describe("long work", () => {
   it("an export ends with a file", async () => {
@@ -69,7 +69,7 @@ describe("long work", () => {
     await tablet.untilCome();
     const chip = (await page.locator(".chip").boundingBox())!;
     expect(chip.x >= 0 && chip.x + chip.width <= PHONE.width, "all of it is on the glass").toBe(true);
-    await tablet.glimpse("export");
+    await tablet.showNow("export");
     const broken = page.waitForEvent("requestfailed", (request) => request.url().endsWith("/tree.glb"));
     await page.getByRole("button", { name: "Cancel" }).tap();
     await moving.waitFor({ state: "detached" });

@@ -1,9 +1,9 @@
 import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { perform } from "../gallery/performance";
-import { launchBrowser } from "./browser";
 import { Darkroom } from "./picture";
-import { Server } from "./server";
+import { type RunningServer, Server } from "./server";
+import { theBrowser, theServer } from "./shared";
 import { type Point, type Screen, Tablet, way } from "./tablet";
 
 /** Where the first seed stands in a fresh view on a tablet on its side. */
@@ -21,15 +21,31 @@ export interface Grown extends Opened {
 }
 
 /** A server, a browser and tablets for the tests of one file. */
-export class Workshop {
-  readonly server = new Server();
+export class Workshop<At extends RunningServer = RunningServer> {
   #browser: Browser | null = null;
   #darkroom: Darkroom | null = null;
   #tablets: Tablet[] = [];
 
-  /** Has everything started before the file's tests, and each test end with its tablets closed and without errors. */
+  private constructor(readonly server: At) {}
+
+  /** Has everything ready before the file's tests, and each test end with its tablets closed and without errors. */
   static forThisFile(): Workshop {
-    const workshop = new Workshop();
+    return Workshop.#at(theServer());
+  }
+
+  /** The same with a server of the file's own, for tests that stop it, or that want its library for themselves. */
+  static withItsOwnServer(): Workshop<Server> {
+    const server = new Server();
+    beforeAll(() => server.start());
+    afterAll(() => server.stop());
+    const workshop = Workshop.#at(server);
+    // A test that failed may have left it silent.
+    afterEach(() => server.resume());
+    return workshop;
+  }
+
+  static #at<At extends RunningServer>(server: At): Workshop<At> {
+    const workshop = new Workshop(server);
     beforeAll(() => workshop.#start());
     afterEach(() => workshop.#clear());
     afterAll(() => workshop.#stop());
@@ -91,14 +107,11 @@ export class Workshop {
   }
 
   async #start(): Promise<void> {
-    await this.server.start();
-    this.#browser = await launchBrowser();
+    this.#browser = await theBrowser();
     this.#darkroom = await Darkroom.open(this.#browser);
   }
 
   async #clear(): Promise<void> {
-    // A test that failed may have left it silent.
-    this.server.resume();
     const errors = this.#tablets.flatMap((tablet) => tablet.errors);
     for (const tablet of this.#tablets.splice(0)) await tablet.close();
     expect(errors).toEqual([]);
@@ -106,6 +119,5 @@ export class Workshop {
 
   async #stop(): Promise<void> {
     await this.#browser?.close();
-    await this.server.stop();
   }
 }
