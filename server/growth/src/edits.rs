@@ -6,7 +6,8 @@ use glam::Vec3;
 
 use crate::{
     observer::NoObserver,
-    simulation::{Simulation, WORLD_EXTENT},
+    simulation::Simulation,
+    world::{WORLD_EXTENT, is_in_world},
 };
 
 /// An edit that cannot be made; nothing has changed.
@@ -131,8 +132,4 @@ impl Simulation {
         self.canopy.forget();
         self.see_light(&[], &mut NoObserver);
     }
-}
-
-fn is_in_world(place: Vec3) -> bool {
-    place.abs().max_element() <= WORLD_EXTENT
 }

@@ -40,6 +40,7 @@ pub mod species;
 mod step;
 mod vigor;
 mod voxel_grid;
+mod world;
 
 pub use brush::{BrushPiece, BrushSample, StrokeId};
 pub use edits::{EditError, Original};
@@ -56,6 +57,7 @@ pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorM
 pub use rules::use_next_simulation;
 pub use rules::{SIMULATION_VERSION, simulation_version};
 pub use schematic::{SCHEMATIC_METAMERS, schematic};
-pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
+pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState};
 pub use space::Space;
 pub use step::{StepInput, StepOutcome};
+pub use world::WORLD_EXTENT;

@@ -11,7 +11,8 @@ use crate::{
     obstacles::CLEARANCE,
     parameters::{MAX_LATERALS, Parameters},
     random::{Draw, Purpose},
-    simulation::{Simulation, WORLD_EXTENT},
+    simulation::Simulation,
+    world::is_in_world,
 };
 
 /// Nodes keep this far above the ground.
@@ -173,7 +174,7 @@ impl Simulation {
         let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
         let heading = free.filter(is_free)?;
         let end = base + heading;
-        let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
+        let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
         in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(axis, tip, heading) })
     }
 

@@ -23,8 +23,6 @@ use crate::{
     space::{Bud, Space},
 };
 
-/// Growth stays within this distance of the origin on each axis, in internodes.
-pub const WORLD_EXTENT: f32 = 1000.0;
 /// Metamers a scene may hold, dead ones included, unless told otherwise. What was undone does not count.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
 
