@@ -85,6 +85,11 @@ impl<'a> Widths<'a> {
         self.logs.get(id.index()).copied().filter(|log| !log.is_nan())
     }
 
+    /// Whether all radii follow from the tips alone, by the [`Girth`].
+    pub fn follow_from_tips(&self) -> bool {
+        self.logs.is_empty()
+    }
+
     /// The constraints, in birth order.
     pub fn constraints(&self) -> &[Width] {
         &self.constraints

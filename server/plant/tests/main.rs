@@ -1,7 +1,7 @@
 //! Plants under random lives: every invariant holds after each event, and time travel is exact.
 
 use espalier_plant::{
-    AxisId, Carried, Edit, Future, Internode, MetamerId, Motion, Plant, PlantParts, checks,
+    AxisId, Carried, Edit, Future, Given, GivenRadii, Internode, MetamerId, Motion, Plant, PlantParts, checks,
 };
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
@@ -185,7 +185,11 @@ fn edit((kind, row): (u8, usize)) -> Edit {
         0 => Edit::Shed(AxisId::new(row)),
         1 => Edit::Pruned(MetamerId::new(row)),
         2 => Edit::Grafted(AxisId::new(row)),
-        _ => Edit::Width(MetamerId::new(row), Some(0.5)),
+        3 => Edit::Width(MetamerId::new(row), Some(0.5)),
+        _ => {
+            let (metamers, radii) = (vec![MetamerId::new(row)], GivenRadii(vec![0.5]));
+            Edit::Given(Box::new(Given { metamers, radii }))
+        }
     }
 }
 
@@ -301,7 +305,8 @@ proptest! {
     fn random_parts_are_refused_without_panic(
         now in 0u32..4,
         ends in prop::collection::vec(prop::array::uniform4(0u32..6), 0..4),
-        edits in prop::collection::vec((0u8..4, 0usize..6), 0..3),
+        edits in prop::collection::vec((0u8..5, 0usize..6), 0..3),
+        given_radii in prop::collection::vec((0u32..6, -0.1f32..1.0), 0..3),
         rows in prop::collection::vec((0u32..7, 0u32..4, 0u32..5), 0..6),
         axes in prop::collection::vec((0u32..7, 0u32..5), 0..5),
     ) {
@@ -311,7 +316,7 @@ proptest! {
             ends,
             edits: edits.into_iter().map(edit).collect(),
             widths: Vec::new(),
-            given_radii: Vec::new(),
+            given_radii,
             parent: rows.iter().map(|r| none(r.0)).collect(),
             axis: rows.iter().map(|r| r.1).collect(),
             death: rows.iter().map(|r| if r.2 == 4 { u32::MAX } else { r.2 }).collect(),
