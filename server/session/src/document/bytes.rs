@@ -22,7 +22,7 @@ pub(crate) use self::{
     sections::SESSION,
 };
 use self::{sections::Kind, settings::Pool};
-use super::{Document, futures::Futures, obstacles::Obstacles};
+use super::{Document, Generators, futures::Futures, obstacles::Obstacles};
 
 /// Bytes are not a document that this program reads.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -140,7 +140,7 @@ impl Document {
         let (strokes, bends) = container.read(&sections::GESTURES, gestures::read)?.unwrap_or_default();
         gestures::check(&strokes, &bends, &plant)?;
         Ok(Self {
-            simulation: Simulation::from_state(plant, state),
+            simulation: Simulation::from_state(plant, state).grown_by(Generators::from),
             history,
             futures,
             strokes,
