@@ -11,10 +11,11 @@ use rayon::prelude::*;
 
 use crate::{
     claims::Claimed,
+    growth::Growth,
     newcomers::Newcomers,
+    scene::Scene,
     selection::Selection,
     shoot::{Aim, Draft},
-    simulation::Simulation,
     vigor,
 };
 
@@ -41,21 +42,28 @@ impl Shoot {
     }
 }
 
-impl Simulation {
+impl Growth {
     /// Lets buds grow: leaders along their paths, others into the space they have claimed. Returns the new metamers
-    /// that space has yet to be told of.
-    pub(crate) fn grow(&mut self, stroke: Option<Vec3>, selection: &Selection) -> Range<usize> {
-        let born = self.plant.metamer_count();
-        let led = self.grow_leaders(stroke, selection);
-        let shoots = self.shoots(&led);
+    /// that are not in space yet.
+    pub(crate) fn grow(
+        &mut self,
+        scene: &mut Scene,
+        stroke: Option<Vec3>,
+        selection: &Selection,
+    ) -> Range<usize> {
+        let born = scene.plant.metamer_count();
+        let led = self.grow_leaders(scene, stroke, selection);
+        let shoots = self.shoots(scene, &led);
         if shoots.len() > BATCH && (rayon::current_num_threads() > 1 || cfg!(test)) {
-            self.grow_side_by_side(born, &shoots, stroke);
-            return born..self.plant.metamer_count();
+            self.grow_side_by_side(scene, born, &shoots, stroke);
+            return born..scene.plant.metamer_count();
         }
-        self.tell_space(born..self.plant.metamer_count());
+        for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
+            scene.space.occupy(id, scene.plant.metamers().end(id));
+        }
         for shoot in shoots {
-            if let Some(aim) = self.aim(shoot.axis(), stroke) {
-                self.grow_shoot(shoot.axis(), shoot.length(), aim);
+            if let Some(aim) = self.aim(scene, shoot.axis(), stroke) {
+                self.grow_shoot(scene, shoot.axis(), shoot.length(), aim);
             }
         }
         0..0
@@ -63,21 +71,22 @@ impl Simulation {
 
     /// The same as if they grew one after another: whether a zone of an earlier step is in the way does not depend on
     /// who grows first. So all are drafted as if each were the only one, and grow as far as those before let them.
-    fn grow_side_by_side(&mut self, born: usize, shoots: &[Shoot], stroke: Option<Vec3>) {
+    fn grow_side_by_side(&self, scene: &mut Scene, born: usize, shoots: &[Shoot], stroke: Option<Vec3>) {
+        let now = &*scene;
         let draft = |shoots: &[Shoot]| {
             let mut drafts = Vec::with_capacity(shoots.len());
             for &shoot in shoots {
-                if let Some(aim) = self.aim(shoot.axis(), stroke) {
-                    self.draft_shoot(shoot.axis(), shoot.length(), aim, &mut drafts);
+                if let Some(aim) = self.aim(now, shoot.axis(), stroke) {
+                    self.draft_shoot(now, shoot.axis(), shoot.length(), aim, &mut drafts);
                 }
             }
             drafts
         };
         let drafts: Vec<Vec<Draft>> = shoots.par_chunks(BATCH).map(draft).collect();
-        let count = self.plant.metamer_count() - born + drafts.iter().map(Vec::len).sum::<usize>();
+        let count = scene.plant.metamer_count() - born + drafts.iter().map(Vec::len).sum::<usize>();
         let mut newcomers = Newcomers::new(self.parameters.scene().occupancy_radius, count);
-        for id in (born..self.plant.metamer_count()).map(MetamerId::new) {
-            newcomers.insert(id, self.plant.metamers().end(id));
+        for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
+            newcomers.insert(id, scene.plant.metamers().end(id));
         }
         let (mut stopped, mut last_grown) = (None, 0);
         let last = shoots.last().copied();
@@ -85,41 +94,40 @@ impl Simulation {
             if stopped == Some(draft.axis) {
                 continue;
             }
-            if self.is_full() {
+            if scene.is_full() {
                 break;
             }
-            if newcomers.is_occupied(draft.end, |id| !self.is_kin(draft.axis, draft.end, id)) {
+            if newcomers.is_occupied(draft.end, |id| !self.is_kin(scene, draft.axis, draft.end, id)) {
                 stopped = Some(draft.axis);
                 continue;
             }
-            let id = self.add(draft);
+            let id = self.add(scene, draft);
             newcomers.insert(id, draft.end);
             last_grown += u32::from(last.is_some_and(|shoot| shoot.axis() == draft.axis));
         }
         if last.is_some_and(|shoot| last_grown < shoot.length()) {
             // One after another, the last shoot would have asked for room once more.
-            self.is_full();
+            scene.is_full();
         }
     }
 
-    fn aim(&self, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
+    fn aim(&self, scene: &Scene, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
         let Claimed { space, envelope } = self.claims.of(axis)?;
-        Some(Aim { space: Some(self.lit_side(axis, space)), stroke, is_enclosed: envelope.is_some() })
-    }
-
-    fn tell_space(&mut self, rows: Range<usize>) {
-        for id in rows.map(MetamerId::new) {
-            self.space.occupy(id, self.plant.metamers().end(id));
-        }
+        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, is_enclosed: envelope.is_some() })
     }
 
     /// Lets leaders grow along the paths of their strokes. Returns those that did.
-    fn grow_leaders(&mut self, stroke: Option<Vec3>, selection: &Selection) -> BTreeSet<AxisId> {
+    fn grow_leaders(
+        &mut self,
+        scene: &mut Scene,
+        stroke: Option<Vec3>,
+        selection: &Selection,
+    ) -> BTreeSet<AxisId> {
         let mut led = BTreeSet::new();
         let mut guides = core::mem::take(&mut self.guides);
         for guide in guides.values_mut() {
             let Some(leader) = guide.leader else { continue };
-            if !self.plant.is_axis_alive(leader) {
+            if !scene.plant.is_axis_alive(leader) {
                 guide.restart();
                 continue;
             }
@@ -129,8 +137,8 @@ impl Simulation {
             let space = self.claims.of(leader).map(|claimed| claimed.space);
             let longest = self.parameters.of(leader).max_shoot_length;
             let aim = Aim { space, stroke, is_enclosed: false };
-            if self.grow_guided(leader, longest, aim, |tip, is_blocked| guide.next_node(tip, is_blocked)) > 0
-            {
+            let next = |tip, is_blocked: &dyn Fn(Vec3) -> bool| guide.next_node(tip, is_blocked);
+            if self.grow_guided(scene, leader, longest, aim, next) > 0 {
                 led.insert(leader);
             }
         }
@@ -139,9 +147,9 @@ impl Simulation {
     }
 
     /// What enabled buds will grow, the longest shoot first, of equally long ones the oldest.
-    fn shoots(&self, led: &BTreeSet<AxisId>) -> Vec<Shoot> {
+    fn shoots(&self, scene: &Scene, led: &BTreeSet<AxisId>) -> Vec<Shoot> {
         let axes: Vec<AxisId> = self.claims.claimants().filter(|axis| !led.contains(axis)).collect();
-        let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&self.plant, axis, &self.parameters);
+        let vigor = |&axis: &AxisId| self.canopy.bud_vigor(&scene.plant, axis, &self.parameters);
         let vigors: Vec<f64> = match axes.len() {
             ..=BATCH => axes.iter().map(vigor).collect(),
             _ => axes.par_iter().with_min_len(BATCH).map(vigor).collect(),

@@ -9,7 +9,7 @@ mod mask;
 
 use glam::{Vec2, Vec3};
 
-use crate::{random::Draw, simulation::WORLD_EXTENT};
+use crate::{random::Draw, world::WORLD_EXTENT};
 use distance::{Raster, lower_envelope};
 use mask::{Mask, bounds};
 

@@ -1,7 +1,7 @@
 //! The self-organising simulation of TreeSketch: buds that compete for light and space.
 //!
-//! A [`Simulation`] owns a plant and grows it step by step. What guides a step comes in as [`StepInput`]:
-//! the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
+//! A [`Simulation`] is a [`Scene`] (plants, obstacles, light, space) and the [`Generator`] that grows it step by step.
+//! [`Growth`] is the first; what guides a step of it comes in as [`StepInput`]: the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
 //! so the same inputs give the same plant bit for bit, on any number of threads.
 
 pub mod appearance;
@@ -11,10 +11,13 @@ mod cells;
 mod claims;
 mod direction;
 mod directory;
+mod edit_error;
 mod edits;
 mod field;
 mod flush;
+mod generator;
 mod gravimorphism;
+mod growth;
 mod guide;
 mod lasso;
 mod light;
@@ -30,6 +33,7 @@ pub mod random;
 #[cfg(test)]
 mod reference;
 mod rules;
+mod scene;
 mod schematic;
 mod selection;
 mod shedding;
@@ -37,13 +41,18 @@ mod shoot;
 mod simulation;
 mod space;
 pub mod species;
+mod state;
 mod step;
 mod vigor;
 mod voxel_grid;
+mod world;
 
 pub use brush::{BrushPiece, BrushSample, StrokeId};
-pub use edits::{EditError, Original};
+pub use edit_error::EditError;
+pub use edits::Original;
+pub use generator::{Change, Generator, StepOutcome};
 pub use gravimorphism::propensity;
+pub use growth::Growth;
 pub use guide::{Guide, Waypoint};
 pub use lasso::{Envelope, LassoError, MAX_OUTLINE, Plane};
 pub use light::ShadowGrid;
@@ -55,7 +64,10 @@ pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorM
 #[cfg(feature = "next-simulation")]
 pub use rules::use_next_simulation;
 pub use rules::{SIMULATION_VERSION, simulation_version};
+pub use scene::{DEFAULT_METAMER_BUDGET, Recording, Scene};
 pub use schematic::{SCHEMATIC_METAMERS, schematic};
-pub use simulation::{DEFAULT_METAMER_BUDGET, Simulation, SimulationState, WORLD_EXTENT};
+pub use simulation::Simulation;
 pub use space::Space;
-pub use step::{StepInput, StepOutcome};
+pub use state::SimulationState;
+pub use step::StepInput;
+pub use world::WORLD_EXTENT;

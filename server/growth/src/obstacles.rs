@@ -4,6 +4,7 @@
 //! that stood there before an obstacle came stays, but does not grow on from inside a solid.
 
 mod body;
+mod checks;
 mod mesh;
 mod shape;
 mod sky;
@@ -14,8 +15,9 @@ mod way_around;
 use glam::Vec3;
 
 use body::Body;
+pub use checks::ObstacleError;
 pub use mesh::{MAX_TRIANGLES, TriangleMesh};
-pub use shape::{Obstacle, ObstacleError, Shape};
+pub use shape::{Obstacle, Shape};
 use sky::SkyMap;
 pub(crate) use way_around::CLEARANCE;
 

@@ -15,7 +15,9 @@ use crate::{
     BrushPiece, StepInput,
     claims::{Claimed, Claims},
     field::Lattice,
+    growth::Growth,
     markers::MarkerSource,
+    scene::Scene,
     shoot::Aim,
     simulation::Simulation,
     space::Cone,
@@ -25,23 +27,24 @@ use crate::{
 /// One step of a simulation whose caches are thrown away first.
 pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     let state = simulation.state();
-    let mut plain = Simulation::from_state(simulation.plant.clone(), state);
+    let Simulation { mut scene, generator: mut plain } =
+        Simulation::from_state(simulation.plant().clone(), state);
     plain.tick = plain.tick.wrapping_add(1);
-    let vigor = Vigor::of(&plain.plant, &plain.parameters, &plain.obstacles);
-    plain.plant.begin_step();
-    for axis in all_axes(&plain.plant) {
-        if plain.plant.is_standing(axis) && vigor.condemns(&plain.plant, axis, &plain.parameters) {
-            plain.plant.shed(&[axis]);
+    let vigor = Vigor::of(&scene.plant, &plain.parameters, &scene.obstacles);
+    scene.plant.begin_step();
+    for axis in all_axes(&scene.plant) {
+        if scene.plant.is_standing(axis) && vigor.condemns(&scene.plant, axis, &plain.parameters) {
+            scene.plant.shed(&[axis]);
         }
     }
-    let claims = claims(&mut plain, input);
+    let claims = claims(&mut plain, &scene, input);
     // Growth asks space whether a place is taken, and light for the way to it: both made afresh.
-    plain.rebuild();
+    scene.rebuild(plain.parameters());
     let stroke = input.pieces.iter().find_map(BrushPiece::direction);
     let mut shoots: Vec<(u32, AxisId, Claimed)> = Vec::new();
     let vigors: Vec<(AxisId, Claimed, f64)> = claims
         .iter()
-        .map(|(axis, claimed)| (axis, claimed, vigor.of_bud(&plain.plant, axis, &plain.parameters)))
+        .map(|(axis, claimed)| (axis, claimed, vigor.of_bud(&scene.plant, axis, &plain.parameters)))
         .collect();
     let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
     for (axis, claimed, vigor) in vigors.into_iter().filter(|&(.., vigor)| vigor > 0.0) {
@@ -51,15 +54,14 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
     for (length, axis, Claimed { space, envelope }) in shoots {
-        plain.grow_shoot(
-            axis,
-            length,
-            Aim { space: Some(plain.lit_side(axis, space)), stroke, is_enclosed: envelope.is_some() },
-        );
+        let lit = plain.lit_side(&scene, axis, space);
+        let aim = Aim { space: Some(lit), stroke, is_enclosed: envelope.is_some() };
+        plain.grow_shoot(&mut scene, axis, length, aim);
     }
-    plain.plant.end_step();
-    let state = plain.state();
-    *simulation = Simulation::from_state(plain.plant, state);
+    scene.plant.end_step();
+    let ended = Simulation { scene, generator: plain };
+    let state = ended.state();
+    *simulation = Simulation::from_state(ended.scene.plant, state);
 }
 
 fn all_axes(plant: &Plant) -> impl Iterator<Item = AxisId> + use<> {
@@ -71,16 +73,16 @@ fn living_nodes(plant: &Plant) -> Vec<MetamerId> {
 }
 
 /// Every marker goes to the nearest bud that perceives it.
-fn claims(plain: &mut Simulation, input: &StepInput) -> Claims {
+fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
     let parameters = plain.parameters.scene().clone();
     let tick = plain.tick;
     for piece in &input.pieces {
         piece.sow(&mut plain.markers, plain.seed, tick, &parameters);
     }
-    let plant = &plain.plant;
+    let plant = &scene.plant;
     let nodes: Vec<Vec3> = living_nodes(plant).into_iter().map(|id| plant.metamers().end(id)).collect();
     let zone = parameters.occupancy_radius * parameters.occupancy_radius;
-    let obstacles = &plain.obstacles;
+    let obstacles = &scene.obstacles;
     let is_free = |place: Vec3| {
         !obstacles.contains(place) && nodes.iter().all(|node| node.distance_squared(place) > zone)
     };

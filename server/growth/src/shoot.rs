@@ -7,11 +7,13 @@ use glam::Vec3;
 
 use crate::{
     direction::{Tropism, across, azimuth, next_heading, transport, turn},
+    growth::Growth,
     guide::Waypoint,
     obstacles::CLEARANCE,
     parameters::{MAX_LATERALS, Parameters},
     random::{Draw, Purpose},
-    simulation::{Simulation, WORLD_EXTENT},
+    scene::Scene,
+    world::is_in_world,
 };
 
 /// Nodes keep this far above the ground.
@@ -80,26 +82,33 @@ impl Tip {
     }
 }
 
-impl Simulation {
-    /// Lets a bud grow up to `count` internodes, and tells space; fewer where it runs into another's zone.
-    pub(crate) fn grow_shoot(&mut self, axis: AxisId, count: u32, aim: Aim) {
-        let mut tip = Tip::of(axis, &self.plant);
+impl Growth {
+    /// Lets a bud grow up to `count` internodes, and enters them into space; fewer where it runs into another's zone.
+    pub(crate) fn grow_shoot(&self, scene: &mut Scene, axis: AxisId, count: u32, aim: Aim) {
+        let mut tip = Tip::of(axis, &scene.plant);
         for _ in 0..count {
-            if self.is_full() {
+            if scene.is_full() {
                 break;
             }
-            let Some(draft) = self.draft_freely(axis, tip, aim) else { break };
+            let Some(draft) = self.draft_freely(scene, axis, tip, aim) else { break };
             tip = tip.after(&draft);
-            let id = self.add(&draft);
-            self.space.occupy(id, draft.end);
+            let id = self.add(scene, &draft);
+            scene.space.occupy(id, draft.end);
         }
     }
 
     /// Drafts what a bud would grow into the space there is now.
-    pub(crate) fn draft_shoot(&self, axis: AxisId, count: u32, aim: Aim, drafts: &mut Vec<Draft>) {
-        let mut tip = Tip::of(axis, &self.plant);
+    pub(crate) fn draft_shoot(
+        &self,
+        scene: &Scene,
+        axis: AxisId,
+        count: u32,
+        aim: Aim,
+        drafts: &mut Vec<Draft>,
+    ) {
+        let mut tip = Tip::of(axis, &scene.plant);
         for _ in 0..count {
-            let Some(draft) = self.draft_freely(axis, tip, aim) else { break };
+            let Some(draft) = self.draft_freely(scene, axis, tip, aim) else { break };
             tip = tip.after(&draft);
             drafts.push(draft);
         }
@@ -107,17 +116,19 @@ impl Simulation {
 
     /// The next internode at the tip of an axis, unless something stops it or its place is taken.
     #[inline]
-    fn draft_freely(&self, axis: AxisId, tip: Tip, aim: Aim) -> Option<Draft> {
-        let draft = self.draft(axis, tip, aim, None)?;
+    fn draft_freely(&self, scene: &Scene, axis: AxisId, tip: Tip, aim: Aim) -> Option<Draft> {
+        let draft = self.draft(scene, axis, tip, aim, None)?;
         let radius = self.parameters.of(axis).occupancy_radius;
-        let is_taken = self.space.is_occupied(draft.end, radius, |id| !self.is_kin(axis, draft.end, id));
+        let is_taken =
+            scene.space.is_occupied(draft.end, radius, |id| !self.is_kin(scene, axis, draft.end, id));
         (!is_taken).then_some(draft)
     }
 
     /// Lets a leader grow along the path of its stroke, up to `count` internodes; it goes where the finger went,
     /// through others' zones as well. Returns how many.
     pub(crate) fn grow_guided(
-        &mut self,
+        &self,
+        scene: &mut Scene,
         axis: AxisId,
         count: u32,
         aim: Aim,
@@ -125,28 +136,21 @@ impl Simulation {
     ) -> u32 {
         let mut grown = 0;
         while grown < count {
-            let is_blocked = |place| self.obstacles.blocks(place, place, CLEARANCE);
-            let Some(waypoint) = next(self.plant.bud_position(axis), &is_blocked) else { break };
-            if self.is_full() {
+            let is_blocked = |place| scene.obstacles.blocks(place, place, CLEARANCE);
+            let Some(waypoint) = next(scene.plant.bud_position(axis), &is_blocked) else { break };
+            if scene.is_full() {
                 break;
             }
-            let draft = self.draft(axis, Tip::of(axis, &self.plant), aim, Some(waypoint));
+            let draft = self.draft(scene, axis, Tip::of(axis, &scene.plant), aim, Some(waypoint));
             let Some(draft) = draft else { break };
-            self.add(&draft);
+            self.add(scene, &draft);
             grown += 1;
         }
         grown
     }
 
-    /// Whether the scene holds all the metamers it may.
-    pub(crate) fn is_full(&mut self) -> bool {
-        let is_full = self.plant.metamer_count() as u32 >= self.metamer_budget;
-        self.budget_reached |= is_full;
-        is_full
-    }
-
     /// Lets an internode grow.
-    pub(crate) fn add(&mut self, draft: &Draft) -> MetamerId {
+    pub(crate) fn add(&self, scene: &mut Scene, draft: &Draft) -> MetamerId {
         let Draft { axis, end, heading, normal } = *draft;
         let parameters = self.parameters.of(axis);
         let (sin, cos) = parameters.branching;
@@ -155,26 +159,38 @@ impl Simulation {
         for (lateral, &around) in laterals.iter_mut().zip(&parameters.whorl).take(buds) {
             *lateral = (heading * cos + turn(normal, heading, around) * sin).normalize();
         }
-        self.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] })
+        scene.plant.extend(axis, &Internode { end, normal, laterals: &laterals[..buds] })
     }
 
     /// The next internode at the tip of an axis, unless the ground, an obstacle or the end of the world stops it.
-    fn draft(&self, axis: AxisId, tip: Tip, aim: Aim, waypoint: Option<Waypoint>) -> Option<Draft> {
+    fn draft(
+        &self,
+        scene: &Scene,
+        axis: AxisId,
+        tip: Tip,
+        aim: Aim,
+        waypoint: Option<Waypoint>,
+    ) -> Option<Draft> {
         let parameters = self.parameters.of(axis);
         let Tip { base, heading: before, .. } = tip;
         let laid_down = self.laid_down_heading(axis, tip);
-        let mut heading =
-            next_heading(laid_down, self.tropism(axis, aim), aim.space, aim.weights(parameters), parameters);
+        let mut heading = next_heading(
+            laid_down,
+            self.tropism(scene, axis, aim),
+            aim.space,
+            aim.weights(parameters),
+            parameters,
+        );
         if let Some(Waypoint { position, weight }) = waypoint {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
         }
-        let free = self.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
+        let free = scene.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
         let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
         let heading = free.filter(is_free)?;
         let end = base + heading;
-        let in_world = end.abs().max_element() <= WORLD_EXTENT && end.y >= GROUND_CLEARANCE;
-        in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(axis, tip, heading) })
+        let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
+        in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(scene, axis, tip, heading) })
     }
 
     /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.
@@ -186,9 +202,9 @@ impl Simulation {
         heading * cos - normal * sin
     }
 
-    fn tropism(&self, axis: AxisId, aim: Aim) -> Tropism {
+    fn tropism(&self, scene: &Scene, axis: AxisId, aim: Aim) -> Tropism {
         let parameters = self.parameters.of(axis);
-        if parameters.trunk_upward && self.plant.axes().order(axis) == 0 {
+        if parameters.trunk_upward && scene.plant.axes().order(axis) == 0 {
             return Tropism::Towards(Vec3::Y);
         }
         if let Some(direction) = aim.stroke.filter(|_| parameters.tropism_from_stroke) {
@@ -204,7 +220,7 @@ impl Simulation {
 
     /// The normal of a new internode: its axis' last one, carried along from the heading before and turned by the
     /// phyllotactic angle.
-    fn next_normal(&self, axis: AxisId, tip: Tip, heading: Vec3) -> Vec3 {
+    fn next_normal(&self, scene: &Scene, axis: AxisId, tip: Tip, heading: Vec3) -> Vec3 {
         if let Some(normal) = tip.normal {
             let carried = transport(normal, tip.heading, heading);
             return turn(across(carried, heading), heading, self.parameters.of(axis).phyllotaxis);
@@ -214,7 +230,7 @@ impl Simulation {
             let side = if chance.unit(0) < 0.5 { Vec3::Z } else { Vec3::NEG_Z };
             return across(heading.cross(side), heading);
         }
-        if self.plant.axes().order(axis) == 0 {
+        if scene.plant.axes().order(axis) == 0 {
             let angle = TAU * Draw::new(self.seed, Purpose::Phyllotaxis, axis.raw(), 0).unit(0);
             let (sin, cos) = libm::sincosf(angle);
             return across(Vec3::new(cos, 0.0, sin), heading);
@@ -228,11 +244,11 @@ impl Simulation {
     /// Nodes of one axis, and a young lateral and its bearer, are nearer to each other than a zone is wide. The
     /// node the bud sits at is either its own or its bearer, so that what says of the bearer what is young holds
     /// whenever the place is in its zone.
-    pub(crate) fn is_kin(&self, axis: AxisId, place: Vec3, id: MetamerId) -> bool {
-        let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
+    pub(crate) fn is_kin(&self, scene: &Scene, axis: AxisId, place: Vec3, id: MetamerId) -> bool {
+        let (axes, metamers) = (scene.plant.axes(), scene.plant.metamers());
         let bearing_axis = |axis| axes.bearer(axis).map(|bearer| metamers.axis(bearer));
         let other = metamers.axis(id);
-        if id == self.plant.bud_node(axis) || other == axis || bearing_axis(other) == Some(axis) {
+        if id == scene.plant.bud_node(axis) || other == axis || bearing_axis(other) == Some(axis) {
             return true;
         }
         let Some(bearer) = axes.bearer(axis) else { return false };

@@ -14,12 +14,14 @@ use crate::{
     brush::BrushPiece,
     claims::Claims,
     field::MarkerField,
+    generator::{Change, Generator, StepOutcome},
+    growth::Growth,
     markers::{Marker, MarkerSource},
     nearby_order::nearby_order,
     observer::{Observer, Phase},
+    scene::Scene,
     selection::Selection,
     shedding,
-    simulation::Simulation,
     space::Bud,
 };
 
@@ -38,69 +40,67 @@ pub struct StepInput {
     pub chosen: Option<MetamerId>,
 }
 
-/// What a step brought about.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StepOutcome {
-    /// Metamers added.
-    pub metamers_grown: u32,
-    /// Buds that had markers to grow towards.
-    pub buds_enabled: u32,
-}
+impl Generator for Growth {
+    type Input = StepInput;
 
-impl Simulation {
-    /// One step. A step in which nothing grows or is shed leaves no trace.
-    pub fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
-        self.budget_reached = false;
+    fn step(&mut self, scene: &mut Scene, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
         self.tick = self.tick.wrapping_add(1);
-        self.plant.begin_step();
-        let born = self.plant.metamer_count();
+        scene.begin_step();
+        let born = scene.plant.metamer_count();
 
         observer.enter(Phase::Shedding);
-        let mut changed = self.shed();
+        let mut changed = self.shed(scene);
         observer.enter(Phase::Space);
-        let selection = Selection::new(&self.plant, input.chosen);
-        self.sow_and_clear_markers(input, &selection);
-        self.claim_markers(input, &selection);
+        let selection = Selection::new(&scene.plant, input.chosen);
+        self.sow_and_clear_markers(scene, input, &selection);
+        self.claim_markers(scene, input, &selection);
         let buds_enabled = self.claims.count();
 
         observer.enter(Phase::Growth);
         let stroke = input.pieces.iter().find_map(BrushPiece::direction);
-        let untold = self.grow(stroke, &selection);
+        let unentered = self.grow(scene, stroke, &selection);
         self.claims = Claims::default();
         observer.enter(Phase::Girth);
-        self.plant.end_step();
+        scene.plant.end_step();
         observer.enter(Phase::Space);
-        changed.extend(self.settle(born, &untold));
-        self.see_light(&changed, observer);
-        StepOutcome { metamers_grown: (self.plant.metamer_count() - born) as u32, buds_enabled }
+        changed.extend(self.settle(scene, born, &unentered));
+        self.see_light(scene, &changed, observer);
+        StepOutcome { metamers_grown: (scene.plant.metamer_count() - born) as u32, buds_enabled }
     }
 
-    fn sow_and_clear_markers(&mut self, input: &StepInput, selection: &Selection) {
+    fn follow(&mut self, scene: &Scene, change: &Change) {
+        self.take_in(scene, change);
+    }
+}
+
+impl Growth {
+    fn sow_and_clear_markers(&mut self, scene: &Scene, input: &StepInput, selection: &Selection) {
         let tick = self.tick;
         let parameters = self.parameters.scene();
         for piece in &input.pieces {
             piece.sow(&mut self.markers, self.seed, tick, parameters);
             let guide = self.guides.entry(piece.stroke).or_default();
             for &sample in &piece.samples {
-                if !self.obstacles.contains(sample.position) {
+                if !scene.obstacles.contains(sample.position) {
                     guide.follow(sample, parameters.occupancy_radius);
                 }
             }
             let reach = 2.0 * parameters.perception_radius();
-            guide.choose_leader(&self.space, reach, |axis| selection.includes(axis));
+            guide.choose_leader(&scene.space, reach, |axis| selection.includes(axis));
         }
-        let (space, obstacles, radius) = (&self.space, &self.obstacles, parameters.occupancy_radius);
+        let (space, obstacles, radius) = (&scene.space, &scene.obstacles, parameters.occupancy_radius);
         self.markers.clear(tick, parameters.marker_max_age, |place| {
             !obstacles.contains(place) && !space.is_occupied(place, radius, |_| true)
         });
     }
 
     /// Gives each marker to the nearest bud that perceives it.
-    fn claim_markers(&mut self, input: &StepInput, selection: &Selection) {
+    fn claim_markers(&mut self, scene: &mut Scene, input: &StepInput, selection: &Selection) {
         if input.autonomous {
-            self.refresh_field();
+            self.refresh_field(scene);
         }
-        let Self { plant, space, markers, claims, parameters, field, obstacles, .. } = self;
+        let Self { markers, claims, parameters, field, .. } = self;
+        let Scene { plant, space, obstacles, .. } = &*scene;
         claims.clear(plant.axis_count());
         for &Marker { position: marker, source, .. } in markers.as_slice() {
             let sees = |axis| space.bud(axis).is_some_and(|bud| !obstacles.hides(bud.position, marker));
@@ -129,8 +129,9 @@ impl Simulation {
     }
 
     /// Brings the field up to date, or makes it.
-    fn refresh_field(&mut self) {
-        let Self { plant, space, parameters, obstacles, seed, .. } = self;
+    fn refresh_field(&mut self, scene: &mut Scene) {
+        let Self { parameters, seed, .. } = self;
+        let Scene { plant, space, obstacles, .. } = scene;
         let field = self.field.get_or_insert_with(|| {
             let mut field = MarkerField::new(*seed, parameters.scene());
             let radius = parameters.scene().occupancy_radius;
@@ -149,48 +150,44 @@ impl Simulation {
     }
 
     /// Sheds what does not pay; returns the nodes that went.
-    fn shed(&mut self) -> Vec<Vec3> {
-        let condemned = shedding::condemned(&self.plant, &self.canopy, &self.parameters);
+    fn shed(&mut self, scene: &mut Scene) -> Vec<Vec3> {
+        let condemned = shedding::condemned(&scene.plant, &self.canopy, &self.parameters);
         if condemned.is_empty() {
             return Vec::new();
         }
-        let (metamers, axes) = self.plant.shed(&condemned);
-        axes.into_iter().for_each(|axis| self.space.remove_bud(axis));
-        let nodes: Vec<Vec3> = metamers.iter().map(|&id| self.plant.metamers().end(id)).collect();
+        let (metamers, axes) = scene.plant.shed(&condemned);
+        axes.into_iter().for_each(|axis| scene.space.remove_bud(axis));
+        let nodes: Vec<Vec3> = metamers.iter().map(|&id| scene.plant.metamers().end(id)).collect();
+        let radius = self.parameters().occupancy_radius;
         for (&id, &node) in metamers.iter().zip(&nodes) {
-            self.leave(id, node);
+            scene.leave(id, node);
+            if let Some(field) = &mut self.field {
+                field.vacate(node, radius, &scene.space, &scene.obstacles);
+            }
         }
-        self.canopy.bury(&self.plant, &metamers);
+        self.canopy.bury(&scene.plant, &metamers);
         nodes
     }
 
     /// E, turned towards the light as far as phototropism has it.
-    pub(crate) fn lit_side(&self, axis: AxisId, space: Vec3) -> Vec3 {
+    pub(crate) fn lit_side(&self, scene: &Scene, axis: AxisId, space: Vec3) -> Vec3 {
         let (weight, is_flat) = (self.parameters.of(axis).phototropism, self.parameters.of(axis).is_flat);
         if weight == 0.0 {
             return space;
         }
-        let Some(light) = self.towards_light(self.plant.bud_position(axis)) else { return space };
+        let Some(light) = scene.towards_light(scene.plant.bud_position(axis)) else { return space };
         // A canopy's shadow ends some way below it, so it is lighter farther down; but no light comes from there.
         let light = Vec3::new(light.x, light.y.max(0.0), if is_flat { 0.0 } else { light.z });
         (space * (1.0 - weight) + light * weight).try_normalize().unwrap_or(space)
     }
 
-    /// The direction towards more light: that in which shadows end, and the sky past obstacles opens.
-    fn towards_light(&self, place: Vec3) -> Option<Vec3> {
-        if self.obstacles.is_empty() {
-            return self.shadows.towards_light(place);
-        }
-        let light = |place| self.shadows.exposure(place) * self.obstacles.sky_share(place);
-        let difference = |axis: Vec3| light(place + axis) - light(place - axis);
-        Vec3::new(difference(Vec3::X), difference(Vec3::Y), difference(Vec3::Z)).try_normalize()
-    }
-
-    /// Tells light and space what has grown: the rows from `born` on, space those it has yet to be told of. Returns
-    /// their nodes.
-    fn settle(&mut self, born: usize, untold: &Range<usize>) -> Vec<Vec3> {
-        let Self { plant, space, parameters, field, shadows, obstacles, .. } = self;
-        // What lies together is told together: all that is written to is larger than a cache, and neighbours
+    /// Enters what has grown into light and space: the rows from `born` on, into space those that are not in it yet.
+    /// Returns their nodes.
+    fn settle(&mut self, scene: &mut Scene, born: usize, unentered: &Range<usize>) -> Vec<Vec3> {
+        let Self { parameters, field, .. } = self;
+        let Scene { plant, space, shadows, obstacles, .. } = scene;
+        let plant = &*plant;
+        // What lies together is entered together: all that is written to is larger than a cache, and neighbours
         // write to the same places.
         let place = |row: usize| plant.metamers().end(MetamerId::new(row));
         let new = nearby_order((born..plant.metamer_count()).map(|row| (row, place(row))));
@@ -215,19 +212,19 @@ impl Simulation {
             _ => new.par_chunks(BATCH).map(buds_at).collect(),
         };
         let buds = || buds.iter().flatten().copied();
-        let tell_space = || {
+        let update_space = || {
             shadows.cast_all(nodes().map(|(_, node)| node));
-            let untold = nodes().filter(|(id, _)| untold.contains(&id.index()));
-            untold.for_each(|(id, node)| space.occupy(id, node));
+            let unentered = nodes().filter(|(id, _)| unentered.contains(&id.index()));
+            unentered.for_each(|(id, node)| space.occupy(id, node));
             buds().for_each(|(axis, bud)| space.place_bud(axis, bud));
         };
-        let tell_field = || {
+        let update_field = || {
             let Some(field) = field else { return };
             let radius = parameters.scene().occupancy_radius;
             nodes().for_each(|(_, node)| field.occupy(node, radius, obstacles));
             buds().for_each(|(axis, bud)| field.place_bud(axis, bud, parameters.of(axis), obstacles));
         };
-        rayon::join(tell_space, tell_field);
+        rayon::join(update_space, update_field);
         nodes().map(|(_, node)| node).collect()
     }
 }
@@ -237,13 +234,15 @@ mod tests {
     use glam::Quat;
 
     use super::*;
-    use crate::{Obstacle, ParameterValues, Parameters, Shape};
+    use crate::{Obstacle, ParameterValues, Parameters, Shape, Simulation};
 
     #[test]
     fn light_is_sought_away_from_a_wall() {
         let values = ParameterValues { phototropism: 0.5, ..ParameterValues::default() };
         let mut simulation = Simulation::new(1, Parameters::new(values).expect("in range"));
-        let side = |simulation: &Simulation| simulation.lit_side(AxisId::new(0), Vec3::Y);
+        let side = |simulation: &Simulation| {
+            simulation.generator.lit_side(&simulation.scene, AxisId::new(0), Vec3::Y)
+        };
         assert_eq!(side(&simulation), Vec3::Y, "there is nothing to turn away from");
         let wall = Shape::Box {
             centre: Vec3::new(4.0, 0.0, 0.0),

@@ -126,7 +126,7 @@ impl RingTable {
         let restyled = *style.options() != *self.style.options();
         let former = restyled.then(|| std::mem::replace(&mut self.style, style.clone()));
         let widths = Widths::of(plant, style.girth());
-        let is_constrained = !widths.constraints().is_empty();
+        let is_constrained = !widths.follow_from_tips();
         let mut pass = Pass {
             plant,
             all: plant.columns(0..plant.metamer_count()),

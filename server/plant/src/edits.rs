@@ -8,6 +8,7 @@ use std::mem;
 use glam::Vec3;
 
 use crate::{
+    given_radius::Given,
     id::{AxisId, MetamerId},
     metamers::Row,
     motion::Motion,
@@ -15,7 +16,7 @@ use crate::{
 };
 
 /// A shorter internode has no direction.
-const SHORTEST: f32 = 0.01;
+pub(crate) const SHORTEST: f32 = 0.01;
 
 /// One edit, as the timeline keeps it.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,6 +33,8 @@ pub enum Edit {
     Scarred(MetamerId, u32),
     /// A width constraint came, went, or changed. The diameter is that on the other side of this step.
     Width(MetamerId, Option<f32>),
+    /// Radii were given or taken away.
+    Given(Box<Given>),
 }
 
 /// Where wood stands on the other side of a step: before it for those who look back, after it for the past.
@@ -240,6 +243,7 @@ impl Plant {
         let copy_of = |id: MetamerId| rows.binary_search(&id).ok().map(|at| MetamerId::new(first_row + at));
         let copy_of_axis =
             |id: AxisId| axes.binary_search(&id).map_or(root, |at| AxisId::new(root.index() + 1 + at));
+        let mut radii = Vec::new();
         for &row in &rows {
             let parent = self.metamers.parent(row).and_then(copy_of).unwrap_or(onto);
             let lateral = self.metamers.lateral[row.index()];
@@ -255,6 +259,9 @@ impl Plant {
             self.living = self.living.wrapping_add(1);
             if let Some(&diameter) = self.widths.get(&row) {
                 self.set_width(id, Some(diameter));
+            }
+            if let Some(radius) = self.given_radius(row) {
+                radii.push((id, Some(radius)));
             }
         }
         for &axis in &axes {
@@ -275,6 +282,8 @@ impl Plant {
         for index in first_row..self.metamers.parent.len() {
             self.link(MetamerId::new(index));
         }
+        // They are those of living wood, so none is refused.
+        let _given = self.give_radii(&radii);
         for (at, shed) in self.shed_tips(&rows).into_iter().enumerate().filter(|&(_, shed)| shed > 0) {
             self.timeline.edits.push(Edit::Scarred(MetamerId::new(first_row + at), shed));
         }

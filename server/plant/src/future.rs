@@ -9,6 +9,7 @@ use crate::{
     axes::{Axes, stored_order},
     deaths::Deaths,
     edits::Edit,
+    given_radius::GivenRadii,
     id::{AxisId, MetamerId},
     metamers::{Appearance, Metamers},
     parts::{BrokenPlant, check_edit, from_ends, id_of, to_ends},
@@ -133,6 +134,7 @@ impl Future {
                 tips: vec![0; metamers],
                 appearance: vec![Appearance::NEW; metamers],
                 lateral: parts.lateral.into_iter().map(axis).collect(),
+                given_radius: GivenRadii::default(),
             },
             axes: Axes {
                 bearer: parts.bearer.into_iter().map(metamer).collect(),

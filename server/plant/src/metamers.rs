@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::{
     deaths::Deaths,
+    given_radius::GivenRadii,
     id::{AxisId, MetamerId},
     room::make_room,
 };
@@ -34,6 +35,8 @@ pub struct Metamers {
     pub(crate) appearance: Vec<Appearance>,
     /// The first lateral axis at each node, if it bears any; the others follow it.
     pub(crate) lateral: Vec<AxisId>,
+    /// Only rows of the present have any: edits keep those of futures.
+    pub(crate) given_radius: GivenRadii,
 }
 
 /// One row of [`Metamers`], to append.
@@ -85,6 +88,7 @@ impl Metamers {
             tips: self.tips.split_off(at),
             appearance: self.appearance.split_off(at),
             lateral: self.lateral.split_off(at),
+            given_radius: GivenRadii::default(),
         }
     }
 

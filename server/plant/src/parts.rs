@@ -9,6 +9,7 @@ use crate::{
     checks,
     deaths::Deaths,
     edits::Edit,
+    given_radius::{GivenRadii, is_radius},
     id::{AxisId, MetamerId},
     metamers::{Appearance, Metamers},
     plant::Plant,
@@ -26,6 +27,8 @@ pub struct PlantParts {
     pub edits: Vec<Edit>,
     /// Width constraints of the present, those on dead metamers included: metamers and diameters.
     pub widths: Vec<(u32, f32)>,
+    /// Radii given in the present, those of dead metamers included: rows in birth order, and radii.
+    pub given_radii: Vec<(u32, f32)>,
     /// Each metamer's parent.
     pub parent: Vec<u32>,
     /// Each metamer's axis.
@@ -57,6 +60,9 @@ impl Plant {
             ends: to_ends(&self.timeline.ends),
             edits: self.timeline.edits.clone(),
             widths: self.widths.iter().map(|(id, &diameter)| (id.raw(), diameter)).collect(),
+            given_radii: (self.metamers.given_radius.rows())
+                .map(|(row, radius)| (row as u32, radius))
+                .collect(),
             parent: self.metamers.parent.iter().map(|id| id.raw()).collect(),
             axis: self.metamers.axis.iter().map(|id| id.raw()).collect(),
             death: self.metamers.death.to_rows(self.metamers.parent.len()),
@@ -99,6 +105,7 @@ impl Plant {
                 tips: vec![0; metamers],
                 appearance: vec![Appearance::NEW; metamers],
                 lateral,
+                given_radius: GivenRadii::from_rows(&parts.given_radii),
             },
             axes: Axes {
                 bearer: parts.bearer.iter().map(|&raw| id_of(raw, MetamerId::NONE, MetamerId::new)).collect(),
@@ -178,8 +185,12 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
     if parts.bearer.iter().enumerate().any(bearer_is_bad) {
         return broken("an axis is borne by nothing before it");
     }
-    if parts.widths.iter().any(|&(row, diameter)| row as usize >= metamers || !is_width(diameter)) {
+    if parts.widths.iter().any(|&(row, diameter)| row as usize >= metamers || !is_radius(diameter)) {
         return broken("a width constraint is on nothing");
+    }
+    let is_held = |&(row, radius): &(u32, f32)| row < parts.ends[parts.now as usize][0] && is_radius(radius);
+    if !parts.given_radii.is_sorted_by(|a, b| a.0 < b.0) || !parts.given_radii.iter().all(is_held) {
+        return broken("a radius is given to nothing");
     }
     let mut edited = 0;
     for (step, end) in parts.ends.iter().enumerate() {
@@ -230,11 +241,8 @@ pub(crate) fn check_edit(
         }
         // A graft brings scars and constraints along.
         Edit::Scarred(id, _) => (before[0]..end[0]).contains(&id.raw()),
-        Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_width),
+        Edit::Width(id, diameter) => id.raw() < end[0] && diameter.is_none_or(is_radius),
+        Edit::Given(given) => given.is_sound(end[0]),
     };
     if holds { Ok(()) } else { Err(BrokenPlant("an edit concerns what is not there".to_owned())) }
-}
-
-fn is_width(diameter: f32) -> bool {
-    diameter.is_finite() && diameter > 0.0
 }

@@ -421,6 +421,10 @@ impl Plant {
         for (id, diameter) in self.widths() {
             hash.word(u64::from(id.raw()) | u64::from(diameter.to_bits()) << 32);
         }
+        for (id, radius) in self.given_radii() {
+            // The other way about than a width constraint.
+            hash.word(u64::from(radius.to_bits()) | u64::from(id.raw()) << 32);
+        }
         hash.finish()
     }
 }

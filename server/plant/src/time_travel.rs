@@ -71,6 +71,7 @@ impl Plant {
             match edit {
                 Edit::Carried(carried) => self.swap(carried),
                 Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
+                Edit::Given(given) => self.swap_given(given),
                 Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
             }
         }
@@ -105,7 +106,7 @@ impl Plant {
         journey.came.extend(lost);
         let mut edits = std::mem::take(&mut self.timeline.edits);
         for edit in edits[range].iter_mut().rev() {
-            journey.is_edited |= !matches!(edit, Edit::Width(..));
+            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_));
             match edit {
                 Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
@@ -113,7 +114,7 @@ impl Plant {
                     self.add_tips(self.metamers.parent[cut.index()], tips);
                 }
                 Edit::Grafted(axis) => self.ungraft(*axis),
-                Edit::Carried(_) | Edit::Width(..) => self.exchange(edit, journey),
+                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
             }
         }
         self.timeline.edits = edits;
@@ -131,7 +132,7 @@ impl Plant {
         let range = before.edits as usize..end.edits as usize;
         let mut edits = std::mem::take(&mut self.timeline.edits);
         for edit in &mut edits[range.clone()] {
-            journey.is_edited |= !matches!(edit, Edit::Width(..));
+            journey.is_edited |= !matches!(edit, Edit::Width(..) | Edit::Given(_));
             match edit {
                 Edit::Shed(_) | Edit::Scarred(..) => {}
                 Edit::Pruned(cut) => {
@@ -141,7 +142,7 @@ impl Plant {
                 Edit::Grafted(axis) => {
                     self.grafts.entry(self.axes.bearer[axis.index()]).or_default().push(*axis);
                 }
-                Edit::Carried(_) | Edit::Width(..) => self.exchange(edit, journey),
+                Edit::Carried(_) | Edit::Width(..) | Edit::Given(_) => self.exchange(edit, journey),
             }
         }
         self.timeline.edits = edits;
@@ -168,6 +169,7 @@ impl Plant {
                 journey.axes.extend(carried.metamers.iter().map(|&id| self.metamers.axis(id)));
             }
             Edit::Width(id, diameter) => *diameter = self.replace_width(*id, *diameter),
+            Edit::Given(given) => self.swap_given(given),
             Edit::Shed(_) | Edit::Pruned(_) | Edit::Grafted(_) | Edit::Scarred(..) => {}
         }
     }

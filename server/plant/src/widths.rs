@@ -6,6 +6,9 @@
 //! it is the parameter. Where there is none between 1 and 8, radii are fitted otherwise (see `fit`), and no
 //! constraint makes wood thinner than what it bears.
 //!
+//! A radius that is [given](crate::given_radius) stays as it is, unless a constraint is on the same metamer. To what
+//! bears such wood it is a leaf, and what grows on it follows from its tips.
+//!
 //! Sums of powers are kept as logarithms of radii: a metamer that bears no constraint has ln r = ln r_e + ln t / n
 //! for its t tips, so that a pass over all wood computes no power.
 
@@ -17,7 +20,7 @@ mod taper;
 use self::{
     fit::{Fit, Leaves},
     logarithms::Logarithms,
-    nesting::Nesting,
+    nesting::{Nesting, Role},
 };
 use crate::{girth::Girth, id::MetamerId, plant::Plant};
 
@@ -41,7 +44,7 @@ pub struct Widths<'a> {
     plant: &'a Plant,
     girth: &'a Girth,
     constraints: Vec<Width>,
-    /// For each metamer ln of its radius, or [`BY_TIPS`]; empty without constraints.
+    /// For each metamer ln of its radius, or [`BY_TIPS`]; empty without constraints and given radii.
     logs: Vec<f32>,
 }
 
@@ -62,10 +65,10 @@ impl<'a> Widths<'a> {
     /// have none, so theirs are passed over.
     pub fn solve(plant: &'a Plant, wanted: &[(MetamerId, f32)], girth: &'a Girth) -> Self {
         let nesting = Nesting::of(plant, wanted, girth);
-        let Some(first) = nesting.constraints.first() else {
+        let Some(first) = nesting.first() else {
             return Self { plant, girth, constraints: Vec::new(), logs: Vec::new() };
         };
-        let logs = logs(plant, first.metamer.index(), &nesting, &fits(&nesting, girth));
+        let logs = logs(plant, first.index(), &nesting, &fits(&nesting, girth));
         Self { plant, girth, constraints: nesting.constraints, logs }
     }
 
@@ -80,6 +83,11 @@ impl<'a> Widths<'a> {
     /// Natural logarithm of the same; none where the radius follows from the tips alone, by the [`Girth`].
     pub fn log_radius(&self, id: MetamerId) -> Option<f32> {
         self.logs.get(id.index()).copied().filter(|log| !log.is_nan())
+    }
+
+    /// Whether all radii follow from the tips alone, by the [`Girth`].
+    pub fn follow_from_tips(&self) -> bool {
+        self.logs.is_empty()
     }
 
     /// The constraints, in birth order.
@@ -100,9 +108,13 @@ fn fits(nesting: &Nesting, girth: &Girth) -> Vec<Fit> {
     let none = || Leaves { tips: 0, twig, others: Vec::new() };
     let mut leaves: Vec<_> = nesting.constraints.iter().map(|_| none()).chain([none()]).collect();
     for special in &nesting.specials {
-        if let Some(of) = special.constraint {
-            leaves[of].tips = special.tips;
-            leaves[special.within].others.push(nesting.log_root(of));
+        match special.role {
+            Role::Constrained(of) => {
+                leaves[of].tips = special.tips;
+                leaves[special.within].others.push(nesting.log_root(of));
+            }
+            Role::Given(log) => leaves[special.within].others.push(log),
+            Role::Bearer => {}
         }
     }
     let fit = |(subtree, leaves)| match subtree {
@@ -114,7 +126,7 @@ fn fits(nesting: &Nesting, girth: &Girth) -> Vec<Fit> {
     leaves.iter().enumerate().map(fit).collect()
 }
 
-/// Logarithms of all radii; `first` is the row of the first constraint.
+/// Logarithms of all radii; `first` is the row of the first constraint or given radius.
 fn logs(plant: &Plant, first: usize, nesting: &Nesting, fits: &[Fit]) -> Vec<f32> {
     let count = plant.metamer_count();
     let mut logs = vec![BY_TIPS; count];
@@ -130,16 +142,20 @@ fn logs(plant: &Plant, first: usize, nesting: &Nesting, fits: &[Fit]) -> Vec<f32
             logs[row] = fits[subtree as usize].of_tips(logarithms.of(tips), rise_of(row));
         }
     }
+    for &(id, radius) in &nesting.given {
+        logs[id.index()] = nesting::log(radius) as f32;
+    }
     // Wood that bears some, tips first.
     let mut sums = vec![0.0; nesting.specials.len()];
     for (at, special) in nesting.specials.iter().enumerate().rev() {
         let (row, fit) = (special.metamer.index(), &fits[special.within]);
-        let passed_on = match special.constraint {
-            Some(of) => {
+        let passed_on = match special.role {
+            Role::Constrained(of) => {
                 logs[row] = nesting.log_root(of) as f32;
                 fit.weight(nesting.log_root(of))
             }
-            None => {
+            Role::Given(log) => fit.weight(log),
+            Role::Bearer => {
                 logs[row] = fit.of_sum(special.tips, sums[at], rise_of(row));
                 sums[at]
             }

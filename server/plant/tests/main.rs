@@ -1,6 +1,8 @@
 //! Plants under random lives: every invariant holds after each event, and time travel is exact.
 
-use espalier_plant::{AxisId, Edit, Future, Internode, MetamerId, Motion, Plant, PlantParts, checks};
+use espalier_plant::{
+    AxisId, Carried, Edit, Future, Given, GivenRadii, Internode, MetamerId, Motion, Plant, PlantParts, checks,
+};
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
@@ -16,6 +18,10 @@ enum Event {
     /// Copies a branch onto another node, and cuts the original off if the last is set.
     Graft(u16, u16, bool),
     Width(u16, Option<u8>),
+    /// Scales a branch about its foot and turns its frames over, by whole columns.
+    Place(u16, u8),
+    /// Gives radii to some wood and what follows it, or takes them away, and lets a bud grow with one.
+    Give(u16, Option<u8>),
     GoTo(u16),
 }
 
@@ -28,6 +34,8 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         2 => (any::<u16>(), any::<u16>(), any::<i8>()).prop_map(|(base, end, turn)| Event::Carry(base, end, turn)),
         1 => (any::<u16>(), any::<u16>(), any::<bool>()).prop_map(|(row, onto, cut)| Event::Graft(row, onto, cut)),
         1 => (any::<u16>(), any::<Option<u8>>()).prop_map(|(row, width)| Event::Width(row, width)),
+        2 => (any::<u16>(), any::<u8>()).prop_map(|(row, thousandths)| Event::Place(row, thousandths)),
+        1 => (any::<u16>(), any::<Option<u8>>()).prop_map(|(row, radius)| Event::Give(row, radius)),
         2 => any::<u16>().prop_map(Event::GoTo),
     ];
     prop::collection::vec(event, 1..40)
@@ -135,6 +143,37 @@ fn happen(plant: &mut Plant, event: &Event) {
                 plant.end_step();
             }
         }
+        Event::Place(row, thousandths) => {
+            let Some(base) = wood(plant, *row) else { return };
+            let foot = plant.metamers().parent(base).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+            let metamers = plant.above(base);
+            let scale = 0.9 + f32::from(*thousandths) / 1000.0;
+            let ends = metamers.iter().map(|&id| foot + scale * (plant.metamers().end(id) - foot)).collect();
+            // Half a turn about each internode; every bud points the other way.
+            let normals = metamers.iter().map(|&id| -plant.metamers().normal(id)).collect();
+            let borne = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| {
+                let bearer = plant.axes().bearer(axis);
+                plant.is_standing(axis) && bearer.is_some_and(|bearer| metamers.contains(&bearer))
+            });
+            let axes: Vec<AxisId> = borne.collect();
+            let directions = axes.iter().map(|&axis| -plant.axes().direction(axis)).collect();
+            plant.begin_edit();
+            let moved = plant.place(Carried { metamers: metamers.clone(), ends, normals, axes, directions });
+            plant.end_step();
+            assert_eq!(moved.map(|moved| moved.len()), Ok(metamers.len()));
+        }
+        Event::Give(row, radius) => {
+            let Some(base) = wood(plant, *row) else { return };
+            let radius = radius.map(|radius| 0.05 + f32::from(radius) / 100.0);
+            let mut radii: Vec<_> = plant.above(base).into_iter().map(|id| (id, radius)).collect();
+            plant.begin_step();
+            if let Some(axis) = living_axis(plant, *row) {
+                grow(plant, axis);
+                radii.push((plant.axes().last(axis).expect("it has grown"), Some(0.5)));
+            }
+            plant.give_radii(&radii).expect("living wood");
+            plant.end_step();
+        }
         Event::GoTo(step) => {
             plant.go_to(u32::from(*step) % (plant.last_step() + 1));
         }
@@ -146,7 +185,11 @@ fn edit((kind, row): (u8, usize)) -> Edit {
         0 => Edit::Shed(AxisId::new(row)),
         1 => Edit::Pruned(MetamerId::new(row)),
         2 => Edit::Grafted(AxisId::new(row)),
-        _ => Edit::Width(MetamerId::new(row), Some(0.5)),
+        3 => Edit::Width(MetamerId::new(row), Some(0.5)),
+        _ => {
+            let (metamers, radii) = (vec![MetamerId::new(row)], GivenRadii(vec![0.5]));
+            Edit::Given(Box::new(Given { metamers, radii }))
+        }
     }
 }
 
@@ -262,7 +305,8 @@ proptest! {
     fn random_parts_are_refused_without_panic(
         now in 0u32..4,
         ends in prop::collection::vec(prop::array::uniform4(0u32..6), 0..4),
-        edits in prop::collection::vec((0u8..4, 0usize..6), 0..3),
+        edits in prop::collection::vec((0u8..5, 0usize..6), 0..3),
+        given_radii in prop::collection::vec((0u32..6, -0.1f32..1.0), 0..3),
         rows in prop::collection::vec((0u32..7, 0u32..4, 0u32..5), 0..6),
         axes in prop::collection::vec((0u32..7, 0u32..5), 0..5),
     ) {
@@ -272,6 +316,7 @@ proptest! {
             ends,
             edits: edits.into_iter().map(edit).collect(),
             widths: Vec::new(),
+            given_radii,
             parent: rows.iter().map(|r| none(r.0)).collect(),
             axis: rows.iter().map(|r| r.1).collect(),
             death: rows.iter().map(|r| if r.2 == 4 { u32::MAX } else { r.2 }).collect(),

@@ -1,9 +1,10 @@
-//! One shared document: the plants, their simulation, and the timeline of what was done to them.
+//! One shared document: a scene, what grows it, and the timeline of what was done to it.
 
 mod bending;
 mod branches;
 mod bytes;
 mod futures;
+mod generators;
 mod growing;
 mod history;
 mod obstacles;
@@ -36,18 +37,19 @@ use self::{
     strokes::OpenStrokes,
 };
 pub(crate) use self::{
+    generators::{Generators, Step},
     obstacles::ObstaclesMark,
     parameters::{parse as parse_parameters, to_proto as wire_parameters},
     pruning::prune as prune_simulation,
 };
 use crate::action::Action;
 
-/// Plants, the simulation that grows them, and every operation done so far.
+/// A scene, the generators that grow it, and every operation done so far.
 ///
 /// A document is a function of its seed and of the actions applied, in their order.
 #[derive(Clone, Debug)]
 pub struct Document {
-    simulation: Simulation,
+    simulation: Simulation<Generators>,
     history: History,
     futures: Futures,
     strokes: OpenStrokes,
@@ -105,7 +107,7 @@ impl Document {
             appearance: Arc::clone(&appearance),
         };
         Self {
-            simulation: Simulation::new(seed, parameters),
+            simulation: Simulation::new(seed, parameters).grown_by(Generators::from),
             history: History::new(initial),
             futures: Futures::default(),
             strokes: OpenStrokes::default(),
@@ -195,7 +197,7 @@ impl Document {
             step: plant.step(),
             metamers: plant.living_count(),
             axes: plant.living_axes_count(),
-            metamer_budget: self.simulation.metamer_budget(),
+            metamer_budget: self.simulation.scene().metamer_budget(),
             budget_reached: self.require_room().is_err(),
             can_undo: self.history.done > 0 || self.strays(),
             can_redo: self.history.can_redo(plant.step()),
@@ -219,8 +221,8 @@ impl Document {
         self.simulation.plant()
     }
 
-    /// The simulation, to be copied.
-    pub(crate) fn simulation(&self) -> &Simulation {
+    /// The scene and what grows it, to be copied.
+    pub(crate) fn simulation(&self) -> &Simulation<Generators> {
         &self.simulation
     }
 
@@ -263,7 +265,7 @@ impl Document {
         if position.y != 0.0 {
             return Err(Problem::out_of_range("position[1]", position.y, "0, the ground"));
         }
-        if self.simulation.is_solid(position) {
+        if self.simulation.scene().is_solid(position) {
             let value = format!("{position}, in an obstacle");
             return Err(Problem::out_of_range("position", value, "a place outside all obstacles"));
         }

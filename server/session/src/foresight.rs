@@ -13,7 +13,7 @@ use espalier_proto::{GhostFrame, Problem};
 
 use crate::{
     action::Prediction,
-    document::prune_simulation,
+    document::{Generators, Step, prune_simulation},
     io::ClientId,
     to_proto::{self, Held},
 };
@@ -40,7 +40,7 @@ pub struct Foresight {
     pub(crate) question: Question,
     epoch: u32,
     /// The plants to come; `None` when nothing is left to do.
-    simulation: Option<Box<Simulation>>,
+    simulation: Option<Box<Simulation<Generators>>>,
     is_cut: bool,
     left: u32,
     style: Style,
@@ -49,7 +49,12 @@ pub struct Foresight {
 }
 
 impl Foresight {
-    pub(crate) fn new(question: Question, simulation: Simulation, style: Style, epoch: u32) -> Self {
+    pub(crate) fn new(
+        question: Question,
+        simulation: Simulation<Generators>,
+        style: Style,
+        epoch: u32,
+    ) -> Self {
         let left = question.prediction.steps;
         Self {
             question,
@@ -77,7 +82,7 @@ impl Foresight {
                 return true;
             }
             let input = StepInput { autonomous: true, ..StepInput::default() };
-            simulation.step(&input, &mut NoObserver);
+            simulation.step(&Step::Growth(input), &mut NoObserver);
             self.left = if simulation.is_out_of_budget() { 0 } else { self.left - 1 };
         }
         if self.left > 0 {

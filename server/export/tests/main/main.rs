@@ -111,6 +111,21 @@ fn a_stub_is_as_wide_as_its_constraint() {
 }
 
 #[test]
+fn given_radii_are_exported() {
+    let mut plant = saplings::fork();
+    plant.begin_edit();
+    plant.give_radii(&[(MetamerId::new(1), Some(0.25))]).expect("living wood");
+    plant.prune(&[MetamerId::new(2), MetamerId::new(4)]);
+    plant.end_step();
+    let text = String::from_utf8(skeleton_json(&plant, &style())).expect("JSON is UTF-8");
+    assert!(text.contains(r#""position":[0.0,1.0,0.0],"radius":0.25,"#), "{text}");
+    let meshes = reader::read(&glb(&plant, &style(), &looks(), METRES).expect("it exports"));
+    let top = meshes[0].positions.iter().filter(|position| (position.y - METRES).abs() < 1e-6);
+    let widest = top.map(|position| position.with_y(0.0).length()).fold(0.0, f32::max);
+    assert!((widest - 0.25 * METRES).abs() < 0.02 * METRES, "{widest}");
+}
+
+#[test]
 fn materials_have_the_colours_of_the_looks() {
     let materials = |looks: &Appearance| -> Vec<(String, Vec<f64>)> {
         let file = glb(&saplings::fork(), &style(), looks, METRES).expect("it exports");

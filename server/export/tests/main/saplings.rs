@@ -11,6 +11,8 @@ pub enum Edit {
     Prune(u16),
     /// Eighths of an internode across.
     Widen(u16, u8),
+    /// Eighths of an internode that a branch is given as its radii.
+    Give(u16, u8),
 }
 
 /// Steps of buds (by a number that is folded into range) that grow, with what is done after it.
@@ -22,6 +24,7 @@ pub fn growth() -> impl Strategy<Value = Growth> {
         any::<u16>().prop_map(Edit::Shed),
         any::<u16>().prop_map(Edit::Prune),
         (any::<u16>(), 1u8..).prop_map(|(pick, eighths)| Edit::Widen(pick, eighths)),
+        (any::<u16>(), 1u8..).prop_map(|(pick, eighths)| Edit::Give(pick, eighths)),
     ];
     prop::collection::vec((buds, prop::option::weighted(0.4, edit)), 0..20)
 }
@@ -57,6 +60,12 @@ fn happen(plant: &mut Plant, edit: Edit) {
             if let Some(cut) = wood(plant, pick) {
                 plant.prune(&[cut]);
             }
+        }
+        Edit::Give(pick, eighths) => {
+            let Some(base) = wood(plant, pick) else { return };
+            let radius = Some(f32::from(eighths) / 8.0);
+            let radii: Vec<_> = plant.above(base).into_iter().map(|id| (id, radius)).collect();
+            plant.give_radii(&radii).expect("living wood");
         }
         Edit::Widen(pick, eighths) => {
             if let Some(id) = wood(plant, pick) {

@@ -184,11 +184,12 @@ mod tests {
             let input = crate::StepInput { autonomous: true, ..crate::StepInput::default() };
             simulation.step(&input, &mut crate::NoObserver);
         }
-        let (plant, canopy) = (&simulation.plant, &simulation.canopy);
+        let (plant, canopy) = (simulation.plant(), &simulation.generator.canopy);
         assert!(plant.living_count() > 30);
         let at_base = canopy.flows[0].vigor;
         let buds = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis));
-        let in_buds: f64 = buds.map(|axis| canopy.bud_vigor(plant, axis, &simulation.parameters)).sum();
+        let in_buds: f64 =
+            buds.map(|axis| canopy.bud_vigor(plant, axis, &simulation.generator.parameters)).sum();
         assert!((in_buds / at_base - 1.0).abs() < 1e-9, "{in_buds} of {at_base}");
     }
 }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::{
-    shape::{ObstacleError, check_place},
+    checks::{ObstacleError, check_place},
     triangle::{Edges, Triangle},
     triangle_grid::{Side, TriangleGrid, Walk},
 };

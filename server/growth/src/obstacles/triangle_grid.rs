@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::triangle::Triangle;
-use crate::simulation::WORLD_EXTENT;
+use crate::world::WORLD_EXTENT;
 
 /// Cells along one axis at most.
 const MAX_CELLS: u32 = 128;

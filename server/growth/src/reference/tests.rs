@@ -1,6 +1,6 @@
 //! Random scenes are grown both ways, side by side, and must be the same after whatever happens to them.
 
-use espalier_plant::{MetamerId, Motion, Plant};
+use espalier_plant::{AxisId, Carried, MetamerId, Motion, Plant};
 use glam::{Quat, Vec2, Vec3};
 use proptest::prelude::*;
 
@@ -26,6 +26,8 @@ enum Event {
     Prune(u32),
     /// Turns some branch upside down about its foot.
     Turn(u32),
+    /// Shrinks some branch, by whole columns.
+    Place(u32),
     /// Grafts some branch onto some wood; every other time the branch itself goes.
     Graft(u32, u32),
 }
@@ -43,8 +45,26 @@ fn half_turn(plant: &Plant, branch: MetamerId, to: Option<MetamerId>) -> Motion 
     Motion { rotation: Quat::from_xyzw(0.6, 0.0, 0.8, 0.0), from: foot, to }
 }
 
+/// A branch nine tenths as large, its buds turned the other way.
+fn shrunk(plant: &Plant, branch: MetamerId) -> Carried {
+    let foot = plant.metamers().parent(branch).map_or(Vec3::ZERO, |foot| plant.metamers().end(foot));
+    let metamers = plant.above(branch);
+    let is_borne = |&axis: &AxisId| {
+        let bearer = plant.axes().bearer(axis);
+        plant.is_standing(axis) && bearer.is_some_and(|bearer| metamers.contains(&bearer))
+    };
+    let axes: Vec<AxisId> = (0..plant.axis_count()).map(AxisId::new).filter(is_borne).collect();
+    Carried {
+        ends: metamers.iter().map(|&id| foot + 0.9 * (plant.metamers().end(id) - foot)).collect(),
+        normals: metamers.iter().map(|&id| plant.metamers().normal(id)).collect(),
+        directions: axes.iter().map(|&axis| -plant.axes().direction(axis)).collect(),
+        metamers,
+        axes,
+    }
+}
+
 fn edit(simulation: &mut Simulation, event: &Event) {
-    let plant = &simulation.plant;
+    let plant = simulation.plant();
     match *event {
         Event::Prune(pick) => {
             let cuts: Vec<_> = wood(plant, pick).into_iter().collect();
@@ -55,6 +75,10 @@ fn edit(simulation: &mut Simulation, event: &Event) {
             let motion = half_turn(plant, branch, None);
             simulation.carry(&[branch], &[motion]).expect("it stays in the world");
         }
+        Event::Place(pick) => {
+            let Some(branch) = wood(plant, pick) else { return };
+            simulation.place(shrunk(plant, branch)).expect("it fits");
+        }
         Event::Graft(pick, onto) => {
             let (Some(branch), Some(onto)) = (wood(plant, pick), wood(plant, onto)) else { return };
             if plant.above(branch).contains(&onto) {
@@ -62,8 +86,8 @@ fn edit(simulation: &mut Simulation, event: &Event) {
             }
             let motion = half_turn(plant, branch, Some(onto));
             let original = if pick % 2 == 0 { Original::Goes } else { Original::Stays };
-            let room =
-                plant.metamer_count() + plant.above(branch).len() <= simulation.metamer_budget as usize;
+            let room = plant.metamer_count() + plant.above(branch).len()
+                <= simulation.scene.metamer_budget() as usize;
             let grafted = simulation.graft(branch, onto, &motion, original);
             assert_eq!(grafted.is_ok(), room);
         }
@@ -84,6 +108,7 @@ fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => (place, 0.5f32..4.0).prop_map(|(centre, radius)| Event::Obstacle(centre, radius)),
         1 => any::<u32>().prop_map(Event::Prune),
         1 => any::<u32>().prop_map(Event::Turn),
+        1 => any::<u32>().prop_map(Event::Place),
         1 => any::<(u32, u32)>().prop_map(|(branch, onto)| Event::Graft(branch, onto)),
         1 => (0f32..0.9, 0.5f32..3.0).prop_map(|(a, kappa)| Event::Light(a, kappa)),
     ];
@@ -168,7 +193,7 @@ proptest! {
                     fast.set_obstacles(vec![ball.clone()]);
                     plain.set_obstacles(vec![ball]);
                 }
-                Event::Prune(_) | Event::Turn(_) | Event::Graft(..) => {
+                Event::Prune(_) | Event::Turn(_) | Event::Place(_) | Event::Graft(..) => {
                     edit(&mut fast, event);
                     edit(&mut plain, event);
                 }

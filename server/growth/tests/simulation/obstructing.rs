@@ -40,7 +40,7 @@ fn grown_among(seed: u32, obstacles: Vec<Obstacle>, steps: u32) -> Simulation {
 
 /// How many living metamers meet an obstacle or end within it.
 fn violations(simulation: &Simulation) -> usize {
-    let obstacles = Obstacles::new(simulation.obstacles().to_vec());
+    let obstacles = Obstacles::new(simulation.scene().obstacles().to_vec());
     let plant = simulation.plant();
     let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
     living

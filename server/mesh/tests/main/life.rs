@@ -21,6 +21,8 @@ pub enum Event {
     Graft(u16, u16),
     /// Wood, and how much wider than a hundredth of an internode it shall be, in logarithms; or as it likes.
     Widen(u16, Option<u8>),
+    /// A branch, and radii that its wood is given, or none.
+    Give(u16, Option<u8>),
     GoTo(u16),
     Look(u16, u8, u8),
 }
@@ -35,6 +37,7 @@ pub fn events() -> impl Strategy<Value = Vec<Event>> {
         1 => any::<(u16, i8)>().prop_map(|(pick, turn)| Event::Turn(pick, turn)),
         1 => any::<(u16, u16)>().prop_map(|(source, onto)| Event::Graft(source, onto)),
         3 => any::<(u16, Option<u8>)>().prop_map(|(pick, width)| Event::Widen(pick, width)),
+        1 => any::<(u16, Option<u8>)>().prop_map(|(pick, radius)| Event::Give(pick, radius)),
         2 => any::<u16>().prop_map(Event::GoTo),
         2 => any::<(u16, u8, u8)>().prop_map(|(pick, light, vigor)| Event::Look(pick, light, vigor)),
     ];
@@ -108,6 +111,14 @@ pub fn happen(plant: &mut Plant, event: &Event) {
                 plant.set_width(id, width.map(|width| 0.01 * libm::expf(f32::from(width) / 32.0)));
                 plant.end_step();
             }
+        }
+        Event::Give(pick, radius) => {
+            let Some(base) = wood(plant, *pick) else { return };
+            let radius = radius.map(|radius| 0.005 * libm::expf(f32::from(radius) / 32.0));
+            let radii: Vec<_> = plant.above(base).into_iter().map(|id| (id, radius)).collect();
+            plant.begin_edit();
+            plant.give_radii(&radii).expect("living wood");
+            plant.end_step();
         }
         Event::GoTo(step) => {
             plant.go_to(u32::from(*step) % (plant.last_step() + 1));

@@ -10,8 +10,17 @@ use crate::{
 
 const TOLERANCE: f32 = 1e-3;
 
+/// Whether a vector has length 1.
+pub(crate) fn is_unit(v: Vec3) -> bool {
+    (v.length_squared() - 1.0).abs() < TOLERANCE
+}
+
+/// Whether two unit vectors stand square to each other.
+pub(crate) fn is_across(one: Vec3, other: Vec3) -> bool {
+    one.dot(other).abs() < TOLERANCE
+}
+
 pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
-    let is_unit = |v: Vec3| (v.length_squared() - 1.0).abs() < TOLERANCE;
     for index in 0..plant.metamer_count() {
         let id = MetamerId::new(index);
         let (end, normal) = (plant.metamers().end(id), plant.metamers().normal(id));
@@ -23,7 +32,7 @@ pub(super) fn check(plant: &Plant) -> Result<(), Failure> {
             continue;
         }
         let heading = plant.heading(id);
-        let square = is_unit(heading) && heading.dot(normal).abs() < TOLERANCE;
+        let square = is_unit(heading) && is_across(heading, normal);
         require("finite_frames", square, || {
             format!("metamer {index}: heading {heading} and normal {normal}")
         })?;

@@ -6,6 +6,8 @@ mod death_reaches_tips;
 mod finite_frames;
 mod tips_add_up;
 
+pub(crate) use self::finite_frames::{is_across, is_unit};
+
 use crate::plant::Plant;
 
 /// An invariant that does not hold.

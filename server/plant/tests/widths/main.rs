@@ -93,9 +93,22 @@ fn constraints(plant: &Plant, wishes: &[(u16, f32)]) -> Vec<(MetamerId, f32)> {
     chosen
 }
 
+/// Gives radii of these diameters.
+fn with_given(mut plant: Plant, wishes: &[(u16, f32)]) -> Plant {
+    let radii: Vec<_> =
+        constraints(&plant, wishes).into_iter().map(|(id, diameter)| (id, Some(0.5 * diameter))).collect();
+    plant.begin_edit();
+    plant.give_radii(&radii).expect("living wood");
+    plant.end_step();
+    plant
+}
+
 proptest! {
     #[test]
-    fn widths_are_what_the_definition_says(plant in plants(), wishes in wishes(), exponent in 2.0f32..3.0) {
+    fn widths_are_what_the_definition_says(
+        plant in plants(), wishes in wishes(), given in wishes(), exponent in 2.0f32..3.0,
+    ) {
+        let plant = with_given(plant, &given);
         let wanted = constraints(&plant, &wishes);
         let girth = Girth::new(exponent, TWIG);
         let widths = Widths::solve(&plant, &wanted, &girth);
@@ -180,6 +193,17 @@ proptest! {
     }
 }
 
+/// Gives radii of these diameters to rows.
+fn given(plant: Plant, diameters: &[(usize, f32)]) -> Plant {
+    let mut plant = plant;
+    let radii: Vec<_> =
+        diameters.iter().map(|&(row, diameter)| (MetamerId::new(row), Some(0.5 * diameter))).collect();
+    plant.begin_edit();
+    plant.give_radii(&radii).expect("living wood");
+    plant.end_step();
+    plant
+}
+
 /// A trunk of so many internodes of length 1.
 fn pole(internodes: usize) -> Plant {
     let mut plant = Plant::new(Vec3::ZERO);
@@ -239,6 +263,27 @@ fn a_root_finds_its_exponent() {
     check(&trident(), &[(1, 0.15)], &[0.15, 0.1, 0.1, 0.1]);
     // One lateral of 0.2: the base follows by n = 2.
     check(&trident(), &[(3, 0.2)], &[0.244_949, 0.1, 0.2, 0.1]);
+}
+
+#[test]
+fn a_given_radius_stays_and_its_bearer_follows() {
+    let plant = given(trident(), &[(3, 0.2)]);
+    // As under a constraint, the base follows by n = 2.
+    check(&plant, &[], &[0.244_949, 0.1, 0.2, 0.1]);
+    // The constraint of a person goes before, above and below.
+    check(&plant, &[(3, 0.4)], &[0.424_264, 0.1, 0.4, 0.1]);
+    check(&plant, &[(1, 0.4)], &[0.4, 0.1, 0.2, 0.1]);
+    check(&plant, &[(1, 0.15)], &[0.2, 0.1, 0.2, 0.1]);
+}
+
+#[test]
+fn what_grows_on_wood_of_a_given_radius_follows_from_its_tips() {
+    let plant = given(pole(4), &[(1, 0.8), (2, 0.05)]);
+    check(&plant, &[], &[0.8, 0.05, 0.1, 0.1]);
+    // A constraint above is none of the bearer's concern.
+    check(&plant, &[(4, 0.6)], &[0.8, 0.05, 0.6, 0.6]);
+    let plant = given(trident(), &[(1, 0.4)]);
+    check(&plant, &[], &[0.4, 0.1, 0.1, 0.1]);
 }
 
 #[test]

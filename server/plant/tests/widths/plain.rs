@@ -25,6 +25,11 @@ impl<'a> Plain<'a> {
         self.wanted.iter().find(|&&(of, _)| of == id).map(|&(_, wanted)| f64::from(wanted))
     }
 
+    /// The diameter given to a metamer that nothing constrains.
+    fn given(&self, id: MetamerId) -> Option<f64> {
+        self.plant.given_radius(id).filter(|_| self.wish(id).is_none()).map(|radius| 2.0 * f64::from(radius))
+    }
+
     /// Diameters of all leaves above a metamer in its subtree.
     fn leaves(&self, id: MetamerId) -> Vec<f64> {
         let children = &self.children[id.index()];
@@ -32,7 +37,7 @@ impl<'a> Plain<'a> {
         let own = tips(id) - children.iter().map(|&child| tips(child)).sum::<u32>();
         let mut leaves = vec![self.twig; own as usize];
         for &child in children {
-            match self.effective(child) {
+            match self.effective(child).or_else(|| self.given(child)) {
                 Some(diameter) => leaves.push(diameter),
                 None => leaves.extend(self.leaves(child)),
             }
@@ -46,7 +51,7 @@ impl<'a> Plain<'a> {
     }
 
     pub fn diameter(&self, id: MetamerId) -> f64 {
-        if let Some(diameter) = self.effective(id) {
+        if let Some(diameter) = self.effective(id).or_else(|| self.given(id)) {
             return diameter;
         }
         let leaves = self.leaves(id);
@@ -55,6 +60,9 @@ impl<'a> Plain<'a> {
             self.plant.metamers().parent(path[path.len() - 1]).filter(|&b| !self.plant.is_seed(b))
         {
             path.push(below);
+            if self.given(below).is_some() {
+                break;
+            }
             if let Some(diameter) = self.effective(below) {
                 return self.between(&leaves, &self.leaves(below), diameter, &path);
             }
@@ -88,7 +96,8 @@ impl<'a> Plain<'a> {
     /// Length of the wood from a metamer's node to the farthest leaf.
     fn height(&self, id: MetamerId) -> f64 {
         let further = |&child: &MetamerId| {
-            self.length(child) + if self.wish(child).is_some() { 0.0 } else { self.height(child) }
+            self.length(child)
+                + if self.wish(child).or(self.given(child)).is_some() { 0.0 } else { self.height(child) }
         };
         self.children[id.index()].iter().map(further).fold(0.0, f64::max)
     }

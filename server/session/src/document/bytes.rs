@@ -22,7 +22,7 @@ pub(crate) use self::{
     sections::SESSION,
 };
 use self::{sections::Kind, settings::Pool};
-use super::{Document, futures::Futures, obstacles::Obstacles};
+use super::{Document, Generators, futures::Futures, obstacles::Obstacles};
 
 /// Bytes are not a document that this program reads.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -80,6 +80,9 @@ impl Document {
         if !plant.widths.is_empty() {
             add(&sections::WIDTHS, &|out| wood::write_widths(out, &plant));
         }
+        if !plant.given_radii.is_empty() {
+            add(&sections::GIVEN_RADII, &|out| wood::write_given_radii(out, &plant));
+        }
         add(&sections::GROWTH, &|out| {
             growth::write(out, &self.simulation.state());
             out.u32(self.steps_begun);
@@ -109,8 +112,9 @@ impl Document {
         let PlantParts { now, ends, edits, .. } =
             container.require(&sections::TIMELINE, wood::read_timeline)?;
         let widths = container.read(&sections::WIDTHS, wood::read_widths)?.unwrap_or_default();
+        let given_radii = container.read(&sections::GIVEN_RADII, wood::read_given_radii)?.unwrap_or_default();
         let rows = container.require(&sections::PLANT, wood::read_columns)?;
-        let plant = Plant::from_parts(PlantParts { now, ends, edits, widths, ..rows })
+        let plant = Plant::from_parts(PlantParts { now, ends, edits, widths, given_radii, ..rows })
             .map_err(|error| damaged(error.to_string()))?;
         let (mut state, steps_begun) =
             container.require(&sections::GROWTH, |r| Ok((growth::read(r)?, r.u32()?)))?;
@@ -136,7 +140,7 @@ impl Document {
         let (strokes, bends) = container.read(&sections::GESTURES, gestures::read)?.unwrap_or_default();
         gestures::check(&strokes, &bends, &plant)?;
         Ok(Self {
-            simulation: Simulation::from_state(plant, state),
+            simulation: Simulation::from_state(plant, state).grown_by(Generators::from),
             history,
             futures,
             strokes,

@@ -4,7 +4,7 @@ use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutc
 use espalier_plant::MetamerId;
 use espalier_proto::{Problem, ProblemCode};
 
-use super::{Document, history::Kind, refused};
+use super::{Document, generators::Step, history::Kind, refused};
 use crate::action::Lasso;
 
 /// A lasso that still grows after so many steps is left as it is (`LA1`).
@@ -15,8 +15,8 @@ const MAX_LASSO_STEPS: u32 = 400;
 pub(super) enum Pending {
     /// One step of brushing.
     Brush(StepInput),
-    /// So many steps without guidance.
-    Autonomous { left: u32, chosen: Option<MetamerId> },
+    /// So many steps alike, without guidance.
+    Steps { left: u32, step: Step },
     /// At most so many steps, while the markers of a lasso make anything grow.
     Lasso { left: u32, chosen: Option<MetamerId> },
     /// At most so many steps for a lifted brush, while buds find what it left.
@@ -35,22 +35,21 @@ impl Document {
         match pending {
             Pending::Brush(input) => {
                 self.resume_stroke();
-                self.step(&input, observer);
+                self.step(&Step::Growth(input), observer);
             }
-            Pending::Autonomous { left, chosen } => {
-                let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
+            Pending::Steps { left, step } => {
                 if !self.is_stopped() {
-                    self.step(&input, observer);
+                    self.step(&step, observer);
                     if left > 1 && !self.simulation.is_out_of_budget() {
-                        self.pending.push_front(Pending::Autonomous { left: left - 1, chosen });
+                        self.pending.push_front(Pending::Steps { left: left - 1, step });
                     }
                 }
             }
             Pending::Lasso { left, chosen } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() {
-                    let input = StepInput { chosen, ..StepInput::default() };
-                    grows = self.step(&input, observer).metamers_grown > 0;
+                    let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
+                    grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if grows && !self.simulation.is_out_of_budget() {
                     self.pending.push_front(Pending::Lasso { left: left - 1, chosen });
@@ -61,7 +60,7 @@ impl Document {
             Pending::Settle { stroke, left, chosen } => {
                 let outcome = if left > 0 && self.simulation.has_guidance() {
                     self.resume_stroke();
-                    self.step(&StepInput { chosen, ..StepInput::default() }, observer)
+                    self.step(&Step::Growth(StepInput { chosen, ..StepInput::default() }), observer)
                 } else {
                     StepOutcome::default()
                 };
@@ -101,7 +100,7 @@ impl Document {
     pub fn pending_steps(&self) -> u32 {
         let steps = |pending: &Pending| match pending {
             Pending::Brush(_) | Pending::Lasso { .. } => 1,
-            Pending::Autonomous { left, .. } => *left,
+            Pending::Steps { left, .. } => *left,
             Pending::Settle { .. } => 0,
         };
         self.pending.iter().map(steps).sum()
@@ -141,14 +140,26 @@ impl Document {
         gesture: Option<u32>,
         bud: Option<u32>,
     ) -> Result<(), Problem> {
-        self.require_room()?;
         let chosen = self.chosen(bud)?;
+        let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
+        self.begin_steps(author, steps, gesture, Step::Growth(input))
+    }
+
+    /// So many steps of one generator become pending, as one operation.
+    pub(super) fn begin_steps(
+        &mut self,
+        author: &str,
+        steps: u32,
+        gesture: Option<u32>,
+        step: Step,
+    ) -> Result<(), Problem> {
+        self.require_room()?;
         let now = self.plant().step();
         let continues = self.history.continues(&[Kind::Growth, Kind::Prune], author, gesture, now);
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, author, gesture);
         }
-        self.pending.push_back(Pending::Autonomous { left: steps, chosen });
+        self.pending.push_back(Pending::Steps { left: steps, step });
         Ok(())
     }
 
@@ -192,16 +203,16 @@ impl Document {
     }
 
     pub(super) fn require_room(&self) -> Result<(), Problem> {
-        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.metamer_budget());
+        let (held, budget) = (self.plant().metamer_count() as u32, self.simulation.scene().metamer_budget());
         if held < budget {
             return Ok(());
         }
         Err(refused(format!("the document holds {held} metamers, its budget is {budget}")))
     }
 
-    fn step(&mut self, input: &StepInput, observer: &mut impl Observer) -> StepOutcome {
+    fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
         self.steps_begun = self.steps_begun.wrapping_add(1);
-        self.simulation.step(input, observer)
+        self.simulation.step(step, observer)
     }
 
     fn is_stopped(&self) -> bool {

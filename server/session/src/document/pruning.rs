@@ -6,7 +6,7 @@ use espalier_growth::Simulation;
 use espalier_plant::{MetamerId, Plant};
 use espalier_proto::{Problem, ProblemCode};
 
-use super::{Document, history::Kind, refused, wood_of};
+use super::{Document, Generators, history::Kind, refused, wood_of};
 
 impl Document {
     pub(super) fn prune(&mut self, author: &str, rows: &[u32], gesture: Option<u32>) -> Result<(), Problem> {
@@ -37,7 +37,7 @@ impl Document {
 }
 
 /// Cuts branches off a simulation that is nobody's document.
-pub(crate) fn prune(simulation: &mut Simulation, rows: &[u32]) -> Result<(), Problem> {
+pub(crate) fn prune(simulation: &mut Simulation<Generators>, rows: &[u32]) -> Result<(), Problem> {
     let cuts = cuts(simulation.plant(), rows)?;
     if !cuts.is_empty() {
         simulation.prune(&cuts);

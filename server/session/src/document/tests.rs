@@ -2,6 +2,7 @@
 
 mod arranging;
 mod damage;
+pub(super) mod forks;
 mod histories;
 mod looks;
 mod shaping;

@@ -48,6 +48,8 @@ pub(super) const PLANT: Kind = first(*b"PLNT", "plant");
 pub(super) const TIMELINE: Kind = first(*b"TIME", "timeline");
 /// Width constraints of the present; none if it is not there.
 pub(super) const WIDTHS: Kind = first(*b"WIDT", "widths");
+/// Radii given in the present; none if it is not there.
+pub(super) const GIVEN_RADII: Kind = first(*b"RADI", "given radii");
 /// What the next step of growth depends on beside plant and obstacles.
 pub(super) const GROWTH: Kind = first(*b"GROW", "growth");
 /// Every set of parameters that an operation holds.
@@ -65,10 +67,11 @@ pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
 
-const ALL: [&Kind; 11] = [
+const ALL: [&Kind; 12] = [
     &PLANT,
     &TIMELINE,
     &WIDTHS,
+    &GIVEN_RADII,
     &GROWTH,
     &PARAMETERS,
     &LOOKS,

@@ -1,7 +1,7 @@
 //! Plants and their futures as bytes.
 
 use espalier_growth::WORLD_EXTENT;
-use espalier_plant::{AxisId, Carried, Edit, Future, FutureParts, MetamerId, PlantParts};
+use espalier_plant::{AxisId, Carried, Edit, Future, FutureParts, Given, GivenRadii, MetamerId, PlantParts};
 use glam::Vec3;
 
 use super::{
@@ -22,7 +22,7 @@ pub(super) fn write_columns(out: &mut Writer, parts: &PlantParts) {
     out.numbers(&parts.axis_death);
 }
 
-/// A plant of these columns, without time and widths.
+/// A plant of these columns, without time, widths and given radii.
 pub(super) fn read_columns(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
     Ok(PlantParts {
         parent: reader.numbers()?,
@@ -57,6 +57,17 @@ pub(super) fn write_widths(out: &mut Writer, parts: &PlantParts) {
 }
 
 pub(super) fn read_widths(reader: &mut Reader<'_>) -> Result<Vec<(u32, f32)>, DocumentError> {
+    reader.list(|r| Ok((r.u32()?, r.f32()?)))
+}
+
+pub(super) fn write_given_radii(out: &mut Writer, parts: &PlantParts) {
+    out.list(&parts.given_radii, |out, &(row, radius)| {
+        out.u32(row);
+        out.f32(radius);
+    });
+}
+
+pub(super) fn read_given_radii(reader: &mut Reader<'_>) -> Result<Vec<(u32, f32)>, DocumentError> {
     reader.list(|r| Ok((r.u32()?, r.f32()?)))
 }
 
@@ -143,6 +154,12 @@ fn write_edits(out: &mut Writer, edits: &[Edit]) {
             out.tagged(4, id.raw());
             out.option(diameter.map(f32::to_bits));
         }
+        Edit::Given(given) => {
+            out.tagged(6, given.metamers.len() as u32);
+            out.list(&given.metamers, |out, id| out.u32(id.raw()));
+            // Some are not numbers.
+            out.list(&given.radii.0, |out, radius| out.u32(radius.to_bits()));
+        }
     });
 }
 
@@ -166,6 +183,10 @@ fn read_edit(reader: &mut Reader<'_>) -> Result<Edit, DocumentError> {
         })),
         4 => Edit::Width(metamer(row), reader.option()?.map(f32::from_bits)),
         5 => Edit::Scarred(metamer(row), reader.u32()?),
+        6 => Edit::Given(Box::new(Given {
+            metamers: reader.list(|r| r.row().map(metamer))?,
+            radii: GivenRadii(reader.numbers()?.into_iter().map(f32::from_bits).collect()),
+        })),
         _ => return Err(damaged("an edit of unknown kind")),
     })
 }

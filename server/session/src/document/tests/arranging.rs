@@ -44,10 +44,11 @@ fn no_seed_is_planted_in_an_obstacle() {
 #[test]
 fn a_moved_mesh_is_not_made_again() {
     let mut document = Document::new(4);
-    let made = |document: &Document, index: usize| match &document.simulation.obstacles()[index].shape() {
-        espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
-        other => panic!("{other:?}"),
-    };
+    let made =
+        |document: &Document, index: usize| match &document.simulation.scene().obstacles()[index].shape() {
+            espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
+            other => panic!("{other:?}"),
+        };
     document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
     document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
     let before = [made(&document, 0), made(&document, 1)];

@@ -234,7 +234,7 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     let mut afresh = Simulation::from_state(parts, document.simulation.state());
     for _ in 0..2 {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
-        grown.step(&input, &mut espalier_growth::NoObserver);
+        grown.step(&Step::Growth(input.clone()), &mut espalier_growth::NoObserver);
         afresh.step(&input, &mut espalier_growth::NoObserver);
     }
     prop_assert_eq!(grown.plant().hash(), afresh.plant().hash());
