@@ -1,13 +1,10 @@
 //! Commands: everything that can be done to a document, on the wire and in a replay script alike.
 
+use espalier_settings::{AppearancePatch, ParametersPatch};
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::{
-    appearance::AppearancePatch,
-    obstacle::{Obstacle, Pose, Shape},
-    parameters::ParametersPatch,
-};
+use crate::obstacle::{Obstacle, Pose, Shape};
 
 /// One place of the brush, in internode lengths.
 ///

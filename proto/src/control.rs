@@ -1,14 +1,13 @@
 //! Control messages: JSON text in both directions over a session's WebSocket.
 
+use espalier_settings::{Appearance, ParameterValues};
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::{
-    appearance::Appearance,
     command::Command,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
-    parameters::Parameters,
     problem::Problem,
     timeline::{Timeline, WidthConstraint},
 };
@@ -124,7 +123,7 @@ pub enum ServerMessage {
         /// The highest command of this client that is durable; later ones must be sent again.
         acknowledged: u32,
         /// The parameters in force.
-        parameters: Box<Parameters>,
+        parameters: Box<ParameterValues>,
         /// The document.
         state: DocumentState,
     },
@@ -153,7 +152,7 @@ pub enum ServerMessage {
     /// Someone changed the parameters.
     Parameters {
         /// The parameters in force.
-        parameters: Box<Parameters>,
+        parameters: Box<ParameterValues>,
     },
     /// How the tree looks: after the welcome, and when it changes (`AP3`).
     Appearance {

@@ -1,5 +1,6 @@
 //! What went wrong, in words a person can act on.
 
+use espalier_settings::OutOfRange;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
@@ -65,6 +66,12 @@ impl Problem {
             self.message = self.message.replacen(&inner, field, 1);
         }
         self
+    }
+}
+
+impl From<OutOfRange> for Problem {
+    fn from(error: OutOfRange) -> Self {
+        Self::out_of_range(error.field, error.value, error.allowed)
     }
 }
 

@@ -1,9 +1,8 @@
 //! Species as a picker offers them.
 
+use espalier_settings::{Appearance, ParameterValues};
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
-
-use crate::{appearance::Appearance, parameters::Parameters};
 
 /// A set of parameters and an appearance with a name, from `GET /api/species`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
@@ -18,7 +17,7 @@ pub struct Species {
     /// What tells it from others, in one sentence.
     pub sentence: String,
     /// What `set_parameters` is given when it is picked.
-    pub parameters: Parameters,
+    pub parameters: ParameterValues,
     /// What it looks like: all but the background is what `set_appearance` is given when it is picked.
     pub appearance: Appearance,
 }

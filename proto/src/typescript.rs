@@ -1,10 +1,13 @@
 //! Writes the TypeScript side of the wire: one file with every type and constant of this crate.
 
+use std::fmt::Write;
+
+use espalier_settings::{self as settings, Appearance, ParameterValues, Setting};
+use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    appearance, command, control, envelope, frame, library, obstacle, parameters, problem, schematic,
-    species, timeline, version,
+    command, control, envelope, frame, library, obstacle, problem, schematic, species, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -50,38 +53,39 @@ pub fn declarations() -> String {
         out.push_str(&format!("  {name}: {},\n", u16::from(code)));
     }
     out.push_str("} as const;\n");
-    let default = serde_json::to_string_pretty(&appearance::Appearance::default()).unwrap_or_default();
-    out.push_str(&format!("\nexport const DEFAULT_APPEARANCE: Appearance = {default};\n"));
+    add_tables(&mut out);
     for declaration in [
         command::StrokeSample::decl(&config),
-        parameters::VigorModel::decl(&config),
-        parameters::Parameters::decl(&config),
-        parameters::ParametersPatch::decl(&config),
+        settings::VigorModel::decl(&config),
+        settings::Unit::decl(&config),
+        Setting::decl(&config),
+        ParameterValues::decl(&config),
+        settings::ParametersPatch::decl(&config),
         command::DrawingPlane::decl(&config),
         obstacle::Pose::decl(&config),
         obstacle::Shape::decl(&config),
         obstacle::Obstacle::decl(&config),
         obstacle::PlacedShape::decl(&config),
         obstacle::PlacedObstacle::decl(&config),
-        appearance::LeafKind::decl(&config),
-        appearance::LeafLook::decl(&config),
-        appearance::LeafPatch::decl(&config),
-        appearance::Place::decl(&config),
-        appearance::FlowerKind::decl(&config),
-        appearance::FlowerLook::decl(&config),
-        appearance::FlowerPatch::decl(&config),
-        appearance::FruitKind::decl(&config),
-        appearance::FruitLook::decl(&config),
-        appearance::FruitPatch::decl(&config),
-        appearance::BarkKind::decl(&config),
-        appearance::BarkLook::decl(&config),
-        appearance::BarkPatch::decl(&config),
-        appearance::Sky::decl(&config),
-        appearance::Ground::decl(&config),
-        appearance::Background::decl(&config),
-        appearance::BackgroundPatch::decl(&config),
-        appearance::Appearance::decl(&config),
-        appearance::AppearancePatch::decl(&config),
+        settings::LeafKind::decl(&config),
+        settings::LeafLook::decl(&config),
+        settings::LeafPatch::decl(&config),
+        settings::Place::decl(&config),
+        settings::FlowerKind::decl(&config),
+        settings::FlowerLook::decl(&config),
+        settings::FlowerPatch::decl(&config),
+        settings::FruitKind::decl(&config),
+        settings::FruitLook::decl(&config),
+        settings::FruitPatch::decl(&config),
+        settings::BarkKind::decl(&config),
+        settings::BarkLook::decl(&config),
+        settings::BarkPatch::decl(&config),
+        settings::Sky::decl(&config),
+        settings::Ground::decl(&config),
+        settings::Background::decl(&config),
+        settings::BackgroundPatch::decl(&config),
+        Appearance::decl(&config),
+        settings::AppearancePatch::decl(&config),
         command::Command::decl(&config),
         schematic::Schematic::decl(&config),
         species::Species::decl(&config),
@@ -105,4 +109,32 @@ pub fn declarations() -> String {
         out.push_str(&format!("\nexport {declaration}\n"));
     }
     out
+}
+
+/// The tables of settings, and what everything is set to at first.
+fn add_tables(out: &mut String) {
+    let table = |indent: &str, rows: &[Setting]| -> String {
+        rows.iter().map(|row| format!("{indent}  {}: {},\n", row.name, json(row))).collect()
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        out,
+        "\nexport const PARAMETERS = {{\n{}}} as const satisfies Record<keyof Parameters, Setting>;",
+        table("", ParameterValues::ROWS)
+    );
+    out.push_str("\nexport const LOOKS = {\n");
+    for (section, rows) in Appearance::TABLES {
+        let _ = writeln!(out, "  {section}: {{\n{}  }},", table("  ", rows));
+    }
+    out.push_str(
+        "} as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };\n",
+    );
+    let (parameters, looks) = (json(&ParameterValues::default()), json(&Appearance::default()));
+    let _ = writeln!(out, "\nexport const DEFAULT_PARAMETERS: Parameters = {parameters};");
+    let _ = writeln!(out, "\nexport const DEFAULT_APPEARANCE: Appearance = {looks};");
+}
+
+fn json(value: &impl Serialize) -> String {
+    // Plain values always have a JSON form.
+    serde_json::to_string(value).unwrap_or_default()
 }

@@ -4,7 +4,7 @@ use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
-use espalier_proto::ParametersPatch;
+use espalier_settings::ParametersPatch;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -242,8 +242,9 @@ mod tests {
         let patch = |text| parse_parameter(text).unwrap();
         assert_eq!(patch("apical_control=0.6").apical_control, Some(0.6));
         assert_eq!(patch("trunk_upward=false").trunk_upward, Some(false));
-        assert_eq!(patch("vigor_model=priority").vigor_model, Some(espalier_proto::VigorModel::Priority));
+        assert_eq!(patch("vigor_model=priority").vigor_model, Some(espalier_settings::VigorModel::Priority));
         assert!(parse_parameter("vigor_model=luck").unwrap_err().contains("borchert_honda"));
+        assert!(parse_parameter("leaf_size=big").unwrap_err().contains("expected 0.1 to 3"));
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    Appearance, ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, Parameters,
-    PlacedObstacle, PoseFrame, Problem, ServerMessage, Timeline, WidthConstraint,
+    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
+    ServerMessage, Timeline, WidthConstraint,
 };
+use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
 use tokio::{net::TcpStream, time};
 use tokio_tungstenite::{
@@ -45,7 +46,7 @@ pub struct Client {
     /// The newest figures.
     pub state: DocumentState,
     /// The newest parameters.
-    pub parameters: Parameters,
+    pub parameters: ParameterValues,
     /// The newest looks.
     pub appearance: Appearance,
     /// How often the looks were told.

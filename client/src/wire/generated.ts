@@ -34,66 +34,92 @@ export const CloseCode = {
   Replaced: 4004,
 } as const;
 
-export const DEFAULT_APPEARANCE: Appearance = {
-  "leaves": {
-    "shape": "ovate",
-    "tint": [
-      88,
-      128,
-      52
-    ],
-    "vigor_shift": 0.4,
-    "season": 1.0,
-    "orientation": 0.0
+export const PARAMETERS = {
+  internode_length: {"kind":"number","least":0.005,"most":1.0,"step":0.005,"symbol":"l","unit":"m","group":"wood"},
+  occupancy_radius: {"kind":"number","least":0.5,"most":6.0,"step":0.1,"symbol":"r","unit":"internodes","group":"perception"},
+  perception_depth: {"kind":"number","least":0.5,"most":10.0,"step":0.1,"symbol":"d","unit":"internodes","group":"perception"},
+  perception_angle: {"kind":"number","least":20.0,"most":360.0,"step":1.0,"symbol":"ζ","unit":"°","group":"perception"},
+  phyllotactic_angle: {"kind":"number","least":0.0,"most":180.0,"step":0.5,"symbol":"φ","unit":"°","group":"buds"},
+  buds_per_node: {"kind":"number","least":1.0,"most":4.0,"step":1.0,"group":"buds"},
+  branching_angle: {"kind":"number","least":0.0,"most":120.0,"step":1.0,"symbol":"ψ","unit":"°","group":"fork"},
+  deflection_angle: {"kind":"number","least":0.0,"most":45.0,"step":0.5,"symbol":"δ","unit":"°","group":"fork"},
+  apical_control: {"kind":"number","least":0.4,"most":0.7,"step":0.005,"symbol":"λ","group":"vigor"},
+  mature_apical_control: {"kind":"number","least":0.4,"most":0.7,"step":0.005,"group":"sharing"},
+  maturity_start: {"kind":"number","least":0.0,"most":500.0,"step":1.0,"unit":"steps","group":"sharing"},
+  maturity_steps: {"kind":"number","least":0.0,"most":500.0,"step":1.0,"unit":"steps","group":"sharing"},
+  light_sensitivity: {"kind":"number","least":0.0,"most":6.0,"step":0.1,"symbol":"κ","group":"vigor"},
+  max_shoot_length: {"kind":"number","least":1.0,"most":20.0,"step":1.0,"symbol":"nₘₐₓ","group":"vigor"},
+  shedding_threshold: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"Th","group":"vigor"},
+  vigor_gain: {"kind":"number","least":0.1,"most":10.0,"step":0.1,"group":"sharing"},
+  vigor_model: {"kind":"choice","choices":["borchert_honda","priority"],"group":"sharing"},
+  priority_least_weight: {"kind":"number","least":0.001,"most":1.0,"step":0.001,"symbol":"wₘᵢₙ","group":"sharing"},
+  priority_decline: {"kind":"number","least":0.05,"most":1.0,"step":0.01,"symbol":"κₚ","group":"sharing"},
+  heading_weight: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"α","group":"weights"},
+  tropism_weight: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"β","group":"weights"},
+  space_weight: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"γ","group":"weights"},
+  phototropism: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"group":"buds"},
+  setpoint_angle: {"kind":"number","least":0.0,"most":180.0,"step":1.0,"symbol":"θ","unit":"°","group":"tropism"},
+  trunk_upward: {"kind":"switch","group":"tropism"},
+  tropism_from_stroke: {"kind":"switch","group":"brush"},
+  gravimorphism_vertical: {"kind":"number","least":0.05,"most":3.0,"step":0.05,"symbol":"sᵥ","group":"sides"},
+  gravimorphism_horizontal: {"kind":"number","least":0.05,"most":3.0,"step":0.05,"symbol":"sₚ","group":"sides"},
+  gravimorphism_shift: {"kind":"number","least":-0.99,"most":0.99,"step":0.01,"symbol":"eᵥ / sᵥ","group":"sides"},
+  marker_density: {"kind":"number","least":0.01,"most":1.0,"step":0.01,"group":"brush"},
+  markers_per_bud: {"kind":"number","least":1.0,"most":32.0,"step":1.0,"group":"buds"},
+  marker_max_age: {"kind":"number","least":1.0,"most":60.0,"step":1.0,"unit":"steps","group":"brush"},
+  shadow_strength: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"a","group":"shade"},
+  shadow_decay: {"kind":"number","least":1.1,"most":4.0,"step":0.1,"symbol":"b","group":"shade"},
+  shadow_depth: {"kind":"number","least":0.0,"most":8.0,"step":1.0,"symbol":"qₘₐₓ","group":"shade"},
+  girth_exponent: {"kind":"number","least":2.0,"most":3.0,"step":0.05,"symbol":"n","group":"wood"},
+  twig_diameter: {"kind":"number","least":0.02,"most":0.3,"step":0.01,"symbol":"dₑ","unit":"internodes","group":"wood"},
+  leaves_per_node: {"kind":"number","least":0.0,"most":15.0,"step":1.0,"group":"leaves"},
+  leaf_size: {"kind":"number","least":0.1,"most":3.0,"step":0.05,"unit":"internodes","group":"leaves"},
+} as const satisfies Record<keyof Parameters, Setting>;
+
+export const LOOKS = {
+  leaves: {
+    shape: {"kind":"choice","choices":["ovate","round","lanceolate","lobed","palmate","fan","compound","needle","scale"]},
+    tint: {"kind":"colour"},
+    vigor_shift: {"kind":"number","least":0.0,"most":1.0,"step":0.01},
+    season: {"kind":"number","least":0.0,"most":3.0,"step":0.02},
+    orientation: {"kind":"number","least":-1.0,"most":1.0,"step":0.02},
   },
-  "flowers": {
-    "kind": "none",
-    "tint": [
-      246,
-      236,
-      240
-    ],
-    "size": 0.5,
-    "share": 0.5,
-    "place": "twigs",
-    "vigor": 0.0
+  flowers: {
+    kind: {"kind":"choice","choices":["none","rosette","catkin","panicle"]},
+    tint: {"kind":"colour"},
+    size: {"kind":"number","least":0.05,"most":2.0,"step":0.05,"unit":"internodes"},
+    share: {"kind":"number","least":0.0,"most":1.0,"step":0.01},
+    place: {"kind":"choice","choices":["tips","twigs","wood"]},
+    vigor: {"kind":"number","least":-1.0,"most":1.0,"step":0.02},
   },
-  "fruits": {
-    "kind": "none",
-    "tint": [
-      178,
-      44,
-      34
-    ],
-    "size": 0.4,
-    "share": 0.2,
-    "place": "twigs",
-    "vigor": 0.0
+  fruits: {
+    kind: {"kind":"choice","choices":["none","round","cone","nut","winged"]},
+    tint: {"kind":"colour"},
+    size: {"kind":"number","least":0.05,"most":2.0,"step":0.05,"unit":"internodes"},
+    share: {"kind":"number","least":0.0,"most":1.0,"step":0.01},
+    place: {"kind":"choice","choices":["tips","twigs","wood"]},
+    vigor: {"kind":"number","least":-1.0,"most":1.0,"step":0.02},
   },
-  "bark": {
-    "kind": "furrowed",
-    "tint": [
-      121,
-      110,
-      97
-    ],
-    "relief": 1.0,
-    "root_flare": 1.0,
-    "collar": 1.0,
-    "smoothing": 1.0
+  bark: {
+    kind: {"kind":"choice","choices":["smooth","furrowed","plated","papery","flaking","banded","stringy"]},
+    tint: {"kind":"colour"},
+    relief: {"kind":"number","least":0.0,"most":2.0,"step":0.02},
+    root_flare: {"kind":"number","least":0.0,"most":2.0,"step":0.02},
+    collar: {"kind":"number","least":0.0,"most":2.0,"step":0.02},
+    smoothing: {"kind":"number","least":0.0,"most":1.0,"step":0.01},
   },
-  "background": {
-    "sky": "meadow",
-    "ground": "grass",
-    "backdrop": [
-      226,
-      222,
-      214
-    ],
-    "sun_azimuth": 310.0,
-    "sun_elevation": 48.0
-  }
-};
+  background: {
+    sky: {"kind":"choice","choices":["meadow","clear","overcast","studio"]},
+    ground: {"kind":"choice","choices":["grass","earth","sand","snow","plain"]},
+    backdrop: {"kind":"colour"},
+    sun_azimuth: {"kind":"number","least":0.0,"most":360.0,"step":1.0,"unit":"°"},
+    sun_elevation: {"kind":"number","least":-10.0,"most":90.0,"step":1.0,"unit":"°"},
+  },
+} as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };
+
+export const DEFAULT_PARAMETERS: Parameters = {"internode_length":0.1,"occupancy_radius":1.5,"perception_depth":3.0,"perception_angle":90.0,"phyllotactic_angle":137.5,"buds_per_node":1,"branching_angle":50.0,"deflection_angle":5.0,"apical_control":0.52,"mature_apical_control":0.52,"maturity_start":0,"maturity_steps":0,"light_sensitivity":1.0,"max_shoot_length":4,"shedding_threshold":0.0,"vigor_gain":2.0,"vigor_model":"borchert_honda","priority_least_weight":0.006,"priority_decline":0.5,"heading_weight":0.5,"tropism_weight":0.25,"space_weight":0.25,"phototropism":0.0,"setpoint_angle":0.0,"trunk_upward":true,"tropism_from_stroke":false,"gravimorphism_vertical":1.0,"gravimorphism_horizontal":1.0,"gravimorphism_shift":0.0,"marker_density":0.15,"markers_per_bud":6,"marker_max_age":8,"shadow_strength":0.12,"shadow_decay":2.0,"shadow_depth":6,"girth_exponent":2.5,"twig_diameter":0.07,"leaves_per_node":4,"leaf_size":1.0};
+
+export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0}};
 
 export type StrokeSample = { 
 /**
@@ -107,25 +133,57 @@ radius: number, };
 
 export type VigorModel = "borchert_honda" | "priority";
 
+export type Unit = "m" | "internodes" | "°" | "steps";
+
+export type Setting = { 
+/**
+ * Its symbol in the papers.
+ */
+symbol?: string, 
+/**
+ * What it is counted in; none for plain numbers.
+ */
+unit?: Unit, 
+/**
+ * The settings it stands with in a panel; none where a whole table stands together.
+ */
+group?: string, } & ({ "kind": "number", 
+/**
+ * The least value.
+ */
+least: number, 
+/**
+ * The greatest value.
+ */
+most: number, 
+/**
+ * By how much a control changes it; 1 for whole numbers.
+ */
+step: number, } | { "kind": "switch" } | { "kind": "choice", 
+/**
+ * The names.
+ */
+choices: readonly string[], } | { "kind": "colour" });
+
 export type Parameters = { 
 /**
- * Length of one internode in metres (l); the simulation's unit of length, used by exports.
+ * Length of one internode, the simulation's unit of length, for exports.
  */
 internode_length: number, 
 /**
- * Radius of the zone a bud occupies, in internodes (r).
+ * Radius of the zone a bud occupies (TreeSketch Figure 8).
  */
 occupancy_radius: number, 
 /**
- * Depth of the volume a bud perceives beyond its zone, in internodes (d).
+ * Depth of the volume a bud perceives beyond its zone.
  */
 perception_depth: number, 
 /**
- * Full opening angle of the perception volume, in degrees (ζ).
+ * Full opening angle of the perception volume.
  */
 perception_angle: number, 
 /**
- * Angle between successive lateral buds around their axis, in degrees (φ).
+ * Angle between successive lateral buds around their axis.
  */
 phyllotactic_angle: number, 
 /**
@@ -133,15 +191,15 @@ phyllotactic_angle: number,
  */
 buds_per_node: number, 
 /**
- * Angle between a lateral bud and its bearing axis, in degrees (ψ).
+ * Angle between a lateral bud and its bearing axis.
  */
 branching_angle: number, 
 /**
- * Angle by which an axis turns away from the lateral bud it has just passed, in degrees (δ).
+ * Angle by which an axis turns away from the lateral bud it has just passed.
  */
 deflection_angle: number, 
 /**
- * Share of vigor the main axis claims against its laterals (λ).
+ * Share of vigor the main axis claims against its laterals.
  */
 apical_control: number, 
 /**
@@ -157,15 +215,15 @@ maturity_start: number,
  */
 maturity_steps: number, 
 /**
- * Exponent of a bud's response to light (κ in Q = bL^κ).
+ * Exponent of a bud's response to light (Q = bL^κ).
  */
 light_sensitivity: number, 
 /**
- * Internodes the most vigorous enabled bud adds in one step (n_max).
+ * Internodes the most vigorous enabled bud adds in one step.
  */
 max_shoot_length: number, 
 /**
- * Vigor per internode below which a branch is shed (Th).
+ * Vigor per internode, over the vigor gain, below which a branch is shed.
  */
 shedding_threshold: number, 
 /**
@@ -177,51 +235,51 @@ vigor_gain: number,
  */
 vigor_model: VigorModel, 
 /**
- * Least weight of the priority model, that of what ranks last on an axis (w_min).
+ * Least weight of the priority model, that of what ranks last on an axis.
  */
 priority_least_weight: number, 
 /**
- * Share of the ranking over which weight falls from 1 to the least (κ_p of the priority model).
+ * Share of the ranking over which weight falls from 1 to the least in the priority model.
  */
 priority_decline: number, 
 /**
- * Weight of an axis' present heading (α in H′ = αH + βT + γE).
+ * Weight of an axis' present heading (H′ = αH + βT + γE); the three weights sum to 1.
  */
 heading_weight: number, 
 /**
- * Weight of tropism (β).
+ * Weight of tropism.
  */
 tropism_weight: number, 
 /**
- * Weight of the direction towards free space (γ).
+ * Weight of the direction towards free space.
  */
 space_weight: number, 
 /**
- * How far the direction of growth turns from free space towards the light, 0 to 1.
+ * How far the direction of growth turns from free space towards the light (−∇s).
  */
 phototropism: number, 
 /**
- * Gravitropic set-point angle from the vertical, in degrees (θ).
+ * Gravitropic set-point angle from the vertical.
  */
 setpoint_angle: number, 
 /**
- * The trunk tends upwards whatever the set-point angle is.
+ * The trunk tends upwards whatever the set-point angle is (TreeSketch §3.4).
  */
 trunk_upward: boolean, 
 /**
- * The direction of a brush stroke takes the place of the set-point angle.
+ * The direction of a brush stroke takes the place of the set-point angle (TreeSketch §3.4).
  */
 tropism_from_stroke: boolean, 
 /**
- * Vertical half-axis of the gravimorphism ellipse (s_v).
+ * Vertical half-axis of the gravimorphism ellipse (TreeSketch Figure 10).
  */
 gravimorphism_vertical: number, 
 /**
- * Horizontal half-axis of the gravimorphism ellipse (s_p).
+ * Horizontal half-axis of the gravimorphism ellipse.
  */
 gravimorphism_horizontal: number, 
 /**
- * Shift of the gravimorphism ellipse, as a fraction of s_v: above 0 epitony, below 0 hypotony (e_v / s_v).
+ * Shift of the gravimorphism ellipse over its vertical half-axis: above 0 epitony, below 0 hypotony.
  */
 gravimorphism_shift: number, 
 /**
@@ -237,23 +295,23 @@ markers_per_bud: number,
  */
 marker_max_age: number, 
 /**
- * Shadow cast into the cubic internode around a metamer (a in a·b^-q); full light is 1.
+ * Shadow cast into the cubic internode around a metamer (a·b^−q); full light is 1.
  */
 shadow_strength: number, 
 /**
- * Factor by which a shadow fades with each internode of height (b).
+ * Factor by which a shadow fades with each internode of height.
  */
 shadow_decay: number, 
 /**
- * Internodes below a metamer that its shadow reaches (q_max).
+ * Internodes below a metamer that its shadow reaches.
  */
 shadow_depth: number, 
 /**
- * Exponent of da Vinci's rule for girth (n in d^n = Σ d_i^n).
+ * Exponent of da Vinci's rule for girth (dⁿ = Σ dᵢⁿ).
  */
 girth_exponent: number, 
 /**
- * Diameter of a twig at its tip, in internodes (d_e).
+ * Diameter of a twig at its tip.
  */
 twig_diameter: number, 
 /**
@@ -261,29 +319,29 @@ twig_diameter: number,
  */
 leaves_per_node: number, 
 /**
- * Length of a leaf, in internodes.
+ * Length of a leaf.
  */
 leaf_size: number, };
 
 export type ParametersPatch = { 
 /**
- * Length of one internode in metres (l); the simulation's unit of length, used by exports.
+ * Length of one internode, the simulation's unit of length, for exports.
  */
 internode_length?: number, 
 /**
- * Radius of the zone a bud occupies, in internodes (r).
+ * Radius of the zone a bud occupies (TreeSketch Figure 8).
  */
 occupancy_radius?: number, 
 /**
- * Depth of the volume a bud perceives beyond its zone, in internodes (d).
+ * Depth of the volume a bud perceives beyond its zone.
  */
 perception_depth?: number, 
 /**
- * Full opening angle of the perception volume, in degrees (ζ).
+ * Full opening angle of the perception volume.
  */
 perception_angle?: number, 
 /**
- * Angle between successive lateral buds around their axis, in degrees (φ).
+ * Angle between successive lateral buds around their axis.
  */
 phyllotactic_angle?: number, 
 /**
@@ -291,15 +349,15 @@ phyllotactic_angle?: number,
  */
 buds_per_node?: number, 
 /**
- * Angle between a lateral bud and its bearing axis, in degrees (ψ).
+ * Angle between a lateral bud and its bearing axis.
  */
 branching_angle?: number, 
 /**
- * Angle by which an axis turns away from the lateral bud it has just passed, in degrees (δ).
+ * Angle by which an axis turns away from the lateral bud it has just passed.
  */
 deflection_angle?: number, 
 /**
- * Share of vigor the main axis claims against its laterals (λ).
+ * Share of vigor the main axis claims against its laterals.
  */
 apical_control?: number, 
 /**
@@ -315,15 +373,15 @@ maturity_start?: number,
  */
 maturity_steps?: number, 
 /**
- * Exponent of a bud's response to light (κ in Q = bL^κ).
+ * Exponent of a bud's response to light (Q = bL^κ).
  */
 light_sensitivity?: number, 
 /**
- * Internodes the most vigorous enabled bud adds in one step (n_max).
+ * Internodes the most vigorous enabled bud adds in one step.
  */
 max_shoot_length?: number, 
 /**
- * Vigor per internode below which a branch is shed (Th).
+ * Vigor per internode, over the vigor gain, below which a branch is shed.
  */
 shedding_threshold?: number, 
 /**
@@ -335,51 +393,51 @@ vigor_gain?: number,
  */
 vigor_model?: VigorModel, 
 /**
- * Least weight of the priority model, that of what ranks last on an axis (w_min).
+ * Least weight of the priority model, that of what ranks last on an axis.
  */
 priority_least_weight?: number, 
 /**
- * Share of the ranking over which weight falls from 1 to the least (κ_p of the priority model).
+ * Share of the ranking over which weight falls from 1 to the least in the priority model.
  */
 priority_decline?: number, 
 /**
- * Weight of an axis' present heading (α in H′ = αH + βT + γE).
+ * Weight of an axis' present heading (H′ = αH + βT + γE); the three weights sum to 1.
  */
 heading_weight?: number, 
 /**
- * Weight of tropism (β).
+ * Weight of tropism.
  */
 tropism_weight?: number, 
 /**
- * Weight of the direction towards free space (γ).
+ * Weight of the direction towards free space.
  */
 space_weight?: number, 
 /**
- * How far the direction of growth turns from free space towards the light, 0 to 1.
+ * How far the direction of growth turns from free space towards the light (−∇s).
  */
 phototropism?: number, 
 /**
- * Gravitropic set-point angle from the vertical, in degrees (θ).
+ * Gravitropic set-point angle from the vertical.
  */
 setpoint_angle?: number, 
 /**
- * The trunk tends upwards whatever the set-point angle is.
+ * The trunk tends upwards whatever the set-point angle is (TreeSketch §3.4).
  */
 trunk_upward?: boolean, 
 /**
- * The direction of a brush stroke takes the place of the set-point angle.
+ * The direction of a brush stroke takes the place of the set-point angle (TreeSketch §3.4).
  */
 tropism_from_stroke?: boolean, 
 /**
- * Vertical half-axis of the gravimorphism ellipse (s_v).
+ * Vertical half-axis of the gravimorphism ellipse (TreeSketch Figure 10).
  */
 gravimorphism_vertical?: number, 
 /**
- * Horizontal half-axis of the gravimorphism ellipse (s_p).
+ * Horizontal half-axis of the gravimorphism ellipse.
  */
 gravimorphism_horizontal?: number, 
 /**
- * Shift of the gravimorphism ellipse, as a fraction of s_v: above 0 epitony, below 0 hypotony (e_v / s_v).
+ * Shift of the gravimorphism ellipse over its vertical half-axis: above 0 epitony, below 0 hypotony.
  */
 gravimorphism_shift?: number, 
 /**
@@ -395,23 +453,23 @@ markers_per_bud?: number,
  */
 marker_max_age?: number, 
 /**
- * Shadow cast into the cubic internode around a metamer (a in a·b^-q); full light is 1.
+ * Shadow cast into the cubic internode around a metamer (a·b^−q); full light is 1.
  */
 shadow_strength?: number, 
 /**
- * Factor by which a shadow fades with each internode of height (b).
+ * Factor by which a shadow fades with each internode of height.
  */
 shadow_decay?: number, 
 /**
- * Internodes below a metamer that its shadow reaches (q_max).
+ * Internodes below a metamer that its shadow reaches.
  */
 shadow_depth?: number, 
 /**
- * Exponent of da Vinci's rule for girth (n in d^n = Σ d_i^n).
+ * Exponent of da Vinci's rule for girth (dⁿ = Σ dᵢⁿ).
  */
 girth_exponent?: number, 
 /**
- * Diameter of a twig at its tip, in internodes (d_e).
+ * Diameter of a twig at its tip.
  */
 twig_diameter?: number, 
 /**
@@ -419,7 +477,7 @@ twig_diameter?: number,
  */
 leaves_per_node?: number, 
 /**
- * Length of a leaf, in internodes.
+ * Length of a leaf.
  */
 leaf_size?: number, };
 
@@ -519,11 +577,11 @@ export type LeafLook = {
  */
 shape: LeafKind, 
 /**
- * Their colour in summer: red, green and blue in sRGB.
+ * Their colour in summer.
  */
 tint: [number, number, number], 
 /**
- * How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
+ * How far the hue shifts towards yellow and red on shoots of little vigor.
  */
 vigor_shift: number, 
 /**
@@ -541,11 +599,11 @@ export type LeafPatch = {
  */
 shape?: LeafKind, 
 /**
- * Their colour in summer: red, green and blue in sRGB.
+ * Their colour in summer.
  */
 tint?: [number, number, number], 
 /**
- * How far the hue shifts towards yellow and red on shoots of little vigor: 0 not at all, to 1.
+ * How far the hue shifts towards yellow and red on shoots of little vigor.
  */
 vigor_shift?: number, 
 /**
@@ -567,19 +625,19 @@ export type FlowerLook = {
  */
 kind: FlowerKind, 
 /**
- * Their colour: red, green and blue in sRGB.
+ * Their colour.
  */
 tint: [number, number, number], 
 /**
- * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ * Their diameter, or their length where they are long.
  */
 size: number, 
 /**
- * Which share of the places bears one, 0 to 1.
+ * Which share of the places bears one.
  */
 share: number, 
 /**
- * Where they are borne.
+ * Where they are borne: tips of shoots, leafy twigs, older wood.
  */
 place: Place, 
 /**
@@ -593,19 +651,19 @@ export type FlowerPatch = {
  */
 kind?: FlowerKind, 
 /**
- * Their colour: red, green and blue in sRGB.
+ * Their colour.
  */
 tint?: [number, number, number], 
 /**
- * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ * Their diameter, or their length where they are long.
  */
 size?: number, 
 /**
- * Which share of the places bears one, 0 to 1.
+ * Which share of the places bears one.
  */
 share?: number, 
 /**
- * Where they are borne.
+ * Where they are borne: tips of shoots, leafy twigs, older wood.
  */
 place?: Place, 
 /**
@@ -621,19 +679,19 @@ export type FruitLook = {
  */
 kind: FruitKind, 
 /**
- * Their colour: red, green and blue in sRGB.
+ * Their colour.
  */
 tint: [number, number, number], 
 /**
- * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ * Their diameter, or their length where they are long.
  */
 size: number, 
 /**
- * Which share of the places bears one, 0 to 1.
+ * Which share of the places bears one.
  */
 share: number, 
 /**
- * Where they are borne.
+ * Where they are borne: tips of shoots, leafy twigs, older wood.
  */
 place: Place, 
 /**
@@ -647,19 +705,19 @@ export type FruitPatch = {
  */
 kind?: FruitKind, 
 /**
- * Their colour: red, green and blue in sRGB.
+ * Their colour.
  */
 tint?: [number, number, number], 
 /**
- * Their diameter in internodes, or their length where they are long; 0.05 to 2.
+ * Their diameter, or their length where they are long.
  */
 size?: number, 
 /**
- * Which share of the places bears one, 0 to 1.
+ * Which share of the places bears one.
  */
 share?: number, 
 /**
- * Where they are borne.
+ * Where they are borne: tips of shoots, leafy twigs, older wood.
  */
 place?: Place, 
 /**
@@ -675,23 +733,23 @@ export type BarkLook = {
  */
 kind: BarkKind, 
 /**
- * Its colour: red, green and blue in sRGB.
+ * Its colour.
  */
 tint: [number, number, number], 
 /**
- * How deep its furrows look, 0 to 2; 1 by default.
+ * How deep its furrows look.
  */
 relief: number, 
 /**
- * How far the trunk widens at the ground, 0 to 2; 1 by default.
+ * How far the trunk widens at the ground.
  */
 root_flare: number, 
 /**
- * How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
+ * How thick the collars are where a branch leaves another.
  */
 collar: number, 
 /**
- * How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
+ * How smooth curves are drawn: 0 a polyline, 1 a smooth curve.
  */
 smoothing: number, };
 
@@ -701,23 +759,23 @@ export type BarkPatch = {
  */
 kind?: BarkKind, 
 /**
- * Its colour: red, green and blue in sRGB.
+ * Its colour.
  */
 tint?: [number, number, number], 
 /**
- * How deep its furrows look, 0 to 2; 1 by default.
+ * How deep its furrows look.
  */
 relief?: number, 
 /**
- * How far the trunk widens at the ground, 0 to 2; 1 by default.
+ * How far the trunk widens at the ground.
  */
 root_flare?: number, 
 /**
- * How thick the collars are where a branch leaves another, 0 to 2; 1 by default.
+ * How thick the collars are where a branch leaves another.
  */
 collar?: number, 
 /**
- * How smooth curves are drawn: 0 a polyline, 1 a smooth curve, which is the default.
+ * How smooth curves are drawn: 0 a polyline, 1 a smooth curve.
  */
 smoothing?: number, };
 
@@ -735,15 +793,15 @@ sky: Sky,
  */
 ground: Ground, 
 /**
- * The colour of the studio's backdrop: red, green and blue in sRGB.
+ * The colour behind the tree in the studio.
  */
 backdrop: [number, number, number], 
 /**
- * Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
+ * Where the sun is, from the z axis towards the x axis.
  */
 sun_azimuth: number, 
 /**
- * How high it is, in degrees above the horizon, -10 to 90.
+ * How high it is above the horizon.
  */
 sun_elevation: number, };
 
@@ -757,15 +815,15 @@ sky?: Sky,
  */
 ground?: Ground, 
 /**
- * The colour of the studio's backdrop: red, green and blue in sRGB.
+ * The colour behind the tree in the studio.
  */
 backdrop?: [number, number, number], 
 /**
- * Where the sun is, in degrees from the z axis towards the x axis, 0 to 360.
+ * Where the sun is, from the z axis towards the x axis.
  */
 sun_azimuth?: number, 
 /**
- * How high it is, in degrees above the horizon, -10 to 90.
+ * How high it is above the horizon.
  */
 sun_elevation?: number, };
 

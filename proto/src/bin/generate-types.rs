@@ -1,25 +1,36 @@
-//! Writes `client/src/wire/generated.ts`; with `--check` only says whether it is current.
+//! Writes `client/src/wire/generated.ts` and the tables of `PROTOCOL.md`; with `--check` only says whether they are
+//! current.
 
-use std::{path::Path, process::ExitCode};
+use std::{fs, path::Path, process::ExitCode};
+
+use espalier_proto::{protocol_tables, typescript};
 
 fn main() -> ExitCode {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../client/src/wire/generated.ts");
-    let wanted = espalier_proto::typescript::declarations();
-    if std::env::args().nth(1).as_deref() == Some("--check") {
-        if std::fs::read_to_string(&path).is_ok_and(|found| found == wanted) {
-            return ExitCode::SUCCESS;
-        }
-        eprintln!(
-            "{} is out of date: run `cargo run -p espalier-proto --bin generate-types`",
-            path.display()
-        );
-        return ExitCode::FAILURE;
-    }
-    match std::fs::write(&path, wanted) {
+    let is_check = std::env::args().nth(1).as_deref() == Some("--check");
+    match bring_up_to_date(Path::new(env!("CARGO_MANIFEST_DIR")), is_check) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{}: {error}", path.display());
+            eprintln!("{error}");
             ExitCode::FAILURE
         }
     }
+}
+
+fn bring_up_to_date(home: &Path, is_check: bool) -> Result<(), String> {
+    let (types, document) = (home.join("../client/src/wire/generated.ts"), home.join("PROTOCOL.md"));
+    let read = |path: &Path| fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()));
+    let with_tables = protocol_tables::with_tables(&read(&document)?).map_err(|error| error.to_string())?;
+    for (path, wanted) in [(types, typescript::declarations()), (document, with_tables)] {
+        if read(&path).is_ok_and(|found| found == wanted) {
+            continue;
+        }
+        if is_check {
+            let path = path.display();
+            return Err(format!(
+                "{path} is out of date: run `cargo run -p espalier-proto --bin generate-types`"
+            ));
+        }
+        fs::write(&path, wanted).map_err(|error| format!("{}: {error}", path.display()))?;
+    }
+    Ok(())
 }

@@ -1,8 +1,8 @@
 //! glTF 2.0 binary: bark and leaves as two meshes, in metres, Y up.
 
-use espalier_growth::appearance::Appearance;
 use espalier_mesh::{Style, TriangleMesh, bark_mesh, leaf_mesh};
 use espalier_plant::Plant;
+use espalier_settings::Appearance;
 use glam::Vec3;
 
 use crate::gltf::{

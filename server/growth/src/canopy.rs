@@ -10,6 +10,7 @@ mod waves;
 mod wood;
 
 use espalier_plant::{Appearance, AxisId, MetamerId, Plant, make_room};
+use espalier_settings::VigorModel;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -18,7 +19,7 @@ use crate::{
     light::{ShadowGrid, Spot},
     obstacles::Obstacles,
     parameter_table::ParameterTable,
-    parameters::{Parameters, VigorModel},
+    parameters::Parameters,
     space::Space,
     vigor::{self, Flow, Split},
 };

@@ -84,7 +84,9 @@ pub(crate) fn across(vector: Vec3, heading: Vec3) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{parameters::ParameterValues, random::Purpose};
+    use espalier_settings::ParameterValues;
+
+    use crate::random::Purpose;
 
     fn settled(theta: f32) -> f32 {
         let values = ParameterValues {

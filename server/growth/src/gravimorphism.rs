@@ -1,8 +1,7 @@
 //! Gravimorphism: which side of a slanted axis its lateral buds thrive on (TreeSketch §3.2, Figure 10).
 
+use espalier_settings::ParameterValues;
 use glam::Vec3;
-
-use crate::parameters::ParameterValues;
 
 /// Propensity b of a lateral bud to grow, from the axis' heading H and the bud's direction.
 ///

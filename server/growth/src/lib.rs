@@ -4,7 +4,6 @@
 //! [`Growth`] is the first; what guides a step of it comes in as [`StepInput`]: the brush, or nothing (autonomous growth). All randomness is keyed ([`random`]), all sums have one order,
 //! so the same inputs give the same plant bit for bit, on any number of threads.
 
-pub mod appearance;
 mod brush;
 mod canopy;
 mod cells;
@@ -47,6 +46,8 @@ mod vigor;
 mod voxel_grid;
 mod world;
 
+pub use espalier_settings::{ParameterValues, VigorModel};
+
 pub use brush::{BrushPiece, BrushSample, StrokeId};
 pub use edit_error::EditError;
 pub use edits::Original;
@@ -60,7 +61,7 @@ pub use markers::{Marker, MarkerSource, Markers};
 pub use observer::{NoObserver, Observer, Phase};
 pub use obstacles::{MAX_TRIANGLES, Obstacle, ObstacleError, Obstacles, Shape, TriangleMesh};
 pub use parameter_table::ParameterTable;
-pub use parameters::{ParameterError, ParameterValues, Parameters, RANGES, VigorModel};
+pub use parameters::Parameters;
 #[cfg(feature = "next-simulation")]
 pub use rules::use_next_simulation;
 pub use rules::{SIMULATION_VERSION, simulation_version};

@@ -294,7 +294,8 @@ fn half_width(depth: i32, z: i32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::ParameterValues;
+    use espalier_settings::ParameterValues;
+
     use proptest::prelude::*;
 
     fn grid() -> ShadowGrid {

@@ -3,7 +3,9 @@
 //! Light flows down: each bud puts in Q = bL^κ. Vigor flows up: v = α·Q at the base, and at each node the main
 //! axis gets λQ_m against (1−λ)Q_l for the laterals, which share theirs in proportion to Q.
 
-use crate::parameters::{Parameters, VigorModel};
+use espalier_settings::VigorModel;
+
+use crate::parameters::Parameters;
 
 /// Steps of Q = 1. Sums of whole numbers are exact, so the order in which branches are added does not matter.
 pub(crate) const UNIT: f64 = (1u64 << 32) as f64;

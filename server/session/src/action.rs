@@ -4,9 +4,10 @@ mod outline;
 mod shaping;
 
 use espalier_proto::{
-    Command, ParametersPatch, Problem, ProblemCode, StrokeSample,
+    Command, Problem, ProblemCode, StrokeSample,
     version::{MAX_STEPS_PER_COMMAND, MAX_STROKE_SAMPLES},
 };
+use espalier_settings::ParametersPatch;
 use glam::{Quat, Vec3};
 
 pub use self::outline::Lasso;

@@ -8,7 +8,6 @@ mod generators;
 mod growing;
 mod history;
 mod obstacles;
-mod parameters;
 mod pruning;
 mod settings;
 mod strokes;
@@ -20,9 +19,10 @@ mod widths;
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_growth::{Parameters, Simulation, appearance::Appearance};
+use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
 use espalier_proto::{Problem, ProblemCode};
+use espalier_settings::{Appearance, ParameterValues};
 use glam::Vec3;
 
 pub use self::bytes::DocumentError;
@@ -39,7 +39,6 @@ use self::{
 pub(crate) use self::{
     generators::{Generators, Step},
     obstacles::ObstaclesMark,
-    parameters::{parse as parse_parameters, to_proto as wire_parameters},
     pruning::prune as prune_simulation,
 };
 use crate::action::Action;
@@ -94,8 +93,8 @@ impl Document {
     }
 
     /// A seedling that starts with these parameters.
-    pub fn with_parameters(seed: u32, wanted: &espalier_proto::Parameters) -> Result<Self, Problem> {
-        Ok(Self::of(seed, parameters::parse(wanted)?))
+    pub fn with_parameters(seed: u32, wanted: &ParameterValues) -> Result<Self, Problem> {
+        Ok(Self::of(seed, Parameters::new(wanted.clone())?))
     }
 
     fn of(seed: u32, parameters: Parameters) -> Self {
@@ -212,8 +211,8 @@ impl Document {
     }
 
     /// The parameters in force.
-    pub fn parameters(&self) -> espalier_proto::Parameters {
-        parameters::to_proto(self.simulation.parameters().values())
+    pub fn parameters(&self) -> ParameterValues {
+        self.simulation.parameters().values().clone()
     }
 
     /// The plants.
@@ -246,10 +245,10 @@ impl Document {
             hash.vector(marker.position);
             hash.word(u64::from(marker.born));
         }
-        for value in parameters::to_words(self.simulation.parameters().values()) {
+        for value in settings::to_words(self.simulation.parameters().values()) {
             hash.word(value);
         }
-        for value in settings::to_words(&self.appearance) {
+        for value in settings::to_words(&*self.appearance) {
             hash.word(value);
         }
         self.history.hash(&mut hash);

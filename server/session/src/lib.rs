@@ -4,7 +4,6 @@
 //! [`Output`] are the whole boundary. There is no clock, thread or socket in here: the caller hands in the
 //! time. The rules kept are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
 
-mod across;
 mod action;
 mod appearance;
 mod author;

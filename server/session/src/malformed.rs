@@ -1,17 +1,12 @@
 //! Sentences for messages that cannot be read, naming the field at fault where it can be found.
 
-use espalier_growth::appearance::{
-    Background as BackgroundRanges, BarkLook as BarkRanges, FlowerLook as FlowerRanges,
-    FruitLook as FruitRanges, LeafLook as LeafRanges,
-};
 use espalier_proto::{
-    AppearancePatch, DrawingPlane, Obstacle, ParametersPatch, Pose, Problem, ProblemCode, Shape,
-    StrokeSample,
-    appearance::{BackgroundPatch, BarkPatch, FlowerPatch, FruitPatch, LeafPatch},
+    DrawingPlane, Obstacle, Pose, Problem, ProblemCode, Shape, StrokeSample,
     version::{MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PRUNED_ROWS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER},
 };
+use espalier_settings::{Appearance, AppearancePatch, ParameterValues, ParametersPatch};
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 /// A message that is no known control message.
 pub(crate) fn message(error: &serde_json::Error) -> Problem {
@@ -152,41 +147,25 @@ fn locate_in_pose(field: &str, pose: &Value) -> Option<Problem> {
 }
 
 fn locate_in_parameters(parameters: &Value) -> Option<Problem> {
-    let Some(fields) = parameters.as_object() else {
-        return wrong::<ParametersPatch>("parameters", parameters);
+    let mut fields = parameters.as_object().into_iter().flatten();
+    let one = |(name, value): (&String, &Value)| {
+        wrong::<ParametersPatch>(&format!("parameters.{name}"), &json!({ name: value }))
     };
-    fields.iter().find_map(|(name, value)| {
-        let alone = Value::Object([(name.clone(), value.clone())].into_iter().collect());
-        wrong::<ParametersPatch>(&format!("parameters.{name}"), &alone)
-    })
+    fields.find_map(one).or_else(|| wrong::<ParametersPatch>("parameters", parameters))
 }
 
 fn locate_in_appearance(appearance: &Value) -> Option<Problem> {
-    let sections = appearance.as_object().into_iter().flatten();
-    let part = sections.filter_map(|(section, value)| {
-        let whole = format!("appearance.{section}");
-        let fields = value.as_object().into_iter().flatten();
-        let field =
-            fields.filter_map(|(name, value)| locate_in_section(&format!("{whole}.{name}"), name, value));
-        field.into_iter().next().or_else(|| match section.as_str() {
-            "leaves" => wrong::<LeafPatch>(&whole, value),
-            "flowers" => wrong::<FlowerPatch>(&whole, value),
-            "fruits" => wrong::<FruitPatch>(&whole, value),
-            "bark" => wrong::<BarkPatch>(&whole, value),
-            "background" => wrong::<BackgroundPatch>(&whole, value),
-            _ => None,
-        })
-    });
-    part.into_iter().next().or_else(|| wrong::<AppearancePatch>("appearance", appearance))
-}
-
-fn locate_in_section(field: &str, name: &str, value: &Value) -> Option<Problem> {
-    match name {
-        "tint" | "backdrop" => wrong::<[u8; 3]>(field, value),
-        // Choices are told by serde, which lists them.
-        "shape" | "kind" | "place" | "sky" | "ground" => None,
-        _ => wrong::<f32>(field, value),
-    }
+    let mut sections = appearance.as_object().into_iter().flatten();
+    let one = |(section, value): (&String, &Value)| {
+        let mut fields = value.as_object().into_iter().flatten();
+        let field = fields.find_map(|(name, value)| {
+            let alone = json!({ section: { name: value } });
+            wrong::<AppearancePatch>(&format!("appearance.{section}.{name}"), &alone)
+        });
+        let alone = json!({ section: value });
+        field.or_else(|| wrong::<AppearancePatch>(&format!("appearance.{section}"), &alone))
+    };
+    sections.find_map(one).or_else(|| wrong::<AppearancePatch>("appearance", appearance))
 }
 
 fn wrong<T: DeserializeOwned>(field: &str, value: &Value) -> Option<Problem> {
@@ -217,27 +196,15 @@ fn wrong_kind(kind: &Value) -> Option<Problem> {
 /// What may stand in a field, for values so wrong that they never come to the range checks.
 fn allowed(field: &str) -> Option<String> {
     let (outer, name) = field.rsplit_once('.').unwrap_or(("", field));
-    if outer == "parameters" {
-        if name == "vigor_model" {
-            return Some("borchert_honda, priority".into());
+    let table = match outer.split_once('.') {
+        None if outer == "parameters" => Some(ParameterValues::ROWS),
+        Some(("appearance", section)) => {
+            Appearance::TABLES.iter().find(|(name, _)| *name == section).map(|(_, rows)| *rows)
         }
-        let range = espalier_growth::RANGES.iter().find(|(range, ..)| *range == name);
-        return range.map(|(_, low, high)| format!("{low} to {high}"));
-    }
-    if let Some(section) = outer.strip_prefix("appearance.") {
-        let ranges = match section {
-            "leaves" => LeafRanges::RANGES,
-            "flowers" => FlowerRanges::RANGES,
-            "fruits" => FruitRanges::RANGES,
-            "bark" => BarkRanges::RANGES,
-            "background" => BackgroundRanges::RANGES,
-            _ => return None,
-        };
-        if matches!(name, "tint" | "backdrop") {
-            return Some("three whole numbers, 0 to 255".into());
-        }
-        let range = ranges.iter().find(|(range, ..)| *range == name);
-        return range.map(|(_, low, high)| format!("{low} to {high}"));
+        _ => None,
+    };
+    if let Some(rows) = table {
+        return rows.iter().find(|row| row.name == name).map(|row| row.allowed());
     }
     Some(match name {
         "stroke" | "gesture" | "bud" | "id" | "bend" | "base" | "row" | "onto" | "step" | "future" => {

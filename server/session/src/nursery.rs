@@ -1,17 +1,16 @@
 //! Species as scripts and on the wire: the actions that grow a tree of a species from seed, and what a picker shows.
 
 use espalier_growth::{
-    BrushSample, ParameterValues,
-    appearance::Appearance,
+    BrushSample,
     species::{Species, Stage},
 };
 use espalier_proto::species as wire;
+use espalier_settings::{Appearance, ParameterValues};
 use glam::Vec3;
 
 use crate::{
     action::{Action, Sample},
-    appearance::{self, AppearanceChange},
-    document::wire_parameters,
+    appearance::AppearanceChange,
 };
 
 /// The number of a stroke of a schedule; each ends before the next begins.
@@ -19,7 +18,7 @@ const STROKE: u32 = 1;
 
 /// What makes a seedling a tree of this species: its parameters and looks, then its schedule.
 pub fn script(species: &Species) -> Vec<Action> {
-    let mut actions = vec![choose(&species.parameters), dress(&species.appearance)];
+    let mut actions = vec![choose(&species.parameters), set_looks(&species.appearance)];
     for stage in &species.schedule {
         match stage {
             &Stage::Grow(steps) => actions.push(Action::Grow { steps, gesture: None, bud: None }),
@@ -41,12 +40,12 @@ pub fn script(species: &Species) -> Vec<Action> {
 
 /// What a picker does: sets all parameters at once.
 fn choose(values: &ParameterValues) -> Action {
-    Action::SetParameters { patch: Box::new(wire_parameters(values).into()), gesture: None }
+    Action::SetParameters { patch: Box::new(values.clone().into()), gesture: None }
 }
 
 /// The looks of a species; what surrounds it stays.
-fn dress(looks: &Appearance) -> Action {
-    let change = AppearanceChange::dressing(looks);
+fn set_looks(looks: &Appearance) -> Action {
+    let change = AppearanceChange::of_tree(looks);
     Action::SetAppearance { change: Box::new(change), gesture: None }
 }
 
@@ -57,7 +56,7 @@ pub fn wire_species(species: &Species) -> wire::Species {
         name: species.name.to_owned(),
         botanical: species.botanical.to_owned(),
         sentence: species.sentence.to_owned(),
-        parameters: wire_parameters(&species.parameters),
-        appearance: appearance::to_proto(&species.appearance),
+        parameters: species.parameters.clone(),
+        appearance: species.appearance,
     }
 }

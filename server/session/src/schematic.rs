@@ -4,12 +4,11 @@ use espalier_growth::Parameters;
 use espalier_mesh::foliage::MOST_TIPS_WITH_LEAVES;
 use espalier_plant::{Girth, MetamerId};
 use espalier_proto::{Problem, Schematic};
-
-use crate::document::parse_parameters;
+use espalier_settings::ParameterValues;
 
 /// The flat tree that grows by these parameters; a problem names the one that is out of range (`SC1`).
-pub fn schematic(wanted: &espalier_proto::Parameters) -> Result<Schematic, Problem> {
-    let parameters: Parameters = parse_parameters(wanted)?;
+pub fn schematic(wanted: &ParameterValues) -> Result<Schematic, Problem> {
+    let parameters = Parameters::new(wanted.clone())?;
     let girth = Girth::new(parameters.girth_exponent, parameters.twig_diameter);
     let leaves_per_node = parameters.leaves_per_node;
     let plant = espalier_growth::schematic(parameters);
@@ -42,7 +41,7 @@ mod tests {
     use super::*;
     use crate::Document;
 
-    fn defaults() -> espalier_proto::Parameters {
+    fn defaults() -> ParameterValues {
         Document::new(0).parameters()
     }
 
@@ -71,7 +70,7 @@ mod tests {
     #[test]
     fn sc1_what_is_out_of_range_is_named() {
         for (apical_control, value) in [(2.0, "2"), (f32::NAN, "NaN"), (f32::INFINITY, "inf")] {
-            let problem = schematic(&espalier_proto::Parameters { apical_control, ..defaults() });
+            let problem = schematic(&ParameterValues { apical_control, ..defaults() });
             let problem = problem.expect_err("out of range");
             assert_eq!(problem.field.as_deref(), Some("apical_control"));
             assert!(problem.message.contains(value), "{problem}");

@@ -14,14 +14,13 @@ use std::{
 };
 
 use espalier_proto::{
-    Appearance, ClientMessage, FrameKind, Parameters, PlacedObstacle, Problem, ProblemCode, ServerMessage,
-    Timeline, WidthConstraint,
+    ClientMessage, FrameKind, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline, WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
+use espalier_settings::{Appearance, ParameterValues};
 
 use crate::{
     action::Action,
-    appearance::to_proto,
     author::{Authors, LastCommand, note_last},
     clients::{Client, Clients},
     document::{Document, Figures, ObstaclesMark},
@@ -56,7 +55,7 @@ pub struct Session {
     newest: (u32, u32),
     figures: Figures,
     leaves: u32,
-    parameters: Parameters,
+    parameters: ParameterValues,
     appearance: Appearance,
     scenery: Scenery,
     timeline: Timeline,
@@ -172,7 +171,7 @@ impl Session {
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
-            appearance: to_proto(work.document.appearance()),
+            appearance: *work.document.appearance(),
             scenery: Scenery::of(&work.document),
             timeline: work.document.timeline(),
             widths: work.document.widths(),
@@ -246,7 +245,7 @@ impl Session {
     }
 
     /// The parameters in force, as of the last slice of work.
-    pub fn parameters(&self) -> &Parameters {
+    pub fn parameters(&self) -> &ParameterValues {
         &self.parameters
     }
 

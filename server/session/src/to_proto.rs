@@ -4,9 +4,10 @@ use std::ops::Range;
 
 use espalier_mesh::{Changes, RingTable, StyleOptions, radius_code, ring_table};
 use espalier_proto::{
-    ChunkChange, DocumentState, Frame, Parameters, Resume, Rows, Values,
+    ChunkChange, DocumentState, Frame, Resume, Rows, Values,
     frame::{self, CHUNK_ROWS},
 };
+use espalier_settings::ParameterValues;
 
 use crate::document::Figures;
 
@@ -113,7 +114,7 @@ pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) 
 }
 
 /// The parameters that concern drawing alone.
-pub fn style_options(parameters: &Parameters) -> StyleOptions {
+pub fn style_options(parameters: &ParameterValues) -> StyleOptions {
     StyleOptions {
         girth_exponent: parameters.girth_exponent,
         twig_diameter: parameters.twig_diameter,

@@ -4,8 +4,8 @@ use std::{fs, io::Write, path::Path};
 
 use espalier_export::picture::{self, Cell};
 use espalier_growth::species::{self, Species};
-use espalier_proto::ParametersPatch;
 use espalier_session::{Action, script};
+use espalier_settings::ParametersPatch;
 use rayon::prelude::*;
 
 use super::{AUTHOR, HeadlessError, bench::Bench};

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use axum::{Json, extract::State, response::IntoResponse};
-use espalier_proto::Parameters;
+use espalier_settings::ParameterValues;
 use tokio::time::timeout;
 
 use super::{
@@ -17,7 +17,7 @@ const TIME_LIMIT: Duration = Duration::from_secs(2);
 /// The tree that these parameters grow (`SC1`).
 pub(super) async fn draw(
     State(shared): State<Shared>,
-    Body(parameters): Body<Parameters>,
+    Body(parameters): Body<ParameterValues>,
 ) -> Result<impl IntoResponse, Failure> {
     let drawn = shared.pool.run(move || espalier_session::schematic(&parameters));
     let late = |_| Failure::unavailable("The server is busy growing trees; the schematic took too long.");

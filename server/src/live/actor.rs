@@ -7,10 +7,11 @@ use std::{
     time::Duration,
 };
 
-use espalier_proto::{Command, Parameters, PlacedObstacle, Problem, version::CloseCode};
+use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
     ActId, ClientId, Foresight, Input, JournalEntry, Mesh, Output, ReadId, Session, Work,
 };
+use espalier_settings::ParameterValues;
 use tokio::{
     sync::{mpsc, oneshot},
     time::{Instant, sleep_until, timeout},
@@ -46,7 +47,7 @@ pub(super) enum Request {
     Leave(ClientId),
     Read(oneshot::Sender<DocumentBytes>),
     Act(Box<Command>, oneshot::Sender<Outcome>),
-    Parameters(oneshot::Sender<Parameters>),
+    Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
 }
 
@@ -106,7 +107,7 @@ impl SessionHandle {
     }
 
     /// The parameters in force.
-    pub async fn parameters(&self) -> Result<Parameters, Ended> {
+    pub async fn parameters(&self) -> Result<ParameterValues, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Parameters(answer)).await?;
         answered.await.map_err(|_| Ended)

@@ -1,9 +1,7 @@
 //! `AP`, `SC1`: looks of a session for everybody in it, schematics, pictures of species.
 
-use espalier_proto::{
-    Appearance, AppearancePatch, Command, Parameters, ProblemCode, Schematic,
-    appearance::{BarkKind, BarkLook, LeafLook, Sky},
-};
+use espalier_proto::{Command, ProblemCode, Schematic};
+use espalier_settings::{Appearance, AppearancePatch, BarkKind, BarkLook, LeafLook, ParameterValues, Sky};
 use espalier_tests::{client::Client, http, scratch::Scratch, server::Server};
 use serde_json::{Value, json};
 use tokio_tungstenite::tungstenite::Message;
@@ -94,8 +92,8 @@ async fn bad_looks_are_refused_by_name_and_change_nothing() {
         (leaves(r#""season":1e39,"orientation":0"#), "appearance.leaves.season", "0 to 3"),
         (leaves(r#""season":1,"orientation":"up""#), "appearance.leaves.orientation", "-1 to 1"),
         (r#"{"leaves":null}"#.into(), "appearance.leaves", ""),
-        (r#"{"petals":{}}"#.into(), "appearance", ""),
-        (leaves(r#""season":1,"orientation":0,"smell":1"#), "appearance.leaves", "`smell`"),
+        (r#"{"petals":{}}"#.into(), "appearance.petals", ""),
+        (leaves(r#""season":1,"orientation":0,"smell":1"#), "appearance.leaves.smell", "`smell`"),
         (r#"{"background":{"backdrop":[0,300,0]}}"#.into(), "appearance.background.backdrop", "0 to 255"),
     ];
     for (id, (looks, field, allowed)) in (1..).zip(&cases) {
@@ -130,7 +128,7 @@ async fn sc1_schematics_are_small_flat_and_steady() {
     assert!((60..=420).contains(&drawn.parents.len()), "{}", drawn.parents.len());
     assert_eq!(ask(&defaults).body, first.body, "the same again");
     // The heaviest parameters there are end as small.
-    let heaviest = Parameters {
+    let heaviest = ParameterValues {
         perception_depth: 10.0,
         perception_angle: 360.0,
         markers_per_bud: 32,

@@ -1,41 +1,8 @@
 use espalier_proto::{ClientMessage, Command, DocumentState, ProblemCode};
+use espalier_settings::{Kind, ParameterValues};
 use espalier_tests::{client::Client, dice::Dice, scratch::Scratch, server::Server, table::Row};
 use serde_json::{Value, json};
 use tokio_tungstenite::tungstenite::Message;
-
-/// One line of the table of parameters in `PROTOCOL.md`.
-#[derive(Clone, Debug)]
-pub struct DocumentedParameter {
-    pub name: &'static str,
-    pub default: &'static str,
-    pub range: Option<(f64, f64)>,
-    /// What may be chosen, of a parameter that is no number.
-    pub choices: Vec<&'static str>,
-}
-
-/// The table, read from the document itself, so that it cannot say something else than the server does.
-pub fn documented_parameters() -> Vec<DocumentedParameter> {
-    let document = include_str!("../../../proto/PROTOCOL.md");
-    let (_, section) = document.split_once("## Parameters").expect("the document has the section");
-    let mut found = Vec::new();
-    for line in section.lines().filter(|line| line.starts_with("| `")) {
-        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let [names, _, defaults, range] = cells[..] else { panic!("{line}") };
-        let numbers: Vec<f64> =
-            range.split([' ', ',']).filter_map(|word| word.replace('−', "-").parse().ok()).collect();
-        let choices: Vec<&str> = range
-            .split(", ")
-            .filter(|word| word.starts_with('`'))
-            .map(|word| word.trim_matches('`'))
-            .collect();
-        let range = if numbers.is_empty() { None } else { Some((numbers[0], numbers[1])) };
-        for (name, default) in names.split(", ").zip(defaults.split(", ")) {
-            let (name, default) = (name.trim_matches('`'), default.trim_matches('`'));
-            found.push(DocumentedParameter { name, default, range, choices: choices.clone() });
-        }
-    }
-    found
-}
 
 /// A session with a small tree, and what it looked like before the bad input.
 struct Patient {
@@ -284,25 +251,21 @@ async fn cm5_a_stroke_that_was_not_begun_is_refused() {
 #[tokio::test]
 async fn every_parameter_is_refused_beyond_both_ends() {
     let mut patient = Patient::new().await;
-    for row in documented_parameters() {
-        let Some((low, high)) = row.range else { continue };
-        let whole =
-            serde_json::to_value(&patient.client.parameters).expect("parameters are JSON")[row.name].is_u64();
-        let below = if whole { low - 1.0 } else { low - 0.001 };
-        let above = if whole { high + 1.0 } else { high + 0.001 };
-        for value in [below, above] {
-            if whole && value < 0.0 {
+    let defaults = serde_json::to_value(ParameterValues::default()).expect("parameters are JSON");
+    for row in ParameterValues::ROWS {
+        let Kind::Number { least, most, .. } = row.kind else { continue };
+        let is_whole = defaults[row.name].is_u64();
+        let beyond = if is_whole { 1.0 } else { 0.001 };
+        for value in [least - beyond, most + beyond] {
+            if is_whole && value < 0.0 {
                 continue;
             }
-            let value = if whole { json!(value as u64) } else { json!(value) };
+            let value = if is_whole { json!(value as u32) } else { json!(value) };
             let command = json!({"kind": "set_parameters", "parameters": {row.name: value}});
             let problem = patient.refusal(&command).await;
             assert_eq!(problem.code, ProblemCode::OutOfRange, "{command}");
-            assert!(problem.field.clone().unwrap_or_default().contains(row.name), "{command}: {problem:?}");
-            let allowed = problem.allowed.clone().unwrap_or_default();
-            for end in [low, high] {
-                assert!(allowed.replace('−', "-").contains(&end.to_string()), "{command}: {problem:?}");
-            }
+            assert_eq!(problem.field, Some(format!("parameters.{}", row.name)), "{command}");
+            assert_eq!(problem.allowed, Some(format!("{least} to {most}")), "{command}");
         }
     }
     patient.still_grows().await;
@@ -314,22 +277,21 @@ async fn every_parameter_is_accepted_at_both_ends() {
     // The three weights have a sum to keep, so they move together.
     let weights = |heading: f64, tropism: f64, space: f64| json!({"heading_weight": heading, "tropism_weight": tropism, "space_weight": space});
     let mut patches = vec![weights(1.0, 0.0, 0.0), weights(0.0, 1.0, 0.0), weights(0.0, 0.0, 1.0)];
-    for row in documented_parameters() {
-        match row.range {
-            Some(_) if row.name.ends_with("_weight") => {}
-            Some((low, high)) => {
-                let whole = serde_json::to_value(&patient.client.parameters).expect("parameters are JSON")
-                    [row.name]
-                    .is_u64();
-                for end in [low, high] {
-                    let end = if whole { json!(end as u64) } else { json!(end) };
-                    patches.push(json!({row.name: end}));
-                }
+    let defaults = serde_json::to_value(ParameterValues::default()).expect("parameters are JSON");
+    for row in ParameterValues::ROWS {
+        match row.kind {
+            Kind::Number { .. } if row.group == Some("weights") => {}
+            Kind::Number { least, most, .. } if defaults[row.name].is_u64() => {
+                patches.extend([least, most].map(|end| json!({row.name: end as u32})));
             }
-            None if row.choices.is_empty() => {
-                patches.extend([json!({row.name: true}), json!({row.name: false})]);
+            Kind::Number { least, most, .. } => {
+                patches.extend([least, most].map(|end| json!({row.name: end})));
             }
-            None => patches.extend(row.choices.iter().map(|choice| json!({row.name: choice}))),
+            Kind::Switch => patches.extend([true, false].map(|on| json!({row.name: on}))),
+            Kind::Choice { choices } => {
+                patches.extend(choices.iter().map(|choice| json!({row.name: choice})))
+            }
+            Kind::Colour => panic!("no parameter of growth is a colour"),
         }
     }
     for patch in patches {

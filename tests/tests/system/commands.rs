@@ -1,4 +1,5 @@
-use espalier_proto::{ClientMessage, Command, ParametersPatch, ProblemCode};
+use espalier_proto::{ClientMessage, Command, ProblemCode};
+use espalier_settings::ParametersPatch;
 use espalier_tests::{
     client::Client,
     strokes::{line, stroke, upward},

@@ -1,6 +1,7 @@
 use std::time::Duration;
 
-use espalier_proto::{Command, ParametersPatch};
+use espalier_proto::Command;
+use espalier_settings::ParametersPatch;
 use espalier_tests::{
     client::Client,
     dice::Dice,

@@ -1,4 +1,5 @@
-use espalier_proto::{ClientMessage, Command, Parameters};
+use espalier_proto::{ClientMessage, Command};
+use espalier_settings::ParameterValues;
 use espalier_tests::{
     client::{self, Client},
     scratch::Scratch,
@@ -7,7 +8,6 @@ use espalier_tests::{
 use futures_util::SinkExt;
 use serde_json::json;
 
-use crate::bad_input::documented_parameters;
 use tokio_tungstenite::tungstenite::Message;
 
 fn server() -> (Server, Scratch) {
@@ -74,33 +74,10 @@ async fn hs2_the_welcome_tells_all_of_a_new_session() {
     assert_eq!(client.state.pending_steps, 0);
     assert!(client.state.metamer_budget > 0);
     assert!(!client.state.can_undo && !client.state.can_redo);
-    let parameters = serde_json::to_value(&client.parameters).expect("parameters are JSON");
-    let mut names: Vec<&str> =
-        parameters.as_object().expect("they are an object").keys().map(String::as_str).collect();
-    let mut documented: Vec<&str> = documented_parameters().iter().map(|row| row.name).collect();
-    names.sort_unstable();
-    documented.sort_unstable();
-    assert_eq!(documented, names);
-    assert_eq!(client.parameters, documented_defaults(&client.parameters));
+    assert_eq!(client.parameters, ParameterValues::default());
     client.until("the first seed arrives", |client| !client.table.rows.is_empty()).await;
     assert_eq!(client.table.rows[0].parent, 0, "FR5: the first row is a seed");
     assert_eq!(client.table.rows[0].position, [0; 3]);
-}
-
-/// The defaults as `PROTOCOL.md` states them.
-fn documented_defaults(actual: &Parameters) -> Parameters {
-    let mut value = serde_json::to_value(actual).expect("parameters are JSON");
-    for row in documented_parameters() {
-        value[row.name] = match row.default {
-            "true" | "false" => json!(row.default == "true"),
-            choice if row.choices.contains(&choice) => json!(choice),
-            number if value[row.name].is_u64() => {
-                json!(number.parse::<u32>().expect("a default is a number"))
-            }
-            number => json!(number.parse::<f32>().expect("a default is a number")),
-        };
-    }
-    serde_json::from_value(value).expect("the documented names are the parameters' names")
 }
 
 #[tokio::test]

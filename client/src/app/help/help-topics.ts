@@ -1,4 +1,5 @@
-import { SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
+import { PARAMETERS } from "../../wire/generated";
+import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
 import type { PanelName, SheetName } from "../studio";
 import type { ToolName } from "../tools/toolbox";
 import { inAll, type Key, say } from "../words/say";
@@ -239,13 +240,13 @@ function subjectOf(label: Key): Subject | undefined {
   const control = { label, ...(section === undefined ? {} : { section }) };
   switch (area) {
     case "parameters": {
-      const panel = PANEL_OF_PARAMETER[name];
-      if (panel !== undefined) {
-        return { panel, control };
+      const { group } = PARAMETERS[name as keyof typeof PARAMETERS];
+      const elsewhere = PLACE_OF_GROUP[group];
+      if (elsewhere !== undefined) {
+        return { panel: elsewhere.panel, control: { label, section: elsewhere.section } };
       }
-      const inWidget = Object.values(WIDGETS).some((ones) => ones.some((one) => one.name === name));
       const folded = SECTIONS.find(({ parameters }) => parameters.some((one) => one.name === name))?.title;
-      return inWidget || name === "trunk_upward"
+      return group in WIDGETS
         ? { panel: "architecture", tab: "form", control: { label } }
         : { panel: "architecture", tab: "growth", control: { label, ...(folded ? { section: folded } : {}) } };
     }
@@ -273,12 +274,9 @@ function subjectOf(label: Key): Subject | undefined {
 }
 
 /** Parameters that stand in another panel than that of architecture. */
-const PANEL_OF_PARAMETER: Readonly<Record<string, PanelName>> = {
-  marker_density: "brush",
-  marker_max_age: "brush",
-  tropism_from_stroke: "brush",
-  leaves_per_node: "leaves",
-  leaf_size: "leaves",
+const PLACE_OF_GROUP: { readonly [Name in Group]?: { readonly panel: PanelName; readonly section: string } } = {
+  brush: { panel: "brush", section: "brush.stroke" },
+  leaves: { panel: "leaves", section: "leaves.leaves" },
 };
 
 /** The section that a control, or all of its area, is folded into. */
@@ -286,11 +284,6 @@ const SECTION_OF: Readonly<Record<string, string>> = {
   leaves: "leaves.leaves",
   flowers: "leaves.flowers",
   fruits: "leaves.fruits",
-  "parameters.leaves_per_node": "leaves.leaves",
-  "parameters.leaf_size": "leaves.leaves",
-  "parameters.marker_density": "brush.stroke",
-  "parameters.marker_max_age": "brush.stroke",
-  "parameters.tropism_from_stroke": "brush.stroke",
   "brush.lasso-depth": "brush.lasso",
   "bark.kind": "branches.bark",
   "bark.tint": "branches.bark",

@@ -1,7 +1,7 @@
 //! What bark looks like: a colour for each place of its texture.
 
-use espalier_growth::appearance::BarkKind;
 use espalier_mesh::leaves::hash;
+use espalier_settings::BarkKind;
 use glam::{Vec2, Vec3};
 
 /// Colour of bark of a kind and tint, at a place of its texture and some height above the ground. A `tile` of the

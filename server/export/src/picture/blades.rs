@@ -2,12 +2,12 @@
 
 use std::f32::consts::TAU;
 
-use espalier_growth::appearance::{Appearance, LeafKind, Place};
 use espalier_mesh::{
     Style, TriangleMesh, foliage,
     leaves::{self, Leaf},
 };
 use espalier_plant::{MetamerId, Plant};
+use espalier_settings::{Appearance, LeafKind, Place};
 use glam::{Vec2, Vec3};
 
 use super::{

@@ -2,7 +2,7 @@
 
 use std::f32::consts::TAU;
 
-use espalier_growth::appearance::{FlowerKind, FlowerLook, FruitKind, FruitLook, Place};
+use espalier_settings::{FlowerKind, FlowerLook, FruitKind, FruitLook, Place};
 use glam::Vec3;
 
 use super::{
@@ -143,7 +143,7 @@ fn body(painter: &mut Painter, place: impl Fn(f32, f32, f32, f32) -> (Vec3, Vec3
 
 #[cfg(test)]
 mod tests {
-    use espalier_growth::appearance::Appearance;
+    use espalier_settings::Appearance;
 
     use super::*;
     use crate::picture::scene::Painted;

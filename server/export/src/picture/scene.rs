@@ -1,11 +1,9 @@
 //! A plant in the sun: how large it is drawn, what it stands on, and the colour of every pixel.
 
-use espalier_growth::{
-    appearance::Appearance,
-    species::{Species, Stand},
-};
+use espalier_growth::species::{Species, Stand};
 use espalier_mesh::{Style, TriangleMesh, bark_mesh};
 use espalier_plant::Plant;
+use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
 
 use super::{
@@ -313,9 +311,9 @@ impl Scene<'_> {
 
 #[cfg(test)]
 mod tests {
-    use espalier_growth::appearance::LeafKind;
     use espalier_mesh::StyleOptions;
     use espalier_plant::{AxisId, Internode};
+    use espalier_settings::LeafKind;
 
     use super::*;
 

@@ -1,7 +1,7 @@
 //! What a season, little vigor and a look's orientation make of a leaf.
 
-use espalier_growth::appearance::LeafLook;
 use espalier_mesh::leaves::Leaf;
+use espalier_settings::LeafLook;
 use glam::Vec3;
 
 use super::{blades::share, canvas::linear};
@@ -71,7 +71,7 @@ fn ramp(low: f32, high: f32, at: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use espalier_growth::appearance::{Appearance, LeafKind};
+    use espalier_settings::{Appearance, LeafKind};
 
     use super::*;
 

@@ -4,9 +4,9 @@ mod reader;
 mod saplings;
 
 use espalier_export::{ExportError, glb, skeleton_json};
-use espalier_growth::appearance::{Appearance, LeafKind};
 use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh};
 use espalier_plant::{MetamerId, Plant, Widths};
+use espalier_settings::{Appearance, LeafKind};
 use glam::Vec3;
 use proptest::prelude::*;
 use serde_json::Value;

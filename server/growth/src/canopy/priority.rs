@@ -144,7 +144,7 @@ fn weights(count: usize, parameters: &Parameters) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{ParameterValues, VigorModel};
+    use espalier_settings::{ParameterValues, VigorModel};
 
     #[test]
     fn weight_falls_to_the_least() {

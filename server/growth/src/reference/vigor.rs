@@ -1,6 +1,7 @@
 //! Light and vigor as they are defined: how light flows down and vigor up, and what has too little of it.
 
 use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_settings::VigorModel;
 
 use super::{all_axes, living_nodes};
 use crate::{
@@ -8,7 +9,6 @@ use crate::{
     light::ShadowGrid,
     obstacles::Obstacles,
     parameter_table::ParameterTable,
-    parameters::VigorModel,
     vigor::{self, Flow, Split},
 };
 

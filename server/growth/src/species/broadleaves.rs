@@ -1,7 +1,7 @@
 //! Broadleaved trees, and ginkgo, which looks like one.
 
 use super::{Species, Stage::Grow, Stand, canopy, changed, flower, fruit, life, pole, turn, weigh, with};
-use crate::appearance::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
+use espalier_settings::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![

@@ -1,7 +1,7 @@
 //! Conifers.
 
 use super::{Species, Stage::Grow, Stand, canopy, fruit, life, pole, turn, weigh, with};
-use crate::appearance::{Appearance, BarkKind, FruitKind, LeafKind, Place};
+use espalier_settings::{Appearance, BarkKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![spruce(), scots_pine(), stone_pine(), larch(), cedar_of_lebanon(), cypress(), juniper()]

@@ -10,13 +10,12 @@ mod shaped;
 
 use std::sync::LazyLock;
 
+use espalier_settings::{
+    Appearance, FlowerKind, FlowerLook, FruitKind, FruitLook, ParameterValues, Place, Tint,
+};
 use glam::Vec3;
 
-use crate::{
-    appearance::{Appearance, FlowerKind, FlowerLook, FruitKind, FruitLook, Place, Tint},
-    brush::BrushSample,
-    parameters::ParameterValues,
-};
+use crate::brush::BrushSample;
 
 /// A form of growth with a name.
 #[derive(Clone, Debug, PartialEq)]

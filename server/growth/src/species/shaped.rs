@@ -5,7 +5,7 @@ use super::{
     Stage::{self, Grow, Sow},
     Stand, changed, flower, fruit, stroke, weigh, with,
 };
-use crate::appearance::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
+use espalier_settings::{Appearance, BarkKind, FlowerKind, FruitKind, LeafKind, Place};
 
 pub(super) fn all() -> Vec<Species> {
     vec![

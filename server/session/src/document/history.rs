@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use espalier_growth::{Parameters, appearance::Appearance};
+use espalier_growth::Parameters;
 use espalier_plant::hash::StableHash;
+use espalier_settings::Appearance;
 use glam::Quat;
 
 use super::obstacles::{Standings, stand_alike};

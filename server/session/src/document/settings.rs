@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use espalier_growth::appearance::Appearance;
-use espalier_proto::{ParametersPatch, Problem};
+use espalier_growth::Parameters;
+use espalier_proto::Problem;
+use espalier_settings::{Appearance, ParametersPatch};
+use serde::Serialize;
 
 use super::{
     Document,
     history::{Kind, Setting},
-    parameters,
 };
-use crate::appearance::{self, AppearanceChange};
+use crate::appearance::AppearanceChange;
 
 impl Document {
     /// How the tree looks.
@@ -25,7 +26,7 @@ impl Document {
         gesture: Option<u32>,
     ) -> Result<(), Problem> {
         let wanted =
-            parameters::parse(&self.parameters().patched(patch)).map_err(|p| p.within("parameters"))?;
+            Parameters::new(self.parameters().patched(patch)).map_err(|error| error.within("parameters"))?;
         if wanted != *self.simulation.parameters() {
             let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
             self.change_setting(Kind::Parameters, author, gesture, setting);
@@ -78,8 +79,8 @@ impl Document {
 }
 
 /// All values as words, for hashing.
-pub(super) fn to_words(looks: &Appearance) -> Vec<u64> {
+pub(super) fn to_words(settings: &impl Serialize) -> Vec<u64> {
     // The JSON text of a float is its shortest exact form, so equal text means equal bits.
-    let text = serde_json::to_vec(&appearance::to_proto(looks)).unwrap_or_default();
+    let text = serde_json::to_vec(settings).unwrap_or_default();
     text.chunks(8).map(|chunk| chunk.iter().fold(0, |word, &byte| word << 8 | u64::from(byte))).collect()
 }

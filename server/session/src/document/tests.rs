@@ -8,7 +8,7 @@ mod looks;
 mod shaping;
 mod times;
 
-use espalier_proto::ParametersPatch;
+use espalier_settings::{Kind, ParameterValues, ParametersPatch};
 use glam::{Quat, Vec2};
 
 use super::*;
@@ -278,7 +278,9 @@ fn unknown_strokes_and_bad_seeds_are_refused() {
 #[test]
 fn every_parameter_refuses_beyond_its_ends() {
     let defaults = serde_json::to_value(Document::new(1).parameters()).expect("plain values");
-    for &(name, low, high) in espalier_growth::RANGES {
+    for row in ParameterValues::ROWS {
+        let Kind::Number { least: low, most: high, .. } = row.kind else { continue };
+        let name = row.name;
         for value in [f64::from(low) - 1.0, f64::from(high) + 1.0] {
             // A whole number below zero has no form in an unsigned field; the wire refuses it before this.
             if defaults[name].is_u64() && value < 0.0 {

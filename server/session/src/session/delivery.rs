@@ -6,7 +6,6 @@ use espalier_proto::{DocumentState, Problem, ServerMessage};
 
 use super::{Scenery, Session};
 use crate::{
-    appearance,
     clients::{Guest, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
@@ -65,7 +64,7 @@ impl Session {
             self.parameters = parameters.clone();
             self.broadcast(&ServerMessage::Parameters { parameters: Box::new(parameters) });
         }
-        let appearance = appearance::to_proto(work.document.appearance());
+        let appearance = *work.document.appearance();
         if appearance != self.appearance {
             self.appearance = appearance;
             self.broadcast(&self.appearance_message());

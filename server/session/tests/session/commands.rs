@@ -1,7 +1,8 @@
 //! `CM`: numbers, order, refusals.
 
-use espalier_proto::{Command, ParametersPatch, ProblemCode, ServerMessage, StrokeSample, VigorModel};
+use espalier_proto::{Command, ProblemCode, ServerMessage, StrokeSample};
 use espalier_session::{ClientId, Input};
+use espalier_settings::{ParametersPatch, VigorModel};
 
 use crate::world::{World, grow};
 

@@ -2,11 +2,9 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::{
-    Appearance, AppearancePatch, ClientMessage, Command, Obstacle, ParametersPatch, Pose, Shape,
-    StrokeSample, appearance::LeafLook,
-};
+use espalier_proto::{ClientMessage, Command, Obstacle, Pose, Shape, StrokeSample};
 use espalier_session::{Action, ClientId, Document, Input, ReadId, Session};
+use espalier_settings::{Appearance, AppearancePatch, LeafLook, ParametersPatch};
 use proptest::prelude::*;
 
 use crate::{guiding::lasso, mirror::Mirror, world::World};

@@ -1,9 +1,7 @@
 //! `AP`: looks of a session, told to all of its clients.
 
-use espalier_proto::{
-    Appearance, AppearancePatch, Command, ServerMessage,
-    appearance::{Background, LeafLook, Sky},
-};
+use espalier_proto::{Command, ServerMessage};
+use espalier_settings::{Appearance, AppearancePatch, Background, LeafLook, Sky};
 
 use crate::world::{Peer, World, grow};
 

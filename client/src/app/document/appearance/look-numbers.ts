@@ -1,4 +1,4 @@
-import { type Appearance, type AppearancePatch, DEFAULT_APPEARANCE } from "../../../wire/generated";
+import { type Appearance, type AppearancePatch, DEFAULT_APPEARANCE, LOOKS, type Setting } from "../../../wire/generated";
 
 /** A section of the appearance. */
 export type Part = keyof Appearance;
@@ -8,37 +8,15 @@ type FieldsOf<Look, Type> = { [Name in keyof Look]: Look[Name] extends Type ? Na
 /** Where a number of the appearance stands, as `section.field`. */
 export type LookNumber = { [P in Part]: `${P}.${FieldsOf<Appearance[P], number>}` }[Part];
 
-/** What a number of the appearance can be; ranges are those of `PROTOCOL.md` (`AP1`). */
-export interface LookRange {
-  readonly least: number;
-  readonly most: number;
-  readonly step: number;
-  readonly unit?: "°";
-}
-
-const share = { least: 0, most: 1, step: 0.01 };
-const double = { least: 0, most: 2, step: 0.02 };
-const both = { least: -1, most: 1, step: 0.02 };
-const size = { least: 0.05, most: 2, step: 0.05 };
+/** What a number of the appearance can be. */
+export type LookRange = Extract<Setting, { kind: "number" }>;
 
 /** Every number of the appearance. */
-export const LOOK_NUMBERS: { readonly [Name in LookNumber]: LookRange } = {
-  "leaves.vigor_shift": share,
-  "leaves.season": { least: 0, most: 3, step: 0.02 },
-  "leaves.orientation": both,
-  "flowers.size": size,
-  "flowers.share": share,
-  "flowers.vigor": both,
-  "fruits.size": size,
-  "fruits.share": share,
-  "fruits.vigor": both,
-  "bark.relief": double,
-  "bark.root_flare": double,
-  "bark.collar": double,
-  "bark.smoothing": share,
-  "background.sun_azimuth": { least: 0, most: 360, step: 1, unit: "°" },
-  "background.sun_elevation": { least: -10, most: 90, step: 1, unit: "°" },
-};
+export const LOOK_NUMBERS = Object.fromEntries(
+  Object.entries(LOOKS).flatMap(([part, rows]) =>
+    Object.entries<Setting>(rows).flatMap(([field, row]) => (row.kind === "number" ? [[`${part}.${field}`, row]] : [])),
+  ),
+) as { readonly [Name in LookNumber]: LookRange };
 
 /** A number of an appearance. */
 export function numberIn(appearance: Appearance, name: LookNumber): number {

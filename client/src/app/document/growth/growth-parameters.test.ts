@@ -1,6 +1,5 @@
-import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import type { Parameters } from "../../../wire/generated";
+import { PARAMETERS, type Parameters } from "../../../wire/generated";
 import { language } from "../../words/say";
 import {
   DEFAULTS,
@@ -22,45 +21,28 @@ import {
 const all = [
   ...SECTIONS.flatMap(({ parameters }) => parameters),
   ...Object.values(WIDGETS).flat(),
-  ...Object.values(SWITCHES),
+  ...SWITCHES,
   ...OF_THE_BRUSH,
   ...OF_THE_LEAVES,
 ];
-const numbers = Object.values(NUMBERS);
-
-/** The table of parameters in the protocol's own words: name to default and range. */
-function tableOfProtocol(): Map<string, { readonly value: string; readonly range: string }> {
-  const text = readFileSync(new URL("../../../../../proto/PROTOCOL.md", import.meta.url), "utf8");
-  const table = text.slice(text.indexOf("\n## Parameters"));
-  const rows = new Map<string, { readonly value: string; readonly range: string }>();
-  for (const line of table.split("\n")) {
-    const [, names = "", , values = "", range = ""] = line.split("|").map((cell) => cell.trim());
-    const each = values.replaceAll("`", "").split(", ");
-    [...names.matchAll(/`(\w+)`/g)].forEach(([, name], i) => {
-      rows.set(name!, { value: each[i] ?? "", range });
-    });
-  }
-  return rows;
-}
 
 describe("growth parameters", () => {
-  it("are those of the protocol, each in one place", () => {
-    expect(all.map(({ name }) => name).sort()).toEqual([...tableOfProtocol().keys()].sort());
+  it("are those of the table, each to be set in some panel", () => {
+    const shown = new Set(all.map(({ name }) => name));
+    expect([...shown].sort()).toEqual(Object.keys(PARAMETERS).sort());
   });
 
-  it("have the ranges of the protocol", () => {
-    const table = tableOfProtocol();
-    expect(numbers.length).toBeGreaterThan(30);
-    for (const { name, least, most } of numbers) {
-      const range = /^(\S+) to ([\d.]+)/.exec((table.get(name)?.range ?? "").replace("−", "-"));
-      expect([least, most], name).toEqual([Number(range?.[1]), Number(range?.[2])]);
-    }
-  });
-
-  it("begin and are reset as the protocol says", () => {
-    for (const [name, { value }] of tableOfProtocol()) {
-      expect(String(DEFAULTS[name as keyof Parameters]), name).toBe(value);
-    }
+  it("stand in the order of importance, what is not named after what is", () => {
+    const named = (title: string) =>
+      SECTIONS.find((section) => section.title === title)?.parameters.map(({ name }) => name);
+    expect(named("architecture.section.vigor")).toEqual([
+      "apical_control",
+      "light_sensitivity",
+      "shedding_threshold",
+      "max_shoot_length",
+    ]);
+    expect(named("architecture.section.wood")).toEqual(["girth_exponent", "twig_diameter", "internode_length"]);
+    expect(OF_THE_BRUSH.map(({ name }) => name)).toEqual(["marker_density", "marker_max_age", "tropism_from_stroke"]);
   });
 
   it.each(["en", "de"] as const)("each has a name and a sentence of help (%s)", (spoken) => {
@@ -70,13 +52,6 @@ describe("growth parameters", () => {
       expect(helpOf(parameter), parameter.name).toMatch(/^[A-ZÄÖÜ0-9].+\.$/);
     }
     language.value = "en";
-  });
-
-  it("a slider's steps reach both ends of its range", () => {
-    for (const { name, least, most, step } of numbers) {
-      const steps = (most - least) / step;
-      expect(Math.abs(steps - Math.round(steps)), name).toBeLessThan(1e-6);
-    }
   });
 
   it.each([

@@ -1,192 +1,109 @@
-import type { Parameters, ParametersPatch } from "../../../wire/generated";
+import {
+  DEFAULT_PARAMETERS as DEFAULTS,
+  PARAMETERS,
+  type Parameters,
+  type ParametersPatch,
+  type Setting,
+} from "../../../wire/generated";
 import { numberText, unitText } from "../../words/number-text";
 import { type Key, say } from "../../words/say";
 
-type NumberNames<Set> = { [Name in keyof Set]: Set[Name] extends number ? Name : never }[keyof Set];
+export { DEFAULTS };
+
+type Table = typeof PARAMETERS;
+type ParameterName = keyof Table;
+type NamesOf<Kind extends Setting["kind"]> = {
+  [Name in ParameterName]: Table[Name]["kind"] extends Kind ? Name : never;
+}[ParameterName];
+type Row<Kind extends Setting["kind"]> = Extract<Setting, { kind: Kind }>;
+
+/** Parameters that stand together. */
+export type Group = Table[ParameterName]["group"];
 
 /** A parameter that is a number. */
-export type NumberName = NumberNames<Parameters>;
+export type NumberName = NamesOf<"number">;
 
-/** How one number is shown and set. Ranges are those of `PROTOCOL.md`. */
-export interface NumberParameter {
-  readonly kind: "number";
-  readonly name: NumberName;
-  readonly symbol?: string;
-  /** A sign that stands after the value, or the key of a word that does. */
-  readonly unit?: "°" | "m" | "parameters.unit.steps";
-  readonly least: number;
-  readonly most: number;
-  readonly step: number;
+interface Shown {
   /** Whether it has an effect as things are. */
   readonly applies?: (parameters: Parameters) => boolean;
 }
 
-export interface SwitchParameter {
-  readonly kind: "switch";
-  readonly name: "trunk_upward" | "tropism_from_stroke";
-}
-
-export interface ChoiceParameter {
-  readonly kind: "choice";
-  readonly name: "vigor_model";
-  readonly choices: readonly Parameters["vigor_model"][];
-}
-
+export type NumberParameter = Row<"number"> & Shown & { readonly name: NumberName };
+export type SwitchParameter = Row<"switch"> & Shown & { readonly name: NamesOf<"switch"> };
+export type ChoiceParameter = Omit<Row<"choice">, "choices"> &
+  Shown & { readonly name: NamesOf<"choice">; readonly choices: Table[NamesOf<"choice">]["choices"] };
 export type GrowthParameter = NumberParameter | SwitchParameter | ChoiceParameter;
 
 const priority = ({ vigor_model }: Parameters) => vigor_model === "priority";
 const borchertHonda = ({ vigor_model }: Parameters) => vigor_model === "borchert_honda";
 const maturing = (parameters: Parameters) => borchertHonda(parameters) && parameters.maturity_steps > 0;
 
-type Range = readonly [least: number, most: number, step: number];
-type More = Pick<NumberParameter, "symbol" | "unit" | "applies">;
-
-/** All numbers among the parameters of growth. */
-export const NUMBERS: { readonly [Name in NumberName]: NumberParameter } = (() => {
-  const rows: { readonly [Name in NumberName]: readonly [Range, More?] } = {
-    apical_control: [[0.4, 0.7, 0.005], { symbol: "λ", applies: borchertHonda }],
-    maturity_steps: [[0, 500, 1], { unit: "parameters.unit.steps", applies: borchertHonda }],
-    maturity_start: [[0, 500, 1], { unit: "parameters.unit.steps", applies: maturing }],
-    mature_apical_control: [[0.4, 0.7, 0.005], { applies: maturing }],
-    priority_least_weight: [[0.001, 1, 0.001], { symbol: "w", applies: priority }],
-    priority_decline: [[0.05, 1, 0.01], { symbol: "κₚ", applies: priority }],
-    light_sensitivity: [[0, 6, 0.1], { symbol: "κ" }],
-    max_shoot_length: [[1, 20, 1], { symbol: "nmax" }],
-    vigor_gain: [[0.1, 10, 0.1]],
-    shedding_threshold: [[0, 1, 0.01], { symbol: "Th" }],
-    heading_weight: [[0, 1, 0.01], { symbol: "α" }],
-    tropism_weight: [[0, 1, 0.01], { symbol: "β" }],
-    space_weight: [[0, 1, 0.01], { symbol: "γ" }],
-    setpoint_angle: [[0, 180, 1], { symbol: "θ", unit: "°" }],
-    phototropism: [[0, 1, 0.01]],
-    branching_angle: [[0, 120, 1], { symbol: "ψ", unit: "°" }],
-    phyllotactic_angle: [[0, 180, 0.5], { symbol: "φ", unit: "°" }],
-    buds_per_node: [[1, 4, 1]],
-    deflection_angle: [[0, 45, 0.5], { symbol: "δ", unit: "°", applies: ({ buds_per_node }) => buds_per_node === 1 }],
-    gravimorphism_shift: [[-0.99, 0.99, 0.01], { symbol: "eᵥ / sᵥ" }],
-    gravimorphism_vertical: [[0.05, 3, 0.05], { symbol: "sᵥ" }],
-    gravimorphism_horizontal: [[0.05, 3, 0.05], { symbol: "sₚ" }],
-    occupancy_radius: [[0.5, 6, 0.1], { symbol: "r" }],
-    perception_depth: [[0.5, 10, 0.1], { symbol: "d" }],
-    perception_angle: [[20, 360, 1], { symbol: "ζ", unit: "°" }],
-    marker_density: [[0.01, 1, 0.01]],
-    markers_per_bud: [[1, 32, 1]],
-    marker_max_age: [[1, 60, 1], { unit: "parameters.unit.steps" }],
-    shadow_strength: [[0, 1, 0.01], { symbol: "a" }],
-    shadow_decay: [[1.1, 4, 0.1], { symbol: "b" }],
-    shadow_depth: [[0, 8, 1], { symbol: "q" }],
-    internode_length: [[0.005, 1, 0.005], { symbol: "l", unit: "m" }],
-    girth_exponent: [[2, 3, 0.05], { symbol: "n" }],
-    twig_diameter: [[0.02, 0.3, 0.01]],
-    leaves_per_node: [[0, 15, 1]],
-    leaf_size: [[0.1, 3, 0.05]],
-  };
-  const made = Object.entries(rows).map(([name, [[least, most, step], more = {}]]) => [
-    name,
-    { kind: "number", name, least, most, step, ...more },
-  ]);
-  return Object.fromEntries(made) as { [Name in NumberName]: NumberParameter };
-})();
-
-const VIGOR_MODEL: ChoiceParameter = {
-  kind: "choice",
-  name: "vigor_model",
-  choices: ["borchert_honda", "priority"],
+/** When those have an effect that do not always have one. */
+const APPLIES: { readonly [Name in ParameterName]?: NonNullable<Shown["applies"]> } = {
+  apical_control: borchertHonda,
+  maturity_steps: borchertHonda,
+  maturity_start: maturing,
+  mature_apical_control: maturing,
+  priority_least_weight: priority,
+  priority_decline: priority,
+  deflection_angle: ({ buds_per_node }) => buds_per_node === 1,
 };
 
-/** What is switched on and off. */
-export const SWITCHES = {
-  trunk_upward: { kind: "switch", name: "trunk_upward" },
-  tropism_from_stroke: { kind: "switch", name: "tropism_from_stroke" },
-} as const satisfies Record<string, SwitchParameter>;
+const ALL = Object.entries(PARAMETERS).map(([name, row]) => {
+  const applies = APPLIES[name as ParameterName];
+  return { ...row, name, ...(applies ? { applies } : {}) };
+}) as readonly GrowthParameter[];
 
-const numbers = (...names: readonly NumberName[]): readonly NumberParameter[] => names.map((name) => NUMBERS[name]);
+const isNumber = (parameter: GrowthParameter): parameter is NumberParameter => parameter.kind === "number";
 
-/** What has a widget of its own to be pulled at; the rest are sliders. */
+/** All numbers among the parameters of growth. */
+export const NUMBERS = Object.fromEntries(ALL.filter(isNumber).map((one) => [one.name, one])) as {
+  readonly [Name in NumberName]: NumberParameter;
+};
+
+/** The parameters of a group: those named here first, then all others in the order of the table. */
+function group(wanted: Group, ...first: readonly ParameterName[]): readonly GrowthParameter[] {
+  const all = ALL.filter((one) => one.group === wanted);
+  const named = first.flatMap((name) => all.filter((one) => one.name === name));
+  return [...named, ...all.filter((one) => !named.includes(one))];
+}
+
+/** Groups with a widget of their own to be pulled at; the rest are sliders. */
 export const WIDGETS = {
-  tropism: numbers("setpoint_angle"),
-  sides: numbers("gravimorphism_vertical", "gravimorphism_horizontal", "gravimorphism_shift"),
-  fork: numbers("branching_angle", "deflection_angle"),
-  weights: numbers("heading_weight", "tropism_weight", "space_weight"),
-  perception: numbers("occupancy_radius", "perception_depth", "perception_angle"),
-} as const;
+  tropism: group("tropism").filter(isNumber),
+  sides: group("sides").filter(isNumber),
+  fork: group("fork").filter(isNumber),
+  weights: group("weights").filter(isNumber),
+  perception: group("perception").filter(isNumber),
+} as const satisfies { readonly [Name in Group]?: readonly NumberParameter[] };
 
 /** Sliders that go together; the first stand in the open, as in the paper's own panel. */
 export const SECTIONS: readonly { readonly title: Key; readonly parameters: readonly GrowthParameter[] }[] = [
   {
     title: "architecture.section.vigor",
-    parameters: numbers("apical_control", "light_sensitivity", "shedding_threshold", "max_shoot_length"),
+    parameters: group("vigor", "apical_control", "light_sensitivity", "shedding_threshold"),
   },
   {
     title: "architecture.section.sharing",
-    parameters: [
-      VIGOR_MODEL,
-      ...numbers("priority_least_weight", "priority_decline", "vigor_gain"),
-      ...numbers("maturity_steps", "maturity_start", "mature_apical_control"),
-    ],
+    parameters: group(
+      "sharing",
+      ...(["vigor_model", "priority_least_weight", "priority_decline", "vigor_gain"] as const),
+      ...(["maturity_steps", "maturity_start"] as const),
+    ),
   },
-  {
-    title: "architecture.section.buds",
-    parameters: numbers("phyllotactic_angle", "buds_per_node", "phototropism", "markers_per_bud"),
-  },
-  {
-    title: "architecture.section.shade",
-    parameters: numbers("shadow_strength", "shadow_decay", "shadow_depth"),
-  },
-  {
-    title: "architecture.section.wood",
-    parameters: numbers("girth_exponent", "twig_diameter", "internode_length"),
-  },
+  { title: "architecture.section.buds", parameters: group("buds") },
+  { title: "architecture.section.shade", parameters: group("shade") },
+  { title: "architecture.section.wood", parameters: group("wood", "girth_exponent", "twig_diameter") },
 ];
 
 /** Parameters that say what a stroke of the brush does; they stand in its panel. */
-export const OF_THE_BRUSH = numbers("marker_density", "marker_max_age");
+export const OF_THE_BRUSH = group("brush", "marker_density", "marker_max_age");
 
 /** Parameters that foliage is made of; they stand in the panel of leaves. */
-export const OF_THE_LEAVES = numbers("leaves_per_node", "leaf_size");
+export const OF_THE_LEAVES = group("leaves").filter(isNumber);
 
-/** What a session begins with, and a reset goes back to. */
-export const DEFAULTS: Parameters = {
-  internode_length: 0.1,
-  occupancy_radius: 1.5,
-  perception_depth: 3,
-  perception_angle: 90,
-  phyllotactic_angle: 137.5,
-  buds_per_node: 1,
-  branching_angle: 50,
-  deflection_angle: 5,
-  apical_control: 0.52,
-  mature_apical_control: 0.52,
-  maturity_start: 0,
-  maturity_steps: 0,
-  light_sensitivity: 1,
-  max_shoot_length: 4,
-  shedding_threshold: 0,
-  vigor_gain: 2,
-  vigor_model: "borchert_honda",
-  priority_least_weight: 0.006,
-  priority_decline: 0.5,
-  heading_weight: 0.5,
-  tropism_weight: 0.25,
-  space_weight: 0.25,
-  phototropism: 0,
-  setpoint_angle: 0,
-  trunk_upward: true,
-  tropism_from_stroke: false,
-  gravimorphism_vertical: 1,
-  gravimorphism_horizontal: 1,
-  gravimorphism_shift: 0,
-  marker_density: 0.15,
-  markers_per_bud: 6,
-  marker_max_age: 8,
-  shadow_strength: 0.12,
-  shadow_decay: 2,
-  shadow_depth: 6,
-  girth_exponent: 2.5,
-  twig_diameter: 0.07,
-  leaves_per_node: 4,
-  leaf_size: 1,
-};
+/** What turns tropism on and off, by growth or by the brush. */
+export const SWITCHES = [...group("tropism"), ...OF_THE_BRUSH].filter(({ kind }) => kind === "switch");
 
 /** A parameter's name in the present language. */
 export function nameOf({ name }: GrowthParameter): string {
@@ -219,9 +136,9 @@ export function patchFrom(source: Parameters, parameters: readonly GrowthParamet
   return Object.fromEntries(parameters.map(({ name }) => [name, source[name]]));
 }
 
-/** The unit of a number in the present language; empty if it has none. */
-export function unitOf({ unit }: NumberParameter): string {
-  return unit === "parameters.unit.steps" ? say(unit) : (unit ?? "");
+/** The unit of a number in the present language; empty if it has none, or is counted in internodes. */
+export function unitOf({ unit }: Pick<Setting, "unit">): string {
+  return unit === "steps" ? say("parameters.unit.steps") : unit === "internodes" ? "" : (unit ?? "");
 }
 
 /** A value as it is read: no more digits than a step shows. */

@@ -102,7 +102,7 @@ function Form({ studio }: { studio: Studio }) {
         title={say("architecture.tropism")}
         help={say("architecture.tropism.help")}
         parameters={WIDGETS.tropism}
-        more={Object.values(SWITCHES).map((parameter) => (
+        more={SWITCHES.map((parameter) => (
           <ParameterControl studio={studio} parameter={parameter} key={parameter.name} />
         ))}
       />

@@ -1,4 +1,4 @@
-import { DEFAULT_APPEARANCE, type Ground, type Sky } from "../../../wire/generated";
+import { DEFAULT_APPEARANCE, LOOKS } from "../../../wire/generated";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { Choice } from "../controls/choice";
@@ -11,9 +11,6 @@ import { SunDial } from "./looks/sun-dial";
 import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
-
-const SKIES: readonly Sky[] = ["meadow", "clear", "overcast", "studio"];
-const GROUNDS: readonly Ground[] = ["grass", "earth", "sand", "snow", "plain"];
 
 /** What surrounds the tree: sky, ground and sun. */
 export function BackgroundPanel({ studio }: { studio: Studio }) {
@@ -42,7 +39,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
           columns={4}
           value={sky}
           standard={standard.sky}
-          options={SKIES.map((value) => ({
+          options={LOOKS.background.sky.choices.map((value) => ({
             value,
             label: say(`background.sky.${value}`),
             picture: <SkyPicture sky={value} backdrop={backdrop} />,
@@ -66,7 +63,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
           columns={5}
           value={ground}
           standard={standard.ground}
-          options={GROUNDS.map((value) => ({
+          options={LOOKS.background.ground.choices.map((value) => ({
             value,
             label: say(`background.ground.${value}`),
             picture: <GroundPicture ground={value} />,

@@ -1,4 +1,4 @@
-import type { BarkKind } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated";
 import { NUMBERS } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
@@ -13,8 +13,6 @@ import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
-
-const BARKS: readonly BarkKind[] = ["smooth", "furrowed", "plated", "papery", "flaking", "banded", "stringy"];
 
 /** What wood looks like, and how thick it grows. */
 export function BranchesPanel({ studio }: { studio: Studio }) {
@@ -31,7 +29,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
           columns={4}
           value={bark.kind}
           standard={standard.kind}
-          options={BARKS.map((value) => ({
+          options={LOOKS.bark.kind.choices.map((value) => ({
             value,
             label: say(`bark.kind.${value}`),
             picture: <BarkPicture kind={value} tint={bark.tint} />,

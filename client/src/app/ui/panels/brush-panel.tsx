@@ -1,4 +1,4 @@
-import { DEFAULTS, OF_THE_BRUSH, SWITCHES } from "../../document/growth/growth-parameters";
+import { DEFAULTS, OF_THE_BRUSH } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
 import { MAX_RADIUS, MIN_BRUSH, placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
 import { say } from "../../words/say";
@@ -42,7 +42,6 @@ export function BrushPanel({ studio }: { studio: Studio }) {
             {OF_THE_BRUSH.map((parameter) => (
               <ParameterControl studio={studio} parameter={parameter} key={parameter.name} />
             ))}
-            <ParameterControl studio={studio} parameter={SWITCHES.tropism_from_stroke} />
           </Section>
           <Section name="brush.branches" title={say("brush.section.branches")} open>
             <div class="brush-bud" data-chosen={bud !== null}>

@@ -1,5 +1,5 @@
 import { laminaPath } from "../../../scene/painting/lamina";
-import type { LeafKind } from "../../../wire/generated";
+import { LOOKS } from "../../../wire/generated";
 import { withNumber } from "../../document/appearance/look-numbers";
 import { OF_THE_LEAVES } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
@@ -17,18 +17,6 @@ import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
 import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
-
-const SHAPES: readonly LeafKind[] = [
-  "ovate",
-  "round",
-  "lanceolate",
-  "lobed",
-  "palmate",
-  "fan",
-  "compound",
-  "needle",
-  "scale",
-];
 
 /** What leaves, flowers and fruits look like, and how many leaves there are. */
 export function LeavesPanel({ studio }: { studio: Studio }) {
@@ -57,7 +45,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
           columns={3}
           value={leaves.shape}
           standard={standard.shape}
-          options={SHAPES.map((value) => ({
+          options={LOOKS.leaves.shape.choices.map((value) => ({
             value,
             label: say(`leaves.shape.${value}`),
             picture: (

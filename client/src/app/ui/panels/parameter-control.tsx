@@ -15,12 +15,12 @@ interface ParameterControlProps {
 export function ParameterControl({ studio, parameter }: ParameterControlProps) {
   const now = studio.parameters.value;
   const standard = standardOf(studio);
-  if (now === null) {
+  if (now === null || parameter.applies?.(now) === false) {
     return null;
   }
   switch (parameter.kind) {
     case "number":
-      return parameter.applies?.(now) === false ? null : <ParameterSlider studio={studio} parameter={parameter} />;
+      return <ParameterSlider studio={studio} parameter={parameter} />;
     case "switch":
       return (
         <Switch

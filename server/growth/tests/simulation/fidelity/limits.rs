@@ -1,33 +1,26 @@
 //! Parameters at the ends of their ranges, alone and together, and a tree at the end of its budget.
 
-use espalier_growth::{ParameterValues, Parameters, RANGES, VigorModel};
+use espalier_growth::{ParameterValues, Parameters, VigorModel};
 use espalier_plant::checks;
+use espalier_settings::Kind;
 use proptest::prelude::*;
 
 use super::*;
 
-/// Sets a number by its name.
-macro_rules! set_by_name {
-    ($values:ident, $name:ident, $value:ident, floats: $($float:ident)+, counts: $($count:ident)+) => {
-        match $name {
-            $(stringify!($float) => $values.$float = $value,)+
-            $(stringify!($count) => $values.$count = $value as u32,)+
-            _ => panic!("this test does not know of {}", $name),
-        }
-    };
+/// Every number, with its least and its greatest value.
+fn ranges() -> impl Iterator<Item = (&'static str, f32, f32)> {
+    ParameterValues::ROWS.iter().filter_map(|row| match row.kind {
+        Kind::Number { least, most, .. } => Some((row.name, least, most)),
+        _ => None,
+    })
 }
 
+/// Sets a number by its name.
 fn set(values: &mut ParameterValues, name: &str, value: f32) {
-    set_by_name!(
-        values, name, value,
-        floats: internode_length occupancy_radius perception_depth perception_angle phyllotactic_angle
-            branching_angle deflection_angle apical_control mature_apical_control light_sensitivity
-            shedding_threshold vigor_gain priority_least_weight priority_decline heading_weight tropism_weight
-            space_weight phototropism setpoint_angle gravimorphism_vertical gravimorphism_horizontal
-            gravimorphism_shift marker_density shadow_strength shadow_decay girth_exponent twig_diameter leaf_size,
-        counts: buds_per_node maturity_start maturity_steps max_shoot_length markers_per_bud marker_max_age
-            shadow_depth leaves_per_node
-    );
+    let mut json = serde_json::to_value(&*values).expect("plain values");
+    let is_whole = json[name].is_u64();
+    json[name] = if is_whole { (value as u32).into() } else { value.into() };
+    *values = serde_json::from_value(json).expect("numbers of the right type");
 }
 
 /// Makes the three weights sum to 1, keeping `kept` if it is one of them.
@@ -60,7 +53,7 @@ fn grown(values: ParameterValues, seed: u32) -> Result<Simulation, String> {
 /// an empty one.
 #[test]
 fn every_range_end_grows_a_sound_plant() {
-    for &(name, low, high) in RANGES {
+    for (name, low, high) in ranges() {
         for value in [low, high] {
             let mut values = ParameterValues::default();
             if name.starts_with("priority") {
@@ -86,7 +79,7 @@ proptest! {
     #[test]
     fn every_corner_of_the_ranges_is_sound(seed: u32, ends in any::<u64>(), choices in any::<u8>()) {
         let mut values = ParameterValues::default();
-        for (i, &(name, low, high)) in RANGES.iter().enumerate() {
+        for (i, (name, low, high)) in ranges().enumerate() {
             set(&mut values, name, if ends >> i & 1 == 0 { low } else { high });
         }
         balance(&mut values, "");

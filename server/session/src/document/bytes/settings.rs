@@ -2,8 +2,8 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use espalier_growth::{Parameters, appearance::Appearance};
-use espalier_proto::{AppearancePatch, ParametersPatch};
+use espalier_growth::Parameters;
+use espalier_settings::{Appearance, AppearancePatch, ParameterValues, ParametersPatch};
 
 use super::{
     DocumentError, damaged,
@@ -11,12 +11,11 @@ use super::{
     later,
 };
 use crate::{
-    appearance::{self, AppearanceChange},
+    appearance::AppearanceChange,
     document::{
         futures::Futures,
         history::{History, Setting},
         obstacles::{Obstacles, Standings},
-        parameters,
     },
     obstacle::{Form, Mesh, Obstacle, Pose, Standing},
 };
@@ -70,8 +69,7 @@ impl Pool {
     /// All looks, and the number of the present ones.
     pub(super) fn write_looks(&self, out: &mut Writer, present: &Arc<Appearance>) {
         // Plain numbers and names always have a JSON form.
-        let text =
-            |looks: &Appearance| serde_json::to_string(&appearance::to_proto(looks)).unwrap_or_default();
+        let text = |looks: &Appearance| serde_json::to_string(looks).unwrap_or_default();
         out.list(&self.looks, |out, looks| out.text(&text(looks)));
         out.u32(number(&self.looks, present));
     }
@@ -134,13 +132,12 @@ impl Pool {
 /// One set of parameters, as JSON: what a document does not name has its default.
 pub(super) fn write_set(out: &mut Writer, set: &Parameters) {
     // Plain numbers and switches always have a JSON form.
-    out.text(&serde_json::to_string(&parameters::to_proto(set.values())).unwrap_or_default());
+    out.text(&serde_json::to_string(set.values()).unwrap_or_default());
 }
 
 pub(super) fn read_set(reader: &mut Reader<'_>) -> Result<Parameters, DocumentError> {
     let patch: ParametersPatch = serde_json::from_str(reader.text()?).map_err(|error| unreadable(&error))?;
-    let defaults = parameters::to_proto(Parameters::default().values());
-    parameters::parse(&defaults.patched(&patch)).map_err(|problem| damaged(problem.message))
+    Parameters::new(ParameterValues::default().patched(&patch)).map_err(|error| damaged(error.to_string()))
 }
 
 pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<Arc<Parameters>>, DocumentError> {

@@ -214,7 +214,7 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
 }
 
 /// What undoing and redoing leads to: the plant's hash, what it grows by, what stands in its way, its looks.
-pub(super) type Form = (u64, espalier_proto::Parameters, Vec<espalier_proto::PlacedObstacle>, Appearance);
+pub(super) type Form = (u64, ParameterValues, Vec<espalier_proto::PlacedObstacle>, Appearance);
 
 pub(super) fn form(document: &Document) -> Form {
     (document.plant().hash(), document.parameters(), document.obstacles(), *document.appearance())

@@ -1,18 +1,20 @@
 //! Looks: changed, joined with parameters, taken back, kept.
 
-use espalier_growth::appearance::{BarkKind, LeafKind};
-use espalier_proto::{OperationKind, appearance as wire};
+use espalier_proto::OperationKind;
+use espalier_settings::{
+    Appearance, AppearancePatch, BarkKind, BarkLook, FlowerLook, LeafKind, LeafLook, LeafPatch,
+};
 
 use super::*;
 
 /// Another season of the leaves as they are by default.
 pub fn season(gesture: Option<u32>, season: f32) -> Action {
-    let leaves = wire::LeafLook { season, ..wire::Appearance::default().leaves };
-    look(gesture, wire::AppearancePatch { leaves: Some(leaves.into()), ..wire::AppearancePatch::default() })
+    let leaves = LeafLook { season, ..Appearance::default().leaves };
+    look(gesture, AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() })
         .expect("in range")
 }
 
-fn look(gesture: Option<u32>, appearance: wire::AppearancePatch) -> Result<Action, Problem> {
+fn look(gesture: Option<u32>, appearance: AppearancePatch) -> Result<Action, Problem> {
     Action::parse(&espalier_proto::Command::SetAppearance { appearance, gesture })
 }
 
@@ -27,8 +29,8 @@ fn apply(document: &mut Document, action: &Action) {
 #[test]
 fn ap1_looks_change_section_by_section() {
     let mut document = Document::new(1);
-    let bark = wire::BarkLook { kind: wire::BarkKind::Papery, ..wire::Appearance::default().bark };
-    let patch = wire::AppearancePatch { bark: Some(bark.into()), ..wire::AppearancePatch::default() };
+    let bark = BarkLook { kind: BarkKind::Papery, ..Appearance::default().bark };
+    let patch = AppearancePatch { bark: Some(bark.into()), ..AppearancePatch::default() };
     apply(&mut document, &look(None, patch).expect("in range"));
     let looks = *document.appearance();
     assert_eq!((looks.bark.kind, looks.leaves.shape), (BarkKind::Papery, LeafKind::Ovate));
@@ -45,8 +47,8 @@ fn ap1_looks_change_section_by_section() {
 #[test]
 fn ap1_what_is_out_of_range_names_its_section() {
     let flowers = |size| {
-        let flowers = wire::FlowerLook { size, ..wire::Appearance::default().flowers };
-        wire::AppearancePatch { flowers: Some(flowers.into()), ..wire::AppearancePatch::default() }
+        let flowers = FlowerLook { size, ..Appearance::default().flowers };
+        AppearancePatch { flowers: Some(flowers.into()), ..AppearancePatch::default() }
     };
     assert!(look(None, flowers(0.05)).is_ok() && look(None, flowers(2.0)).is_ok());
     for bad in [0.04, 2.1, f32::NAN, f32::INFINITY] {
@@ -167,10 +169,10 @@ fn looks_make_no_difference_to_growth() {
 #[test]
 fn ap1_fields_of_two_people_both_count() {
     let mut document = Document::new(1);
-    let season = wire::LeafPatch { season: Some(2.0), ..wire::LeafPatch::default() };
-    let tint = wire::LeafPatch { tint: Some([10, 20, 30]), ..wire::LeafPatch::default() };
+    let season = LeafPatch { season: Some(2.0), ..LeafPatch::default() };
+    let tint = LeafPatch { tint: Some([10, 20, 30]), ..LeafPatch::default() };
     for (author, leaves) in [("ann", season), ("ben", tint)] {
-        let patch = wire::AppearancePatch { leaves: Some(leaves), ..wire::AppearancePatch::default() };
+        let patch = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
         document.apply(author, &look(None, patch).expect("in range")).expect("it is done");
     }
     let leaves = document.appearance().leaves;

@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { LOOK_NUMBERS, type LookNumber, numberIn, withNumber } from "../../../document/appearance/look-numbers";
+import { unitOf } from "../../../document/growth/growth-parameters";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { Slider } from "../../controls/slider";
@@ -16,13 +17,14 @@ interface LookSliderProps {
 
 /** A slider for one number of the appearance. */
 export function LookSlider({ studio, name, inWords, marks, middle = false }: LookSliderProps) {
-  const { least, most, step, unit } = LOOK_NUMBERS[name];
+  const { least, most, step } = LOOK_NUMBERS[name];
   const patch = (value: number) => withNumber(name, value);
   return (
     <Slider
       label={say(`${name}`)}
       help={say(`${name}.help`)}
-      {...{ least, most, step, unit, marks }}
+      {...{ least, most, step, marks }}
+      unit={unitOf(LOOK_NUMBERS[name])}
       {...(inWords ? { inWords } : {})}
       {...(middle ? { track: "middle" } : {})}
       value={numberIn(studio.appearance.value, name)}

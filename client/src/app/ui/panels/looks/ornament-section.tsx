@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import type { FlowerKind, FruitKind, Place } from "../../../../wire/generated";
+import { LOOKS } from "../../../../wire/generated";
 import type { Studio } from "../../../studio";
 import { numberText } from "../../../words/number-text";
 import { say } from "../../../words/say";
@@ -10,10 +10,6 @@ import { standardLooks } from "../architecture/species-list";
 import { LookSlider } from "./look-slider";
 import { FlowerPicture, FruitPicture, PlacePicture } from "./ornament-pictures";
 import { SWATCHES } from "./swatches";
-
-const FLOWERS: readonly FlowerKind[] = ["none", "rosette", "catkin", "panicle"];
-const FRUITS: readonly FruitKind[] = ["none", "round", "cone", "nut", "winged"];
-const PLACES: readonly Place[] = ["tips", "twigs", "wood"];
 
 /** The flowers: their kind and, if there are any, all about them. */
 export function FlowerSection({ studio }: { studio: Studio }) {
@@ -26,7 +22,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
         columns={4}
         value={kind}
         standard={standardLooks(studio).flowers.kind}
-        options={FLOWERS.map((value) => ({
+        options={LOOKS.flowers.kind.choices.map((value) => ({
           value,
           label: say(`flowers.kind.${value}`),
           picture: <FlowerPicture kind={value} tint={tint} />,
@@ -49,7 +45,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
         columns={5}
         value={kind}
         standard={standardLooks(studio).fruits.kind}
-        options={FRUITS.map((value) => ({
+        options={LOOKS.fruits.kind.choices.map((value) => ({
           value,
           label: say(`fruits.kind.${value}`),
           picture: <FruitPicture kind={value} tint={tint} />,
@@ -85,7 +81,7 @@ function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" })
         columns={3}
         value={now.place}
         standard={standard.place}
-        options={PLACES.map((value) => ({
+        options={LOOKS[part].place.choices.map((value) => ({
           value,
           label: say(`leaves.place.${value}`),
           picture: <PlacePicture place={value} tint={now.tint} />,
