@@ -4,7 +4,7 @@ use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
-use espalier_settings::ParametersPatch;
+use espalier_settings::{ParameterValues, ParametersPatch};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -204,10 +204,25 @@ fn parse_species(slug: &str) -> Result<&'static species::Species, String> {
 
 fn parse_parameter(text: &str) -> Result<ParametersPatch, String> {
     let (name, value) = text.split_once('=').ok_or("write it as NAME=VALUE")?;
+    if !ParameterValues::NAMES.contains(&name) {
+        return Err(unknown_parameter(name));
+    }
     // Numbers and switches are JSON as they stand; a choice is a text.
     let value = serde_json::from_str(value).unwrap_or_else(|_| value.into());
     let fields = serde_json::Map::from_iter([(name.to_owned(), value)]);
     serde_json::from_value(fields.into()).map_err(|error| error.to_string())
+}
+
+/// Says that there is none of this name, and which name may have been meant.
+fn unknown_parameter(name: &str) -> String {
+    /// Names less alike than this were hardly mixed up; 1 is the same name.
+    const ALIKE: f64 = 0.8;
+    let likeness = |known: &&&str| strsim::jaro_winkler(name, known);
+    let nearest = ParameterValues::NAMES.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    match nearest.filter(|known| likeness(known) > ALIKE) {
+        Some(known) => format!("there is no parameter `{name}`; a similar name is `{known}`"),
+        None => format!("there is no parameter `{name}`; there are {}", ParameterValues::NAMES.join(", ")),
+    }
 }
 
 #[cfg(test)]
@@ -245,6 +260,8 @@ mod tests {
         assert_eq!(patch("vigor_model=priority").vigor_model, Some(espalier_settings::VigorModel::Priority));
         assert!(parse_parameter("vigor_model=luck").unwrap_err().contains("borchert_honda"));
         assert!(parse_parameter("leaf_size=big").unwrap_err().contains("expected 0.1 to 3"));
+        assert!(parse_parameter("apical_controll=0.6").unwrap_err().ends_with("`apical_control`"));
+        assert!(parse_parameter("sap=1").unwrap_err().contains("internode_length, "));
     }
 
     #[test]
