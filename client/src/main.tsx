@@ -7,18 +7,9 @@ import "./app/ui/styles/layout.css";
 import "./app/ui/styles/bars.css";
 import "./app/ui/styles/status.css";
 import "./app/ui/styles/tools.css";
-import "./app/ui/styles/shaping.css";
-import "./app/ui/styles/panels.css";
-import "./app/ui/styles/controls.css";
-import "./app/ui/styles/widgets.css";
-import "./app/ui/styles/architecture.css";
-import "./app/ui/styles/brush.css";
-import "./app/ui/styles/looks.css";
-import "./app/ui/styles/sun.css";
+import "./app/ui/styles/draw-modes.css";
 import "./app/ui/styles/timeline.css";
-import "./app/ui/styles/branch.css";
 import "./app/ui/styles/sheets.css";
-import "./app/ui/styles/help.css";
 
 const root = document.getElementById("app");
 if (!root) {

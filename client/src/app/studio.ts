@@ -18,7 +18,7 @@ import { browserClock } from "./page/clock";
 import type { Hindrance } from "./page/hindrance";
 import { loadSettings } from "./page/settings";
 import { Toasts } from "./page/toasts";
-import { sentence } from "./problems/plain-words";
+import { explained } from "./problems/explained";
 import { refused } from "./problems/refusals";
 import { BranchWork } from "./tools/branch/branch-work";
 import { ChosenBud } from "./tools/chosen-bud";
@@ -96,12 +96,12 @@ export class Studio {
     ahead: () => this.#ahead(),
     clock: browserClock,
     session: () => this.link.session.peek(),
-    failed: (error) => this.toasts.show(sentence(error)),
+    failed: (error) => void this.#explain(error),
   });
   readonly exports = new Exports({
     session: () => this.link.session.peek(),
     give: keepFile,
-    failed: (error) => this.toasts.show(sentence(error)),
+    failed: (error) => void this.#explain(error),
   });
   readonly growth = new GrowControl({
     submit: (command) => this.submit(command),
@@ -256,6 +256,10 @@ export class Studio {
     return this.link.submit(command);
   }
 
+  async #explain(error: unknown): Promise<void> {
+    this.toasts.show(await explained(error));
+  }
+
   /** Whether the server still grows what was asked for before. */
   #busy(): boolean {
     return (this.document.peek()?.pending_steps ?? 0) > 0;
@@ -316,8 +320,8 @@ export class Studio {
         this.tools.end();
         this.growth.release();
       },
-      parted: () => this.toasts.show(say("sheets.parted")),
-      failed: (error) => this.toasts.show(sentence(error)),
+      parted: () => this.toasts.show(say("notices.parted")),
+      failed: (error) => void this.#explain(error),
     };
   }
 

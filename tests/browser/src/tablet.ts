@@ -408,10 +408,13 @@ export class Tablet {
   async untilCome(): Promise<void> {
     await until("all that slides in has come", async () => {
       await this.frames();
-      return this.page.evaluate(() =>
-        document.getAnimations().every(({ effect, playState }) => {
-          return playState !== "running" || effect?.getComputedTiming().endTime === Number.POSITIVE_INFINITY;
-        }),
+      return this.page.evaluate(
+        () =>
+          // A part that is being loaded has not come.
+          document.querySelector('[aria-busy="true"]') === null &&
+          document.getAnimations().every(({ effect, playState }) => {
+            return playState !== "running" || effect?.getComputedTiming().endTime === Number.POSITIVE_INFINITY;
+          }),
       );
     });
   }

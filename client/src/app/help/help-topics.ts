@@ -2,8 +2,7 @@ import { PARAMETERS } from "../../wire/generated";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
 import type { PanelName, SheetName } from "../studio";
 import type { ToolName } from "../tools/toolbox";
-import { inAll, type Key, say } from "../words/say";
-import { TABLE } from "../words/table";
+import { inAll, type Key, keysSaid, say } from "../words/say";
 
 export type SketchName = "draw" | "turn" | "grow" | "move" | "hold" | "cut";
 
@@ -210,9 +209,10 @@ function everywhere(...keys: readonly Key[]): string {
 /** Every parameter and control that explains itself in a sentence; what a panel says need not be said again here. */
 function controls(): readonly Topic[] {
   const seen = new Set<string>();
-  return Object.keys(TABLE).flatMap((key) => {
+  const keys = new Set(keysSaid());
+  return [...keys].flatMap((key) => {
     const explained = key.endsWith(EXPLAINED) ? key.slice(0, -EXPLAINED.length) : null;
-    if (explained === null || !(explained in TABLE)) {
+    if (explained === null || !keys.has(explained)) {
       return [];
     }
     const label = explained as Key;

@@ -2,10 +2,11 @@ import type { Command, Problem } from "../../wire/generated";
 import type { ObstacleList } from "../document/obstacles/obstacle-list";
 import type { TimelineControl } from "../document/timeline/timeline-control";
 import type { Toasts } from "../page/toasts";
+import { RequestFailed } from "../requests/request";
 import type { BranchWork } from "../tools/branch/branch-work";
 import type { Toolbox } from "../tools/toolbox";
 import { say } from "../words/say";
-import { plainly } from "./plain-words";
+import { explained } from "./explained";
 
 /** The parts of a page that a refused command concerns. */
 export interface RefusalTargets {
@@ -47,6 +48,6 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     // What was still in progress of a bend that was refused or given up says nothing new.
     return;
   }
-  page.toasts.show(plainly(problem));
+  void explained(new RequestFailed(0, problem)).then((text) => page.toasts.show(text));
   console.warn("The server refused:", problem);
 }

@@ -1,66 +1,33 @@
-import type { ComponentType } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { followChoices } from "../page/language-and-theme";
-import type { PanelName, SheetName, Studio } from "../studio";
+import type { Studio } from "../studio";
 import { say } from "../words/say";
 import { attachWorkspace } from "../workspace";
 import { DrawModeLegend } from "./bars/draw-mode-legend";
-import { PredictionBar, PredictionMarks } from "./bars/prediction-bar";
 import { RotationStrip } from "./bars/rotation-strip";
 import { ShowAll } from "./bars/show-all";
 import { SideBar } from "./bars/side-bar";
 import { ToolBar } from "./bars/tool-bar";
-import { ToolOptions } from "./bars/tool-options";
 import { Chips } from "./notices/chips";
 import { HindranceCard, Hint, ToastList } from "./notices/notices";
 import { Status } from "./notices/status";
-import { TourCard } from "./notices/tour-card";
-import { BendMarks } from "./overlays/bend-marks";
-import { BranchHandle } from "./overlays/branch-handle";
 import { BudMarker, HoldRing } from "./overlays/bud-marker";
-import { CutLineMark } from "./overlays/cut-line-mark";
 import { OutlineOverlay } from "./overlays/outline-overlay";
 import { Seedlings } from "./overlays/seedling";
-import { SunHandle } from "./overlays/sun-handle";
-import { WidthRings } from "./overlays/width-rings";
-import { ArchitecturePanel } from "./panels/architecture-panel";
-import { BackgroundPanel } from "./panels/background-panel";
-import { BranchesPanel } from "./panels/branches-panel";
-import { BrushPanel } from "./panels/brush-panel";
-import { LeavesPanel } from "./panels/leaves-panel";
-import { ScenePanel } from "./panels/scene-panel";
-import { HelpSheet } from "./sheets/help-sheet";
-import { LibrarySheet } from "./sheets/library-sheet";
-import { SaveSheet } from "./sheets/save-sheet";
-import { SettingsSheet } from "./sheets/settings-sheet";
-import { ShareSheet } from "./sheets/share-sheet";
+import { Panel } from "./panels/panel";
+import type { Part } from "./part";
+import { PartView } from "./part-view";
+import { loadPartsWhenIdle, PANELS, SHAPING, SHEETS, SUN, TOUR } from "./parts";
+import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useRoom } from "./workspace-size";
-
-const SHEETS: Record<SheetName, ComponentType<{ studio: Studio }>> = {
-  save: SaveSheet,
-  library: LibrarySheet,
-  share: ShareSheet,
-  help: HelpSheet,
-  settings: SettingsSheet,
-};
-
-const PANELS: Record<PanelName, ComponentType<{ studio: Studio }>> = {
-  architecture: ArchitecturePanel,
-  brush: BrushPanel,
-  leaves: LeavesPanel,
-  branches: BranchesPanel,
-  background: BackgroundPanel,
-  scene: ScenePanel,
-};
 
 /** The whole page: the workspace, around it as little as possible, and beside it the panel that is pulled down. */
 export function App({ studio }: { studio: Studio }) {
   const sheet = studio.sheet.value;
-  const Open = sheet === null ? null : SHEETS[sheet];
+  const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.bare.value;
   const panel = bare ? null : studio.panel.value;
-  const Pulled = panel === null ? null : PANELS[panel];
   return (
     <div
       class="app"
@@ -70,9 +37,17 @@ export function App({ studio }: { studio: Studio }) {
       data-bare={bare}
     >
       <Workspace studio={studio} />
-      {Pulled !== null && <Pulled studio={studio} />}
+      {panel !== null && (
+        <Panel studio={studio} title={say(`panels.${panel}`)} key={panel}>
+          <PartView studio={studio} part={PANELS[panel]} />
+        </Panel>
+      )}
       <ToastList studio={studio} />
-      {Open !== null && <Open studio={studio} />}
+      {shown !== null && (
+        <Sheet studio={studio} title={say(shown.title)} wide={shown.wide} key={sheet}>
+          <PartView studio={studio} part={shown.part} height={shown.height} />
+        </Sheet>
+      )}
     </div>
   );
 }
@@ -81,7 +56,8 @@ export function App({ studio }: { studio: Studio }) {
 function Workspace({ studio }: { studio: Studio }) {
   const [host, canvas] = [useRef<HTMLElement>(null), useRef<HTMLCanvasElement>(null)];
   useRoom(host);
-  useEffect(() => followChoices(studio.settings), [studio]);
+  useEffect(() => followChoices(studio.settings, () => studio.toasts.show(say("notices.part-lost"))), [studio]);
+  useEffect(() => (canvas.current ? loadPartsWhenIdle(studio, canvas.current) : undefined), [studio]);
   useEffect(() => studio.tour.follow(), [studio]);
   useEffect(() => {
     if (!canvas.current) {
@@ -89,6 +65,8 @@ function Workspace({ studio }: { studio: Studio }) {
     }
     return attachWorkspace(studio, canvas.current);
   }, [studio]);
+  const shaping = useShaping(studio);
+  const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.panel.value === "background");
   return (
     <main
       class="workspace"
@@ -100,34 +78,58 @@ function Workspace({ studio }: { studio: Studio }) {
       <Seedlings studio={studio} />
       <OutlineOverlay studio={studio} />
       <BudMarker studio={studio} />
-      <BendMarks studio={studio} />
-      <WidthRings studio={studio} />
-      <CutLineMark studio={studio} />
-      <PredictionMarks studio={studio} />
+      {shaping && <shaping.BendMarks studio={studio} />}
+      {shaping && <shaping.WidthRings studio={studio} />}
+      {shaping && <shaping.CutLineMark studio={studio} />}
+      {shaping && <shaping.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
-      <BranchHandle studio={studio} />
+      {shaping && <shaping.BranchHandle studio={studio} />}
       {studio.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
-      <SunHandle studio={studio} />
-      <PredictionBar studio={studio} />
+      {SunHandle && <SunHandle studio={studio} />}
+      {shaping && <shaping.PredictionBar studio={studio} />}
       <HindranceCard studio={studio} />
     </main>
   );
 }
 
+/** What is shown while branches are shaped. */
+function useShaping(studio: Studio) {
+  const { chosen } = studio.tools;
+  const needed = !["brush", "lasso", "seed"].includes(chosen.value) || studio.branches.prediction.rows.value !== null;
+  return usePart(studio, SHAPING, needed && chosen.value);
+}
+
+/** A part that has no place for a sentence of its own, asked for whenever `need` becomes another; null until it is there. */
+function usePart<Content>(studio: Studio, part: Part<Content>, need: string | boolean): Content | null {
+  useEffect(() => {
+    if (need !== false) {
+      void part.open().then(() => {
+        const failure = part.failure.peek();
+        if (failure !== null) {
+          studio.toasts.show(say(`notices.part-${failure}`));
+        }
+      });
+    }
+  }, [studio, part, need]);
+  return part.content.value;
+}
+
 /** What stands along the edges of the workspace. */
 function Bars({ studio }: { studio: Studio }) {
+  const shaping = SHAPING.content.value;
+  const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
   return (
     <>
       <ToolBar studio={studio} />
       <SideBar studio={studio} />
-      <ToolOptions studio={studio} />
+      {shaping && <shaping.ToolOptions studio={studio} />}
       <Status studio={studio} />
       <Hint studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
         <TimelineStrip studio={studio} />
       </div>
-      <TourCard studio={studio} />
+      {TourCard && <TourCard studio={studio} />}
       <Chips studio={studio} />
       <DrawModeLegend studio={studio} />
     </>

@@ -1,6 +1,5 @@
 /** The tour, the cards of gestures, and the help that can be searched. */
 export const HELP = {
-  "help.title": ["How to draw a tree", "So zeichnet man einen Baum"],
   "help.search": ["Search gestures, tools, parameters, keys", "Gesten, Werkzeuge, Parameter und Tasten suchen"],
   "help.show": ["Show", "Zeigen"],
   "help.show.what": ["Show: {title}", "Zeigen: {title}"],

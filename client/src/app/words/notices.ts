@@ -21,6 +21,20 @@ export const NOTICES = {
     "Server und Seite haben verschiedene Versionen, und neu zu laden hat nicht geholfen. Warte eine Minute und lade dann neu.",
   ],
   "notices.reload": ["Reload", "Neu laden"],
+  "notices.parted": [
+    "What the server has not got yet of the other tree is kept; it is sent when you open that tree again in this tab.",
+    "Was der Server vom anderen Baum noch nicht hat, bleibt erhalten; es wird gesendet, wenn du jenen Baum in diesem Tab wieder öffnest.",
+  ],
+  "notices.part-loading": ["Loading…", "Lädt…"],
+  "notices.part-lost": [
+    "This part of the page could not be loaded. Is the server still there?",
+    "Dieser Teil der Seite ließ sich nicht laden. Ist der Server noch da?",
+  ],
+  "notices.part-again": ["Try again", "Noch einmal versuchen"],
+  "notices.part-replaced": [
+    "The server has a newer version of this page. Reload it; your strokes are kept.",
+    "Der Server hat eine neuere Version dieser Seite. Lade sie neu; deine Striche bleiben erhalten.",
+  ],
   "notices.no-server": ["The server does not answer", "Der Server antwortet nicht"],
   "notices.no-server.text": [
     "Is it running, and is this device in the same network? This page keeps trying.",

@@ -180,6 +180,10 @@ export const PROBLEMS = {
   "problems.people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
   "problems.out-of-range": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
   "problems.out-of-range.allowed": ["Allowed there: {allowed}.", "Möglich ist dort: {allowed}."],
+} as const;
+
+/** What a request says that got no answer, or one without a reason. */
+export const REQUESTS = {
   "problems.silent": ["The server does not answer. Is it running?", "Der Server antwortet nicht. Läuft er?"],
   "problems.unexplained": [
     "The server answered with status {status} and no reason.",

@@ -1,25 +1,48 @@
 import { signal } from "@preact/signals";
-import { TABLE } from "./table";
+import { FIRST } from "./first";
+import { LANGUAGES, type Language } from "./languages";
+import type { TABLE } from "./table";
 
-/** Languages the interface speaks, in the order of the table's columns. */
-export const LANGUAGES = ["en", "de"] as const;
-export type Language = (typeof LANGUAGES)[number];
+export { LANGUAGES, type Language };
 
 /** The name of a text. */
 export type Key = keyof typeof TABLE;
+
+const first: Readonly<Record<string, readonly string[]>> = FIRST;
+/** Texts of parts that were loaded, by language. */
+const learnt = new Map<Language, Readonly<Record<string, string>>>();
 
 /** The language spoken now; what is said with it is said anew when it changes. */
 export const language = signal<Language>("en");
 
 /** A text in the present language; `{name}` in it stands for a value of that name. */
 export function say(key: Key, values: Readonly<Record<string, string | number>> = {}): string {
-  const text: string = TABLE[key][LANGUAGES.indexOf(language.value)] ?? TABLE[key][0];
+  const text = textIn(language.value, key) ?? key;
   return text.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole));
 }
 
-/** A text in every language, for searches. */
+/** A text in every language that is loaded, for searches. */
 export function inAll(key: Key): string {
-  return TABLE[key].join(" ");
+  return LANGUAGES.map((language) => textIn(language, key) ?? "").join(" ");
+}
+
+/** The names of all texts that are loaded in the present language. */
+export function keysSaid(): string[] {
+  return [...Object.keys(learnt.get(language.value) ?? {}), ...Object.keys(first)];
+}
+
+/** Takes the texts of the parts that are loaded later into use. */
+export function learn(language: Language, texts: Readonly<Record<string, string>>): void {
+  learnt.set(language, texts);
+}
+
+/** Whether those of a language are loaded. */
+export function hasLearnt(language: Language): boolean {
+  return learnt.has(language);
+}
+
+function textIn(language: Language, key: string): string | undefined {
+  return first[key]?.[LANGUAGES.indexOf(language)] ?? learnt.get(language)?.[key];
 }
 
 /** The language among ours that a person's browser asks for first. */

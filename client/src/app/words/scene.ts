@@ -62,6 +62,10 @@ export const SCENE = {
     "This model also needs the file {name}; choose both together.",
     "Dieses Modell braucht auch die Datei {name}; wähle beide zusammen.",
   ],
+} as const;
+
+/** What is wrong with a mesh that the server sends, or with a model for it. */
+export const MESHES = {
   "scene.too-large": [
     "This model is too large; {limit} MiB is the most.",
     "Dieses Modell ist zu groß; höchstens {limit} MiB sind möglich.",

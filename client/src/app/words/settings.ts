@@ -1,6 +1,5 @@
 /** What a person can choose for this device. */
 export const SETTINGS = {
-  "settings.title": ["Settings", "Einstellungen"],
   "settings.language": ["Language", "Sprache"],
   "settings.language.system": ["As the browser", "Wie der Browser"],
   "settings.theme": ["Appearance", "Erscheinungsbild"],

@@ -1,6 +1,5 @@
-/** Saving, the library, sharing, and files on their way. */
+/** Saving, the library, and sharing. */
 export const SHEETS = {
-  "sheets.save": ["Save this tree", "Diesen Baum speichern"],
   "sheets.save.default": ["Tree {date}", "Baum {date}"],
   "sheets.save.name": ["Name", "Name"],
   "sheets.save.advice": [
@@ -10,7 +9,6 @@ export const SHEETS = {
   "sheets.save.act": ["Save tree", "Baum speichern"],
   "sheets.save.saving": ["Saving…", "Speichert…"],
   "sheets.save.done": ["Saved “{name}”", "„{name}“ gespeichert"],
-  "sheets.library": ["Library", "Bibliothek"],
   "sheets.library.empty": [
     "Nothing saved yet. Trees you save appear here.",
     "Noch nichts gespeichert. Gespeicherte Bäume erscheinen hier.",
@@ -25,7 +23,6 @@ export const SHEETS = {
   "sheets.library.delete.which": ["Delete {name}", "{name} löschen"],
   "sheets.library.delete.sure": ["Delete for good?", "Endgültig löschen?"],
   "sheets.library.keep": ["Keep", "Behalten"],
-  "sheets.share": ["Draw together", "Zusammen zeichnen"],
   "sheets.share.advice": [
     "Whoever opens this link sees the same tree grow, and may draw on it.",
     "Wer diesen Link öffnet, sieht denselben Baum wachsen und kann mitzeichnen.",
@@ -38,23 +35,13 @@ export const SHEETS = {
     "This link works on this machine only. For a tablet, open the network address the server printed when it started, and share from there.",
     "Dieser Link gilt nur auf diesem Rechner. Öffne für ein Tablet die Netzadresse, die der Server beim Start gezeigt hat, und teile von dort.",
   ],
-  "sheets.export": ["Making the glTF file…", "Die glTF-Datei entsteht…"],
-  "sheets.export.moving": ["Loading the glTF file, {megabytes} MB", "Die glTF-Datei wird geladen, {megabytes} MB"],
-  "sheets.export.part": [
-    "Loading the glTF file, {done} of {megabytes} MB",
-    "Die glTF-Datei wird geladen, {done} von {megabytes} MB",
-  ],
-  "sheets.export.read": ["The glTF file is there", "Die glTF-Datei ist da"],
-  "sheets.import": ["Sending the model…", "Das Modell wird gesendet…"],
-  "sheets.import.moving": ["Sending the model, {megabytes} MB", "Das Modell wird gesendet, {megabytes} MB"],
-  "sheets.import.part": [
-    "Sending the model, {done} of {megabytes} MB",
-    "Das Modell wird gesendet, {done} von {megabytes} MB",
-  ],
-  "sheets.import.read": ["The server reads the model…", "Der Server liest das Modell…"],
-  "sheets.parted": [
-    "What the server has not got yet of the other tree is kept; it is sent when you open that tree again in this tab.",
-    "Was der Server vom anderen Baum noch nicht hat, bleibt erhalten; es wird gesendet, wenn du jenen Baum in diesem Tab wieder öffnest.",
-  ],
-  "sheets.cancel": ["Cancel", "Abbrechen"],
+} as const;
+
+/** Titles of the sheets. */
+export const SHEET_TITLES = {
+  "sheets.save": ["Save this tree", "Diesen Baum speichern"],
+  "sheets.library": ["Library", "Bibliothek"],
+  "sheets.share": ["Draw together", "Zusammen zeichnen"],
+  "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],
+  "sheets.settings": ["Settings", "Einstellungen"],
 } as const;

@@ -1,4 +1,4 @@
-/** What the tools tell and ask, and what is done with a branch that is held. */
+/** What the tools tell and ask. */
 export const TOOLS = {
   "tools.outline-small": [
     "Draw a larger outline: the tree grows to fill it.",
@@ -26,6 +26,24 @@ export const TOOLS = {
     "There is no connection to ask; try again in a moment.",
     "Gerade ist keine Verbindung da; versuche es gleich noch einmal.",
   ],
+  "tools.placing.copy": [
+    "Tap the limb for the copy, drag to aim it",
+    "Ast für die Kopie antippen, ziehen zum Ausrichten",
+  ],
+  "tools.placing.move": ["Tap the limb to move it to, drag to aim it", "Neuen Ast antippen, ziehen zum Ausrichten"],
+  "tools.placing.cancel": ["Leave the branch where it is", "Den Ast lassen, wo er ist"],
+  "tools.placing.cancel.title": ["Leave the branch where it is (Esc)", "Den Ast lassen, wo er ist (Esc)"],
+  "tools.bud": ["Only this branch grows", "Nur dieser Ast wächst"],
+  "tools.bud.release": ["Let every branch grow", "Alle Äste wachsen lassen"],
+  "tools.bud.release.title": ["Let every branch grow (Esc)", "Alle Äste wachsen lassen (Esc)"],
+  "tools.growing": ["Growing…", "Wächst…"],
+  "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
+  "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
+  "tools.growing.stop": ["Stop", "Anhalten"],
+} as const;
+
+/** Options of the tools that shape what has grown, and what is done with a branch that is held. */
+export const SHAPING = {
   "tools.bending": ["Bending", "Biegen"],
   "tools.bending.marked": [
     "Drag any place above the ring. Tap a place to have it stay put.",
@@ -92,20 +110,6 @@ export const TOOLS = {
   "tools.branch.cut": ["Cut", "Schneiden"],
   "tools.branch.cut.title": ["Cut it off", "Abschneiden"],
   "tools.branch.predict.title": ["What would cutting it do?", "Was würde der Schnitt bewirken?"],
-  "tools.placing.copy": [
-    "Tap the limb for the copy, drag to aim it",
-    "Ast für die Kopie antippen, ziehen zum Ausrichten",
-  ],
-  "tools.placing.move": ["Tap the limb to move it to, drag to aim it", "Neuen Ast antippen, ziehen zum Ausrichten"],
-  "tools.placing.cancel": ["Leave the branch where it is", "Den Ast lassen, wo er ist"],
-  "tools.placing.cancel.title": ["Leave the branch where it is (Esc)", "Den Ast lassen, wo er ist (Esc)"],
-  "tools.bud": ["Only this branch grows", "Nur dieser Ast wächst"],
-  "tools.bud.release": ["Let every branch grow", "Alle Äste wachsen lassen"],
-  "tools.bud.release.title": ["Let every branch grow (Esc)", "Alle Äste wachsen lassen (Esc)"],
-  "tools.growing": ["Growing…", "Wächst…"],
-  "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
-  "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
-  "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.prediction": ["Prediction", "Vorschau"],
   "tools.prediction.one": ["Without this branch, {steps} on", "Ohne diesen Ast, {steps} später"],
   "tools.prediction.many": ["Without these {count} branches, {steps} on", "Ohne diese {count} Äste, {steps} später"],

@@ -4,7 +4,7 @@ import type { Command, PlacedObstacle, PlacedShape, Pose, Shape } from "../../..
 import type { Clock } from "../../page/clock";
 import { Transfer } from "../../requests/transfer";
 import { alike, Draft, type GrowthAhead } from "../draft";
-import { type NamedBytes, packedModel } from "./glb";
+import type { NamedBytes } from "./glb";
 import { fetchMesh, uploadModel } from "./obstacle-api";
 
 export interface ObstacleListOptions {
@@ -172,7 +172,8 @@ export class ObstacleList {
     }
     try {
       const send = this.#options.uploadModel ?? uploadModel;
-      const model = packedModel(await files);
+      const [{ packedModel }, read] = await Promise.all([import("./glb"), files]);
+      const model = packedModel(read);
       const placed = await this.transfer.run((signal, tell) => send(session, model, signal, tell));
       if (placed && this.#options.session() === session) {
         this.chosen.value = placed.id;

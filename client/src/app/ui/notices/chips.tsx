@@ -91,12 +91,12 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
   const megabytes = (count: number) => figures.format(count / 1e6);
   const text =
     bytes === 0
-      ? say(`sheets.${name}`)
+      ? say(`transfers.${name}`)
       : percent === 100
-        ? say(`sheets.${name}.read`)
+        ? say(`transfers.${name}.read`)
         : total === null
-          ? say(`sheets.${name}.moving`, { megabytes: megabytes(bytes) })
-          : say(`sheets.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
+          ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
+          : say(`transfers.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
   return (
     <p class="chip">
       {/* Where the duration is not known, the bar only moves. */}
@@ -108,7 +108,7 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
       {text}
       <button type="button" class="chip-stop" onClick={() => transfer.cancel()}>
         <StopIcon />
-        {say("sheets.cancel")}
+        {say("transfers.cancel")}
       </button>
     </p>
   );

@@ -13,7 +13,6 @@ import { kinNow, useSpecies } from "./architecture/species-list";
 import { TABS, tab } from "./architecture/tab";
 import { WeightsWidget } from "./architecture/weights-widget";
 import { WidgetFrame } from "./architecture/widget";
-import { Panel } from "./panel";
 import { ParameterControl } from "./parameter-control";
 
 /** What trees grow by (TreeSketch §3.4): a small tree that shows it, species, widgets to pull at, and sliders. */
@@ -26,41 +25,39 @@ export function ArchitecturePanel({ studio }: { studio: Studio }) {
     body.current?.parentElement?.scrollTo({ top: 0 });
   }, [shown]);
   return (
-    <Panel studio={studio} title={say("panels.architecture")}>
-      <div class="architecture" ref={body}>
-        <div class="architecture-parts">
-          <div class="architecture-top">
-            <div class="sketch">
-              <SchematicTree studio={studio} />
-              <Origin studio={studio} />
-            </div>
-            <div class="tabs three" role="tablist" aria-label={say("architecture.tabs")} onKeyDown={onTabKey}>
-              {TABS.map((name) => (
-                <button
-                  type="button"
-                  role="tab"
-                  key={name}
-                  id={`architecture-tab-${name}`}
-                  aria-selected={shown === name}
-                  aria-controls="architecture-shown"
-                  tabIndex={shown === name ? 0 : -1}
-                  onClick={() => {
-                    tab.value = name;
-                  }}
-                >
-                  {say(`architecture.tab.${name}`)}
-                </button>
-              ))}
-            </div>
+    <div class="architecture" ref={body}>
+      <div class="architecture-parts">
+        <div class="architecture-top">
+          <div class="sketch">
+            <SchematicTree studio={studio} />
+            <Origin studio={studio} />
           </div>
-          <div id="architecture-shown" role="tabpanel" aria-labelledby={`architecture-tab-${shown}`}>
-            {shown === "species" && <SpeciesGrid studio={studio} />}
-            {shown === "form" && <Form studio={studio} />}
-            {shown === "growth" && <Growth studio={studio} />}
+          <div class="tabs three" role="tablist" aria-label={say("architecture.tabs")} onKeyDown={onTabKey}>
+            {TABS.map((name) => (
+              <button
+                type="button"
+                role="tab"
+                key={name}
+                id={`architecture-tab-${name}`}
+                aria-selected={shown === name}
+                aria-controls="architecture-shown"
+                tabIndex={shown === name ? 0 : -1}
+                onClick={() => {
+                  tab.value = name;
+                }}
+              >
+                {say(`architecture.tab.${name}`)}
+              </button>
+            ))}
           </div>
         </div>
+        <div id="architecture-shown" role="tabpanel" aria-labelledby={`architecture-tab-${shown}`}>
+          {shown === "species" && <SpeciesGrid studio={studio} />}
+          {shown === "form" && <Form studio={studio} />}
+          {shown === "growth" && <Growth studio={studio} />}
+        </div>
       </div>
-    </Panel>
+    </div>
   );
 }
 

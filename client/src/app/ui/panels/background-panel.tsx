@@ -10,7 +10,6 @@ import { GroundPicture, SkyPicture } from "./looks/scenery-pictures";
 import { SunDial } from "./looks/sun-dial";
 import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
-import { Panel } from "./panel";
 
 /** What surrounds the tree: sky, ground and sun. */
 export function BackgroundPanel({ studio }: { studio: Studio }) {
@@ -18,7 +17,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
   const standard = DEFAULT_APPEARANCE.background;
   const patch = (fields: Partial<typeof standard>) => ({ background: fields });
   return (
-    <Panel studio={studio} title={say("panels.background")}>
+    <>
       <UnlitNote studio={studio} />
       <Section name="background.sun" title={say("background.sun")} open>
         <SunDial studio={studio} />
@@ -72,6 +71,6 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
         />
       </Section>
       <ResetAll studio={studio} parts={["background"]} />
-    </Panel>
+    </>
   );
 }

@@ -11,7 +11,6 @@ import { LookSlider } from "./looks/look-slider";
 import { ResetAll } from "./looks/reset-all";
 import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
-import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
 
 /** What wood looks like, and how thick it grows. */
@@ -20,7 +19,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
   const standard = standardLooks(studio).bark;
   const withTint = (tint: [number, number, number]) => ({ bark: { tint } });
   return (
-    <Panel studio={studio} title={say("panels.branches")}>
+    <>
       <UnlitNote studio={studio} />
       <Section name="branches.bark" title={say("branches.bark")} open>
         <Choice
@@ -57,6 +56,6 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
         <ParameterSlider studio={studio} parameter={NUMBERS.twig_diameter} />
       </Section>
       <ResetAll studio={studio} parts={["bark"]} parameters={["girth_exponent", "twig_diameter"]} />
-    </Panel>
+    </>
   );
 }

@@ -9,7 +9,6 @@ import { Switch } from "../controls/switch";
 import { TypedNumber } from "../controls/typed-number";
 import { useSpecies } from "./architecture/species-list";
 import { BrushPicture } from "./brush-picture";
-import { Panel } from "./panel";
 import { ParameterControl } from "./parameter-control";
 
 /** What the brush is like, what its strokes do, and which branches follow it (TreeSketch §3.2). */
@@ -19,62 +18,60 @@ export function BrushPanel({ studio }: { studio: Studio }) {
   useSpecies(studio);
   const bud = studio.bud.row.value;
   return (
-    <Panel studio={studio} title={say("panels.brush")}>
-      <div class="brush-panel">
-        <div class="brush-head">
-          <BrushPicture studio={studio} />
-          <p class="brush-does" role="status">
-            {say(`brush.does.${deedOf(studio)}`)}
-          </p>
-        </div>
-        <div>
-          <RadiusField studio={studio} />
-          <Switch
-            label={say("brush.pressure")}
-            help={say("brush.pressure.help")}
-            value={settings.pressureWidens.value}
-            standard={true}
-            onCommit={(on) => {
-              settings.pressureWidens.value = on;
+    <div class="brush-panel">
+      <div class="brush-head">
+        <BrushPicture studio={studio} />
+        <p class="brush-does" role="status">
+          {say(`brush.does.${deedOf(studio)}`)}
+        </p>
+      </div>
+      <div>
+        <RadiusField studio={studio} />
+        <Switch
+          label={say("brush.pressure")}
+          help={say("brush.pressure.help")}
+          value={settings.pressureWidens.value}
+          standard={true}
+          onCommit={(on) => {
+            settings.pressureWidens.value = on;
+          }}
+        />
+        <Section name="brush.stroke" title={say("brush.section.stroke")} open>
+          {OF_THE_BRUSH.map((parameter) => (
+            <ParameterControl studio={studio} parameter={parameter} key={parameter.name} />
+          ))}
+        </Section>
+        <Section name="brush.branches" title={say("brush.section.branches")} open>
+          <div class="brush-bud" data-chosen={bud !== null}>
+            <p role="status">{say(bud === null ? "brush.all-grow" : "brush.one-grows")}</p>
+            {bud === null ? (
+              <p class="quiet">{say("brush.all-grow.how")}</p>
+            ) : (
+              <button type="button" class="primary" onClick={() => studio.bud.release()}>
+                {say("brush.release")}
+              </button>
+            )}
+          </div>
+        </Section>
+        <Section name="brush.lasso" title={say("brush.section.lasso")} open>
+          <Slider
+            label={say("brush.lasso-depth")}
+            help={say("brush.lasso-depth.help")}
+            least={0.1}
+            most={1}
+            step={0.05}
+            value={settings.lassoDepth.value}
+            standard={1}
+            onDrag={(depth) => {
+              settings.lassoDepth.value = depth;
+            }}
+            onCommit={(depth) => {
+              settings.lassoDepth.value = depth;
             }}
           />
-          <Section name="brush.stroke" title={say("brush.section.stroke")} open>
-            {OF_THE_BRUSH.map((parameter) => (
-              <ParameterControl studio={studio} parameter={parameter} key={parameter.name} />
-            ))}
-          </Section>
-          <Section name="brush.branches" title={say("brush.section.branches")} open>
-            <div class="brush-bud" data-chosen={bud !== null}>
-              <p role="status">{say(bud === null ? "brush.all-grow" : "brush.one-grows")}</p>
-              {bud === null ? (
-                <p class="quiet">{say("brush.all-grow.how")}</p>
-              ) : (
-                <button type="button" class="primary" onClick={() => studio.bud.release()}>
-                  {say("brush.release")}
-                </button>
-              )}
-            </div>
-          </Section>
-          <Section name="brush.lasso" title={say("brush.section.lasso")} open>
-            <Slider
-              label={say("brush.lasso-depth")}
-              help={say("brush.lasso-depth.help")}
-              least={0.1}
-              most={1}
-              step={0.05}
-              value={settings.lassoDepth.value}
-              standard={1}
-              onDrag={(depth) => {
-                settings.lassoDepth.value = depth;
-              }}
-              onCommit={(depth) => {
-                settings.lassoDepth.value = depth;
-              }}
-            />
-          </Section>
-        </div>
+        </Section>
       </div>
-    </Panel>
+    </div>
   );
 }
 

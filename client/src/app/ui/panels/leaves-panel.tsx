@@ -15,7 +15,6 @@ import { ResetAll } from "./looks/reset-all";
 import { SeasonButtons, seasonName } from "./looks/season-pictures";
 import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
-import { Panel } from "./panel";
 import { ParameterSlider } from "./parameter-slider";
 
 /** What leaves, flowers and fruits look like, and how many leaves there are. */
@@ -24,7 +23,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
   const standard = standardLooks(studio).leaves;
   const withTint = (tint: [number, number, number]) => ({ leaves: { tint } });
   return (
-    <Panel studio={studio} title={say("panels.leaves")}>
+    <>
       <UnlitNote studio={studio} />
       <LookSlider
         studio={studio}
@@ -97,7 +96,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
         parts={["leaves", "flowers", "fruits"]}
         parameters={OF_THE_LEAVES.map(({ name }) => name)}
       />
-    </Panel>
+    </>
   );
 }
 

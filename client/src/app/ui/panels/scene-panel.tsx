@@ -8,7 +8,6 @@ import { say } from "../../words/say";
 import { Field } from "../controls/field";
 import { TypedNumber } from "../controls/typed-number";
 import { BoxIcon, DeleteIcon, ModelIcon, NewIcon, PlaneIcon, SphereIcon, WallIcon } from "../icons";
-import { Panel } from "./panel";
 
 type Kind = "box" | "sphere" | "wall" | "plane";
 
@@ -25,7 +24,7 @@ export function ScenePanel({ studio }: { studio: Studio }) {
   const obstacles = studio.obstacles.drawn.value;
   const full = list.value.length >= MAX_OBSTACLES;
   return (
-    <Panel studio={studio} title={say("panels.scene")}>
+    <>
       <div class="kinds">
         {KINDS.map(([kind, Icon]) => (
           <button type="button" key={kind} disabled={full} onClick={() => add(studio, kind)}>
@@ -72,7 +71,7 @@ export function ScenePanel({ studio }: { studio: Studio }) {
           ))}
         </ul>
       )}
-    </Panel>
+    </>
   );
 }
 

@@ -4,7 +4,6 @@ import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import { Icon } from "../icons";
 import { GestureSketch } from "./gesture-sketch";
-import { Sheet } from "./sheet";
 import { showSubject } from "./show-subject";
 
 /** What is only found by searching; the panels explain it where it stands. */
@@ -18,7 +17,7 @@ export function HelpSheet({ studio }: { studio: Studio }) {
   const shown = searching ? searched(groups, query) : groups.filter(({ title }) => title !== SEARCHED_ONLY);
   const count = shown.reduce((sum, { topics }) => sum + topics.length, 0);
   return (
-    <Sheet studio={studio} title={say("help.title")} wide>
+    <>
       <div class="help-top">
         <input
           type="search"
@@ -52,7 +51,7 @@ export function HelpSheet({ studio }: { studio: Studio }) {
           <Group key={group.title} group={group} onShow={(subject) => showSubject(studio, subject)} />
         ))}
       </div>
-    </Sheet>
+    </>
   );
 }
 

@@ -6,7 +6,6 @@ import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
 import { DeleteIcon, RenameIcon, TreeIcon } from "../icons";
-import { Sheet } from "./sheet";
 
 /** The saved trees; a tap opens one as a new session. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
@@ -15,7 +14,7 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   const failure = pages.failure.value;
   useEffect(() => void pages.next(), [pages]);
   return (
-    <Sheet studio={studio} title={say("sheets.library")} wide>
+    <>
       {trees === null && failure === null && <p class="quiet empty">{say("notices.looking")}</p>}
       {trees?.length === 0 && <p class="quiet empty">{say("sheets.library.empty")}</p>}
       <ul class="library">
@@ -29,7 +28,7 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
         </p>
       )}
       {(failure !== null || (trees !== null && pages.more.value)) && <More key={trees?.length} pages={pages} />}
-    </Sheet>
+    </>
   );
 }
 

@@ -3,7 +3,6 @@ import { saveTree } from "../../library/library-api";
 import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
-import { Sheet } from "./sheet";
 
 /** A picture larger than this would be refused; the limit is 192 KiB. */
 const MAX_PICTURE = 190 * 1024;
@@ -38,28 +37,26 @@ export function SaveSheet({ studio }: { studio: Studio }) {
   };
 
   return (
-    <Sheet studio={studio} title={say("sheets.save")}>
-      <form class="stack" onSubmit={save}>
-        <label class="field">
-          <span>{say("sheets.save.name")}</span>
-          <input
-            type="text"
-            value={name}
-            maxLength={80}
-            autocomplete="off"
-            enterkeyhint="done"
-            onFocus={(event) => event.currentTarget.select()}
-            onInput={(event) => setName(event.currentTarget.value)}
-          />
-        </label>
-        <p class="quiet">{say("sheets.save.advice")}</p>
-        <div class="actions">
-          <button type="submit" class="primary" disabled={trimmed === "" || saving}>
-            {say(saving ? "sheets.save.saving" : "sheets.save.act")}
-          </button>
-        </div>
-      </form>
-    </Sheet>
+    <form class="stack" onSubmit={save}>
+      <label class="field">
+        <span>{say("sheets.save.name")}</span>
+        <input
+          type="text"
+          value={name}
+          maxLength={80}
+          autocomplete="off"
+          enterkeyhint="done"
+          onFocus={(event) => event.currentTarget.select()}
+          onInput={(event) => setName(event.currentTarget.value)}
+        />
+      </label>
+      <p class="quiet">{say("sheets.save.advice")}</p>
+      <div class="actions">
+        <button type="submit" class="primary" disabled={trimmed === "" || saving}>
+          {say(saving ? "sheets.save.saving" : "sheets.save.act")}
+        </button>
+      </div>
+    </form>
   );
 }
 

@@ -1,7 +1,6 @@
 import type { Signal } from "@preact/signals";
 import type { Studio } from "../../studio";
 import { type Language, say } from "../../words/say";
-import { Sheet } from "./sheet";
 
 /** Languages by their own names, which need no translation. */
 const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" };
@@ -10,49 +9,47 @@ const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" 
 export function SettingsSheet({ studio }: { studio: Studio }) {
   const { language, theme, side, pressureWidens } = studio.settings;
   return (
-    <Sheet studio={studio} title={say("settings.title")}>
-      <div class="options">
-        <Segments
-          legend={say("settings.language")}
-          name="language"
-          chosen={language}
-          choices={[
-            [null, say("settings.language.system")],
-            ["en", LANGUAGE_NAMES.en],
-            ["de", LANGUAGE_NAMES.de],
-          ]}
+    <div class="options">
+      <Segments
+        legend={say("settings.language")}
+        name="language"
+        chosen={language}
+        choices={[
+          [null, say("settings.language.system")],
+          ["en", LANGUAGE_NAMES.en],
+          ["de", LANGUAGE_NAMES.de],
+        ]}
+      />
+      <Segments
+        legend={say("settings.theme")}
+        name="theme"
+        chosen={theme}
+        choices={[
+          [null, say("settings.theme.system")],
+          ["light", say("settings.theme.light")],
+          ["dark", say("settings.theme.dark")],
+        ]}
+      />
+      <Segments
+        legend={say("settings.side")}
+        name="side"
+        chosen={side}
+        choices={[
+          ["left", say("settings.side.left")],
+          ["right", say("settings.side.right")],
+        ]}
+      />
+      <label class="switch">
+        <input
+          type="checkbox"
+          checked={pressureWidens.value}
+          onChange={(event) => {
+            pressureWidens.value = event.currentTarget.checked;
+          }}
         />
-        <Segments
-          legend={say("settings.theme")}
-          name="theme"
-          chosen={theme}
-          choices={[
-            [null, say("settings.theme.system")],
-            ["light", say("settings.theme.light")],
-            ["dark", say("settings.theme.dark")],
-          ]}
-        />
-        <Segments
-          legend={say("settings.side")}
-          name="side"
-          chosen={side}
-          choices={[
-            ["left", say("settings.side.left")],
-            ["right", say("settings.side.right")],
-          ]}
-        />
-        <label class="switch">
-          <input
-            type="checkbox"
-            checked={pressureWidens.value}
-            onChange={(event) => {
-              pressureWidens.value = event.currentTarget.checked;
-            }}
-          />
-          <span>{say("settings.pressure")}</span>
-        </label>
-      </div>
-    </Sheet>
+        <span>{say("settings.pressure")}</span>
+      </label>
+    </div>
   );
 }
 

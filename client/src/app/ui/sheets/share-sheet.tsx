@@ -1,7 +1,6 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
-import { Sheet } from "./sheet";
 
 /** Gives the link under which others see and draw the same tree. */
 export function ShareSheet({ studio }: { studio: Studio }) {
@@ -14,25 +13,23 @@ export function ShareSheet({ studio }: { studio: Studio }) {
   };
 
   return (
-    <Sheet studio={studio} title={say("sheets.share")}>
-      <div class="stack">
-        <p>{say("sheets.share.advice")}</p>
-        <div class="link">
-          <input
-            ref={field}
-            type="text"
-            readOnly
-            aria-label={say("sheets.share.link")}
-            value={link}
-            onFocus={(event) => event.currentTarget.select()}
-          />
-          <button type="button" class="primary" onClick={copy}>
-            {say("sheets.share.copy")}
-          </button>
-        </div>
-        {onlyHere && <p class="quiet">{say("sheets.share.only-here")}</p>}
+    <div class="stack">
+      <p>{say("sheets.share.advice")}</p>
+      <div class="link">
+        <input
+          ref={field}
+          type="text"
+          readOnly
+          aria-label={say("sheets.share.link")}
+          value={link}
+          onFocus={(event) => event.currentTarget.select()}
+        />
+        <button type="button" class="primary" onClick={copy}>
+          {say("sheets.share.copy")}
+        </button>
       </div>
-    </Sheet>
+      {onlyHere && <p class="quiet">{say("sheets.share.only-here")}</p>}
+    </div>
   );
 }
 

@@ -7,7 +7,7 @@ import { CloseIcon } from "../icons";
 interface SheetProps {
   readonly studio: Studio;
   readonly title: string;
-  readonly wide?: boolean;
+  readonly wide?: boolean | undefined;
   readonly children: ComponentChildren;
 }
 

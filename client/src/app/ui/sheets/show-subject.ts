@@ -61,7 +61,8 @@ function point(find: () => Element | null, frames = MOST_FRAMES): void {
       found.classList.add("pointed");
       setTimeout(() => found.classList.remove("pointed"), POINTED);
     } else if (frames > 0) {
-      point(find, frames - 1);
+      // What is still loaded is waited for.
+      point(find, document.querySelector('[aria-busy="true"]') ? frames : frames - 1);
     }
   });
 }

@@ -1,0 +1,53 @@
+import { signal } from "@preact/signals";
+import { isReplaced, reloadOnce } from "../page/replaced";
+import { laterWords } from "../words/later-words";
+
+/** Why a part is not there: it did not come, or the server has another build of the page, which has other files. */
+export type PartFailure = "lost" | "replaced";
+
+/** What a part needs of the page; tests bring their own. */
+export interface PartPage {
+  readonly isReplaced: () => Promise<boolean>;
+  readonly reload: () => void;
+}
+
+/** A part of the page that is loaded when it is first needed, with its texts and styles, or before that while the page is idle. */
+export class Part<Content> {
+  readonly content = signal<Content | null>(null);
+  /** Why it is not there; null while it is loaded. */
+  readonly failure = signal<PartFailure | null>(null);
+  #loading: Promise<void> | null = null;
+
+  constructor(
+    private readonly fetch: () => Promise<Content>,
+    private readonly words: () => Promise<unknown> = laterWords,
+    private readonly page: PartPage = { isReplaced, reload: reloadOnce },
+  ) {}
+
+  /** Loads it, once; after a failure once more. */
+  load(): Promise<void> {
+    this.#loading ??= this.#load();
+    return this.#loading;
+  }
+
+  /** The same because someone needs it now: where only a reload of the page can bring it, the page is reloaded. */
+  async open(): Promise<void> {
+    await this.load();
+    if (this.failure.peek() === "lost" && (await this.page.isReplaced())) {
+      this.failure.value = "replaced";
+      this.page.reload();
+    }
+  }
+
+  async #load(): Promise<void> {
+    this.failure.value = null;
+    try {
+      const [content] = await Promise.all([this.fetch(), this.words(), import("./styles/parts")]);
+      this.content.value = content;
+    } catch (error) {
+      console.warn("A part of the page could not be loaded:", error);
+      this.#loading = null;
+      this.failure.value = "lost";
+    }
+  }
+}

@@ -1,0 +1,107 @@
+import type { PanelName, SheetName, Studio } from "../studio";
+import { laterWordsIn } from "../words/later-words";
+import { type Key, LANGUAGES } from "../words/say";
+import { Part } from "./part";
+import type { StudioView } from "./part-view";
+
+/** A card over the workspace, and about how high its content is. */
+interface SheetPart {
+  readonly title: Key;
+  readonly wide?: boolean;
+  readonly height: string;
+  readonly part: Part<StudioView>;
+}
+
+export const PANELS: Readonly<Record<PanelName, Part<StudioView>>> = {
+  architecture: new Part(async () => (await import("./panels/architecture-panel")).ArchitecturePanel),
+  brush: new Part(async () => (await import("./panels/brush-panel")).BrushPanel),
+  leaves: new Part(async () => (await import("./panels/leaves-panel")).LeavesPanel),
+  branches: new Part(async () => (await import("./panels/branches-panel")).BranchesPanel),
+  background: new Part(async () => (await import("./panels/background-panel")).BackgroundPanel),
+  scene: new Part(async () => (await import("./panels/scene-panel")).ScenePanel),
+};
+
+export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
+  save: {
+    title: "sheets.save",
+    height: "12rem",
+    part: new Part(async () => (await import("./sheets/save-sheet")).SaveSheet),
+  },
+  library: {
+    title: "sheets.library",
+    wide: true,
+    height: "16rem",
+    part: new Part(async () => (await import("./sheets/library-sheet")).LibrarySheet),
+  },
+  share: {
+    title: "sheets.share",
+    height: "9rem",
+    part: new Part(async () => (await import("./sheets/share-sheet")).ShareSheet),
+  },
+  help: {
+    title: "sheets.help",
+    wide: true,
+    height: "46rem",
+    // It is searched in every language.
+    part: new Part(
+      async () => (await import("./sheets/help-sheet")).HelpSheet,
+      () => Promise.all(LANGUAGES.map(laterWordsIn)),
+    ),
+  },
+  settings: {
+    title: "sheets.settings",
+    height: "20rem",
+    part: new Part(async () => (await import("./sheets/settings-sheet")).SettingsSheet),
+  },
+};
+
+/** What lies over the picture and at its foot while grown branches are shaped. */
+export const SHAPING = new Part(() => import("./shaping-views"));
+
+export const SUN = new Part(async () => (await import("./overlays/sun-handle")).SunHandle);
+
+export const TOUR = new Part(async () => (await import("./notices/tour-card")).TourCard);
+
+/** All of them, those first that are needed first. */
+const ALL: readonly Part<unknown>[] = [
+  SHAPING,
+  ...Object.values(PANELS),
+  SUN,
+  ...Object.values(SHEETS).map(({ part }) => part),
+];
+
+/** Loads every part once the first tree is drawn and whenever the page is idle, so that none has to be waited for. */
+export function loadPartsWhenIdle(studio: Studio, canvas: HTMLCanvasElement): () => void {
+  let left = false;
+  const loadAll = async () => {
+    for (const part of ALL) {
+      await idle();
+      if (left) {
+        return;
+      }
+      await part.load();
+    }
+  };
+  const drawn = new MutationObserver(() => {
+    if (canvas.hasAttribute("data-still") && studio.rows.peek() > 0) {
+      drawn.disconnect();
+      void loadAll();
+    }
+  });
+  drawn.observe(canvas, { attributeFilter: ["data-still"] });
+  return () => {
+    left = true;
+    drawn.disconnect();
+  };
+}
+
+/** Waits until the browser has nothing else to do; Safari does not say when. */
+function idle(): Promise<void> {
+  return new Promise((resolve) => {
+    if ("requestIdleCallback" in window) {
+      requestIdleCallback(() => resolve(), { timeout: 4000 });
+    } else {
+      setTimeout(resolve, 300);
+    }
+  });
+}

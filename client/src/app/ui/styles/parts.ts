@@ -1,0 +1,12 @@
+// The styles of everything that is loaded later, in an order in which later ones may refine earlier ones.
+import "./shaping.css";
+import "./panels.css";
+import "./controls.css";
+import "./widgets.css";
+import "./architecture.css";
+import "./brush.css";
+import "./looks.css";
+import "./sun.css";
+import "./branch.css";
+import "./sheet-contents.css";
+import "./help.css";

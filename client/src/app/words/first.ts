@@ -1,0 +1,26 @@
+import { BARS } from "./bars";
+import { DRAWMODE } from "./drawmode";
+import { NOTICES } from "./notices";
+import { PANELS } from "./panels";
+import { REQUESTS } from "./problems";
+import { ROTATION } from "./rotation";
+import { MESHES } from "./scene";
+import { SHEET_TITLES } from "./sheets";
+import { TIMELINE } from "./timeline";
+import { TOOLS } from "./tools";
+import { TRANSFERS } from "./transfers";
+
+/** The texts that a page may need before it has loaded any of its parts, in every language. */
+export const FIRST = {
+  ...BARS,
+  ...DRAWMODE,
+  ...MESHES,
+  ...NOTICES,
+  ...PANELS,
+  ...REQUESTS,
+  ...ROTATION,
+  ...SHEET_TITLES,
+  ...TIMELINE,
+  ...TOOLS,
+  ...TRANSFERS,
+} as const satisfies Record<string, readonly [string, string]>;

@@ -1,0 +1,34 @@
+import { ARCHITECTURE } from "./architecture";
+import { BACKGROUND } from "./background";
+import { BRANCHES } from "./branches";
+import { BRUSH } from "./brush";
+import { COLOURS } from "./colours";
+import { CONTROLS } from "./controls";
+import { HELP } from "./help";
+import { LEAVES } from "./leaves";
+import { PARAMETERS } from "./parameters";
+import { PROBLEMS } from "./problems";
+import { SCENE } from "./scene";
+import { SETTINGS } from "./settings";
+import { SHEETS } from "./sheets";
+import { SUN } from "./sun";
+import { SHAPING } from "./tools";
+
+/** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
+export const LATER = {
+  ...COLOURS,
+  ...ARCHITECTURE,
+  ...BRUSH,
+  ...PARAMETERS,
+  ...LEAVES,
+  ...CONTROLS,
+  ...BRANCHES,
+  ...BACKGROUND,
+  ...SETTINGS,
+  ...PROBLEMS,
+  ...SCENE,
+  ...SHEETS,
+  ...SUN,
+  ...SHAPING,
+  ...HELP,
+} as const satisfies Record<string, readonly [string, string]>;

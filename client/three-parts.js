@@ -1,0 +1,71 @@
+// Parts of three.js's renderer that a scene without lights, fog, backgrounds, headsets and materials of three.js's own
+// does not use, each with the methods that the renderer calls all the same. `three-plugin.ts` puts them in place.
+import { Color } from "three/src/math/Color.js";
+
+export const ShaderChunk = {};
+export const ShaderLib = {};
+export const getDFGLUT = () => null;
+
+/** Clears to opaque black, or to nothing where the canvas is transparent. */
+export function WebGLBackground(_renderer, _environments, state, _objects, alpha, premultipliedAlpha) {
+  const black = new Color(0x000000);
+  const clearAlpha = alpha === true ? 0 : 1;
+  return {
+    getClearColor: () => black,
+    getClearAlpha: () => clearAlpha,
+    render: () => state.buffers.color.setClear(0, 0, 0, clearAlpha, premultipliedAlpha),
+    addToRenderList() {},
+    dispose() {},
+  };
+}
+
+export function WebGLEnvironments() {
+  return { get: () => null, dispose() {} };
+}
+
+export function WebGLLights() {
+  const state = { version: 0, numSpotLightShadowsWithMaps: 0, numLightProbes: 0 };
+  for (const kind of ["sun", "directional", "point", "spot", "rectArea", "hemi", "spotLightMap"]) {
+    state[kind] = [];
+  }
+  for (const kind of ["sun", "directional", "point", "spot"]) {
+    state[`${kind}ShadowMap`] = [];
+  }
+  return { state, setup() {}, setupView() {} };
+}
+
+export function WebGLMaterials() {
+  return {
+    refreshFogUniforms() {},
+    refreshMaterialUniforms(_uniforms, material) {
+      material.uniformsNeedUpdate = false;
+    },
+  };
+}
+
+export function WebGLMorphtargets() {
+  return { update() {} };
+}
+
+export function WebGLOutput() {
+  throw new Error("The renderer draws to the canvas in 8 bits a channel only.");
+}
+
+export function WebGLShadowMap() {
+  return { enabled: false, autoUpdate: false, needsUpdate: false, render() {} };
+}
+
+export function WebGLUniformsGroups() {
+  return { bind() {}, update() {}, dispose() {} };
+}
+
+export function WebXRManager() {
+  return {
+    enabled: false,
+    isPresenting: false,
+    addEventListener() {},
+    removeEventListener() {},
+    setAnimationLoop() {},
+    dispose() {},
+  };
+}
