@@ -10,10 +10,23 @@ export async function isReplaced(ownScript: string | null = scriptOf(document), 
   }
 }
 
-/** Loads the page again, unless that was done a moment ago and has not helped. */
+/** Whether the server sends its page. */
+export function serverAnswers(): Promise<boolean> {
+  return fetchPage().then(
+    () => true,
+    () => false,
+  );
+}
+
+/** Loads the page again. */
+export function reload(): void {
+  location.reload();
+}
+
+/** The same, unless that was done a moment ago and has not helped. */
 export function reloadOnce(): void {
   if (mayReload(sessionStorage, Date.now())) {
-    location.reload();
+    reload();
   }
 }
 

@@ -1,5 +1,6 @@
 import type { ComponentType } from "preact";
 import { useEffect } from "preact/hooks";
+import { reload } from "../page/replaced";
 import type { Studio } from "../studio";
 import { say } from "../words/say";
 import type { Part } from "./part";
@@ -30,11 +31,11 @@ export function PartView({ studio, part, height }: PartViewProps) {
         <>
           <p role="alert">{say(`notices.part-${failure}`)}</p>
           {failure === "lost" ? (
-            <button type="button" class="primary" onClick={() => part.open()}>
+            <button type="button" class="primary" onClick={() => part.again()}>
               {say("notices.part-again")}
             </button>
           ) : (
-            <button type="button" class="primary" onClick={() => location.reload()}>
+            <button type="button" class="primary" onClick={reload}>
               {say("notices.reload")}
             </button>
           )}

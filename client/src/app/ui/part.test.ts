@@ -2,7 +2,12 @@ import { describe, expect, it, vi } from "vitest";
 import { Part } from "./part";
 
 const words = async () => {};
-const page = (replaced: boolean) => ({ isReplaced: async () => replaced, reload: vi.fn() });
+const page = (replaced: boolean, answers = true) => ({
+  isReplaced: async () => replaced,
+  serverAnswers: async () => answers,
+  reload: vi.fn(),
+  reloadOnce: vi.fn(),
+});
 
 describe("a part of the page", () => {
   it("is loaded once, however often it is asked for", async () => {
@@ -46,8 +51,17 @@ describe("a part of the page", () => {
     const own = page(true);
     const part = new Part(() => Promise.reject(new Error("404")), words, own);
     await part.load();
-    expect([part.failure.value, own.reload.mock.calls.length]).toEqual(["lost", 0]);
+    expect([part.failure.value, own.reloadOnce.mock.calls.length]).toEqual(["lost", 0]);
     await part.open();
-    expect([part.failure.value, own.reload.mock.calls.length]).toEqual(["replaced", 1]);
+    expect([part.failure.value, own.reloadOnce.mock.calls.length]).toEqual(["replaced", 1]);
+  });
+
+  it("is brought by a new page where the browser remembers that it did not come", async () => {
+    vi.spyOn(console, "warn").mockImplementation(() => {});
+    const [online, offline] = [page(false), page(false, false)];
+    for (const own of [online, offline]) {
+      await new Part(() => Promise.reject(new Error("remembered")), words, own).again();
+    }
+    expect([online.reload.mock.calls.length, offline.reload.mock.calls.length]).toEqual([1, 0]);
   });
 });

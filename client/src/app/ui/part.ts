@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { isReplaced, reloadOnce } from "../page/replaced";
+import { isReplaced, reload, reloadOnce, serverAnswers } from "../page/replaced";
 import { laterWords } from "../words/later-words";
 
 /** Why a part is not there: it did not come, or the server has another build of the page, which has other files. */
@@ -8,7 +8,10 @@ export type PartFailure = "lost" | "replaced";
 /** What a part needs of the page; tests bring their own. */
 export interface PartPage {
   readonly isReplaced: () => Promise<boolean>;
+  readonly serverAnswers: () => Promise<boolean>;
   readonly reload: () => void;
+  /** The same, unless it was done a moment ago. */
+  readonly reloadOnce: () => void;
 }
 
 /** A part of the page that is loaded when it is first needed, with its texts and styles, or before that while the page is idle. */
@@ -21,7 +24,7 @@ export class Part<Content> {
   constructor(
     private readonly fetch: () => Promise<Content>,
     private readonly words: () => Promise<unknown> = laterWords,
-    private readonly page: PartPage = { isReplaced, reload: reloadOnce },
+    private readonly page: PartPage = { isReplaced, serverAnswers, reload, reloadOnce },
   ) {}
 
   /** Loads it, once; after a failure once more. */
@@ -35,6 +38,14 @@ export class Part<Content> {
     await this.load();
     if (this.failure.peek() === "lost" && (await this.page.isReplaced())) {
       this.failure.value = "replaced";
+      this.page.reloadOnce();
+    }
+  }
+
+  /** Tries once more. Browsers remember a script that did not come: then only a new page brings it. */
+  async again(): Promise<void> {
+    await this.load();
+    if (this.failure.peek() !== null && (await this.page.serverAnswers())) {
       this.page.reload();
     }
   }
