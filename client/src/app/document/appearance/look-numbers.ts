@@ -1,4 +1,10 @@
-import { type Appearance, type AppearancePatch, DEFAULT_APPEARANCE, LOOKS, type Setting } from "../../../wire/generated";
+import {
+  type Appearance,
+  type AppearancePatch,
+  DEFAULT_APPEARANCE,
+  LOOKS,
+  type Setting,
+} from "../../../wire/generated";
 
 /** A section of the appearance. */
 export type Part = keyof Appearance;
