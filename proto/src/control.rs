@@ -2,19 +2,23 @@
 
 use espalier_settings::{Appearance, ParameterValues};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use ts_rs::TS;
 
 use crate::{
+    bounded::{List, PredictedSteps},
     command::Command,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
     problem::Problem,
+    reading::{self, tagged_enum},
     timeline::{Timeline, WidthConstraint},
+    version::MAX_PRUNED_ROWS,
 };
 
 /// What a returning client still has (`RS1`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with epoch, generations and rows")]
 pub struct Resume {
     /// The epoch of the frames it holds.
     pub epoch: u32,
@@ -24,59 +28,89 @@ pub struct Resume {
     pub rows: u32,
 }
 
-fn mesh_delta() -> u8 {
-    FrameKind::MeshDelta.code()
+fn mesh_delta() -> FrameKind {
+    FrameKind::MeshDelta
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
-fn is_mesh_delta(kind: &u8) -> bool {
+fn is_mesh_delta(kind: &FrameKind) -> bool {
     *kind == mesh_delta()
 }
 
-/// From a client.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[allow(clippy::large_enum_variant, reason = "nearly all messages are commands, the largest of them")]
-#[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
-pub enum ClientMessage {
-    /// The first message (`HS1`).
-    Hello {
-        /// [`crate::version::PROTOCOL_VERSION`].
-        protocol: u32,
-        /// A random key this client keeps across reconnections: 8 to 64 letters, digits, `-` or `_`.
-        client: String,
-        /// What it still holds of this session, if it returns.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        #[ts(optional)]
-        resume: Option<Resume>,
-    },
-    /// Something to do (`CM1`).
-    Command {
-        /// 1, 2, 3 … for each client key; sent again after a reconnection until acknowledged.
-        id: u32,
-        /// What to do.
-        command: Command,
-    },
-    /// The client has taken in frames up to this sequence (`FL1`).
-    Received {
-        /// The sequence of the newest frame.
-        sequence: u32,
-        /// The kind of that frame as in its header; 1, a mesh delta, if left out.
-        #[serde(default = "mesh_delta", skip_serializing_if = "is_mesh_delta")]
-        #[ts(as = "Option<u8>", optional)]
-        kind: u8,
-    },
-    /// How would the plants grow on without these branches? The answer is a ghost, for this client alone (`PD1`).
-    Predict {
-        /// Up to 1024 rows, each as in `prune`.
-        rows: Vec<u32>,
-        /// Up to 100 simulation steps; 0 without rows ends the ghost.
-        steps: u32,
-    },
-    /// Is the server there?
-    Ping {
-        /// Comes back in the pong.
-        nonce: u32,
-    },
+tagged_enum! {
+    "type",
+
+    /// From a client.
+    pub enum ClientMessage {
+        /// The first message (`HS1`).
+        Hello {
+            /// [`crate::version::PROTOCOL_VERSION`].
+            protocol: u32,
+            /// A random key this client keeps across reconnections: 8 to 64 letters, digits, `-` or `_`.
+            client: String,
+            /// What it still holds of this session, if it returns.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            resume: Option<Resume>,
+        },
+        /// Something to do (`CM1`).
+        Command {
+            /// 1, 2, 3 … for each client key; sent again after a reconnection until acknowledged.
+            id: u32,
+            /// What to do.
+            command: Command,
+        },
+        /// The client has taken in frames up to this sequence (`FL1`).
+        Received {
+            /// The sequence of the newest frame.
+            sequence: u32,
+            /// The kind of that frame as in its header; 1, a mesh delta, if left out.
+            #[serde(default = "mesh_delta", skip_serializing_if = "is_mesh_delta")]
+            #[ts(as = "Option<u8>", optional)]
+            kind: FrameKind,
+        },
+        /// How would the plants grow on without these branches? The answer is a ghost, for this client alone (`PD1`).
+        Predict {
+            /// Up to 1024 rows, each as in `prune`.
+            rows: List<u32, 0, MAX_PRUNED_ROWS>,
+            /// Up to 100 simulation steps; 0 without rows ends the ghost.
+            steps: PredictedSteps,
+        },
+        /// Is the server there?
+        Ping {
+            /// Comes back in the pong.
+            nonce: u32,
+        },
+    }
+}
+
+/// A message of a client that cannot be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unreadable {
+    /// The number of the command, if it is one.
+    pub id: Option<u32>,
+    /// Why. The field of a command is named as in the command, not as in the message.
+    pub problem: Problem,
+}
+
+impl ClientMessage {
+    /// Reads a message.
+    ///
+    /// # Errors
+    ///
+    /// It is no known message; a problem names the field and what is allowed there.
+    pub fn from_json(text: &str) -> Result<Self, Unreadable> {
+        let value = reading::parse(text).map_err(|problem| Unreadable { id: None, problem })?;
+        let is_command = value.get("type").is_some_and(|kind| kind == "command");
+        let id = value.get("id").and_then(Value::as_u64).filter(|_| is_command);
+        let id = id.and_then(|id| u32::try_from(id).ok());
+        let command = value.get("command").filter(|_| id.is_some()).cloned();
+        reading::from_value(value).map_err(|problem| {
+            let command = command.map(reading::from_value::<Command>);
+            let inner = command.and_then(Result::err).filter(|problem| problem.field.is_some());
+            Unreadable { id, problem: inner.unwrap_or(problem) }
+        })
+    }
 }
 
 /// Figures of the document as a whole, sent after each change.

@@ -12,6 +12,9 @@ use std::{
 };
 
 use flate2::{Compress, Compression, FlushCompress, read::DeflateDecoder};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+use crate::bounded::{Between, Bounded};
 
 /// Bytes before the body.
 pub const HEADER_BYTES: usize = 16;
@@ -42,6 +45,21 @@ pub enum FrameKind {
     Pose = 2,
     /// A prediction, [`crate::ghost::GhostFrame`].
     Ghost = 3,
+}
+
+impl Serialize for FrameKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_u8(self.code())
+    }
+}
+
+impl<'de> Deserialize<'de> for FrameKind {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let codes = Between(u32::from(Self::MeshDelta.code()), u32::from(Self::Ghost.code()));
+        let code = deserializer.deserialize_u32(Bounded(codes, &codes.to_string()))?;
+        let kind = u8::try_from(code).ok().and_then(Self::from_code);
+        kind.ok_or_else(|| D::Error::custom(format_args!("invalid value: {code}, expected {codes}")))
+    }
 }
 
 impl FrameKind {

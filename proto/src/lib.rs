@@ -2,20 +2,24 @@
 //!
 //! Control is JSON text ([`control`], [`command`], [`library`]); growth arrives as binary mesh deltas ([`frame`]).
 //! The rules both sides keep, each with its ID, stand in `PROTOCOL.md` beside this crate.
-//! Types here are raw: a number is whatever JSON held. Ranges are checked where a value becomes
-//! part of a document, and what failed comes back as a [`problem::Problem`]. The settings of a tree are those of the
-//! tables in `espalier-settings`.
+//! What a client sends is read into types that are in good form ([`reading`]): a number in its range, a rotation of
+//! length 1. What cannot be read comes back as a [`problem::Problem`] with the field and what is allowed there. The
+//! settings of a tree are those of the tables in `espalier-settings`.
 
+pub mod bounded;
 pub mod command;
 pub mod control;
 pub mod envelope;
 pub mod frame;
 pub mod ghost;
 pub mod library;
+pub mod mesh;
 pub mod obstacle;
+pub mod place;
 pub mod pose;
 pub mod problem;
 pub mod protocol_tables;
+pub mod reading;
 pub mod schematic;
 pub mod species;
 pub mod timeline;
@@ -23,13 +27,19 @@ pub mod typescript;
 pub mod varint;
 pub mod version;
 
-pub use command::{Command, DrawingPlane, StrokeSample};
-pub use control::{ClientMessage, DocumentState, Resume, ServerMessage};
+pub use bounded::{
+    BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
+};
+pub use command::{Action, Command, StrokeSample};
+pub use control::{ClientMessage, DocumentState, Resume, ServerMessage, Unreadable};
 pub use envelope::FrameKind;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;
-pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape};
+pub use mesh::{Mesh, MeshError};
+pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape};
+pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
 pub use pose::{PoseFrame, RowMotion};
 pub use problem::{Problem, ProblemCode};
+pub use reading::NotAllowed;
 pub use schematic::Schematic;
 pub use timeline::{OperationKind, Timeline, TimelineFuture, TimelineOperation, WidthConstraint};

@@ -3,58 +3,95 @@
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::{
+    bounded::{Scale, SphereRadius, written_as},
+    mesh::Mesh,
+    place::{BoxSize, Position, UnitRotation},
+    reading::{NotAllowed, tagged_enum},
+};
+
 /// No rotation.
-fn upright() -> [f32; 4] {
-    [0.0, 0.0, 0.0, 1.0]
+fn upright() -> UnitRotation {
+    UnitRotation::IDENTITY
 }
 
 /// A mesh is as large as its coordinates say unless told otherwise.
-fn full_size() -> f32 {
-    1.0
+fn full_size() -> Scale {
+    Scale::nearest(1.0)
 }
 
 /// Where something stands, and how it is turned.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with position and rotation")]
 pub struct Pose {
     /// Where its own origin lies, in internode lengths.
-    pub position: [f32; 3],
+    pub position: Position,
     /// A quaternion x, y, z, w; of unit length, within a hundredth.
     #[serde(default = "upright")]
     #[ts(as = "Option<[f32; 4]>", optional)]
-    pub rotation: [f32; 4],
+    pub rotation: UnitRotation,
 }
 
-/// What shape an obstacle has, around its own origin, in internode lengths.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
-pub enum Shape {
-    /// A box around the origin.
-    Box {
-        /// Its whole width, height and depth, each 0.1 to 1000.
-        size: [f32; 3],
-    },
-    /// A sphere around the origin.
-    Sphere {
-        /// 0.1 to 500.
-        radius: f32,
-    },
-    /// Everything below the plane through the origin: nothing grows where the obstacle's own y is below 0.
-    Plane {},
-    /// A triangle mesh.
-    Mesh {
-        /// The mesh in base64 (`OB4`).
-        mesh: String,
-        /// 0.001 to 1000: coordinates are multiplied by this.
-        #[serde(default = "full_size")]
-        #[ts(as = "Option<f32>", optional)]
-        scale: f32,
-    },
+tagged_enum! {
+    "kind",
+
+    /// What shape an obstacle has, around its own origin, in internode lengths.
+    pub enum Shape {
+        /// A box around the origin.
+        Box {
+            /// Its whole width, height and depth, each 0.1 to 1000.
+            size: BoxSize,
+        },
+        /// A sphere around the origin.
+        Sphere {
+            /// 0.1 to 500.
+            radius: SphereRadius,
+        },
+        /// Everything below the plane through the origin: nothing grows where the obstacle's own y is below 0.
+        Plane {},
+        /// A triangle mesh.
+        Mesh {
+            /// The mesh in base64 (`OB4`).
+            #[ts(as = "String")]
+            mesh: Mesh,
+            /// 0.001 to 1000: coordinates are multiplied by this.
+            #[serde(default = "full_size")]
+            #[ts(as = "Option<f32>", optional)]
+            scale: Scale,
+        },
+    }
 }
+
+/// Any shape but a mesh, which is what it was placed as (`OB2`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Shape")]
+pub struct SimpleShape(Shape);
+
+impl SimpleShape {
+    /// The shape.
+    pub fn get(&self) -> &Shape {
+        &self.0
+    }
+}
+
+impl TryFrom<Shape> for SimpleShape {
+    type Error = NotAllowed;
+
+    fn try_from(shape: Shape) -> Result<Self, NotAllowed> {
+        match shape {
+            Shape::Mesh { .. } => {
+                Err(NotAllowed { at: "kind".into(), ..NotAllowed::new("mesh", "box, sphere or plane") })
+            }
+            simple => Ok(Self(simple)),
+        }
+    }
+}
+
+written_as! { SimpleShape as Shape; }
 
 /// An obstacle as it is placed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "an object with shape and pose")]
 pub struct Obstacle {
     /// What it is.
     pub shape: Shape,

@@ -7,7 +7,8 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    command, control, envelope, frame, library, obstacle, problem, schematic, species, timeline, version,
+    command, control, envelope, frame, library, obstacle, place, problem, schematic, species, timeline,
+    version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -61,7 +62,7 @@ pub fn declarations() -> String {
         Setting::decl(&config),
         ParameterValues::decl(&config),
         settings::ParametersPatch::decl(&config),
-        command::DrawingPlane::decl(&config),
+        place::DrawingPlane::decl(&config),
         obstacle::Pose::decl(&config),
         obstacle::Shape::decl(&config),
         obstacle::Obstacle::decl(&config),

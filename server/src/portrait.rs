@@ -22,7 +22,7 @@ const SIZE: (usize, usize) = (384, 396);
 pub fn portrait(species: &Species, seed: u32, (width, height): (usize, usize)) -> Result<Canvas, Problem> {
     let mut document = Document::new(seed);
     for action in script(species) {
-        document.apply(GARDENER, &action)?;
+        document.apply(GARDENER, &action.into())?;
     }
     let style = Style::new(style_options(&document.parameters()));
     Ok(picture::draw(document.portrait(), &style, &Look::from(species), width, height))

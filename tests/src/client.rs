@@ -3,11 +3,12 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
+    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
     ServerMessage, Timeline, WidthConstraint,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
+use serde_json::{Value, json};
 use tokio::{net::TcpStream, time};
 use tokio_tungstenite::{
     MaybeTlsStream, WebSocketStream, connect_async,
@@ -64,7 +65,7 @@ pub struct Client {
     /// The highest durable command.
     pub acknowledged: u32,
     /// What was sent and is not known to be durable.
-    pub unacknowledged: VecDeque<(u32, Command)>,
+    pub unacknowledged: VecDeque<(u32, Value)>,
     /// Whether the last welcome took up the resume.
     pub resumed: bool,
     /// Refused commands, in the order they came.
@@ -114,7 +115,7 @@ pub async fn close_code(socket: &mut Socket) -> Option<u16> {
 }
 
 /// A control message as a socket message.
-pub fn text(message: &ClientMessage) -> Message {
+pub fn text(message: &impl serde::Serialize) -> Message {
     Message::text(serde_json::to_string(message).expect("control messages are JSON"))
 }
 
@@ -199,7 +200,7 @@ impl Client {
         let message = serde_json::from_str(&answer).unwrap_or_else(|error| panic!("{error}: {answer}"));
         self.take_control(message);
         for (id, command) in self.unacknowledged.clone() {
-            self.send_message(&ClientMessage::Command { id, command }).await;
+            self.send_message(&json!({ "type": "command", "id": id, "command": command })).await;
         }
     }
 
@@ -214,11 +215,11 @@ impl Client {
     }
 
     /// Sends a command under the next number, which is returned. A lost connection keeps it for later.
-    pub async fn send(&mut self, command: Command) -> u32 {
+    pub async fn send(&mut self, command: Value) -> u32 {
         let id = self.next;
         self.next += 1;
         self.unacknowledged.push_back((id, command.clone()));
-        self.send_message(&ClientMessage::Command { id, command }).await;
+        self.send_message(&json!({ "type": "command", "id": id, "command": command })).await;
         id
     }
 
@@ -229,7 +230,7 @@ impl Client {
     }
 
     /// Sends any control message.
-    pub async fn send_message(&mut self, message: &ClientMessage) {
+    pub async fn send_message(&mut self, message: &impl serde::Serialize) {
         self.send_raw(text(message)).await;
     }
 
@@ -265,7 +266,7 @@ impl Client {
     ///
     /// A command that the document must refuse goes last: its refusal says that all before it are done.
     pub async fn until_settled(&mut self) {
-        let marker = self.send(Command::StrokeEnd { stroke: u32::MAX }).await;
+        let marker = self.send(json!({ "kind": "stroke_end", "stroke": u32::MAX })).await;
         let refused = |client: &Self| client.refused.iter().any(|(id, _)| *id == marker);
         self.until("everything is done", refused).await;
         self.refused.retain(|(id, _)| *id != marker);
@@ -331,7 +332,8 @@ impl Client {
             }
         };
         if let (Receipts::Sent, Some(sequence)) = (self.receipts, sequence) {
-            self.send_message(&ClientMessage::Received { sequence, kind: kind.code() }).await;
+            self.send_message(&json!({ "type": "received", "sequence": sequence, "kind": kind.code() }))
+                .await;
         }
     }
 
@@ -342,7 +344,7 @@ impl Client {
         self.frame_bytes += bytes.len();
         self.frames += 1;
         if self.receipts == Receipts::Sent {
-            self.send_message(&ClientMessage::Received { sequence: frame.sequence, kind: 1 }).await;
+            self.send_message(&json!({ "type": "received", "sequence": frame.sequence, "kind": 1 })).await;
         }
     }
 

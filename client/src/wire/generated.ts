@@ -123,7 +123,7 @@ export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":
 
 export type StrokeSample = { 
 /**
- * The centre of the brush.
+ * The centre of the brush, in internode lengths.
  */
 position: [number, number, number], 
 /**
@@ -871,7 +871,12 @@ bark?: BarkPatch,
  */
 background?: BackgroundPatch, };
 
-export type Command = { "kind": "stroke_begin", 
+export type Command = { 
+/**
+ * Commands of one client that follow each other with the same gesture can be one operation for undo; `AP2`,
+ * `BE1`, `BR1`, `OB2`, `PR2` and `WI1` say which.
+ */
+gesture?: number, } & ({ "kind": "stroke_begin", 
 /**
  * The client's own number for this stroke.
  */
@@ -896,10 +901,6 @@ stroke: number, } | { "kind": "grow",
  * 1 to 1000 simulation steps.
  */
 steps: number, 
-/**
- * Commands of one client that follow each other with the same gesture are one operation for undo.
- */
-gesture?: number, 
 /**
  * The row of a metamer: only the buds at its node and above grow (`SG1`).
  */
@@ -927,19 +928,11 @@ steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "set_pa
 /**
  * The fields to change.
  */
-parameters: ParametersPatch, 
-/**
- * Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
- */
-gesture?: number, } | { "kind": "set_appearance", 
+parameters: ParametersPatch, } | { "kind": "set_appearance", 
 /**
  * The sections to change, each as a whole.
  */
-appearance: AppearancePatch, 
-/**
- * Changes of one client with the same gesture, one after the other, are one operation for undo (`AP2`).
- */
-gesture?: number, } | { "kind": "plant_seed", 
+appearance: AppearancePatch, } | { "kind": "plant_seed", 
 /**
  * Where, in internode lengths.
  */
@@ -947,11 +940,7 @@ position: [number, number, number], } | { "kind": "place_obstacle",
 /**
  * What, and where.
  */
-obstacle: Obstacle, 
-/**
- * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
- */
-gesture?: number, } | { "kind": "move_obstacle", 
+obstacle: Obstacle, } | { "kind": "move_obstacle", 
 /**
  * Its id, as in `obstacles`.
  */
@@ -959,31 +948,19 @@ id: number,
 /**
  * Where it goes.
  */
-pose: Pose, 
-/**
- * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
- */
-gesture?: number, } | { "kind": "reshape_obstacle", 
+pose: Pose, } | { "kind": "reshape_obstacle", 
 /**
  * Its id, as in `obstacles`.
  */
 id: number, 
 /**
- * What it becomes.
+ * What it becomes; no mesh.
  */
-shape: Shape, 
-/**
- * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
- */
-gesture?: number, } | { "kind": "remove_obstacle", 
+shape: Shape, } | { "kind": "remove_obstacle", 
 /**
  * Its id, as in `obstacles`.
  */
-id: number, 
-/**
- * Obstacle commands of one client with the same gesture, one after the other, are one operation (`OB2`).
- */
-gesture?: number, } | { "kind": "bend_begin", 
+id: number, } | { "kind": "bend_begin", 
 /**
  * The client's own number for this bend.
  */
@@ -999,11 +976,7 @@ touches: Array<number>,
 /**
  * From 0, stiff in length, to 1, stretchy.
  */
-stretch: number, 
-/**
- * Bends of one client with the same gesture, one after the other, are one operation.
- */
-gesture?: number, } | { "kind": "bend_move", 
+stretch: number, } | { "kind": "bend_move", 
 /**
  * The number given in `bend_begin`.
  */
@@ -1027,19 +1000,11 @@ row: number,
 /**
  * How thick it is from now on, in internode lengths, 0.01 to 100; `null` removes the constraint.
  */
-diameter: number | null, 
-/**
- * Changes of one client to the same row with the same gesture, one after the other, are one operation.
- */
-gesture?: number, } | { "kind": "prune", 
+diameter: number | null, } | { "kind": "prune", 
 /**
  * 1 to 1024 rows of living metamers.
  */
-rows: Array<number>, 
-/**
- * Commands of one client that follow each other with the same gesture are one operation for undo.
- */
-gesture?: number, } | { "kind": "prune_dim", 
+rows: Array<number>, } | { "kind": "prune_dim", 
 /**
  * No node of such a branch receives more light than this, 0 to 1.
  */
@@ -1051,11 +1016,7 @@ row: number,
 /**
  * By what it is turned: a quaternion (x, y, z, w) of length 1.
  */
-rotation: [number, number, number, number], 
-/**
- * Turns of one client of the same branch with the same gesture, one after the other, are one operation.
- */
-gesture?: number, } | { "kind": "graft", 
+rotation: [number, number, number, number], } | { "kind": "graft", 
 /**
  * The row that the branch begins with.
  */
@@ -1079,7 +1040,7 @@ step: number, } | { "kind": "take_future",
 /**
  * Its number, as in `timeline`.
  */
-future: number, };
+future: number, });
 
 export type Schematic = { 
 /**

@@ -3,9 +3,10 @@
 mod support;
 
 use espalier_plant::MetamerId;
-use espalier_session::{Action, Document, Sample};
+use espalier_proto::{Action, List};
+use espalier_session::Document;
 use glam::Vec3;
-use support::{Cost, Followed, report};
+use support::{Cost, Followed, report, sample};
 
 const METAMERS: u32 = 100_000;
 const ROUNDS: u32 = 5;
@@ -61,7 +62,7 @@ fn brush(mut tree: Followed, radius: f32) -> Brushing {
         for i in 0..MOVES {
             let (before, step) = (tree.document.metamers(), tree.document.plant().step());
             let position = from + outwards * (MOVE_LENGTH * i as f32);
-            let samples = vec![Sample { position, radius }];
+            let samples = List::of(sample(position, radius));
             let cost = tree.act(&Action::StrokeMove { stroke, samples });
             steps += tree.document.plant().step() - step;
             let grown = tree.document.metamers().saturating_sub(before);
@@ -73,7 +74,7 @@ fn brush(mut tree: Followed, radius: f32) -> Brushing {
         kept += resident_bytes().unwrap_or(0).saturating_sub(held.unwrap_or(0));
         tree.act(&Action::StrokeEnd { stroke });
         let before = tree.document.metamers();
-        brushing.undos.push(tree.act(&Action::Undo));
+        brushing.undos.push(tree.act(&Action::Undo {}));
         brushing.undone.push(before.abs_diff(tree.document.metamers()));
     }
     brushing.kept_bytes = kept / u64::from(steps.max(1));

@@ -5,9 +5,10 @@ mod support;
 use std::time::Instant;
 
 use espalier_plant::MetamerId;
-use espalier_session::{Action, Document, Sample};
+use espalier_proto::{Action, Diameter, List, Position, Share, Steps, Touches, UnitRotation};
+use espalier_session::Document;
 use glam::{Quat, Vec3};
-use support::{Cost, Followed, Percentiles, report};
+use support::{Cost, Followed, Percentiles, report, sample};
 
 const METAMERS: u32 = 100_000;
 const ROUNDS: usize = 8;
@@ -26,34 +27,40 @@ fn bench() {
 /// Pointer events of a bend whose path has a thousand internodes.
 fn bend_events() {
     let mut document = Document::new(1);
-    let mut apply = |action: &Action| document.apply("bench", action).expect("the action can be done");
-    apply(&Action::StrokeBegin { stroke: 1, bud: None });
+    let mut apply = |action: Action| document.apply("bench", &action.into()).expect("the action can be done");
+    apply(Action::StrokeBegin { stroke: 1, bud: None });
     for part in 0..20 {
-        let samples = (0..=10)
-            .map(|i| Sample { position: Vec3::Y * (50.0 * part as f32 + 5.0 * i as f32), radius: 0.0 });
-        apply(&Action::StrokeMove { stroke: 1, samples: samples.collect() });
+        let samples: Vec<_> =
+            (0..=10).map(|i| sample(Vec3::Y * (50.0 * part as f32 + 5.0 * i as f32), 0.0)).collect();
+        apply(Action::StrokeMove { stroke: 1, samples: List::try_from(samples).expect("eleven") });
     }
-    apply(&Action::StrokeEnd { stroke: 1 });
+    apply(Action::StrokeEnd { stroke: 1 });
     let path = longest_path(&document);
     let length = (path.len() - 2).min(1000);
     let (top, middle, base) = (path[0], path[length / 2], path[length]);
     let place = document.plant().metamers().end(top);
     let between = document.plant().metamers().end(middle);
     let touches = vec![top.raw(), middle.raw()];
-    let begin = Action::BendBegin { bend: 1, base: base.raw(), touches, stretch: 0.1, gesture: None };
-    document.apply("bench", &begin).expect("it is a path");
+    let begin = Action::BendBegin {
+        bend: 1,
+        base: base.raw(),
+        touches: Touches::try_from(touches).expect("two rows"),
+        stretch: Share::nearest(0.1),
+    };
+    document.apply("bench", &begin.into()).expect("it is a path");
     let mut costs = Vec::new();
     for event in 0..240 {
         let angle = 0.02 * event as f32;
         let shift = Vec3::new(libm::sinf(angle), -0.3 * (1.0 - libm::cosf(angle)), 0.0) * 0.4 * length as f32;
-        let targets = vec![place + shift, between + 0.3 * shift];
+        let targets = vec![Position::nearest(place + shift), Position::nearest(between + 0.3 * shift)];
+        let targets = List::try_from(targets).expect("two places");
         let begun = Instant::now();
-        document.apply("bench", &Action::BendMove { bend: 1, targets }).expect("it is in progress");
+        document.apply("bench", &Action::BendMove { bend: 1, targets }.into()).expect("it is in progress");
         costs.push(begun.elapsed());
     }
     println!("bend event, {length} internodes, ms    {}", Percentiles::of_milliseconds(costs.into_iter()));
     let begun = Instant::now();
-    document.apply("bench", &Action::BendEnd { bend: 1 }).expect("it stays in the world");
+    document.apply("bench", &Action::BendEnd { bend: 1 }.into()).expect("it stays in the world");
     println!("bend let go, {length} internodes, ms   {:.2}", 1e3 * begun.elapsed().as_secs_f64());
 }
 
@@ -63,11 +70,14 @@ fn edits(tree: &mut Followed) {
     let (top, limb) = (path[0].raw(), path[path.len() / 2].raw());
     let rotation = Quat::from_xyzw(0.0, 0.1, 0.0, 0.995).normalize();
     for (title, action) in [
-        ("prune", Action::Prune { rows: vec![limb], gesture: None }),
-        ("prune_dim", Action::PruneDim { exposure: 0.2 }),
-        ("turn_branch", Action::TurnBranch { row: limb, rotation, gesture: None }),
-        ("set_width", Action::SetWidth { row: limb, diameter: Some(1.0), gesture: None }),
-        ("graft", Action::Graft { row: top, onto: limb, rotation, keep: true }),
+        ("prune", Action::Prune { rows: List::of(limb) }),
+        ("prune_dim", Action::PruneDim { exposure: Share::nearest(0.2) }),
+        ("turn_branch", Action::TurnBranch { row: limb, rotation: UnitRotation::nearest(rotation) }),
+        ("set_width", Action::SetWidth { row: limb, diameter: Some(Diameter::nearest(1.0)) }),
+        (
+            "graft",
+            Action::Graft { row: top, onto: limb, rotation: UnitRotation::nearest(rotation), keep: true },
+        ),
     ] {
         let (mut done, mut undone): (Vec<Vec<Cost>>, Vec<Vec<Cost>>) = (Vec::new(), Vec::new());
         let mut changed = 0;
@@ -75,7 +85,7 @@ fn edits(tree: &mut Followed) {
             let before = tree.document.metamers();
             done.push(vec![tree.act(&action)]);
             changed = tree.document.metamers().abs_diff(before);
-            undone.push(vec![tree.act(&Action::Undo)]);
+            undone.push(vec![tree.act(&Action::Undo {})]);
         }
         report(title, &done, &[changed]);
         report(&format!("{title}, undone"), &undone, &[changed]);
@@ -89,9 +99,9 @@ fn scrub(tree: &mut Followed) {
     let top = tree.document.plant().step();
     for round in 0..4 {
         let row = path[path.len() * (round + 1) / 6].raw();
-        tree.act(&Action::TurnBranch { row, rotation, gesture: None });
-        tree.act(&Action::SetWidth { row, diameter: Some(0.5), gesture: None });
-        tree.act(&Action::Grow { steps: 1, gesture: None, bud: None });
+        tree.act(&Action::TurnBranch { row, rotation: UnitRotation::nearest(rotation) });
+        tree.act(&Action::SetWidth { row, diameter: Some(Diameter::nearest(0.5)) });
+        tree.act(&Action::Grow { steps: Steps::nearest(1), bud: None });
     }
     let last = tree.document.plant().step();
     let first = top.saturating_sub(6);

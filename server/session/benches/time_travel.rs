@@ -4,7 +4,8 @@ mod support;
 
 use std::time::Instant;
 
-use espalier_session::{Action, Document};
+use espalier_proto::{Action, Steps};
+use espalier_session::Document;
 use support::{Cost, Followed, Percentiles, report};
 
 const METAMERS: u32 = 100_000;
@@ -18,10 +19,16 @@ fn main() {
 
 fn bench() {
     let mut tree = Followed::tree(METAMERS);
-    let each = Action::Ungrow { steps: 1 };
-    travel(&mut tree, "ungrow, one step", STEPS, &each, &Action::Redo);
-    travel(&mut tree, "undo, one operation of one step", STEPS, &Action::Undo, &Action::Redo);
-    travel(&mut tree, "ungrow, eight steps at once", 1, &Action::Ungrow { steps: STEPS }, &Action::Redo);
+    let each = Action::Ungrow { steps: Steps::nearest(1) };
+    travel(&mut tree, "ungrow, one step", STEPS, &each, &Action::Redo {});
+    travel(&mut tree, "undo, one operation of one step", STEPS, &Action::Undo {}, &Action::Redo {});
+    travel(
+        &mut tree,
+        "ungrow, eight steps at once",
+        1,
+        &Action::Ungrow { steps: Steps::nearest(STEPS) },
+        &Action::Redo {},
+    );
     write_and_read(&tree.document);
 }
 

@@ -5,7 +5,7 @@ use espalier_settings::{Appearance, AppearancePatch};
 
 /// Fields of an appearance, all in range: those to change.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct AppearanceChange(AppearancePatch);
+pub(crate) struct AppearanceChange(AppearancePatch);
 
 impl AppearanceChange {
     /// Checks every range; a problem names section and field.
@@ -16,8 +16,8 @@ impl AppearanceChange {
     }
 
     /// The looks of a tree as a whole, all but what surrounds it.
-    pub(crate) fn of_tree(looks: &Appearance) -> Self {
-        Self(AppearancePatch { background: None, ..(*looks).into() })
+    pub(crate) fn of_tree(looks: &Appearance) -> AppearancePatch {
+        AppearancePatch { background: None, ..(*looks).into() }
     }
 
     /// An appearance with these fields put in.

@@ -2,7 +2,12 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use crate::{action::Prediction, foresight::Cancelled, io::ClientId, to_proto::Held, window::Window};
+use crate::{
+    foresight::{Cancelled, Prediction},
+    io::ClientId,
+    to_proto::Held,
+    window::Window,
+};
 
 /// One connection.
 #[derive(Debug, Default)]

@@ -21,9 +21,8 @@ use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Action, Command, Position, Problem, ProblemCode};
 use espalier_settings::{Appearance, ParameterValues};
-use glam::Vec3;
 
 pub use self::bytes::DocumentError;
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
@@ -41,11 +40,11 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::action::Action;
+use crate::cause::Cause;
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
-/// A document is a function of its seed and of the actions applied, in their order.
+/// A document is a function of its seed and of the commands applied, in their order.
 #[derive(Clone, Debug)]
 pub struct Document {
     simulation: Simulation<Generators>,
@@ -120,17 +119,19 @@ impl Document {
         }
     }
 
-    /// Takes an action on; the steps it needs become pending. Nothing changes if it is refused.
-    pub fn begin(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
+    /// Takes a command on; the steps it needs become pending. Nothing changes if it is refused.
+    pub fn begin(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
         while self.advance() {}
-        self.take_on(author, action)?;
+        let Command { action, gesture } = command;
+        self.take_on(Cause { author, gesture: *gesture }, action)?;
         self.forget_futures();
         Ok(())
     }
 
-    fn take_on(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
+    fn take_on(&mut self, cause: Cause<'_>, action: &Action) -> Result<(), Problem> {
+        let author = cause.author;
         match action {
-            Action::StrokeBegin { stroke, bud } => self.begin_stroke(author, *stroke, *bud),
+            Action::StrokeBegin { stroke, bud } => self.begin_stroke(cause, *stroke, *bud),
             Action::StrokeMove { stroke, samples } => {
                 let longest = self.simulation.parameters().max_shoot_length;
                 let steps = self.strokes.extend(author, *stroke, samples, longest)?;
@@ -143,43 +144,41 @@ impl Document {
                 self.pending.push_back(Pending::Settle { stroke, left, chosen });
                 Ok(())
             }
-            Action::Grow { steps, gesture, bud } => self.begin_growth(author, *steps, *gesture, *bud),
-            Action::Lasso { lasso, bud } => self.begin_lasso(author, lasso, *bud),
+            Action::Grow { steps, bud } => self.begin_growth(cause, *steps, *bud),
+            Action::Lasso { outline, plane, depth, bud } => {
+                self.begin_lasso(cause, outline, plane, *depth, *bud)
+            }
             // What it ends was begun before, and has ended by now.
             Action::Stop { .. } => Ok(()),
-            Action::Ungrow { steps } => self.ungrow(*steps),
-            Action::Undo => self.undo(),
-            Action::Redo => self.redo(),
-            Action::SetParameters { patch, gesture } => self.set_parameters(author, patch, *gesture),
-            Action::SetAppearance { change, gesture } => self.set_appearance(author, change, *gesture),
-            Action::PlantSeed { position } => self.plant_seed(author, *position),
-            Action::PlaceObstacle { obstacle, gesture } => self.place_obstacle(author, obstacle, *gesture),
-            Action::MoveObstacle { id, pose, gesture } => self.move_obstacle(author, *id, *pose, *gesture),
-            Action::ReshapeObstacle { id, form, gesture } => {
-                self.reshape_obstacle(author, *id, form, *gesture)
+            Action::Ungrow { steps } => self.ungrow(steps.get()),
+            Action::Undo {} => self.undo(),
+            Action::Redo {} => self.redo(),
+            Action::SetParameters { parameters } => self.set_parameters(cause, parameters),
+            Action::SetAppearance { appearance } => self.set_appearance(cause, appearance),
+            Action::PlantSeed { position } => self.plant_seed(cause, *position),
+            Action::PlaceObstacle { obstacle } => self.place_obstacle(cause, obstacle),
+            Action::MoveObstacle { id, pose } => self.move_obstacle(cause, *id, pose),
+            Action::ReshapeObstacle { id, shape } => self.reshape_obstacle(cause, *id, shape),
+            Action::RemoveObstacle { id } => self.remove_obstacle(cause, *id),
+            Action::BendBegin { bend, base, touches, stretch } => {
+                self.begin_bend(cause, *bend, *base, touches, *stretch)
             }
-            Action::RemoveObstacle { id, gesture } => self.remove_obstacle(author, *id, *gesture),
-            Action::BendBegin { bend, base, touches, stretch, gesture } => {
-                self.begin_bend(author, *bend, *base, touches, *stretch, *gesture)
-            }
-            Action::BendMove { bend, targets } => self.move_bend(author, *bend, targets),
-            Action::BendEnd { bend } => self.end_bend(author, *bend),
+            Action::BendMove { bend, targets } => self.move_bend(cause, *bend, targets),
+            Action::BendEnd { bend } => self.end_bend(cause, *bend),
             Action::BendCancel { bend } => self.bends.close(author, *bend).map(|_| ()),
-            Action::SetWidth { row, diameter, gesture } => self.set_width(author, *row, *diameter, *gesture),
-            Action::Prune { rows, gesture } => self.prune(author, rows, *gesture),
-            Action::PruneDim { exposure } => self.prune_dim(author, *exposure),
-            Action::TurnBranch { row, rotation, gesture } => {
-                self.turn_branch(author, *row, *rotation, *gesture)
-            }
-            Action::Graft { row, onto, rotation, keep } => self.graft(author, *row, *onto, *rotation, *keep),
+            Action::SetWidth { row, diameter } => self.set_width(cause, *row, *diameter),
+            Action::Prune { rows } => self.prune(cause, rows),
+            Action::PruneDim { exposure } => self.prune_dim(cause, *exposure),
+            Action::TurnBranch { row, rotation } => self.turn_branch(cause, *row, *rotation),
+            Action::Graft { row, onto, rotation, keep } => self.graft(cause, *row, *onto, *rotation, *keep),
             Action::GoTo { step } => self.go_to(*step),
             Action::TakeFuture { future } => self.take_future(*future),
         }
     }
 
-    /// Takes an action on and runs all its steps.
-    pub fn apply(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
-        self.begin(author, action)?;
+    /// Takes a command on and runs all its steps.
+    pub fn apply(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
+        self.begin(author, command)?;
         while self.advance() {}
         Ok(())
     }
@@ -260,7 +259,8 @@ impl Document {
         hash.finish()
     }
 
-    fn plant_seed(&mut self, author: &str, position: Vec3) -> Result<(), Problem> {
+    fn plant_seed(&mut self, cause: Cause<'_>, position: Position) -> Result<(), Problem> {
+        let position = position.get();
         if position.y != 0.0 {
             return Err(Problem::out_of_range("position[1]", position.y, "0, the ground"));
         }
@@ -269,7 +269,7 @@ impl Document {
             return Err(Problem::out_of_range("position", value, "a place outside all obstacles"));
         }
         self.require_room()?;
-        self.record(Kind::Seed, author, None);
+        self.record(Kind::Seed, cause);
         self.simulation.sow(position);
         self.history.reach(self.plant().step());
         Ok(())

@@ -12,7 +12,6 @@ use espalier_mesh::{RingTable, Style};
 use espalier_proto::{GhostFrame, Problem};
 
 use crate::{
-    action::Prediction,
     document::{Generators, Step, prune_simulation},
     io::ClientId,
     to_proto::{self, Held},
@@ -23,6 +22,15 @@ const SLICE_STEPS: u32 = 4;
 
 /// Tells a prediction that nobody waits for it any more.
 pub(crate) type Cancelled = Arc<AtomicBool>;
+
+/// What is predicted.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Prediction {
+    /// Rows of branches to do without.
+    pub(crate) rows: Vec<u32>,
+    /// How many steps are grown; 0 with rows shows the cut alone.
+    pub(crate) steps: u32,
+}
 
 /// What a client wants to know.
 #[derive(Debug)]

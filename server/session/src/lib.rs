@@ -4,15 +4,15 @@
 //! [`Output`] are the whole boundary. There is no clock, thread or socket in here: the caller hands in the
 //! time. The rules kept are those of `proto/PROTOCOL.md`; comments and tests quote them by ID.
 
-mod action;
 mod appearance;
 mod author;
+mod cause;
 mod clients;
 mod document;
 mod foresight;
+mod form;
 mod io;
 mod journal;
-mod malformed;
 mod nursery;
 mod obstacle;
 mod schematic;
@@ -23,13 +23,11 @@ mod to_proto;
 mod window;
 mod work;
 
-pub use action::{Action, Lasso, Sample};
-pub use appearance::AppearanceChange;
 pub use document::{Document, DocumentError, Figures};
 pub use foresight::Foresight;
+pub use form::read_command;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadId};
 pub use nursery::{script, wire_species};
-pub use obstacle::{Mesh, Obstacle, Pose};
 pub use schematic::schematic;
 pub use session::Session;
 pub use snapshot::RestoreError;

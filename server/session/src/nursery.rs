@@ -4,14 +4,11 @@ use espalier_growth::{
     BrushSample,
     species::{Species, Stage},
 };
-use espalier_proto::species as wire;
+use espalier_proto::{Action, BrushRadius, List, Position, Steps, StrokeSample, species as wire};
 use espalier_settings::{Appearance, ParameterValues};
 use glam::Vec3;
 
-use crate::{
-    action::{Action, Sample},
-    appearance::AppearanceChange,
-};
+use crate::appearance::AppearanceChange;
 
 /// The number of a stroke of a schedule; each ends before the next begins.
 const STROKE: u32 = 1;
@@ -21,14 +18,19 @@ pub fn script(species: &Species) -> Vec<Action> {
     let mut actions = vec![choose(&species.parameters), set_looks(&species.appearance)];
     for stage in &species.schedule {
         match stage {
-            &Stage::Grow(steps) => actions.push(Action::Grow { steps, gesture: None, bud: None }),
+            &Stage::Grow(steps) => actions.push(Action::Grow { steps: Steps::nearest(steps), bud: None }),
             Stage::Change(values) => actions.push(choose(values)),
-            &Stage::Sow(x, z) => actions.push(Action::PlantSeed { position: Vec3::new(x, 0.0, z) }),
+            &Stage::Sow(x, z) => {
+                actions.push(Action::PlantSeed { position: Position::nearest(Vec3::new(x, 0.0, z)) })
+            }
             Stage::Brush(places) => {
                 actions.push(Action::StrokeBegin { stroke: STROKE, bud: None });
                 let moved = |place: &BrushSample| Action::StrokeMove {
                     stroke: STROKE,
-                    samples: vec![Sample { position: place.position, radius: place.radius }],
+                    samples: List::of(StrokeSample {
+                        position: Position::nearest(place.position),
+                        radius: BrushRadius::nearest(place.radius),
+                    }),
                 };
                 actions.extend(places.iter().map(moved));
                 actions.push(Action::StrokeEnd { stroke: STROKE });
@@ -40,13 +42,12 @@ pub fn script(species: &Species) -> Vec<Action> {
 
 /// What a picker does: sets all parameters at once.
 fn choose(values: &ParameterValues) -> Action {
-    Action::SetParameters { patch: Box::new(values.clone().into()), gesture: None }
+    Action::SetParameters { parameters: values.clone().into() }
 }
 
 /// The looks of a species; what surrounds it stays.
 fn set_looks(looks: &Appearance) -> Action {
-    let change = AppearanceChange::of_tree(looks);
-    Action::SetAppearance { change: Box::new(change), gesture: None }
+    Action::SetAppearance { appearance: AppearanceChange::of_tree(looks) }
 }
 
 /// A species as it travels.

@@ -2,27 +2,16 @@
 
 use std::sync::Arc;
 
-use base64::{Engine, prelude::BASE64_STANDARD};
 use espalier_growth::{Obstacle as Solid, ObstacleError, Shape as Space, TriangleMesh};
+pub use espalier_proto::Mesh;
 use espalier_proto::{
-    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose as WirePose, Problem, ProblemCode, Shape,
-    version::{MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
+    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose as WirePose, Position, Problem, ProblemCode,
+    Shape, UnitRotation,
 };
 use glam::{Quat, Vec3};
 
-use crate::action::{parse_position, parse_rotation};
-
 /// The farthest a vertex may lie from its mesh's origin on any axis, scaled, in internodes (`LM6`).
 const FARTHEST_VERTEX: f32 = 10_000.0;
-
-/// Triangles around an origin of their own, as they were given.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// Places of the corners.
-    pub vertices: Vec<Vec3>,
-    /// The corners of each triangle, as numbers of vertices.
-    pub triangles: Vec<[u32; 3]>,
-}
 
 /// What an obstacle is, around its own origin; lengths in internodes. Of a mesh growth's own, which is slow to
 /// make, stays with it wherever it stands.
@@ -75,11 +64,10 @@ pub(crate) struct Standing {
 }
 
 impl Obstacle {
-    /// Checks an obstacle's form (`LM6`).
-    pub(crate) fn parse(wire: &WireObstacle) -> Result<Self, Problem> {
-        let form = Form::parse(&wire.shape).map_err(|problem| problem.within("shape"))?;
-        let pose = Pose::parse(&wire.pose).map_err(|problem| problem.within("pose"))?;
-        Self::new(form, pose)
+    /// An obstacle as it came over the wire, if growth can make one of it (`LM6`).
+    pub(crate) fn of(wire: &WireObstacle) -> Result<Self, Problem> {
+        let form = Form::of(&wire.shape).map_err(|problem| problem.within("obstacle.shape"))?;
+        Self::new(form, Pose::from(&wire.pose))
     }
 
     /// A form in its place, if growth can make an obstacle of it.
@@ -122,53 +110,38 @@ impl Standing {
                 scale: *scale,
             },
         };
-        let pose = WirePose { position: pose.position.to_array(), rotation: pose.rotation.to_array() };
+        let pose = WirePose {
+            position: Position::nearest(pose.position),
+            rotation: UnitRotation::nearest(pose.rotation),
+        };
         PlacedObstacle { id: self.id, shape, pose }
     }
 }
 
-impl Pose {
-    pub(crate) fn parse(wire: &WirePose) -> Result<Self, Problem> {
-        let position = parse_position(&wire.position)?;
-        Ok(Self { position, rotation: parse_rotation(&wire.rotation)? })
+impl From<&WirePose> for Pose {
+    fn from(wire: &WirePose) -> Self {
+        Self { position: wire.position.get(), rotation: wire.rotation.get() }
     }
 }
 
 impl Form {
-    fn parse(wire: &Shape) -> Result<Self, Problem> {
+    /// The form that a shape on the wire has.
+    pub(crate) fn of(wire: &Shape) -> Result<Self, Problem> {
         Ok(match wire {
-            Shape::Box { size } => {
-                for (axis, &value) in size.iter().enumerate() {
-                    in_range(&format!("size[{axis}]"), value, 0.1, 1000.0)?;
-                }
-                Self::Box { size: Vec3::from_array(*size) }
-            }
-            &Shape::Sphere { radius } => Self::Sphere { radius: in_range("radius", radius, 0.1, 500.0)? },
+            Shape::Box { size } => Self::Box { size: size.get() },
+            Shape::Sphere { radius } => Self::Sphere { radius: radius.get() },
             Shape::Plane {} => Self::Plane,
             Shape::Mesh { mesh, scale } => {
-                let scale = in_range("scale", *scale, 0.001, 1000.0)?;
-                let bytes = BASE64_STANDARD.decode(mesh).map_err(|error| damaged(&error.to_string()))?;
-                let mesh = Mesh::from_bytes(&bytes)?;
+                let scale = scale.get();
                 let outside = |vertex: &&Vec3| (**vertex * scale).abs().max_element() > FARTHEST_VERTEX;
                 if let Some(vertex) = mesh.vertices.iter().find(outside) {
                     let allowed = format!("coordinates up to {FARTHEST_VERTEX} after scaling");
-                    return Err(Problem::out_of_range(
-                        "mesh",
-                        format!("as large as {}", *vertex * scale),
-                        allowed,
-                    ));
+                    let found = format!("as large as {}", *vertex * scale);
+                    return Err(Problem::out_of_range("mesh", found, allowed));
                 }
-                Self::mesh(Arc::new(mesh), scale)?
+                Self::mesh(Arc::new(mesh.clone()), scale)?
             }
         })
-    }
-
-    /// A form that an obstacle may take on later; a mesh is what it was placed as (`OB2`).
-    pub(crate) fn parse_simple(wire: &Shape) -> Result<Self, Problem> {
-        match wire {
-            Shape::Mesh { .. } => Err(Problem::out_of_range("kind", "mesh", "box, sphere or plane")),
-            simple => Self::parse(simple),
-        }
     }
 
     /// A mesh in this scale.
@@ -180,90 +153,11 @@ impl Form {
     }
 }
 
-impl Mesh {
-    /// Little-endian: u32 vertices, u32 triangles, then x, y, z of each vertex as f32, three u32 for each
-    /// triangle (`OB4`).
-    pub fn to_bytes(&self) -> Vec<u8> {
-        let mut out = Vec::with_capacity(8 + 12 * (self.vertices.len() + self.triangles.len()));
-        out.extend_from_slice(&(self.vertices.len() as u32).to_le_bytes());
-        out.extend_from_slice(&(self.triangles.len() as u32).to_le_bytes());
-        for vertex in &self.vertices {
-            vertex.to_array().iter().for_each(|c| out.extend_from_slice(&c.to_le_bytes()));
-        }
-        for corner in self.triangles.iter().flatten() {
-            out.extend_from_slice(&corner.to_le_bytes());
-        }
-        out
-    }
-
-    /// Reads a mesh (`OB4`); coordinates are finite, and every corner is there.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Problem> {
-        let mut words =
-            bytes.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]));
-        let (Some(vertices), Some(triangles)) = (words.next(), words.next()) else {
-            return Err(damaged("it is cut short"));
-        };
-        count("vertices", vertices, MAX_MESH_VERTICES)?;
-        count("triangles", triangles, MAX_MESH_TRIANGLES)?;
-        if bytes.len() as u64 != 8 + 12 * (u64::from(vertices) + u64::from(triangles)) {
-            return Err(damaged("its length is not that of its vertices and triangles"));
-        }
-        let words: Vec<u32> = words.collect();
-        let (places, corners) = words.split_at(3 * vertices as usize);
-        let vertices: Vec<Vec3> = places
-            .chunks_exact(3)
-            .map(|c| Vec3::new(f32::from_bits(c[0]), f32::from_bits(c[1]), f32::from_bits(c[2])))
-            .collect();
-        if let Some(at) = vertices.iter().position(|vertex| !vertex.is_finite()) {
-            return Err(damaged(&format!("vertex {at} is not finite")));
-        }
-        if let Some(corner) = corners.iter().find(|&&corner| corner as usize >= vertices.len()) {
-            return Err(damaged(&format!("a triangle has corner {corner} of {} vertices", vertices.len())));
-        }
-        let triangles = corners.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
-        Ok(Self { vertices, triangles })
-    }
-
-    /// The mesh as a command carries it.
-    pub fn to_base64(&self) -> String {
-        BASE64_STANDARD.encode(self.to_bytes())
-    }
-}
-
-fn in_range(field: &str, value: f32, low: f32, high: f32) -> Result<f32, Problem> {
-    if (low..=high).contains(&value) {
-        Ok(value)
-    } else {
-        Err(Problem::out_of_range(field, value, format!("{low} to {high}")))
-    }
-}
-
-fn count(what: &str, found: u32, most: usize) -> Result<(), Problem> {
-    if (1..=most).contains(&(found as usize)) {
-        return Ok(());
-    }
-    Err(Problem {
-        code: if found == 0 { ProblemCode::OutOfRange } else { ProblemCode::TooMany },
-        field: Some("mesh".into()),
-        allowed: Some(format!("1 to {most} {what}")),
-        message: format!("the mesh has {found} {what}; allowed: 1 to {most}"),
-    })
-}
-
 fn unfit(field: &str, error: &ObstacleError) -> Problem {
     Problem {
         code: ProblemCode::OutOfRange,
         field: Some(field.into()),
-        allowed: None,
+        allowed: Some("a shape with a surface".into()),
         message: format!("the shape cannot be an obstacle: {error}"),
-    }
-}
-
-fn damaged(why: &str) -> Problem {
-    Problem {
-        code: ProblemCode::Malformed,
-        field: Some("mesh".into()),
-        allowed: None,
-        message: format!("the mesh cannot be read: {why}"),
     }
 }

@@ -14,19 +14,20 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline, WidthConstraint,
+    ClientMessage, FrameKind, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline, Unreadable,
+    WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
 
 use crate::{
-    action::Action,
     author::{Authors, LastCommand, note_last},
     clients::{Client, Clients},
     document::{Document, Figures, ObstaclesMark},
+    foresight::Prediction,
+    form::read_command,
     io::{ClientId, Input, JournalEntry, Output, ReadId},
     journal::Journal,
-    malformed,
     obstacle::Mesh,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
@@ -111,16 +112,16 @@ impl Session {
                 return Err(RestoreError::Gap { expected: last + 1, found: entry.number });
             }
             last = entry.number;
-            let action = Action::from_json(&entry.command)
+            let command = read_command(&entry.command)
                 .map_err(|problem| RestoreError::Entry { number: entry.number, problem })?;
-            stops.note(entry.number, &action);
-            orders.push((entry.number, entry.client, entry.id, action));
+            stops.note(entry.number, &command.action);
+            orders.push((entry.number, entry.client, entry.id, command));
         }
-        for (number, client, id, action) in orders {
+        for (number, client, id, command) in orders {
             stops.forget_through(number);
             document.stop_at(stops.end_of(number));
             // What the document refuses now it refused the first time as well.
-            let _refused_again = document.apply(&client, &action);
+            let _refused_again = document.apply(&client, &command);
             note_last(&mut last_commands, &Arc::from(client), LastCommand { id, entry: number });
         }
         Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
@@ -264,7 +265,7 @@ impl Session {
         if text.len() > MAX_MESSAGE_BYTES {
             return self.close(client, CloseCode::MessageTooBig, "a message has at most 256 KiB");
         }
-        let message = serde_json::from_str::<ClientMessage>(text);
+        let message = ClientMessage::from_json(text);
         let Some(guest) = guest else { return self.greet(client, text, message) };
         let key = Arc::clone(&guest.key);
         match message {
@@ -272,25 +273,23 @@ impl Session {
                 self.end_prediction(client);
                 self.take(client, &key, id, Ok(command));
             }
-            Ok(ClientMessage::Received { sequence, kind }) => match FrameKind::from_code(kind) {
-                Some(FrameKind::MeshDelta) => self.received(client, sequence),
-                Some(FrameKind::Pose) => self.received_pose(client, sequence),
-                Some(FrameKind::Ghost) => self.received_ghost(client, sequence),
-                None => {
-                    let problem = Problem::out_of_range("kind", kind, "1 to 3");
-                    self.send(client, &ServerMessage::Problem { problem });
-                }
+            Ok(ClientMessage::Received { sequence, kind }) => match kind {
+                FrameKind::MeshDelta => self.received(client, sequence),
+                FrameKind::Pose => self.received_pose(client, sequence),
+                FrameKind::Ghost => self.received_ghost(client, sequence),
             },
-            Ok(ClientMessage::Predict { rows, steps }) => self.predict(client, &rows, steps),
+            Ok(ClientMessage::Predict { rows, steps }) => {
+                self.predict(client, Prediction { rows: rows.into(), steps: steps.get() });
+            }
             Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
             Ok(ClientMessage::Hello { .. }) => {
                 let problem = Problem::new(ProblemCode::Malformed, "hello is only the first message");
                 self.send(client, &ServerMessage::Problem { problem });
             }
-            Err(error) => match malformed::numbered_command(text, &error) {
-                Some((id, problem)) => self.take(client, &key, id, Err(problem)),
-                None => self.send(client, &ServerMessage::Problem { problem: malformed::message(&error) }),
-            },
+            Err(Unreadable { id: Some(id), problem }) => {
+                self.take(client, &key, id, Err(problem));
+            }
+            Err(Unreadable { id: None, problem }) => self.send(client, &ServerMessage::Problem { problem }),
         }
     }
 

@@ -7,7 +7,7 @@
 
 use std::collections::VecDeque;
 
-use crate::action::Action;
+use espalier_proto::Action;
 
 /// Stops that concern entries not done yet, in order.
 #[derive(Clone, Debug, Default)]
@@ -45,7 +45,7 @@ mod tests {
     fn st1_a_stop_ends_what_came_before_it() {
         let mut stops = Stops::default();
         stops.note(3, &Action::Stop { tick: Some(10) });
-        stops.note(4, &Action::Undo);
+        stops.note(4, &Action::Undo {});
         stops.note(5, &Action::Stop { tick: Some(12) });
         assert_eq!(
             [1, 2, 3, 4, 5].map(|entry| stops.end_of(entry)),

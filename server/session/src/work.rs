@@ -6,10 +6,9 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{PlacedObstacle, PoseFrame, Problem, RowMotion};
+use espalier_proto::{Command, PlacedObstacle, PoseFrame, Problem, RowMotion};
 
 use crate::{
-    action::Action,
     author::{LastCommand, note_last},
     document::Document,
     foresight::{Foresight, Question},
@@ -35,8 +34,8 @@ pub(crate) struct Order {
     pub(crate) author: Arc<str>,
     /// The author's number; 0 where the session acts for it.
     pub(crate) id: u32,
-    /// What to do.
-    pub(crate) action: Action,
+    /// What to do, and the gesture it is part of.
+    pub(crate) command: Command,
     /// The length of its journal text, for bounds.
     pub(crate) bytes: usize,
     /// Who waits for its outcome, if it came from outside.
@@ -214,7 +213,7 @@ impl Work {
         self.stops.forget_through(order.number);
         self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
-        let begun = self.document.begin(&order.author, &order.action);
+        let begun = self.document.begin(&order.author, &order.command);
         if let Some(act) = order.act {
             let placed = begun.clone().map(|()| self.document.obstacles().pop());
             self.report.acts.push((act, placed));

@@ -4,8 +4,8 @@ use std::time::{Duration, Instant};
 
 use espalier_growth::{Observer, Phase};
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::Problem;
-use espalier_session::{Action, Document, delta, style_options};
+use espalier_proto::{Command, Problem};
+use espalier_session::{Document, delta, style_options};
 
 use super::stats::{self, PhaseSeconds, Stats};
 
@@ -63,9 +63,9 @@ impl Bench {
         &mut self.document
     }
 
-    /// Does an action with all its steps; after each step a client would get a delta.
-    pub fn act(&mut self, author: &str, action: &Action) -> Result<(), Problem> {
-        self.document.begin(author, action)?;
+    /// Does a command with all its steps; after each step a client would get a delta.
+    pub fn act(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
+        self.document.begin(author, command)?;
         self.follow();
         loop {
             let (began, before) = (Instant::now(), self.document.plant().step());
@@ -172,11 +172,13 @@ impl Observer for Stopwatch {
 
 #[cfg(test)]
 mod tests {
+    use espalier_proto::{Action, Steps};
+
     use super::*;
 
     fn grown(steps: u32) -> Bench {
         let mut bench = Bench::new(Document::new(3));
-        bench.act("me", &Action::Grow { steps, gesture: None, bud: None }).unwrap();
+        bench.act("me", &Action::Grow { steps: Steps::nearest(steps), bud: None }.into()).unwrap();
         bench
     }
 
@@ -194,7 +196,7 @@ mod tests {
     #[test]
     fn without_deltas_the_same_grows() {
         let mut alone = Bench::new(Document::new(3)).unfollowed();
-        alone.act("me", &Action::Grow { steps: 12, gesture: None, bud: None }).unwrap();
+        alone.act("me", &Action::Grow { steps: Steps::nearest(12), bud: None }.into()).unwrap();
         let (alone, followed) = (alone.stats(), grown(12).stats());
         assert_eq!((alone.delta_bytes, alone.seconds.delta), (0, 0.0));
         assert!(followed.delta_bytes > 0 && followed.seconds.delta > 0.0);
@@ -226,10 +228,10 @@ mod tests {
     fn going_back_in_time_is_no_step() {
         let mut bench = grown(5);
         let hash = bench.stats().plant_hash;
-        bench.act("me", &Action::Ungrow { steps: 2 }).unwrap();
+        bench.act("me", &Action::Ungrow { steps: Steps::nearest(2) }.into()).unwrap();
         assert_eq!(bench.stats().steps, 5);
         assert_ne!(bench.stats().plant_hash, hash);
-        bench.act("me", &Action::Redo).unwrap();
+        bench.act("me", &Action::Redo {}.into()).unwrap();
         assert_eq!(bench.stats().plant_hash, hash);
     }
 
@@ -237,7 +239,7 @@ mod tests {
     fn a_refused_action_changes_nothing() {
         let mut bench = Bench::new(Document::new(1));
         let hash = bench.stats().plant_hash;
-        assert!(bench.act("me", &Action::Undo).is_err());
+        assert!(bench.act("me", &Action::Undo {}.into()).is_err());
         assert_eq!(bench.stats().plant_hash, hash);
     }
 }

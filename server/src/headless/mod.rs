@@ -13,8 +13,8 @@ use std::{
 
 use espalier_export::ExportError;
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Stand};
-use espalier_proto::Problem;
-use espalier_session::{Action, Document};
+use espalier_proto::{Action, Command, Problem, Steps};
+use espalier_session::Document;
 
 pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
@@ -28,8 +28,6 @@ use crate::{
 const AUTHOR: &str = "command-line";
 /// A tree that adds nothing in so many steps will not add anything any more.
 const PATIENCE: u32 = 50;
-/// One operation for undo, however many commands it takes.
-const GESTURE: Option<u32> = Some(1);
 
 /// The command could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -82,8 +80,8 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         let mut bench =
             bench(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?, &options.results);
-        for (line, action) in &script {
-            bench.act(AUTHOR, action).map_err(|problem| ScriptError {
+        for (line, command) in &script {
+            bench.act(AUTHOR, command).map_err(|problem| ScriptError {
                 name: name.clone(),
                 line: *line,
                 problem,
@@ -108,14 +106,14 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
             None => bench(started(options.seed, &options.start, u32::MAX)?, &options.results),
         };
         let wanted = options.metamers.unwrap_or(0);
+        // One operation for undo, however many steps it takes.
+        let step = Command { gesture: Some(1), ..Action::Grow { steps: Steps::LEAST, bud: None }.into() };
         let (mut most, mut idle) = (0, 0);
         while bench.document().metamers() < wanted {
             let alive = bench.document().metamers();
             (most, idle) = if alive > most { (alive, 0) } else { (most, idle + 1) };
             let stalled = HeadlessError::Stalled { alive, wanted };
-            if idle == PATIENCE
-                || bench.act(AUTHOR, &Action::Grow { steps: 1, gesture: GESTURE, bud: None }).is_err()
-            {
+            if idle == PATIENCE || bench.act(AUTHOR, &step).is_err() {
                 return Err(stalled);
             }
         }

@@ -1,7 +1,7 @@
 //! Scripts: one command in JSON on each line.
 
-use espalier_proto::{Problem, ProblemCode};
-use espalier_session::Action;
+use espalier_proto::{Command, Problem, ProblemCode};
+use espalier_session::read_command;
 
 /// A line that cannot be read or done.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
@@ -15,31 +15,33 @@ pub struct ScriptError {
     pub problem: Problem,
 }
 
-/// The actions of a script, each with its line; empty lines are none.
-pub fn parse(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Action)>, ScriptError> {
+/// The commands of a script, each with its line; empty lines are none.
+pub fn parse(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Command)>, ScriptError> {
     let numbered = (1..).zip(bytes.split(|&byte| byte == b'\n'));
     numbered
         .filter(|(_, line)| !line.trim_ascii().is_empty())
         .map(|(line, bytes)| match read(bytes) {
-            Ok(action) => Ok((line, action)),
+            Ok(command) => Ok((line, command)),
             Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem }),
         })
         .collect()
 }
 
-fn read(line: &[u8]) -> Result<Action, Problem> {
+fn read(line: &[u8]) -> Result<Command, Problem> {
     let not_text = |_| Problem::new(ProblemCode::Malformed, "the line is not UTF-8 text");
-    Action::from_json(std::str::from_utf8(line).map_err(not_text)?)
+    read_command(std::str::from_utf8(line).map_err(not_text)?)
 }
 
 #[cfg(test)]
 mod tests {
+    use espalier_proto::Action;
+
     use super::*;
 
     #[test]
     fn empty_lines_count_but_do_nothing() {
         let script = parse("s", b"\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").unwrap();
-        assert_eq!(script, [(2, Action::Undo), (4, Action::Redo)]);
+        assert_eq!(script, [(2, Action::Undo {}.into()), (4, Action::Redo {}.into())]);
         assert_eq!(parse("s", b""), Ok(vec![]));
         assert_eq!(parse("s", b"{\"kind\":\"undo\"}\n\xff").unwrap_err().line, 2);
     }

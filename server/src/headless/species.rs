@@ -4,7 +4,8 @@ use std::{fs, io::Write, path::Path};
 
 use espalier_export::picture::{self, Cell};
 use espalier_growth::species::{self, Species};
-use espalier_session::{Action, script};
+use espalier_proto::Action;
+use espalier_session::script;
 use espalier_settings::ParametersPatch;
 use rayon::prelude::*;
 
@@ -42,13 +43,13 @@ pub(super) fn raise(
 ) -> Result<(), HeadlessError> {
     for action in script(species) {
         let is_choice = matches!(action, Action::SetParameters { .. });
-        bench.act(AUTHOR, &action).map_err(HeadlessError::Parameters)?;
+        bench.act(AUTHOR, &action.into()).map_err(HeadlessError::Parameters)?;
         if is_choice && !patches.is_empty() {
             // All at once: weights that are changed one by one do not sum to 1 in between.
             let chosen = bench.document().parameters();
             let wanted = patches.iter().fold(chosen, |all, patch| all.patched(patch));
-            let choice = Action::SetParameters { patch: Box::new(wanted.into()), gesture: None };
-            bench.act(AUTHOR, &choice).map_err(HeadlessError::Parameters)?;
+            let choice = Action::SetParameters { parameters: wanted.into() };
+            bench.act(AUTHOR, &choice.into()).map_err(HeadlessError::Parameters)?;
         }
     }
     Ok(())

@@ -9,10 +9,9 @@ use axum::{
 };
 use espalier_import::{ImportError, Limits};
 use espalier_proto::{
-    Command, Obstacle, Pose, Problem, ProblemCode, Shape,
+    Action, Mesh, Obstacle, Pose, Position, Problem, ProblemCode, Scale, Shape, UnitRotation,
     version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
 };
-use espalier_session::Mesh;
 
 use super::{Shared, failure::Failure, sessions};
 
@@ -28,18 +27,16 @@ pub(super) async fn upload(
     let file = body.map_err(unreadable)?;
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
-    let mesh = shared.pool.run(move || as_carried(&file)).await?;
+    let mesh = shared.pool.run(move || mesh_of(&file)).await?;
     let mesh = mesh.map_err(|error| {
         Problem::new(ProblemCode::Malformed, format!("The file cannot be an obstacle: {error}."))
     })?;
-    let command = Command::PlaceObstacle {
-        obstacle: Obstacle {
-            shape: Shape::Mesh { mesh, scale: 1.0 / metres },
-            pose: Pose { position: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0] },
-        },
-        gesture: None,
-    };
-    match session.act(command).await?? {
+    let scale = Scale::try_from(1.0 / metres)
+        .map_err(|fault| Problem::out_of_range("scale", fault.found, fault.allowed))?;
+    let shape = Shape::Mesh { mesh, scale };
+    let pose = Pose { position: Position::ORIGIN, rotation: UnitRotation::IDENTITY };
+    let action = Action::PlaceObstacle { obstacle: Obstacle { shape, pose } };
+    match session.act(action.into()).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(placed))),
         None => Err(Failure::unavailable("The obstacle was not placed.")),
     }
@@ -55,10 +52,10 @@ pub(super) async fn mesh(
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
 }
 
-/// The triangles of a file as a command carries them.
-fn as_carried(file: &[u8]) -> Result<String, ImportError> {
+/// The triangles of a file.
+fn mesh_of(file: &[u8]) -> Result<Mesh, ImportError> {
     let read = espalier_import::read(file, LIMITS)?;
-    Ok(Mesh { vertices: read.vertices, triangles: read.corners }.to_base64())
+    Ok(Mesh { vertices: read.vertices, triangles: read.corners })
 }
 
 fn unreadable(rejection: BytesRejection) -> Failure {

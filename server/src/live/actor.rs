@@ -7,10 +7,8 @@ use std::{
     time::Duration,
 };
 
-use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
-use espalier_session::{
-    ActId, ClientId, Foresight, Input, JournalEntry, Mesh, Output, ReadId, Session, Work,
-};
+use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
+use espalier_session::{ActId, ClientId, Foresight, Input, JournalEntry, Output, ReadId, Session, Work};
 use espalier_settings::ParameterValues;
 use tokio::{
     sync::{mpsc, oneshot},

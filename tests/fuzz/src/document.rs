@@ -1,6 +1,7 @@
 //! Documents, as saved trees and snapshots hold them.
 
-use espalier_session::{Action, Document, Session};
+use espalier_proto::{Action, Command};
+use espalier_session::{Document, Session, read_command};
 
 use crate::{METAMERS, SEED, command};
 
@@ -16,11 +17,11 @@ pub fn read(bytes: &[u8]) -> bool {
     let again = Document::from_bytes(&document.to_bytes()).map(|document| document.hash());
     assert_eq!(again.as_ref().ok(), Some(&hash), "{again:?}");
     document.set_metamer_budget(METAMERS);
-    let all = |document: &mut Document, action: &Action| {
-        (0..OPERATIONS).take_while(|_| document.apply("someone", action).is_ok()).count()
+    let all = |document: &mut Document, command: &Command| {
+        (0..OPERATIONS).take_while(|_| document.apply("someone", command).is_ok()).count()
     };
-    all(&mut document, &Action::Undo);
-    all(&mut document, &Action::Redo);
+    all(&mut document, &Action::Undo {}.into());
+    all(&mut document, &Action::Redo {}.into());
     true
 }
 
@@ -30,7 +31,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
     document.set_metamer_budget(METAMERS);
     for line in command::lines() {
         // Some are refused by a tree so small.
-        let _ = Action::from_json(line).and_then(|action| document.apply("someone", &action));
+        let _ = read_command(line).and_then(|command| document.apply("someone", &command));
     }
     // What is being drawn or bent cannot be kept.
     document.lift_hands();

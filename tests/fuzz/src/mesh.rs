@@ -1,7 +1,8 @@
 //! Meshes of obstacles (`OB4`), and the commands that carry them.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
-use espalier_session::{Action, Mesh};
+use espalier_proto::Mesh;
+use espalier_session::read_command;
 
 /// Reads a mesh by itself and in a command; what can be read is the same when it is written and read again.
 pub fn read(bytes: &[u8]) -> bool {
@@ -9,7 +10,7 @@ pub fn read(bytes: &[u8]) -> bool {
         r#"{{"kind":"place_obstacle","obstacle":{{"shape":{{"kind":"mesh","mesh":"{}","scale":1}},"pose":{{"position":[0,0,0]}}}}}}"#,
         STANDARD.encode(bytes)
     );
-    let placed = Action::from_json(&place);
+    let placed = read_command(&place);
     match Mesh::from_bytes(bytes) {
         Ok(mesh) => {
             assert_eq!(mesh.to_bytes(), bytes);

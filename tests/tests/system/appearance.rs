@@ -1,15 +1,15 @@
 //! `AP`, `SC1`: looks of a session for everybody in it, schematics, pictures of species.
 
-use espalier_proto::{Command, ProblemCode, Schematic};
+use espalier_proto::{ProblemCode, Schematic};
 use espalier_settings::{Appearance, AppearancePatch, BarkKind, BarkLook, LeafLook, ParameterValues, Sky};
 use espalier_tests::{client::Client, http, scratch::Scratch, server::Server};
 use serde_json::{Value, json};
 use tokio_tungstenite::tungstenite::Message;
 
-fn season(season: f32, gesture: Option<u32>) -> Command {
+fn season(season: f32, gesture: Option<u32>) -> Value {
     let leaves = LeafLook { season, ..Appearance::default().leaves };
     let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
-    Command::SetAppearance { appearance, gesture }
+    json!({ "kind": "set_appearance", "appearance": appearance, "gesture": gesture })
 }
 
 async fn seen(client: &mut Client, season: f32) {
@@ -32,11 +32,11 @@ async fn ap3_everybody_hears_of_looks_and_of_undo() {
     seen(&mut second, 2.0).await;
     let mut late = Client::connect(server.port(), &session, "browser-3").await;
     seen(&mut late, 2.0).await;
-    second.send(Command::Undo {}).await;
+    second.send(json!({ "kind": "undo" })).await;
     for client in [&mut first, &mut second, &mut late] {
         seen(client, 1.0).await;
     }
-    second.send(Command::Redo {}).await;
+    second.send(json!({ "kind": "redo" })).await;
     seen(&mut first, 2.0).await;
     first.until_settled().await;
     let operations = first.timeline.operations.len();
@@ -58,8 +58,8 @@ async fn looks_outlive_a_kill_and_go_with_saved_trees() {
         background: Some(background.into()),
         ..AppearancePatch::default()
     };
-    client.send(Command::Grow { steps: 4, gesture: None, bud: None }).await;
-    client.send(Command::SetAppearance { appearance, gesture: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 4 })).await;
+    client.send(json!({ "kind": "set_appearance", "appearance": appearance })).await;
     client.until_settled().await;
     server.kill();
     let server = Server::start(&database);

@@ -1,6 +1,5 @@
 use std::time::Duration;
 
-use espalier_proto::Command;
 use espalier_settings::ParametersPatch;
 use espalier_tests::{
     client::Client,
@@ -9,6 +8,7 @@ use espalier_tests::{
     server::Server,
     strokes::{line, stroke},
 };
+use serde_json::{Value, json};
 
 const KILLS: usize = 20;
 const SEED: u32 = 11;
@@ -18,7 +18,7 @@ const AROUND: [[f32; 2]; 7] =
     [[6.0, 0.0], [-3.0, 5.0], [1.0, -6.0], [-5.0, -3.0], [4.0, 4.0], [0.0, 6.0], [-6.0, 1.0]];
 
 /// One stroke for each kill, with parameters and undo between them.
-fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
+fn script(dice: &mut Dice) -> Vec<Vec<Value>> {
     (0..KILLS as u32)
         .map(|number| {
             let [x, z] = AROUND[number as usize % AROUND.len()];
@@ -27,12 +27,9 @@ fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
             let radius = if dice.roll(3) == 0 { 0.0 } else { 1.0 };
             let mut commands = stroke(number, &line([0.0, height * 0.5, 0.0], to, 24), radius, 2);
             match dice.roll(4) {
-                0 => commands.push(Command::Undo {}),
-                1 => commands.push(Command::SetParameters {
-                    parameters: ParametersPatch { apical_control: Some(0.48), ..Default::default() },
-                    gesture: None,
-                }),
-                2 => commands.push(Command::Grow { steps: 1, gesture: Some(number), bud: None }),
+                0 => commands.push(json!({ "kind": "undo" })),
+                1 => commands.push(json!({ "kind": "set_parameters", "parameters": ParametersPatch { apical_control: Some(0.48), ..Default::default() } })),
+                2 => commands.push(json!({ "kind": "grow", "steps": 1, "gesture": Some(number) })),
                 _ => {}
             }
             commands
@@ -41,7 +38,7 @@ fn script(dice: &mut Dice) -> Vec<Vec<Command>> {
 }
 
 /// The tree these commands grow when nothing goes wrong.
-async fn reference(server: &Server, commands: impl Iterator<Item = Command>) -> Client {
+async fn reference(server: &Server, commands: impl Iterator<Item = Value>) -> Client {
     let session = server.new_session(SEED);
     let mut client = Client::connect(server.port(), &session, "reference").await;
     for command in commands {
@@ -55,7 +52,7 @@ async fn reference(server: &Server, commands: impl Iterator<Item = Command>) -> 
 async fn twenty_kills_lose_and_double_nothing_acknowledged() {
     let mut dice = Dice::new(2026);
     let strokes = script(&mut dice);
-    let commands: Vec<Command> = strokes.iter().flatten().cloned().collect();
+    let commands: Vec<Value> = strokes.iter().flatten().cloned().collect();
     let scratch = Scratch::new();
     let mut server = Server::start(&scratch.path("trees.db"));
     let session = server.new_session(SEED);
@@ -91,7 +88,7 @@ async fn twenty_kills_lose_and_double_nothing_acknowledged() {
 #[tokio::test]
 async fn what_was_acknowledged_is_there_even_if_nobody_resends() {
     let mut dice = Dice::new(7);
-    let commands: Vec<Command> = script(&mut dice).into_iter().take(4).flatten().collect();
+    let commands: Vec<Value> = script(&mut dice).into_iter().take(4).flatten().collect();
     let scratch = Scratch::new();
     let mut server = Server::start(&scratch.path("trees.db"));
     let session = server.new_session(SEED);
@@ -121,7 +118,7 @@ async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     let server = Server::start(&database);
     let session = server.new_session(SEED);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
-    client.send(Command::Grow { steps: 8, gesture: None, bud: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 8 })).await;
     client.until_settled().await;
     let rows = client.table.form();
 
@@ -134,9 +131,9 @@ async fn hs5_a_server_that_stops_closes_with_1001_and_keeps_everything() {
     client.reconnect(server.port()).await;
     client.until_form(&rows).await;
     // The document does not just look the same: it goes on the same.
-    client.send(Command::Grow { steps: 2, gesture: None, bud: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 2 })).await;
     client.until_settled().await;
-    let grown = [8, 2].map(|steps| Command::Grow { steps, gesture: None, bud: None });
+    let grown = [8, 2].map(|steps| json!({ "kind": "grow", "steps": steps }));
     let wanted = reference(&server, grown.into_iter()).await;
     client.until_form(&wanted.table.form()).await;
 }

@@ -1,17 +1,18 @@
-use espalier_proto::{Command, DrawingPlane, ProblemCode};
+use espalier_proto::ProblemCode;
 use espalier_tests::{client::Client, server::Server};
+use serde_json::{Value, json};
 
-fn grow(steps: u32) -> Command {
-    Command::Grow { steps, gesture: None, bud: None }
+fn grow(steps: u32) -> Value {
+    json!({ "kind": "grow", "steps": steps })
 }
 
 /// A heart, 2·`size` wide, its tip on the ground.
-fn heart(size: f32, bud: Option<u32>) -> Command {
+fn heart(size: f32, bud: Option<u32>) -> Value {
     let half = [[0.0, 0.0], [0.6, 0.6], [1.0, 1.2], [0.9, 1.6], [0.5, 1.8], [0.2, 1.7]];
     let mirrored = half.iter().rev().map(|[x, y]| [-x, *y]);
     let outline = half.into_iter().chain([[0.0, 1.4]]).chain(mirrored).map(|[x, y]| [x * size, y * size]);
-    let plane = DrawingPlane { origin: [0.0; 3], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
-    Command::Lasso { outline: outline.collect(), plane, depth: 1.0, bud }
+    let plane = json!({ "origin": [0.0, 0.0, 0.0], "right": [1.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0] });
+    json!({ "kind": "lasso", "outline": outline.collect::<Vec<_>>(), "plane": plane, "depth": 1.0, "bud": bud })
 }
 
 #[tokio::test]
@@ -23,10 +24,10 @@ async fn la1_a_lasso_grows_for_everybody_and_undoes() {
     assert!(first.state.metamers > 200, "{:?}", first.state);
     let heart = first.table.form();
     second.until_form(&heart).await;
-    second.send(Command::Undo {}).await;
+    second.send(json!({ "kind": "undo" })).await;
     second.until_settled().await;
     assert_eq!(second.state.metamers, 0);
-    second.send(Command::Redo {}).await;
+    second.send(json!({ "kind": "redo" })).await;
     first.until_form(&heart).await;
 }
 
@@ -35,7 +36,7 @@ async fn st1_what_was_stopped_survives_a_crash() {
     let (mut client, server, _scratch) = Client::alone(&[]).await;
     client.send(grow(1000)).await;
     client.until("it grows", |client| client.state.step > 0).await;
-    client.send(Command::Stop { tick: None }).await;
+    client.send(json!({ "kind": "stop" })).await;
     client.until_settled().await;
     let (step, form) = (client.state.step, client.table.form());
     assert!(step < 1000 && client.state.metamers > 0, "{step} steps");
@@ -52,7 +53,7 @@ async fn sg1_a_branch_grows_alone() {
     client.send(grow(6)).await;
     client.until_settled().await;
     let before = client.table.rows.len() as u32;
-    let beyond = client.send(Command::Grow { steps: 1, gesture: None, bud: Some(before) }).await;
+    let beyond = client.send(json!({ "kind": "grow", "steps": 1, "bud": Some(before) })).await;
     client.until("the row beyond is refused", |client| !client.refused.is_empty()).await;
     let (id, problem) = client.refused.remove(0);
     assert_eq!((id, problem.code, problem.field.as_deref()), (beyond, ProblemCode::NotFound, Some("bud")));
@@ -62,7 +63,7 @@ async fn sg1_a_branch_grows_alone() {
         code % 2 == 1 && client.table.rows[row as usize].radius > 0
     });
     let lateral = lateral.expect("the tree has branched");
-    client.send(Command::Grow { steps: 8, gesture: None, bud: Some(lateral) }).await;
+    client.send(json!({ "kind": "grow", "steps": 8, "bud": Some(lateral) })).await;
     client.until_settled().await;
     let rows = &client.table.rows;
     assert!(rows.len() as u32 > before, "nothing has grown");
@@ -102,7 +103,9 @@ async fn a_thousand_seeds_fit_in_one_scene() {
     let (mut client, _server, _scratch) = Client::alone(&[]).await;
     for number in 0..1000u32 {
         let place = |n: u32| n as f32 * 9.0 - 140.0;
-        client.send(Command::PlantSeed { position: [place(number % 32), 0.0, place(number / 32)] }).await;
+        client
+            .send(json!({ "kind": "plant_seed", "position": [place(number % 32), 0.0, place(number / 32)] }))
+            .await;
     }
     client.send(grow(3)).await;
     client.until_settled().await;

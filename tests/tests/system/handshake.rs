@@ -1,4 +1,4 @@
-use espalier_proto::{ClientMessage, Command};
+use espalier_proto::ClientMessage;
 use espalier_settings::ParameterValues;
 use espalier_tests::{
     client::{self, Client},
@@ -86,7 +86,7 @@ async fn hs2_the_welcome_says_what_is_durable() {
     let session = server.new_session(1);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     for _ in 0..3 {
-        client.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
+        client.send(json!({ "kind": "grow", "steps": 1 })).await;
     }
     client.until("all three are durable", |client| client.acknowledged == 3).await;
     client.vanish();
@@ -111,7 +111,7 @@ async fn hs4_a_newer_socket_closes_the_older_with_4004() {
     let mut newer = Client::connect(server.port(), &session, "browser-1").await;
     while older.take_in().await {}
     assert_eq!(older.closed.map(|frame| u16::from(frame.code)), Some(4004));
-    newer.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
+    newer.send(json!({ "kind": "grow", "steps": 1 })).await;
     newer.until_settled().await;
     assert_eq!(newer.state.people, 1);
 }

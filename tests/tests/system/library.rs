@@ -1,4 +1,3 @@
-use espalier_proto::Command;
 use espalier_tests::{client::Client, http, scratch::Scratch, server::Server, strokes::upward};
 use serde_json::{Value, json};
 
@@ -94,10 +93,10 @@ async fn a_reopened_tree_is_the_same_and_another_document() {
     reopened.until_form(&library.client.table.form()).await;
 
     // Both go on alike, each for itself.
-    reopened.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
+    reopened.send(json!({ "kind": "grow", "steps": 3 })).await;
     reopened.until_settled().await;
     assert_ne!(reopened.table.form(), library.client.table.form());
-    library.client.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
+    library.client.send(json!({ "kind": "grow", "steps": 3 })).await;
     library.client.until_settled().await;
     reopened.until_form(&library.client.table.form()).await;
 }

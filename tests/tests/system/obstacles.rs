@@ -1,15 +1,15 @@
-use espalier_proto::{Command, Obstacle, PlacedShape, Pose, Shape, version::MAX_GLB_BYTES};
+use espalier_proto::{PlacedShape, version::MAX_GLB_BYTES};
 use espalier_tests::{
     client::Client,
     http::{self, Answer},
     server::Server,
 };
-use serde_json::json;
+use serde_json::{Value, json};
 
 const GLB: &str = "model/gltf-binary";
 
-fn at(x: f32, y: f32, z: f32) -> Pose {
-    Pose { position: [x, y, z], rotation: [0.0, 0.0, 0.0, 1.0] }
+fn at(x: f32, y: f32, z: f32) -> Value {
+    json!({ "position": [x, y, z], "rotation": [0.0, 0.0, 0.0, 1.0] })
 }
 
 /// One triangle of 1 m, high enough not to lie in the seed's way.
@@ -48,24 +48,19 @@ fn upload(server: &Server, session: &str, file: &[u8]) -> Answer {
 async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     let (mut first, server, _scratch) = Client::alone(&[]).await;
     let mut second = Client::connect(server.port(), &first.session.clone(), "browser-2").await;
-    let shape = Shape::Box { size: [1.0, 40.0, 40.0] };
+    let shape = json!({ "kind": "box", "size": [1.0, 40.0, 40.0] });
     first
-        .send(Command::PlaceObstacle {
-            obstacle: Obstacle { shape, pose: at(2.0, 20.0, 0.0) },
-            gesture: None,
-        })
+        .send(json!({ "kind": "place_obstacle", "obstacle": json!({ "shape": shape, "pose": at(2.0, 20.0, 0.0) }) }))
         .await;
-    let shape = Shape::Sphere { radius: 2.0 };
+    let shape = json!({ "kind": "sphere", "radius": 2.0 });
     first
-        .send(Command::PlaceObstacle {
-            obstacle: Obstacle { shape, pose: at(-9.0, 2.0, 0.0) },
-            gesture: None,
-        })
+        .send(json!({ "kind": "place_obstacle", "obstacle": json!({ "shape": shape, "pose": at(-9.0, 2.0, 0.0) }) }))
         .await;
-    first.send(Command::MoveObstacle { id: 2, pose: at(-12.0, 2.0, 0.0), gesture: None }).await;
-    first.send(Command::Grow { steps: 12, gesture: None, bud: None }).await;
+    first.send(json!({ "kind": "move_obstacle", "id": 2, "pose": at(-12.0, 2.0, 0.0) })).await;
+    first.send(json!({ "kind": "grow", "steps": 12 })).await;
     first.until_settled().await;
-    let moved = |client: &Client| client.obstacles.get(1).is_some_and(|one| one.pose == at(-12.0, 2.0, 0.0));
+    let moved =
+        |client: &Client| client.obstacles.get(1).is_some_and(|one| json!(one.pose) == at(-12.0, 2.0, 0.0));
     second.until("both are told, and the move", moved).await;
     let rows = &first.table.rows;
     assert!(rows.iter().all(|row| row.position[0] <= 384), "something grew through the wall");
@@ -76,9 +71,9 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     first.until("the list comes again", |client| !client.obstacles.is_empty()).await;
     assert_eq!(first.obstacles, told);
     first.until_form(&form).await;
-    first.send(Command::RemoveObstacle { id: 1, gesture: None }).await;
-    first.send(Command::Undo {}).await;
-    first.send(Command::RemoveObstacle { id: 2, gesture: None }).await;
+    first.send(json!({ "kind": "remove_obstacle", "id": 1 })).await;
+    first.send(json!({ "kind": "undo" })).await;
+    first.send(json!({ "kind": "remove_obstacle", "id": 2 })).await;
     first.until_settled().await;
     assert_eq!(first.obstacles.iter().map(|obstacle| obstacle.id).collect::<Vec<_>>(), [1]);
 }
@@ -104,7 +99,7 @@ async fn ob6_a_gltf_file_becomes_an_obstacle() {
     assert_eq!((mesh.status, words.len(), &words[..2], &words[11..]), (200, 14, &[3, 1][..], &[0, 1, 2][..]));
     assert_eq!(f32::from_bits(words[3]), 3.0);
     client.reconnect(server.port()).await;
-    client.send(Command::Undo {}).await;
+    client.send(json!({ "kind": "undo" })).await;
     client.until_settled().await;
     assert_eq!(client.obstacles, []);
     assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 404);
@@ -116,7 +111,7 @@ async fn ob1_a_tree_grows_around_an_uploaded_model() {
     // A screen 2 internodes to the right, far taller and wider than the tree will be.
     let screen = model([[0.2, -5.0, -30.0], [0.2, -5.0, 30.0], [0.2, 40.0, 0.0]]);
     assert_eq!(upload(&server, &client.session.clone(), &screen).status, 201);
-    client.send(Command::Grow { steps: 14, gesture: None, bud: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 14 })).await;
     client.until_settled().await;
     let xs = || client.table.rows.iter().map(|row| row.position[0] as f32 / 256.0);
     assert!(xs().all(|x| x < 2.0), "something grew through the screen");

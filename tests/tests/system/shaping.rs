@@ -3,17 +3,17 @@
 
 use std::{fs, time::Duration};
 
-use espalier_proto::{ClientMessage, Command, ProblemCode};
+use espalier_proto::ProblemCode;
 use espalier_tests::{
     client::{Client, until_equal},
     program,
     scratch::Scratch,
     server::Server,
 };
-use serde_json::Value;
+use serde_json::{Value, json};
 
-fn grow(steps: u32) -> Command {
-    Command::Grow { steps, gesture: None, bud: None }
+fn grow(steps: u32) -> Value {
+    json!({ "kind": "grow", "steps": steps })
 }
 
 /// A row's parent.
@@ -49,16 +49,17 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
     ann.until_settled().await;
     let (top, base) = limb(&ann, 6);
     let rest = ann.table.form();
-    let mut all = vec![Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2, gesture: None }];
+    let mut all =
+        vec![json!({ "kind": "bend_begin", "bend": 1, "base": base, "touches": vec![top], "stretch": 0.2 })];
     for part in 1..=12 {
         let target = beside(&ann, top, [0.25 * part as f32, -0.1 * part as f32, 0.0]);
-        all.push(Command::BendMove { bend: 1, targets: vec![target] });
+        all.push(json!({ "kind": "bend_move", "bend": 1, "targets": vec![target] }));
     }
-    all.push(Command::BendEnd { bend: 1 });
-    all.push(Command::SetWidth { row: base, diameter: Some(0.6), gesture: None });
+    all.push(json!({ "kind": "bend_end", "bend": 1 }));
+    all.push(json!({ "kind": "set_width", "row": base, "diameter": Some(0.6) }));
     all.push(grow(2));
-    all.push(Command::Prune { rows: vec![top], gesture: Some(4) });
-    all.push(Command::Grow { steps: 2, gesture: Some(4), bud: None });
+    all.push(json!({ "kind": "prune", "rows": vec![top], "gesture": Some(4) }));
+    all.push(json!({ "kind": "grow", "steps": 2, "gesture": Some(4) }));
     for (number, command) in all.into_iter().enumerate() {
         ann.send(command.clone()).await;
         done.push(command);
@@ -104,31 +105,31 @@ async fn tt2_two_people_scrub_through_growth_and_edits() {
     ann.until_settled().await;
     let (top, base) = limb(&ann, 4);
     let rotation = [0.0, 0.0, 0.6, 0.8];
-    ann.send(Command::TurnBranch { row: base, rotation, gesture: None }).await;
-    ann.send(Command::Graft { row: top, onto: base, rotation, keep: true }).await;
+    ann.send(json!({ "kind": "turn_branch", "row": base, "rotation": rotation })).await;
+    ann.send(json!({ "kind": "graft", "row": top, "onto": base, "rotation": rotation, "keep": true })).await;
     ann.send(grow(3)).await;
     ann.until_settled().await;
     let end = ann.table.form();
     let last = ann.timeline.last_step;
     assert_eq!(last, 13);
     for step in (0..last).rev().chain(1..=last) {
-        ann.send(Command::GoTo { step }).await;
+        ann.send(json!({ "kind": "go_to", "step": step })).await;
         bob.listen(Duration::from_millis(3)).await;
     }
     ann.until_settled().await;
     assert_eq!(ann.table.form(), end);
     until_equal(&mut ann, &mut bob).await;
     // TT3, TT4: another future, and the first one again.
-    ann.send(Command::GoTo { step: 5 }).await;
+    ann.send(json!({ "kind": "go_to", "step": 5 })).await;
     bob.until("bob sees the past", |bob| bob.timeline.step == 5).await;
-    bob.send(Command::PlantSeed { position: [4.0, 0.0, 0.0] }).await;
+    bob.send(json!({ "kind": "plant_seed", "position": [4.0, 0.0, 0.0] })).await;
     bob.until("a future is left", |bob| bob.timeline.futures.len() == 1).await;
     let future = bob.timeline.futures[0].future;
-    bob.send(Command::TakeFuture { future }).await;
+    bob.send(json!({ "kind": "take_future", "future": future })).await;
     bob.until_settled().await;
     bob.until("the first one is back", |bob| bob.timeline.step == last).await;
     bob.until_form(&end).await;
-    ann.send(Command::TakeFuture { future: 77 }).await;
+    ann.send(json!({ "kind": "take_future", "future": 77 })).await;
     ann.until("there is no such future", |ann| !ann.refused.is_empty()).await;
     assert_eq!(ann.refused[0].1.code, ProblemCode::NotFound);
 }
@@ -140,13 +141,13 @@ async fn pd2_a_ghost_comes_to_who_asked() {
     ann.send(grow(9)).await;
     ann.until_settled().await;
     let (top, _) = limb(&ann, 4);
-    ann.send_message(&ClientMessage::Predict { rows: vec![top], steps: 4 }).await;
+    ann.send_message(&json!({ "type": "predict", "rows": vec![top], "steps": 4 })).await;
     ann.until("the ghost comes", |ann| !ann.ghosts.is_empty()).await;
     assert!(!ann.ghosts[0].changes.is_empty());
-    ann.send(Command::Undo {}).await;
+    ann.send(json!({ "kind": "undo" })).await;
     ann.until("a command ends it", |ann| ann.ghosts.len() == 2).await;
     assert!(ann.ghosts[1].changes.is_empty());
-    ann.send_message(&ClientMessage::Predict { rows: vec![999_999], steps: 4 }).await;
+    ann.send_message(&json!({ "type": "predict", "rows": vec![999_999], "steps": 4 })).await;
     ann.until("it is answered", |ann| !ann.problems.is_empty()).await;
     assert_eq!(ann.problems[0].code, ProblemCode::NotFound);
     bob.listen(Duration::from_millis(100)).await;
@@ -161,26 +162,30 @@ async fn what_another_has_cut_cannot_be_edited() {
     ann.until_settled().await;
     bob.until("bob sees the tree", |bob| bob.timeline.step == 9).await;
     let (top, base) = limb(&bob, 6);
-    bob.send(Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.2, gesture: None }).await;
+    bob.send(json!({ "kind": "bend_begin", "bend": 1, "base": base, "touches": vec![top], "stretch": 0.2 }))
+        .await;
     let target = beside(&bob, top, [1.0, 0.0, 0.0]);
-    bob.send(Command::BendMove { bend: 1, targets: vec![target] }).await;
+    bob.send(json!({ "kind": "bend_move", "bend": 1, "targets": vec![target] })).await;
     bob.until_settled().await;
     ann.until("ann sees it bend", |ann| !ann.poses.is_empty()).await;
-    ann.send(Command::Prune { rows: vec![top], gesture: None }).await;
+    ann.send(json!({ "kind": "prune", "rows": vec![top] })).await;
     ann.until_settled().await;
     assert_eq!(ann.table.rows[top as usize].radius, 0, "it is cut");
     let left = ann.table.form();
     // Bob has not looked yet: his hands are where the branch was.
     let rotation = [0.0, 0.0, 0.6, 0.8];
     for (command, field) in [
-        (Command::BendMove { bend: 1, targets: vec![target] }, "bend"),
-        (Command::BendEnd { bend: 1 }, "bend"),
-        (Command::BendBegin { bend: 2, base, touches: vec![top], stretch: 0.2, gesture: None }, "touches[0]"),
-        (Command::SetWidth { row: top, diameter: Some(1.0), gesture: None }, "row"),
-        (Command::TurnBranch { row: top, rotation, gesture: None }, "row"),
-        (Command::Graft { row: top, onto: base, rotation, keep: true }, "row"),
-        (Command::Prune { rows: vec![top], gesture: None }, "rows[0]"),
-        (Command::Grow { steps: 1, gesture: None, bud: Some(top) }, "bud"),
+        (json!({ "kind": "bend_move", "bend": 1, "targets": vec![target] }), "bend"),
+        (json!({ "kind": "bend_end", "bend": 1 }), "bend"),
+        (
+            json!({ "kind": "bend_begin", "bend": 2, "base": base, "touches": vec![top], "stretch": 0.2 }),
+            "touches[0]",
+        ),
+        (json!({ "kind": "set_width", "row": top, "diameter": Some(1.0) }), "row"),
+        (json!({ "kind": "turn_branch", "row": top, "rotation": rotation }), "row"),
+        (json!({ "kind": "graft", "row": top, "onto": base, "rotation": rotation, "keep": true }), "row"),
+        (json!({ "kind": "prune", "rows": vec![top] }), "rows[0]"),
+        (json!({ "kind": "grow", "steps": 1, "bud": Some(top) }), "bud"),
     ] {
         bob.refused.clear();
         bob.send(command.clone()).await;

@@ -1,12 +1,12 @@
 use std::time::Duration;
 
-use espalier_proto::{ClientMessage, Command};
 use espalier_tests::{
     client::{self, Client, Receipts},
     scratch::Scratch,
     server::Server,
     strokes::{line, stroke, upward},
 };
+use serde_json::json;
 
 /// What may be on the way to one client (`FL1`).
 const WINDOW: usize = 256 * 1024;
@@ -50,7 +50,7 @@ async fn the_same_seed_and_commands_grow_the_same_tree() {
         for command in upward(1, 10.0, 3.0) {
             client.send(command).await;
         }
-        client.send(Command::Grow { steps: 4, gesture: None, bud: None }).await;
+        client.send(json!({ "kind": "grow", "steps": 4 })).await;
         client.until_settled().await;
         trees.push(client);
     }
@@ -65,7 +65,7 @@ async fn rs1_a_returning_client_gets_only_what_is_stale() {
     let session = server.new_session(3);
     let mut away = Client::connect(server.port(), &session, "tablet-one").await;
     let mut here = Client::connect(server.port(), &session, "tablet-two").await;
-    here.send(Command::Grow { steps: 14, gesture: None, bud: None }).await;
+    here.send(json!({ "kind": "grow", "steps": 14 })).await;
     here.until_settled().await;
     client::until_equal(&mut away, &mut here).await;
     // The last patches may still be on their way to both.
@@ -81,7 +81,7 @@ async fn rs1_a_returning_client_gets_only_what_is_stale() {
     client::until_equal(&mut away, &mut here).await;
 
     away.vanish();
-    here.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
+    here.send(json!({ "kind": "grow", "steps": 1 })).await;
     here.until_settled().await;
     away.reconnect(server.port()).await;
     assert!(away.resumed);
@@ -93,7 +93,7 @@ async fn rs2_another_epoch_is_not_resumed() {
     let (server, _scratch) = server();
     let session = server.new_session(3);
     let mut client = Client::connect(server.port(), &session, "tablet-one").await;
-    client.send(Command::Grow { steps: 5, gesture: None, bud: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 5 })).await;
     client.until_settled().await;
     let rows = client.table.form();
     let epoch = client.table.epoch;
@@ -112,8 +112,8 @@ async fn fl1_frames_stop_until_the_client_answers() {
     let mut drawing = Client::connect(server.port(), &session, "tablet-two").await;
     // Grow on until another client has been sent several windows' worth.
     while drawing.frame_bytes < 4 * WINDOW {
-        drawing.send(Command::Grow { steps: 2, gesture: None, bud: None }).await;
-        drawing.send(Command::Ungrow { steps: 1 }).await;
+        drawing.send(json!({ "kind": "grow", "steps": 2 })).await;
+        drawing.send(json!({ "kind": "ungrow", "steps": 1 })).await;
         drawing.until_settled().await;
     }
     silent.listen(Duration::from_secs(1)).await;
@@ -124,7 +124,7 @@ async fn fl1_frames_stop_until_the_client_answers() {
     let frames = silent.frames;
     silent.receipts = Receipts::Sent;
     let sequence = silent.table.sequence.expect("it has seen a frame");
-    silent.send_message(&ClientMessage::Received { sequence, kind: 1 }).await;
+    silent.send_message(&json!({ "type": "received", "sequence": sequence, "kind": 1 })).await;
     client::until_equal(&mut silent, &mut drawing).await;
     assert!(silent.frames - frames <= 3, "FL2: one catch-up frame, not {}", silent.frames - frames);
 }

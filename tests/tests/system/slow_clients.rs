@@ -4,7 +4,7 @@ use std::{
     time::Duration,
 };
 
-use espalier_proto::{ClientMessage, Command};
+use espalier_proto::ClientMessage;
 use espalier_tests::{
     client::{self, Client},
     http,
@@ -12,6 +12,7 @@ use espalier_tests::{
     server::{GUARD, Server},
 };
 use futures_util::{SinkExt, StreamExt};
+use serde_json::json;
 use tokio::time;
 use tokio_tungstenite::tungstenite::Message;
 
@@ -42,8 +43,8 @@ async fn slow_readers_cost_bounded_memory() {
         let before = server.resident_bytes();
         let enough = drawing.frame_bytes + OWED;
         while drawing.frame_bytes < enough {
-            drawing.send(Command::Grow { steps: 2, gesture: None, bud: None }).await;
-            drawing.send(Command::Ungrow { steps: if round == 0 { 1 } else { 2 } }).await;
+            drawing.send(json!({ "kind": "grow", "steps": 2 })).await;
+            drawing.send(json!({ "kind": "ungrow", "steps": if round == 0 { 1 } else { 2 } })).await;
             drawing.until_settled().await;
         }
         let grown = server.resident_bytes().saturating_sub(before);
@@ -81,7 +82,7 @@ async fn fl3_unread_answers_are_bounded() {
     assert!(grown < 32 * 1024 * 1024, "{grown} bytes for one client that never reads");
 
     let mut other = Client::connect(server.port(), &session, "another-one").await;
-    other.send(Command::Grow { steps: 3, gesture: None, bud: None }).await;
+    other.send(json!({ "kind": "grow", "steps": 3 })).await;
     other.until_settled().await;
 }
 
@@ -110,7 +111,7 @@ async fn lm1_a_larger_message_closes_1009() {
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     assert_eq!(client.acknowledged, 0);
     assert_eq!(client.state.step, 0);
-    client.send(Command::Grow { steps: 1, gesture: None, bud: None }).await;
+    client.send(json!({ "kind": "grow", "steps": 1 })).await;
     client.until_settled().await;
 }
 

@@ -1,8 +1,8 @@
 use std::{collections::BTreeSet, fs};
 
-use espalier_proto::{Command, species::Species};
+use espalier_proto::species::Species;
 use espalier_tests::{client::Client, http, program, scratch::Scratch, server::Server};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 fn grown(options: &[&str]) -> Value {
     let finished = program::run(&[&["grow", "--stats", "json"], options].concat());
@@ -66,7 +66,7 @@ async fn a_picked_species_becomes_the_parameters() {
     let willow = all.iter().find(|species| species.slug == "weeping-willow").expect("there is a willow");
     let session = server.new_session(7);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
-    client.send(Command::SetParameters { parameters: willow.parameters.clone().into(), gesture: None }).await;
+    client.send(json!({ "kind": "set_parameters", "parameters": willow.parameters })).await;
     client.until_settled().await;
     assert_eq!(client.parameters, willow.parameters);
 }

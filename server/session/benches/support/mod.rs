@@ -6,7 +6,9 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_session::{Action, Document, delta, style_options};
+use espalier_proto::{Action, BrushRadius, Position, Steps, StrokeSample};
+use espalier_session::{Document, delta, style_options};
+use glam::Vec3;
 
 /// Runs a bench where the server simulates: on a thread of the pool. From outside, each task would first have to wake
 /// one.
@@ -46,7 +48,7 @@ impl Followed {
         let style = Style::new(style_options(&document.parameters()));
         let mut followed = Self { document, table: RingTable::new(), style, sequence: 0 };
         while followed.document.metamers() < metamers {
-            followed.act(&Action::Grow { steps: 1, gesture: None, bud: None });
+            followed.act(&Action::Grow { steps: Steps::nearest(1), bud: None });
         }
         followed
     }
@@ -54,7 +56,7 @@ impl Followed {
     /// Does an action with all its steps, and tells the client once.
     pub fn act(&mut self, action: &Action) -> Cost {
         let begun = Instant::now();
-        self.document.apply(AUTHOR, action).expect("the action can be done");
+        self.document.apply(AUTHOR, &action.clone().into()).expect("the action can be done");
         let acted = Instant::now();
         self.sequence += 1;
         let changes = self.table.sync(self.document.portrait(), &self.style, self.sequence);
@@ -62,6 +64,12 @@ impl Followed {
         let bytes = delta(&self.table, &changes, 0, self.sequence).encode().len();
         Cost { act: acted - begun, sync: synced - acted, encode: synced.elapsed(), bytes }
     }
+}
+
+/// One place of the brush.
+#[allow(dead_code, reason = "not every bench draws")]
+pub fn sample(position: Vec3, radius: f32) -> StrokeSample {
+    StrokeSample { position: Position::nearest(position), radius: BrushRadius::nearest(radius) }
 }
 
 impl Cost {

@@ -1,10 +1,11 @@
 //! Branches in people's hands: bends between their begin and their end (`BE`).
 
 use espalier_plant::{Bend, MetamerId, Plant, Widths, hash::StableHash};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Position, Problem, ProblemCode, Share};
 use glam::Vec3;
 
 use super::{Document, branches::said, history::Kind, refused};
+use crate::cause::Cause;
 
 /// Bends open at once (`LM7`).
 const MAX_OPEN: usize = 32;
@@ -87,14 +88,13 @@ impl Document {
 
     pub(super) fn begin_bend(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         number: u32,
         base: u32,
         touches: &[u32],
-        stretch: f32,
-        gesture: Option<u32>,
+        stretch: Share,
     ) -> Result<(), Problem> {
-        if self.bends.find(author, number).is_ok() {
+        if self.bends.find(cause.author, number).is_ok() {
             return Err(refused(format!("bend {number} has begun already")));
         }
         if self.bends.open.len() >= MAX_OPEN {
@@ -119,24 +119,29 @@ impl Document {
         let nodes: Vec<Vec3> = std::iter::once(foot).chain(path.iter().map(|&id| metamers.end(id))).collect();
         let widths = Widths::of(plant, &girth);
         let radii: Vec<f32> = path.iter().map(|&id| widths.radius(id)).collect();
-        let solver = Bend::new(&nodes, &radii, stretch);
+        let solver = Bend::new(&nodes, &radii, stretch.get());
         self.bends.begun = self.bends.begun.wrapping_add(1);
-        let (author, id) = (author.to_owned(), self.bends.begun);
+        let id = self.bends.begun;
         self.bends.open.push(OpenBend {
-            author,
+            author: cause.author.to_owned(),
             number,
             id,
             path,
             touches,
             solver,
-            gesture,
+            gesture: cause.gesture,
             is_moved: false,
         });
         Ok(())
     }
 
-    pub(super) fn move_bend(&mut self, author: &str, number: u32, targets: &[Vec3]) -> Result<(), Problem> {
-        let index = self.bends.find(author, number)?;
+    pub(super) fn move_bend(
+        &mut self,
+        cause: Cause<'_>,
+        number: u32,
+        targets: &[Position],
+    ) -> Result<(), Problem> {
+        let index = self.bends.find(cause.author, number)?;
         let bend = &mut self.bends.open[index];
         if targets.len() != bend.touches.len() {
             let allowed = format!("{}, one for each touch", bend.touches.len());
@@ -147,14 +152,15 @@ impl Document {
                 allowed: Some(allowed),
             });
         }
-        let pairs: Vec<_> = bend.touches.iter().copied().zip(targets.iter().copied()).collect();
+        let pairs: Vec<_> =
+            bend.touches.iter().copied().zip(targets.iter().map(|target| target.get())).collect();
         bend.solver.drag(&pairs);
         bend.is_moved = true;
         Ok(())
     }
 
-    pub(super) fn end_bend(&mut self, author: &str, number: u32) -> Result<(), Problem> {
-        let mut bend = self.bends.close(author, number)?;
+    pub(super) fn end_bend(&mut self, cause: Cause<'_>, number: u32) -> Result<(), Problem> {
+        let mut bend = self.bends.close(cause.author, number)?;
         if !bend.is_moved {
             return Ok(());
         }
@@ -163,9 +169,10 @@ impl Document {
         let places = self.plant().above(bend.path[1]).len();
         self.require_places(places)?;
         let now = self.plant().step();
+        let cause = Cause { gesture: bend.gesture, ..cause };
         // Where a finger joins in or lifts, one bend ends and the next begins: to the hand they are one.
-        let continues = self.history.continues(&[Kind::Bend], author, bend.gesture, now);
-        let recorded = (!continues).then(|| self.record(Kind::Bend, author, bend.gesture));
+        let continues = self.history.continues(&[Kind::Bend], cause, now);
+        let recorded = (!continues).then(|| self.record(Kind::Bend, cause));
         let carried = self.simulation.carry(&bend.path, &motions);
         if carried.is_err() || self.plant().step() == now {
             if let Some(recorded) = recorded {

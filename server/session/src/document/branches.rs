@@ -2,7 +2,7 @@
 
 use espalier_growth::{EditError, Original};
 use espalier_plant::{MetamerId, Motion};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode, UnitRotation};
 use glam::{Quat, Vec3};
 
 use super::{
@@ -10,29 +10,30 @@ use super::{
     history::{Kind, Latest},
     refused,
 };
+use crate::cause::Cause;
 
 impl Document {
     pub(super) fn turn_branch(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         row: u32,
-        rotation: Quat,
-        gesture: Option<u32>,
+        rotation: UnitRotation,
     ) -> Result<(), Problem> {
+        let rotation = rotation.get();
         let branch = self.wood("row", row)?;
         let base = self.base_of(branch, "turned")?;
         self.require_no_bend_of(branch)?;
         let places = self.plant().above(branch).len();
         self.require_places(places)?;
         let now = self.plant().step();
-        let continues = self.history.continues(&[Kind::Turn], author, gesture, now);
+        let continues = self.history.continues(&[Kind::Turn], cause, now);
         if continues && self.replaces(row) {
             return self.turn_again(branch, base, rotation);
         }
         // Where the gesture's step cannot be taken back, what is new about its rotation comes on top.
         let latest = self.history.latest.filter(|latest| continues && latest.row == row);
         let so_far = latest.and_then(|latest| latest.rotation).unwrap_or(Quat::IDENTITY);
-        let recorded = (!continues).then(|| self.record(Kind::Turn, author, gesture));
+        let recorded = (!continues).then(|| self.record(Kind::Turn, cause));
         let motion = self.turn_about(branch, base, rotation * so_far.inverse());
         match self.simulation.carry(&[branch], &[motion]) {
             Ok(()) if self.plant().step() > now => self.turned(row, rotation, places),
@@ -77,12 +78,13 @@ impl Document {
 
     pub(super) fn graft(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         row: u32,
         onto: u32,
-        rotation: Quat,
+        rotation: UnitRotation,
         keep: bool,
     ) -> Result<(), Problem> {
+        let rotation = rotation.get();
         let branch = self.wood("row", row)?;
         let bearer = self.wood("onto", onto)?;
         let rows = self.plant().above(branch);
@@ -110,7 +112,7 @@ impl Document {
         }
         let motion = Motion { rotation, from: base, to: self.plant().metamers().end(bearer) };
         let original = if keep { Original::Stays } else { Original::Goes };
-        let recorded = self.record(Kind::Graft, author, None);
+        let recorded = self.record(Kind::Graft, cause);
         if let Err(error) = self.simulation.graft(branch, bearer, &motion, original) {
             self.refuse(recorded);
             return Err(said(error));

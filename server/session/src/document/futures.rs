@@ -13,6 +13,7 @@ use super::{
     history::{Before, Kind, Operation, Setting, hash_operations},
     refused,
 };
+use crate::cause::Cause;
 
 /// Metamers that all futures may hold (`LM11`).
 const MAX_METAMERS: usize = 4_000_000;
@@ -128,23 +129,24 @@ impl Futures {
 impl Document {
     /// Starts an operation at the present; what lies ahead becomes a future. Where the setting is not that of the
     /// line, which ungrowing can bring about, an operation that makes it so comes before.
-    pub(super) fn record(&mut self, kind: Kind, author: &str, gesture: Option<u32>) -> Recorded {
+    pub(super) fn record(&mut self, kind: Kind, cause: Cause<'_>) -> Recorded {
         let earlier = self.history.before;
         let (done, latest) = (self.history.done, self.history.latest);
         let left = self.leave_future();
         let now = self.plant().step();
         let present = self.setting();
         let line = self.history.setting().clone();
+        let alone = Cause { gesture: None, ..cause };
         let is_same = present.parameters == line.parameters;
         if !is_same || present.appearance != line.appearance {
             let kind = if is_same { Kind::Appearance } else { Kind::Parameters };
             let after = Setting { obstacles: line.obstacles.clone(), ..present.clone() };
-            self.history.push(kind, author, None, now, after);
+            self.history.push(kind, alone, now, after);
         }
         if !Arc::ptr_eq(&present.obstacles, &line.obstacles) {
-            self.history.push(Kind::Obstacle, author, None, now, present.clone());
+            self.history.push(Kind::Obstacle, alone, now, present.clone());
         }
-        self.history.push(kind, author, gesture, now, present);
+        self.history.push(kind, cause, now, present);
         self.history.before = Some(Before { done, latest, left });
         Recorded { earlier }
     }

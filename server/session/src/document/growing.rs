@@ -2,10 +2,11 @@
 
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
+use glam::Vec2;
 
 use super::{Document, generators::Step, history::Kind, refused};
-use crate::action::Lasso;
+use crate::cause::Cause;
 
 /// A lasso that still grows after so many steps is left as it is (`LA1`).
 const MAX_LASSO_STEPS: u32 = 400;
@@ -93,7 +94,7 @@ impl Document {
         }
         let stroke = operations.iter().rev().find(|operation| operation.kind == Kind::Stroke);
         let author = stroke.map(|stroke| stroke.author.clone()).unwrap_or_default();
-        self.record(Kind::Stroke, &author, None);
+        self.record(Kind::Stroke, Cause::from(&*author));
     }
 
     /// Steps still to be run; a lasso counts as one, for nobody knows.
@@ -119,45 +120,38 @@ impl Document {
 
     pub(super) fn begin_stroke(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         stroke: u32,
         bud: Option<u32>,
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
         let joins = !self.strokes.is_empty();
-        self.strokes.open(author, stroke, chosen)?;
+        self.strokes.open(cause.author, stroke, chosen)?;
         // Strokes that overlap in time are one operation: their steps cannot be told apart.
         if !joins {
-            self.record(Kind::Stroke, author, None);
+            self.record(Kind::Stroke, cause);
         }
         Ok(())
     }
 
     pub(super) fn begin_growth(
         &mut self,
-        author: &str,
-        steps: u32,
-        gesture: Option<u32>,
+        cause: Cause<'_>,
+        steps: Steps,
         bud: Option<u32>,
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
         let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
-        self.begin_steps(author, steps, gesture, Step::Growth(input))
+        self.begin_steps(cause, steps.get(), Step::Growth(input))
     }
 
     /// So many steps of one generator become pending, as one operation.
-    pub(super) fn begin_steps(
-        &mut self,
-        author: &str,
-        steps: u32,
-        gesture: Option<u32>,
-        step: Step,
-    ) -> Result<(), Problem> {
+    pub(super) fn begin_steps(&mut self, cause: Cause<'_>, steps: u32, step: Step) -> Result<(), Problem> {
         self.require_room()?;
         let now = self.plant().step();
-        let continues = self.history.continues(&[Kind::Growth, Kind::Prune], author, gesture, now);
+        let continues = self.history.continues(&[Kind::Growth, Kind::Prune], cause, now);
         if self.strokes.is_empty() && !continues {
-            self.record(Kind::Growth, author, gesture);
+            self.record(Kind::Growth, cause);
         }
         self.pending.push_back(Pending::Steps { left: steps, step });
         Ok(())
@@ -165,23 +159,26 @@ impl Document {
 
     pub(super) fn begin_lasso(
         &mut self,
-        author: &str,
-        lasso: &Lasso,
+        cause: Cause<'_>,
+        outline: &[PlanePoint],
+        plane: &DrawingPlane,
+        depth: Depth,
         bud: Option<u32>,
     ) -> Result<(), Problem> {
         self.require_room()?;
         let chosen = self.chosen(bud)?;
-        let Lasso { outline, origin, right, up, depth } = lasso;
-        let plane = Plane { origin: *origin, right: *right, up: *up };
+        let outline: Vec<Vec2> = outline.iter().map(|point| point.get()).collect();
+        let (right, up) = plane.axes();
+        let plane = Plane { origin: plane.origin(), right, up };
         let zone = self.simulation.parameters().occupancy_radius;
-        let envelope = Envelope::inflate(outline, plane, *depth, zone).map_err(|error| Problem {
+        let envelope = Envelope::inflate(&outline, plane, depth.get(), zone).map_err(|error| Problem {
             code: ProblemCode::Refused,
             field: Some("outline".into()),
             allowed: None,
             message: format!("nothing can grow into this: {error}"),
         })?;
         if self.strokes.is_empty() {
-            self.record(Kind::Lasso, author, None);
+            self.record(Kind::Lasso, cause);
         }
         self.simulation.enclose(&envelope);
         self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen });

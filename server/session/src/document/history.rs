@@ -8,6 +8,7 @@ use espalier_settings::Appearance;
 use glam::Quat;
 
 use super::obstacles::{Standings, stand_alike};
+use crate::cause::Cause;
 
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -150,7 +151,7 @@ impl History {
     }
 
     /// Adds an operation at step `now`, where nothing lies ahead.
-    pub fn push(&mut self, kind: Kind, author: &str, gesture: Option<u32>, now: u32, mut after: Setting) {
+    pub fn push(&mut self, kind: Kind, cause: Cause<'_>, now: u32, mut after: Setting) {
         debug_assert_eq!(self.done, self.operations.len(), "what lay ahead is a future by now");
         // Most operations change no parameters: they share one set.
         if self.setting().parameters == after.parameters {
@@ -161,8 +162,8 @@ impl History {
         }
         self.operations.push(Operation {
             kind,
-            author: author.to_owned(),
-            gesture,
+            author: cause.author.to_owned(),
+            gesture: cause.gesture,
             first: now,
             last: now,
             after,
@@ -243,13 +244,13 @@ impl History {
 
     /// Whether what is done at step `now` belongs to the last operation if that is one of these kinds: same
     /// author, same gesture, nothing between.
-    pub fn continues(&self, kinds: &[Kind], author: &str, gesture: Option<u32>, now: u32) -> bool {
-        gesture.is_some()
+    pub fn continues(&self, kinds: &[Kind], cause: Cause<'_>, now: u32) -> bool {
+        cause.gesture.is_some()
             && self.done == self.operations.len()
             && self.current().is_some_and(|last| {
                 kinds.contains(&last.kind)
-                    && last.author == author
-                    && last.gesture == gesture
+                    && last.author == cause.author
+                    && last.gesture == cause.gesture
                     && last.last == now
             })
     }

@@ -4,14 +4,20 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_growth::Obstacle as Solid;
 use espalier_plant::hash::StableHash;
-use espalier_proto::{PlacedObstacle, Problem, ProblemCode, version::MAX_OBSTACLES};
+use espalier_proto::{
+    Obstacle as WireObstacle, PlacedObstacle, Pose as WirePose, Problem, ProblemCode, SimpleShape,
+    version::MAX_OBSTACLES,
+};
 
 use super::{
     Document,
     history::{Kind, Setting},
     refused,
 };
-use crate::obstacle::{Form, Mesh, Obstacle, Pose, Standing};
+use crate::{
+    cause::Cause,
+    obstacle::{Form, Mesh, Obstacle, Standing},
+};
 
 /// All obstacles at one time, in order of their ids.
 pub(super) type Standings = Arc<Vec<Standing>>;
@@ -80,16 +86,12 @@ impl Document {
         ObstaclesMark(Arc::clone(&self.obstacles.standing))
     }
 
-    pub(super) fn place_obstacle(
-        &mut self,
-        author: &str,
-        obstacle: &Obstacle,
-        gesture: Option<u32>,
-    ) -> Result<(), Problem> {
+    pub(super) fn place_obstacle(&mut self, cause: Cause<'_>, wire: &WireObstacle) -> Result<(), Problem> {
         let standing = &self.obstacles.standing;
         if standing.len() >= MAX_OBSTACLES {
             return Err(refused(format!("the scene has {MAX_OBSTACLES} obstacles; remove one first")));
         }
+        let obstacle = Obstacle::of(wire)?;
         let new = obstacle.mesh().map_or(0, |mesh| mesh.triangles.len());
         if new > 0 && self.held_triangles() + new > MAX_HELD_TRIANGLES {
             return Err(refused(format!(
@@ -98,36 +100,35 @@ impl Document {
         }
         self.obstacles.placed += 1;
         let mut after = standing.to_vec();
-        after.push(Standing { id: self.obstacles.placed, obstacle: obstacle.clone() });
-        self.change_obstacles(author, gesture, after);
+        after.push(Standing { id: self.obstacles.placed, obstacle });
+        self.change_obstacles(cause, after);
         Ok(())
     }
 
     pub(super) fn move_obstacle(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         id: u32,
-        pose: Pose,
-        gesture: Option<u32>,
+        pose: &WirePose,
     ) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let now = &self.obstacles.standing[index].obstacle;
+        let pose = pose.into();
         if now.pose == pose {
             return Ok(());
         }
         let moved = Obstacle::new(now.form.clone(), pose)?;
         let mut after = self.obstacles.standing.to_vec();
         after[index].obstacle = moved;
-        self.change_obstacles(author, gesture, after);
+        self.change_obstacles(cause, after);
         Ok(())
     }
 
     pub(super) fn reshape_obstacle(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         id: u32,
-        form: &Form,
-        gesture: Option<u32>,
+        shape: &SimpleShape,
     ) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let now = &self.obstacles.standing[index].obstacle;
@@ -135,26 +136,22 @@ impl Document {
         if matches!(now.form, Form::Mesh { .. }) {
             return Err(refused(format!("obstacle {id} is a mesh; a mesh keeps its shape")));
         }
-        if now.form == *form {
+        let form = Form::of(shape.get()).map_err(|problem| problem.within("shape"))?;
+        if now.form == form {
             return Ok(());
         }
-        let reshaped = Obstacle::new(form.clone(), now.pose)?;
+        let reshaped = Obstacle::new(form, now.pose)?;
         let mut after = self.obstacles.standing.to_vec();
         after[index].obstacle = reshaped;
-        self.change_obstacles(author, gesture, after);
+        self.change_obstacles(cause, after);
         Ok(())
     }
 
-    pub(super) fn remove_obstacle(
-        &mut self,
-        author: &str,
-        id: u32,
-        gesture: Option<u32>,
-    ) -> Result<(), Problem> {
+    pub(super) fn remove_obstacle(&mut self, cause: Cause<'_>, id: u32) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let mut after = self.obstacles.standing.to_vec();
         after.remove(index);
-        self.change_obstacles(author, gesture, after);
+        self.change_obstacles(cause, after);
         Ok(())
     }
 
@@ -178,9 +175,9 @@ impl Document {
         }
     }
 
-    fn change_obstacles(&mut self, author: &str, gesture: Option<u32>, after: Vec<Standing>) {
+    fn change_obstacles(&mut self, cause: Cause<'_>, after: Vec<Standing>) {
         let setting = Setting { obstacles: Arc::new(after), ..self.setting() };
-        self.change_setting(Kind::Obstacle, author, gesture, setting);
+        self.change_setting(Kind::Obstacle, cause, setting);
     }
 
     fn held_triangles(&self) -> usize {

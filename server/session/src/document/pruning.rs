@@ -4,31 +4,33 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_growth::Simulation;
 use espalier_plant::{MetamerId, Plant};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode, Share};
 
 use super::{Document, Generators, history::Kind, refused, wood_of};
+use crate::cause::Cause;
 
 impl Document {
-    pub(super) fn prune(&mut self, author: &str, rows: &[u32], gesture: Option<u32>) -> Result<(), Problem> {
+    pub(super) fn prune(&mut self, cause: Cause<'_>, rows: &[u32]) -> Result<(), Problem> {
         let cuts = cuts(self.plant(), rows)?;
-        self.cut(author, &cuts, gesture);
+        self.cut(cause, &cuts);
         Ok(())
     }
 
-    pub(super) fn prune_dim(&mut self, author: &str, exposure: f32) -> Result<(), Problem> {
+    pub(super) fn prune_dim(&mut self, cause: Cause<'_>, exposure: Share) -> Result<(), Problem> {
+        let exposure = exposure.get();
         self.simulation.show();
         let cuts = dim_branches(self.plant(), exposure);
         if cuts.is_empty() {
             return Err(refused(format!("no lateral branch stands in so little light as {exposure}")));
         }
-        self.cut(author, &cuts, None);
+        self.cut(cause, &cuts);
         Ok(())
     }
 
-    fn cut(&mut self, author: &str, cuts: &[MetamerId], gesture: Option<u32>) {
+    fn cut(&mut self, cause: Cause<'_>, cuts: &[MetamerId]) {
         let now = self.plant().step();
-        if !self.history.continues(&[Kind::Growth, Kind::Prune], author, gesture, now) {
-            self.record(Kind::Prune, author, gesture);
+        if !self.history.continues(&[Kind::Growth, Kind::Prune], cause, now) {
+            self.record(Kind::Prune, cause);
         }
         self.simulation.prune(cuts);
         self.history.reach(self.plant().step());

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use espalier_growth::Parameters;
 use espalier_proto::Problem;
-use espalier_settings::{Appearance, ParametersPatch};
+use espalier_settings::{Appearance, AppearancePatch, ParametersPatch};
 use serde::Serialize;
 
 use super::{
     Document,
     history::{Kind, Setting},
 };
-use crate::appearance::AppearanceChange;
+use crate::{appearance::AppearanceChange, cause::Cause};
 
 impl Document {
     /// How the tree looks.
@@ -21,49 +21,41 @@ impl Document {
 
     pub(super) fn set_parameters(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         patch: &ParametersPatch,
-        gesture: Option<u32>,
     ) -> Result<(), Problem> {
         let wanted =
             Parameters::new(self.parameters().patched(patch)).map_err(|error| error.within("parameters"))?;
         if wanted != *self.simulation.parameters() {
             let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
-            self.change_setting(Kind::Parameters, author, gesture, setting);
+            self.change_setting(Kind::Parameters, cause, setting);
         }
         Ok(())
     }
 
     pub(super) fn set_appearance(
         &mut self,
-        author: &str,
-        change: &AppearanceChange,
-        gesture: Option<u32>,
+        cause: Cause<'_>,
+        patch: &AppearancePatch,
     ) -> Result<(), Problem> {
-        let wanted = change.applied_to(&self.appearance);
+        let wanted = AppearanceChange::parse(patch)?.applied_to(&self.appearance);
         if wanted != *self.appearance {
             let setting = Setting { appearance: Arc::new(wanted), ..self.setting() };
-            self.change_setting(Kind::Appearance, author, gesture, setting);
+            self.change_setting(Kind::Appearance, cause, setting);
         }
         Ok(())
     }
 
     /// Makes this setting that of an operation: of the last one if that is part of the same gesture (`AP2`, `OB2`).
-    pub(super) fn change_setting(
-        &mut self,
-        kind: Kind,
-        author: &str,
-        gesture: Option<u32>,
-        mut setting: Setting,
-    ) {
+    pub(super) fn change_setting(&mut self, kind: Kind, cause: Cause<'_>, mut setting: Setting) {
         let now = self.plant().step();
         let kinds: &[Kind] = match kind {
             Kind::Obstacle => &[Kind::Obstacle],
             _ => &[Kind::Parameters, Kind::Appearance],
         };
-        let continues = self.history.continues(kinds, author, gesture, now);
+        let continues = self.history.continues(kinds, cause, now);
         if !continues {
-            self.record(kind, author, gesture);
+            self.record(kind, cause);
         }
         self.history.share_former_obstacles(&mut setting);
         self.set(&setting);

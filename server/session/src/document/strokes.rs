@@ -2,10 +2,9 @@
 
 use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
 use espalier_plant::{MetamerId, hash::StableHash};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode, StrokeSample};
 
 use super::refused;
-use crate::action::Sample;
 
 /// Strokes open at once; more fingers than this on one tree are a mistake or an attack.
 const MAX_OPEN: usize = 32;
@@ -78,12 +77,12 @@ impl OpenStrokes {
         &mut self,
         author: &str,
         number: u32,
-        samples: &[Sample],
+        samples: &[StrokeSample],
         longest: u32,
     ) -> Result<Vec<StepInput>, Problem> {
         let index = self.find(author, number).ok_or_else(|| unknown(number))?;
         let stroke = &mut self.open[index];
-        let new = samples.iter().map(|s| BrushSample { position: s.position, radius: s.radius });
+        let new = samples.iter().map(|s| BrushSample { position: s.position.get(), radius: s.radius.get() });
         let path: Vec<BrushSample> = stroke.last.into_iter().chain(new).collect();
         stroke.last = path.last().copied();
         let length: f32 = path.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum();
@@ -154,14 +153,18 @@ fn cut(path: &[BrushSample], length: f32, parts: u32) -> Vec<Vec<BrushSample>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use espalier_proto::{BrushRadius, Position};
     use glam::Vec3;
 
-    fn sample(x: f32) -> Sample {
-        Sample { position: Vec3::new(x, 10.0, 0.0), radius: 1.0 }
+    fn sample(x: f32) -> StrokeSample {
+        StrokeSample {
+            position: Position::nearest(Vec3::new(x, 10.0, 0.0)),
+            radius: BrushRadius::nearest(1.0),
+        }
     }
 
     fn extend(strokes: &mut OpenStrokes, xs: &[f32]) -> Vec<StepInput> {
-        let samples: Vec<Sample> = xs.iter().map(|&x| sample(x)).collect();
+        let samples: Vec<StrokeSample> = xs.iter().map(|&x| sample(x)).collect();
         strokes.extend("a", 1, &samples, 4).expect("the stroke is open")
     }
 

@@ -8,61 +8,91 @@ mod looks;
 mod shaping;
 mod times;
 
+use espalier_proto::{
+    BrushRadius, Depth, Diameter, Direction, DrawingPlane, List, Share, Steps, StrokeSample, Touches,
+    UnitRotation,
+};
 use espalier_settings::{Kind, ParameterValues, ParametersPatch};
-use glam::{Quat, Vec2};
+use glam::{Quat, Vec2, Vec3};
 
 use super::*;
-use crate::action::{Lasso, Sample};
 
-fn sample(x: f32, y: f32, radius: f32) -> Sample {
-    Sample { position: Vec3::new(x, y, 0.0), radius }
+fn plain(action: Action) -> Command {
+    action.into()
+}
+
+fn in_gesture(gesture: impl Into<Option<u32>>, action: Action) -> Command {
+    Command { action, gesture: gesture.into() }
+}
+
+fn list<T: std::fmt::Debug, const LEAST: usize, const MOST: usize>(entries: Vec<T>) -> List<T, LEAST, MOST> {
+    List::try_from(entries).expect("not too many")
+}
+
+fn held(rows: Vec<u32>) -> Touches {
+    Touches::try_from(rows).expect("all different")
+}
+
+fn places<const LEAST: usize, const MOST: usize>(places: Vec<Vec3>) -> List<Position, LEAST, MOST> {
+    list(places.into_iter().map(Position::nearest).collect())
+}
+
+fn sample(x: f32, y: f32, radius: f32) -> StrokeSample {
+    StrokeSample { position: Position::nearest(Vec3::new(x, y, 0.0)), radius: BrushRadius::nearest(radius) }
 }
 
 /// A stroke from the ground up, with a crown.
 fn stroke(document: &mut Document, number: u32) {
-    let mut apply = |action: Action| document.apply("ann", &action).expect("the stroke is well formed");
-    apply(Action::StrokeBegin { stroke: number, bud: None });
-    apply(Action::StrokeMove { stroke: number, samples: vec![sample(0.0, 0.0, 0.2), sample(1.0, 8.0, 0.2)] });
-    apply(Action::StrokeMove {
+    let mut apply = |command: Command| document.apply("ann", &command).expect("the stroke is well formed");
+    apply(plain(Action::StrokeBegin { stroke: number, bud: None }));
+    apply(plain(Action::StrokeMove {
         stroke: number,
-        samples: vec![sample(2.0, 13.0, 4.0), sample(-3.0, 15.0, 5.0)],
-    });
-    apply(Action::StrokeEnd { stroke: number });
+        samples: list(vec![sample(0.0, 0.0, 0.2), sample(1.0, 8.0, 0.2)]),
+    }));
+    apply(plain(Action::StrokeMove {
+        stroke: number,
+        samples: list(vec![sample(2.0, 13.0, 4.0), sample(-3.0, 15.0, 5.0)]),
+    }));
+    apply(plain(Action::StrokeEnd { stroke: number }));
 }
 
 fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
-    document.apply("ann", &Action::Grow { steps, gesture, bud: None }).expect("there is room to grow");
+    document
+        .apply("ann", &in_gesture(gesture, Action::Grow { steps: Steps::nearest(steps), bud: None }))
+        .expect("there is room to grow");
 }
 
-fn patch(apical_control: f32) -> Action {
+fn patch(apical_control: f32) -> Command {
     patch_in(None, apical_control)
 }
 
-fn patch_in(gesture: Option<u32>, apical_control: f32) -> Action {
+fn patch_in(gesture: Option<u32>, apical_control: f32) -> Command {
     let patch = ParametersPatch { apical_control: Some(apical_control), ..ParametersPatch::default() };
-    Action::SetParameters { patch: Box::new(patch), gesture }
+    in_gesture(gesture, Action::SetParameters { parameters: patch })
 }
 
 /// A tree with a few branches.
 fn tree() -> Document {
     let mut document = Document::new(5);
-    document.apply("ann", &Action::Grow { steps: 9, gesture: None, bud: None }).expect("there is room");
+    document
+        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(9), bud: None }))
+        .expect("there is room");
     document
 }
 
-fn apply(document: &mut Document, action: &Action) {
+fn apply(document: &mut Document, action: &Command) {
     document.apply("ann", action).unwrap_or_else(|problem| panic!("{action:?}: {problem}"));
 }
 
 /// The problem an action is refused with; nothing changes.
-fn problem(document: &mut Document, action: &Action) -> Problem {
+fn problem(document: &mut Document, action: &Command) -> Problem {
     let before = document.hash();
     let problem = document.apply("ann", action).expect_err("it is refused");
     assert_eq!(document.hash(), before, "{action:?} is refused and changes something");
     problem
 }
 
-fn refusal(document: &mut Document, action: &Action) -> (ProblemCode, String) {
+fn refusal(document: &mut Document, action: &Command) -> (ProblemCode, String) {
     let problem = problem(document, action);
     assert!(!problem.message.is_empty());
     (problem.code, problem.field.unwrap_or_default())
@@ -103,11 +133,11 @@ fn undo_takes_back_whole_operations() {
     stroke(&mut document, 1);
     let after_stroke = document.plant().hash();
     grow(&mut document, 3, None);
-    document.apply("ann", &Action::Undo).expect("there is growth to undo");
+    document.apply("ann", &plain(Action::Undo {})).expect("there is growth to undo");
     assert_eq!(document.plant().hash(), after_stroke);
-    document.apply("ann", &Action::Undo).expect("there is a stroke to undo");
+    document.apply("ann", &plain(Action::Undo {})).expect("there is a stroke to undo");
     assert_eq!(document.plant().hash(), seedling);
-    let problem = document.apply("ann", &Action::Undo).expect_err("nothing is left");
+    let problem = document.apply("ann", &plain(Action::Undo {})).expect_err("nothing is left");
     assert_eq!(problem.code, ProblemCode::Refused);
 }
 
@@ -119,14 +149,14 @@ fn redo_restores_what_undo_took() {
     grow(&mut document, 3, None);
     let (hash, parameters) = (document.plant().hash(), document.parameters());
     for _ in 0..3 {
-        document.apply("ann", &Action::Undo).expect("three operations were done");
+        document.apply("ann", &plain(Action::Undo {})).expect("three operations were done");
     }
     assert_eq!(document.parameters().apical_control, Document::new(4).parameters().apical_control);
     for _ in 0..3 {
-        document.apply("ann", &Action::Redo).expect("three operations were undone");
+        document.apply("ann", &plain(Action::Redo {})).expect("three operations were undone");
     }
     assert_eq!((document.plant().hash(), document.parameters()), (hash, parameters));
-    assert!(document.apply("ann", &Action::Redo).is_err());
+    assert!(document.apply("ann", &plain(Action::Redo {})).is_err());
 }
 
 #[test]
@@ -134,13 +164,13 @@ fn cm7_ungrow_goes_back_through_a_stroke_and_redo_returns() {
     let mut document = Document::new(4);
     stroke(&mut document, 1);
     let (step, hash) = (document.plant().step(), document.plant().hash());
-    document.apply("ann", &Action::Ungrow { steps: 2 }).expect("there are steps");
+    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(2) })).expect("there are steps");
     assert_eq!(document.plant().step(), step - 2);
-    document.apply("ann", &Action::Redo).expect("the stroke was left in part");
+    document.apply("ann", &plain(Action::Redo {})).expect("the stroke was left in part");
     assert_eq!(document.plant().hash(), hash);
-    document.apply("ann", &Action::Ungrow { steps: 1000 }).expect("there are steps");
+    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1000) })).expect("there are steps");
     assert_eq!(document.plant().step(), 0);
-    assert!(document.apply("ann", &Action::Ungrow { steps: 1 }).is_err());
+    assert!(document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).is_err());
 }
 
 #[test]
@@ -150,27 +180,27 @@ fn growth_of_one_gesture_is_one_operation() {
         grow(&mut document, 1, Some(7));
     }
     grow(&mut document, 1, Some(8));
-    document.apply("ann", &Action::Undo).expect("one");
+    document.apply("ann", &plain(Action::Undo {})).expect("one");
     assert_eq!(document.plant().step(), 4);
-    document.apply("ann", &Action::Undo).expect("two");
+    document.apply("ann", &plain(Action::Undo {})).expect("two");
     assert_eq!(document.plant().step(), 0);
 }
 
 #[test]
 fn every_step_back_shows() {
     let mut document = Document::new(4);
-    let pencil = |x, y| Action::StrokeMove { stroke: 1, samples: vec![sample(x, y, 0.0)] };
-    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
+    let pencil = |x, y| plain(Action::StrokeMove { stroke: 1, samples: list(vec![sample(x, y, 0.0)]) });
+    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     document.apply("ann", &pencil(0.0, 0.0)).expect("open");
     document.apply("ann", &pencil(0.0, 20.0)).expect("open");
     for _ in 0..30 {
         // The finger rests: nothing is left to draw.
         document.apply("ann", &pencil(0.0, 20.0)).expect("open");
     }
-    document.apply("ann", &Action::StrokeEnd { stroke: 1 }).expect("open");
+    document.apply("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
     while document.plant().step() > 0 {
         let before = document.metamers();
-        document.apply("ann", &Action::Ungrow { steps: 1 }).expect("there is a step");
+        document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).expect("there is a step");
         assert!(document.metamers() < before, "step {} shows nothing", document.plant().step());
     }
 }
@@ -178,11 +208,14 @@ fn every_step_back_shows() {
 #[test]
 fn a_stroke_that_grows_nothing_is_no_operation() {
     let mut document = Document::new(4);
-    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
+    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     document
-        .apply("ann", &Action::StrokeMove { stroke: 1, samples: vec![sample(500.0, 500.0, 3.0)] })
+        .apply(
+            "ann",
+            &plain(Action::StrokeMove { stroke: 1, samples: list(vec![sample(500.0, 500.0, 3.0)]) }),
+        )
         .expect("open");
-    document.apply("ann", &Action::StrokeEnd { stroke: 1 }).expect("open");
+    document.apply("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
     assert!(!document.figures().can_undo);
 }
 
@@ -192,21 +225,21 @@ fn what_comes_to_nothing_leaves_redo_as_it_was() {
     stroke(&mut document, 1);
     grow(&mut document, 4, None);
     let grown = document.plant().hash();
-    for back in [Action::Undo, Action::Ungrow { steps: 2 }] {
+    for back in [plain(Action::Undo {}), plain(Action::Ungrow { steps: Steps::nearest(2) })] {
         document.apply("ann", &back).expect("there is growth to take back");
         let (hash, timeline) = (document.hash(), document.timeline());
         let far = vec![sample(300.0, 300.0, 0.1)];
-        for action in [
-            Action::StrokeBegin { stroke: 2, bud: None },
-            Action::StrokeMove { stroke: 2, samples: far },
-            Action::StrokeEnd { stroke: 2 },
+        for command in [
+            plain(Action::StrokeBegin { stroke: 2, bud: None }),
+            plain(Action::StrokeMove { stroke: 2, samples: list(far) }),
+            plain(Action::StrokeEnd { stroke: 2 }),
         ] {
             document = Document::from_bytes(&document.to_bytes()).expect("its own bytes");
-            document.apply("ann", &action).expect("the stroke is well formed");
+            document.apply("ann", &command).expect("the stroke is well formed");
         }
         assert_eq!(document.timeline(), timeline, "nothing grew, so nothing lay ahead in vain");
         assert_ne!(document.hash(), hash, "strokes are counted, for they key their randomness");
-        document.apply("ann", &Action::Redo).expect("what was undone is still ahead");
+        document.apply("ann", &plain(Action::Redo {})).expect("what was undone is still ahead");
         assert_eq!(document.plant().hash(), grown);
     }
 }
@@ -215,24 +248,24 @@ fn what_comes_to_nothing_leaves_redo_as_it_was() {
 fn parameters_as_they_are_keep_redo() {
     let mut document = Document::new(4);
     grow(&mut document, 3, None);
-    document.apply("ann", &Action::Ungrow { steps: 1 }).expect("there are steps");
+    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).expect("there are steps");
     document.apply("ann", &patch(document.parameters().apical_control)).expect("no change");
     document
-        .apply("ann", &Action::SetParameters { patch: Box::default(), gesture: None })
+        .apply("ann", &plain(Action::SetParameters { parameters: ParametersPatch::default() }))
         .expect("no change");
-    document.apply("ann", &Action::Redo).expect("nothing was done since");
+    document.apply("ann", &plain(Action::Redo {})).expect("nothing was done since");
 }
 
 #[test]
 fn lifted_brushes_leave_operations_apart() {
     let mut document = Document::new(4);
-    document.apply("ann", &Action::StrokeBegin { stroke: 1, bud: None }).expect("new");
+    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     let samples = vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)];
-    document.apply("ann", &Action::StrokeMove { stroke: 1, samples }).expect("open");
+    document.apply("ann", &plain(Action::StrokeMove { stroke: 1, samples: list(samples) })).expect("open");
     document.lift_hands();
     let step = document.plant().step();
     grow(&mut document, 2, None);
-    document.apply("bob", &Action::Undo).expect("growth is an operation of its own");
+    document.apply("bob", &plain(Action::Undo {})).expect("growth is an operation of its own");
     assert_eq!(document.plant().step(), step);
 }
 
@@ -240,39 +273,54 @@ fn lifted_brushes_leave_operations_apart() {
 fn lm4_seeds_count_against_the_budget() {
     let mut document = Document::new(4);
     document.set_metamer_budget(2);
-    document.apply("ann", &Action::PlantSeed { position: Vec3::X }).expect("one more fits");
-    assert!(document.apply("ann", &Action::PlantSeed { position: Vec3::Z }).is_err());
+    document
+        .apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::X) }))
+        .expect("one more fits");
+    assert!(
+        document.apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::Z) })).is_err()
+    );
 }
 
 #[test]
 fn cm5_overlapping_strokes_are_one_operation() {
     let mut document = Document::new(4);
-    let mut apply = |author: &str, action: Action| document.apply(author, &action).expect("well formed");
-    apply("ann", Action::StrokeBegin { stroke: 1, bud: None });
-    apply("bob", Action::StrokeBegin { stroke: 1, bud: None });
+    let mut apply = |author: &str, command: Command| document.apply(author, &command).expect("well formed");
+    apply("ann", plain(Action::StrokeBegin { stroke: 1, bud: None }));
+    apply("bob", plain(Action::StrokeBegin { stroke: 1, bud: None }));
     apply(
         "ann",
-        Action::StrokeMove { stroke: 1, samples: vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)] },
+        plain(Action::StrokeMove {
+            stroke: 1,
+            samples: list(vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)]),
+        }),
     );
     apply(
         "bob",
-        Action::StrokeMove { stroke: 1, samples: vec![sample(0.0, 4.0, 0.0), sample(6.0, 7.0, 0.0)] },
+        plain(Action::StrokeMove {
+            stroke: 1,
+            samples: list(vec![sample(0.0, 4.0, 0.0), sample(6.0, 7.0, 0.0)]),
+        }),
     );
-    apply("ann", Action::StrokeEnd { stroke: 1 });
-    apply("bob", Action::StrokeEnd { stroke: 1 });
-    apply("bob", Action::Undo);
+    apply("ann", plain(Action::StrokeEnd { stroke: 1 }));
+    apply("bob", plain(Action::StrokeEnd { stroke: 1 }));
+    apply("bob", plain(Action::Undo {}));
     assert_eq!(document.plant().step(), 0);
 }
 
 #[test]
 fn unknown_strokes_and_bad_seeds_are_refused() {
     let mut document = Document::new(4);
-    let problem = document.apply("ann", &Action::StrokeEnd { stroke: 3 }).expect_err("never begun");
+    let problem = document.apply("ann", &plain(Action::StrokeEnd { stroke: 3 })).expect_err("never begun");
     assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("stroke")));
-    document.apply("ann", &Action::StrokeBegin { stroke: 3, bud: None }).expect("new");
-    assert!(document.apply("ann", &Action::StrokeBegin { stroke: 3, bud: None }).is_err(), "begun twice");
-    assert!(document.apply("bob", &Action::StrokeEnd { stroke: 3 }).is_err(), "another's stroke");
-    assert!(document.apply("ann", &Action::PlantSeed { position: Vec3::Y }).is_err());
+    document.apply("ann", &plain(Action::StrokeBegin { stroke: 3, bud: None })).expect("new");
+    assert!(
+        document.apply("ann", &plain(Action::StrokeBegin { stroke: 3, bud: None })).is_err(),
+        "begun twice"
+    );
+    assert!(document.apply("bob", &plain(Action::StrokeEnd { stroke: 3 })).is_err(), "another's stroke");
+    assert!(
+        document.apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::Y) })).is_err()
+    );
 }
 
 #[test]
@@ -294,9 +342,8 @@ fn every_parameter_refuses_beyond_its_ends() {
             let patch: ParametersPatch = serde_json::from_str(&json).expect("a patch");
             let mut document = Document::new(1);
             let before = document.hash();
-            let problem = document
-                .apply("ann", &Action::SetParameters { patch: Box::new(patch), gesture: None })
-                .expect_err(&json);
+            let problem =
+                document.apply("ann", &plain(Action::SetParameters { parameters: patch })).expect_err(&json);
             assert_eq!(problem.field, Some(format!("parameters.{name}")));
             assert!(problem.allowed.is_some());
             assert_eq!(document.hash(), before, "{name} changed something");
@@ -311,14 +358,17 @@ fn growth_beyond_the_budget_is_refused() {
     grow(&mut document, 1000, None);
     assert_eq!(document.pending_steps(), 0);
     assert_eq!(document.plant().metamer_count(), 300);
-    let problem =
-        document.apply("ann", &Action::Grow { steps: 1, gesture: None, bud: None }).expect_err("full");
+    let problem = document
+        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), bud: None }))
+        .expect_err("full");
     assert!(problem.message.contains("300"));
 }
 
-fn lasso(width: f32, height: f32) -> Action {
-    let outline = [[-width, 0.0], [width, 0.0], [width, height], [-width, height]].map(Vec2::from_array);
-    let lasso =
-        Lasso { outline: outline.to_vec(), origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y, depth: 1.0 };
-    Action::Lasso { lasso: Box::new(lasso), bud: None }
+fn lasso(width: f32, height: f32) -> Command {
+    let outline = [[-width, 0.0], [width, 0.0], [width, height], [-width, height]];
+    let outline = outline.map(|point| Vec2::from_array(point).try_into().expect("within the world"));
+    let direction = |axis: Vec3| Direction::try_from(axis).expect("of length 1");
+    let plane = DrawingPlane::new(Position::ORIGIN, direction(Vec3::X), direction(Vec3::Y));
+    let plane = plane.expect("they are perpendicular");
+    plain(Action::Lasso { outline: list(outline.to_vec()), plane, depth: Depth::MOST, bud: None })
 }

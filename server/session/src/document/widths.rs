@@ -1,13 +1,14 @@
 //! Width constraints (`WI`).
 
 use espalier_plant::MetamerId;
-use espalier_proto::Problem;
+use espalier_proto::{Diameter, Problem};
 
 use super::{
     Document,
     history::{Kind, Latest},
     refused,
 };
+use crate::cause::Cause;
 
 /// Width constraints in force at once (`LM12`): all of them are told to everybody after each change.
 const MAX_WIDTHS: usize = 256;
@@ -15,11 +16,11 @@ const MAX_WIDTHS: usize = 256;
 impl Document {
     pub(super) fn set_width(
         &mut self,
-        author: &str,
+        cause: Cause<'_>,
         row: u32,
-        diameter: Option<f32>,
-        gesture: Option<u32>,
+        diameter: Option<Diameter>,
     ) -> Result<(), Problem> {
+        let diameter = diameter.map(Diameter::get);
         let metamer = self.wood("row", row)?;
         if self.width(metamer) == diameter {
             return Ok(());
@@ -28,18 +29,18 @@ impl Document {
             self.require_widths(1)?;
         }
         let now = self.plant().step();
-        let continues = self.history.continues(&[Kind::Width], author, gesture, now);
+        let continues = self.history.continues(&[Kind::Width], cause, now);
         if continues && self.replaces(row) {
             self.take_back_latest();
         } else if !continues {
-            self.record(Kind::Width, author, gesture);
+            self.record(Kind::Width, cause);
         }
         self.simulation.set_width(metamer, diameter);
         let step = self.plant().step();
         self.history.reach(step);
         // Back where the gesture began, there is nothing to undo.
         self.forget_idle();
-        let is_kept = self.history.continues(&[Kind::Width], author, gesture, step);
+        let is_kept = self.history.continues(&[Kind::Width], cause, step);
         self.history.latest = is_kept.then_some(Latest { step, row, rotation: None });
         Ok(())
     }

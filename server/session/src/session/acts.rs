@@ -22,9 +22,9 @@ pub(super) struct Act {
 impl Session {
     /// Takes a command from outside into the order.
     pub(super) fn act(&mut self, id: ActId, command: Command) {
-        match self.check(Ok(command)) {
-            Ok((action, text)) => {
-                let entry = self.accept(&Arc::from(OUTSIDE), 0, action, text, Some(id));
+        match self.check(command) {
+            Ok((command, text)) => {
+                let entry = self.accept(&Arc::from(OUTSIDE), 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });
             }
             Err(problem) => self.outputs.push_back(Output::Acted { act: id, outcome: Err(problem) }),

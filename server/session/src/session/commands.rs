@@ -2,13 +2,12 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_proto::{Command, Problem, ProblemCode, ServerMessage};
+use espalier_proto::{Action, Command, Problem, ProblemCode, ServerMessage};
 
 use super::Session;
 use crate::{
-    action::Action,
+    form::{self, read_command},
     io::{ActId, ClientId},
-    malformed,
     work::{Order, SLICE_STEPS},
 };
 
@@ -39,7 +38,16 @@ impl Weight {
     fn add(&mut self, order: &Order) {
         self.orders += 1;
         self.bytes += order.bytes;
-        self.steps = self.steps.saturating_add(order.action.least_steps());
+        self.steps = self.steps.saturating_add(least_steps(&order.command.action));
+    }
+}
+
+/// The fewest simulation steps an action will run, for telling people how much is still to come.
+fn least_steps(action: &Action) -> u32 {
+    match action {
+        Action::Grow { steps, .. } => steps.get(),
+        Action::StrokeMove { .. } | Action::Lasso { .. } => 1,
+        _ => 0,
     }
 }
 
@@ -97,9 +105,9 @@ impl Session {
         }
         author.taken = id;
         author.forgot_refusals = false;
-        match self.check(command) {
-            Ok((action, text)) => {
-                self.accept(key, id, action, text, None);
+        match command.and_then(|command| self.check(command)) {
+            Ok((command, text)) => {
+                self.accept(key, id, command, text, None);
             }
             Err(problem) => self.send(client, &ServerMessage::Refused { id, problem }),
         }
@@ -114,7 +122,7 @@ impl Session {
         if self.journal.is_waiting(key, id) {
             return;
         }
-        let problem = match self.check(command) {
+        let problem = match command.and_then(|command| self.check(command)) {
             Err(problem) => problem,
             Ok(_) => Problem::new(ProblemCode::Refused, format!("command {id} was refused before")),
         };
@@ -122,15 +130,15 @@ impl Session {
     }
 
     /// A command in good form, read back from the very text the journal will hold, so that a replay cannot differ.
-    pub(super) fn check(&self, command: Result<Command, Problem>) -> Result<(Action, String), Problem> {
-        let mut command = command?;
-        Action::parse(&command)?;
-        if let Command::Stop { tick } = &mut command {
+    pub(super) fn check(&self, mut command: Command) -> Result<(Command, String), Problem> {
+        form::check(&command.action)?;
+        if let Action::Stop { tick } = &mut command.action {
             // The slice under way began at the figures known here, so growth cannot be beyond this when it returns.
             *tick = Some(self.figures.steps_begun.saturating_add(SLICE_STEPS));
         }
-        let text = serde_json::to_string(&command).map_err(|error| malformed::message(&error))?;
-        let action = Action::from_json(&text)?;
+        let text = serde_json::to_string(&command)
+            .map_err(|error| Problem::new(ProblemCode::Malformed, error.to_string()))?;
+        let command = read_command(&text)?;
         let (queued, queued_bytes) = self.queue.waiting();
         let (writing, written_bytes) = self.journal.waiting();
         let full = queued.max(writing) >= MAX_WAITING
@@ -139,7 +147,7 @@ impl Session {
             let message = "too many commands wait to be done: try again when the tree has caught up";
             return Err(Problem::new(ProblemCode::TooMany, message));
         }
-        Ok((action, text))
+        Ok((command, text))
     }
 
     /// Gives a command its place in the order; the number of its journal entry.
@@ -147,7 +155,7 @@ impl Session {
         &mut self,
         key: &Arc<str>,
         id: u32,
-        action: Action,
+        command: Command,
         text: String,
         act: Option<ActId>,
     ) -> u64 {
@@ -156,7 +164,7 @@ impl Session {
         if let Some(author) = self.authors.get_mut(key) {
             author.last_entry = number;
         }
-        self.queue.push(Order { number, author: Arc::clone(key), id, action, bytes, act });
+        self.queue.push(Order { number, author: Arc::clone(key), id, command, bytes, act });
         self.upkeep.last_command_at = self.now;
         self.upkeep.state_changed |= self.queue.least_steps() > 0;
         number

@@ -108,7 +108,7 @@ impl Session {
             self.outputs.push_back(Output::Journal(batch));
         }
         let Some(mut work) = self.home.take() else { return };
-        self.queue.orders.iter().for_each(|order| work.stops.note(order.number, &order.action));
+        self.queue.orders.iter().for_each(|order| work.stops.note(order.number, &order.command.action));
         self.queue.send_along(&mut work.orders);
         work.reads.append(&mut self.reads);
         self.ask_questions(&mut work);

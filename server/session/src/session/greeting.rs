@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use espalier_proto::{
-    ClientMessage, Resume, ServerMessage,
+    ClientMessage, Resume, ServerMessage, Unreadable,
     frame::CHUNK_ROWS,
     version::{CloseCode, PROTOCOL_VERSION},
 };
@@ -27,7 +27,7 @@ impl Session {
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
     }
 
-    pub(super) fn greet(&mut self, client: ClientId, text: &str, message: serde_json::Result<ClientMessage>) {
+    pub(super) fn greet(&mut self, client: ClientId, text: &str, message: Result<ClientMessage, Unreadable>) {
         match message {
             Ok(ClientMessage::Hello { protocol, .. }) if protocol != PROTOCOL_VERSION => {
                 self.close_version(client)

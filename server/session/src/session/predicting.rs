@@ -6,9 +6,8 @@ use espalier_proto::{GhostFrame, ServerMessage};
 
 use super::Session;
 use crate::{
-    action::Prediction,
     clients::Vision,
-    foresight::{Cancelled, Foresight, Question},
+    foresight::{Cancelled, Foresight, Prediction, Question},
     io::{ClientId, Output},
     work::Work,
 };
@@ -35,16 +34,14 @@ impl Vision {
 }
 
 impl Session {
-    pub(super) fn predict(&mut self, client: ClientId, rows: &[u32], steps: u32) {
-        match Prediction::parse(rows, steps) {
-            Ok(None) => self.end_prediction(client),
-            Ok(Some(prediction)) => {
-                let Some(guest) = self.guest_mut(client) else { return };
-                guest.vision.start_over();
-                guest.vision.wanted = Some(prediction);
-            }
-            Err(problem) => self.send(client, &ServerMessage::Problem { problem }),
+    /// A client asks for a prediction; for none without rows and steps.
+    pub(super) fn predict(&mut self, client: ClientId, prediction: Prediction) {
+        if prediction.steps == 0 && prediction.rows.is_empty() {
+            return self.end_prediction(client);
         }
+        let Some(guest) = self.guest_mut(client) else { return };
+        guest.vision.start_over();
+        guest.vision.wanted = Some(prediction);
     }
 
     /// The client's ghost goes, and so does what would become one.

@@ -5,13 +5,10 @@ use std::{
     sync::Arc,
 };
 
-use espalier_proto::{Command, DocumentState, ServerMessage, version::CloseCode};
+use espalier_proto::{Action, DocumentState, ServerMessage, version::CloseCode};
 
 use super::{Session, text_of};
-use crate::{
-    action::Action,
-    io::{ClientId, Output},
-};
+use crate::io::{ClientId, Output};
 
 /// How long the strokes of a client that went away stay open, in milliseconds (`CM5`).
 const ABSENCE_MS: u64 = 30_000;
@@ -178,15 +175,15 @@ impl Session {
                 return true;
             }
             let strokes = work.document.open_strokes(key).into_iter();
-            let strokes = strokes.map(|stroke| (Command::StrokeEnd { stroke }, Action::StrokeEnd { stroke }));
+            let strokes = strokes.map(|stroke| Action::StrokeEnd { stroke });
             let bends = work.document.open_bends(key).into_iter();
-            let bends = bends.map(|bend| (Command::BendEnd { bend }, Action::BendEnd { bend }));
-            ends.extend(strokes.chain(bends).map(|(command, action)| (Arc::clone(key), command, action)));
+            let bends = bends.map(|bend| Action::BendEnd { bend });
+            ends.extend(strokes.chain(bends).map(|action| (Arc::clone(key), action)));
             false
         });
-        for (key, command, action) in ends {
-            let Ok(text) = serde_json::to_string(&command) else { continue };
-            self.accept(&key, 0, action, text, None);
+        for (key, action) in ends {
+            let Ok(text) = serde_json::to_string(&action) else { continue };
+            self.accept(&key, 0, action.into(), text, None);
         }
     }
 

@@ -1,7 +1,8 @@
 //! `BE`: whose wood moves, and where it goes.
 
 use espalier_plant::MetamerId;
-use espalier_proto::{Command, ProblemCode, RowMotion};
+use espalier_proto::{ProblemCode, RowMotion};
+use serde_json::{Value, json};
 
 use crate::{
     shaping::{grown, limb, timeline},
@@ -10,8 +11,8 @@ use crate::{
 
 const NO_TURN: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
 
-fn begin(bend: u32, base: u32, touches: &[u32]) -> Command {
-    Command::BendBegin { bend, base, touches: touches.to_vec(), stretch: 0.1, gesture: None }
+fn begin(bend: u32, base: u32, touches: &[u32]) -> Value {
+    json!({ "kind": "bend_begin", "bend": bend, "base": base, "touches": touches.to_vec(), "stretch": 0.1 })
 }
 
 /// A row and those below it, down to the seed.
@@ -47,13 +48,14 @@ fn be2_wood_that_one_bend_moves_is_closed_to_another() {
     let other = elsewhere(&world, base);
     world.command(ann, 2, begin(1, base, &[top]));
     world.settle();
-    let graft = |keep| Command::Graft { row: path[2], onto: other.0, rotation: NO_TURN, keep };
+    let graft =
+        |keep| json!({ "kind": "graft", "row": path[2], "onto": other.0, "rotation": NO_TURN, "keep": keep });
     for (id, (command, field)) in (1..).zip([
         (begin(1, base, &[top]), "base"),
         (begin(1, path[4], &[path[1]]), "base"),
         // The wood of the bend would ride along.
         (begin(1, path[8], &[path[7]]), "base"),
-        (Command::TurnBranch { row: path[2], rotation: NO_TURN, gesture: None }, "row"),
+        (json!({ "kind": "turn_branch", "row": path[2], "rotation": NO_TURN }), "row"),
         (graft(false), "row"),
     ]) {
         world.command(bob, id, command.clone());
@@ -71,10 +73,10 @@ fn be2_wood_that_one_bend_moves_is_closed_to_another() {
     world.command(bob, 6, grow(1));
     world.command(bob, 7, graft(true));
     world.command(bob, 8, begin(2, other.1, &[other.0]));
-    world.command(bob, 9, Command::BendEnd { bend: 2 });
-    world.command(ann, 3, Command::BendEnd { bend: 1 });
+    world.command(bob, 9, json!({ "kind": "bend_end", "bend": 2 }));
+    world.command(ann, 3, json!({ "kind": "bend_end", "bend": 1 }));
     world.command(bob, 10, begin(3, base, &[top]));
-    world.command(bob, 11, Command::BendCancel { bend: 3 });
+    world.command(bob, 11, json!({ "kind": "bend_cancel", "bend": 3 }));
     world.settle();
     assert_eq!(world.peer(bob).refused().len(), refused, "{:?}", world.peer(bob).refused());
     assert_eq!(world.replayed_hash(), world.document().hash());
@@ -99,9 +101,13 @@ fn be2_what_grows_on_a_bent_branch_rides_along() {
     let young_before = where_it_ends(&world, young);
     for round in 0..8 {
         let [x, y, z] = before;
-        world.command(ann, 3 + round, Command::BendMove { bend: 1, targets: vec![[x + 2.0, y, z]] });
+        world.command(
+            ann,
+            3 + round,
+            json!({ "kind": "bend_move", "bend": 1, "targets": vec![[x + 2.0, y, z]] }),
+        );
     }
-    world.command(ann, 11, Command::BendEnd { bend: 1 });
+    world.command(ann, 11, json!({ "kind": "bend_end", "bend": 1 }));
     world.settle();
     assert!(moved(top, before, &world) > 0.5);
     assert!(moved(young, young_before, &world) > 0.5);
@@ -115,7 +121,7 @@ fn pose(touches: &[u32], base: u32, rounds: &[Vec<[f32; 3]>]) -> Vec<RowMotion> 
     let (mut world, ann, _) = grown();
     world.command(ann, 2, begin(1, base, touches));
     for (id, targets) in (3..).zip(rounds) {
-        world.command(ann, id, Command::BendMove { bend: 1, targets: targets.clone() });
+        world.command(ann, id, json!({ "kind": "bend_move", "bend": 1, "targets": targets.clone() }));
     }
     world.settle();
     assert_eq!(world.peer(ann).refused(), []);
@@ -138,7 +144,11 @@ fn be3_targets_are_as_many_as_touches() {
     world.settle();
     let hash = world.document().hash();
     for (id, count) in [(3, 1), (4, 3)] {
-        world.command(ann, id, Command::BendMove { bend: 1, targets: vec![[1.0, 6.0, 0.0]; count] });
+        world.command(
+            ann,
+            id,
+            json!({ "kind": "bend_move", "bend": 1, "targets": vec![[1.0, 6.0, 0.0]; count] }),
+        );
         world.settle();
         let (refused, problem) = world.peer(ann).refused().pop().expect("it is refused");
         assert_eq!((refused, problem.code), (id, ProblemCode::OutOfRange));

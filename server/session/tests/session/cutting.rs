@@ -1,7 +1,7 @@
 //! `PR`: what a cut leaves behind.
 
 use espalier_plant::MetamerId;
-use espalier_proto::Command;
+use serde_json::json;
 
 use crate::{
     shaping::{grown, timeline},
@@ -31,7 +31,7 @@ fn pr2_what_is_cut_off_is_gone_as_if_it_had_never_grown() {
     assert!(gone.len() > 20, "only {} metamers", gone.len());
     let before = world.peer(bob).mirror.rows.clone();
     let place = |row: u32| before[row as usize].position;
-    world.command(ann, 3, Command::Prune { rows: vec![row], gesture: Some(7) });
+    world.command(ann, 3, json!({ "kind": "prune", "rows": vec![row], "gesture": Some(7) }));
     world.settle();
     let after = world.peer(bob).mirror.rows.clone();
     assert!(gone.iter().all(|&row| after[row as usize].radius == 0), "what is dead is not drawn");
@@ -50,7 +50,7 @@ fn pr2_what_is_cut_off_is_gone_as_if_it_had_never_grown() {
     assert!(standing.clone().any(|row| light(row).1 > light(row).0), "nobody gets more light");
     assert!(standing.clone().all(|row| light(row).1 >= light(row).0), "somebody gets less light");
     // So does space: new wood stands where the branch stood.
-    world.command(ann, 4, Command::Grow { steps: 6, gesture: Some(7), bud: None });
+    world.command(ann, 4, json!({ "kind": "grow", "steps": 6, "gesture": Some(7) }));
     world.settle();
     let grown = &world.peer(bob).mirror.rows[before.len()..];
     let is_near = |a: [i32; 3], b: [i32; 3]| {
@@ -61,7 +61,7 @@ fn pr2_what_is_cut_off_is_gone_as_if_it_had_never_grown() {
     assert!(5 * returned > gone.len(), "{returned} of {} places are taken again", gone.len());
     // Cut and growth by one gesture are one operation.
     let operations = timeline(world.peer(ann)).operations.len();
-    world.command(ann, 5, Command::Undo {});
+    world.command(ann, 5, json!({ "kind": "undo" }));
     world.settle();
     assert_eq!(timeline(world.peer(ann)).operations.len(), operations);
     assert_eq!(timeline(world.peer(ann)).done as usize, operations - 1);

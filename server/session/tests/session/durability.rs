@@ -2,9 +2,10 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::{Command, version::CloseCode};
+use espalier_proto::version::CloseCode;
 use espalier_session::{Document, Input, JournalEntry, ReadId, RestoreError, Session};
 use proptest::prelude::*;
+use serde_json::json;
 
 use crate::world::{SEED, World, grow};
 
@@ -43,7 +44,7 @@ fn commands_gather_while_the_disk_is_busy() {
     world.write_ms = 100;
     let client = world.join("birch-01");
     for id in 1..=50 {
-        world.command(client, id, Command::Redo {});
+        world.command(client, id, json!({ "kind": "redo" }));
     }
     world.pass(100);
     assert_eq!(world.disk.len(), 1);
@@ -105,7 +106,7 @@ fn many_commands_make_a_snapshot() {
     let mut world = World::new();
     let client = world.join("birch-01");
     for id in 1..=600 {
-        world.command(client, id, if id % 2 == 0 { Command::Undo {} } else { grow(1) });
+        world.command(client, id, if id % 2 == 0 { json!({ "kind": "undo" }) } else { grow(1) });
         world.pass(1);
     }
     world.settle();
@@ -155,7 +156,7 @@ fn undo_reaches_behind_a_restart() {
     assert!(world.disk.is_empty(), "everything is in the snapshot");
     world.crash();
     let client = world.join("birch-01");
-    world.command(client, 3, Command::Undo {});
+    world.command(client, 3, json!({ "kind": "undo" }));
     world.settle();
     assert!(world.peer(client).refused().is_empty());
     assert_eq!(world.document().plant().metamer_count(), five.metamer_count());
@@ -226,7 +227,7 @@ fn a_clean_stop_leaves_no_tail() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.command(client, 1, grow(7));
-    world.command(client, 2, Command::StrokeBegin { stroke: 1, bud: None });
+    world.command(client, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
     world.leave(client);
     world.handle(Input::Stopping);
     world.pass(100);

@@ -1,7 +1,8 @@
 //! `FL`: windows, catch-up, bounded memory for slow readers; and growth that is seen while it goes on.
 
-use espalier_proto::{ChunkChange, ClientMessage, Command, ProblemCode, ServerMessage, version::CloseCode};
+use espalier_proto::{ChunkChange, ClientMessage, ProblemCode, ServerMessage, version::CloseCode};
 use espalier_session::{ClientId, Input};
+use serde_json::json;
 
 use crate::world::{World, grow};
 
@@ -11,7 +12,7 @@ fn leave_behind(world: &mut World, busy: u64, slow: u64) -> u32 {
     world.settle();
     let mut id = 1;
     for round in 0..2_000 {
-        let command = if round % 2 == 0 { grow(12) } else { Command::Ungrow { steps: 12 } };
+        let command = if round % 2 == 0 { grow(12) } else { json!({ "kind": "ungrow", "steps": 12 }) };
         let before = [busy, slow].map(|client| world.peer(client).frames.len());
         world.command(busy, id, command);
         world.settle();
@@ -82,7 +83,7 @@ fn fl2_a_catch_up_holds_only_what_is_stale() {
     world.peer_mut(slow).slow = true;
     world.settle();
     assert!(world.peer(slow).most_in_flight > 256 * 1024);
-    world.command(busy, commands + 1, Command::PlantSeed { position: [9.0, 0.0, 0.0] });
+    world.command(busy, commands + 1, json!({ "kind": "plant_seed", "position": [9.0, 0.0, 0.0] }));
     world.settle();
     assert_eq!(world.peer(slow).frames.len(), 1);
     world.peer_mut(slow).slow = false;
@@ -102,7 +103,7 @@ fn fl1_received_ahead_of_time_is_a_problem() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.settle();
-    world.send(client, &ClientMessage::Received { sequence: 9_999, kind: 1 });
+    world.send(client, &json!({ "type": "received", "sequence": 9_999, "kind": 1 }));
     let problems = world.peer(client).problems();
     assert_eq!(problems.len(), 1);
     assert_eq!(problems[0].code, ProblemCode::OutOfRange);
@@ -152,7 +153,7 @@ fn fl4_the_state_is_told_at_most_every_50_ms() {
     for ms in 0..1_000 {
         world.pass(1);
         if ms % 5 == 0 {
-            let command = if ms % 10 == 0 { grow(1) } else { Command::Ungrow { steps: 1 } };
+            let command = if ms % 10 == 0 { grow(1) } else { json!({ "kind": "ungrow", "steps": 1 }) };
             world.command(client, ms / 5 + 1, command);
         }
         let now = states(&world);

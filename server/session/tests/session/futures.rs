@@ -1,20 +1,23 @@
 //! `TT`: going over to another line of time, and the numbers of lines.
 
-use espalier_proto::{Command, ProblemCode, Timeline, version::MAX_FUTURES};
+use espalier_proto::{ProblemCode, Timeline, version::MAX_FUTURES};
+use serde_json::{Value, json};
 
 use crate::{
     shaping::{grown, timeline},
     world::World,
 };
 
-const SEED: Command = Command::PlantSeed { position: [5.0, 0.0, 0.0] };
+fn seed() -> Value {
+    json!({ "kind": "plant_seed", "position": [5.0, 0.0, 0.0] })
+}
 
 fn lines(timeline: &Timeline) -> Vec<u32> {
     timeline.futures.iter().map(|future| future.future).collect()
 }
 
 /// Does it, and gives the hash of the plants and the lines of time.
-fn then(world: &mut World, client: u64, id: u32, command: Command) -> (u64, Timeline) {
+fn then(world: &mut World, client: u64, id: u32, command: Value) -> (u64, Timeline) {
     world.command(client, id, command);
     world.settle();
     (world.document().plant().hash(), timeline(world.peer(client)))
@@ -24,19 +27,19 @@ fn then(world: &mut World, client: u64, id: u32, command: Command) -> (u64, Time
 fn tt4_a_future_that_is_taken_is_the_present_line_at_its_end() {
     let (mut world, ann, bob) = grown();
     let first = world.document().plant().hash();
-    world.command(ann, 2, Command::GoTo { step: 5 });
-    let (second, told) = then(&mut world, ann, 3, SEED);
+    world.command(ann, 2, json!({ "kind": "go_to", "step": 5 }));
+    let (second, told) = then(&mut world, ann, 3, seed());
     assert_eq!((told.line, told.last_step, lines(&told)), (1, 6, vec![0]));
     // What lay ahead is a future under the number of its line, even where one stands amid that line.
-    world.command(ann, 4, Command::GoTo { step: 3 });
-    let (hash, told) = then(&mut world, ann, 5, Command::TakeFuture { future: 0 });
+    world.command(ann, 4, json!({ "kind": "go_to", "step": 3 }));
+    let (hash, told) = then(&mut world, ann, 5, json!({ "kind": "take_future", "future": 0 }));
     assert_eq!((hash, told.line, told.step, told.last_step), (first, 0, 9, 9));
     assert_eq!((lines(&told), told.futures[0].from, told.futures[0].steps), (vec![1], 5, 1));
-    let (hash, told) = then(&mut world, ann, 6, Command::TakeFuture { future: 1 });
+    let (hash, told) = then(&mut world, ann, 6, json!({ "kind": "take_future", "future": 1 }));
     assert_eq!((hash, told.line, told.step, lines(&told)), (second, 1, 6, vec![0]));
     // The present line is no future, and neither is a number that no line has.
     for (id, future) in [(7, 1), (8, 2), (9, u32::MAX)] {
-        let (hash, told) = then(&mut world, ann, id, Command::TakeFuture { future });
+        let (hash, told) = then(&mut world, ann, id, json!({ "kind": "take_future", "future": future }));
         assert_eq!((hash, told.line), (second, 1));
         let (refused, problem) = world.peer(ann).refused().pop().expect("it is refused");
         assert_eq!(
@@ -59,13 +62,13 @@ fn tt5_lines_keep_their_numbers() {
         id
     };
     for line in 1..4 {
-        world.command(ann, next(), Command::GoTo { step: 9 - line });
-        let (hash, told) = then(&mut world, ann, next(), SEED);
+        world.command(ann, next(), json!({ "kind": "go_to", "step": 9 - line }));
+        let (hash, told) = then(&mut world, ann, next(), seed());
         assert_eq!((told.line, lines(&told).len()), (line, line as usize));
         hashes.push(hash);
     }
     for line in [0, 2, 1, 3, 0, 1] {
-        let (hash, told) = then(&mut world, ann, next(), Command::TakeFuture { future: line });
+        let (hash, told) = then(&mut world, ann, next(), json!({ "kind": "take_future", "future": line }));
         assert_eq!((hash, told.line), (hashes[line as usize], line), "line {line}");
     }
     let told = timeline(world.peer(ann));
@@ -79,8 +82,8 @@ fn tt5_the_oldest_futures_are_forgotten_and_their_numbers_stay_unused() {
     let (mut world, ann, _) = grown();
     let forks = MAX_FUTURES as u32 + 3;
     for fork in 0..forks {
-        world.command(ann, 2 + 2 * fork, Command::GoTo { step: 1 });
-        world.command(ann, 3 + 2 * fork, SEED);
+        world.command(ann, 2 + 2 * fork, json!({ "kind": "go_to", "step": 1 }));
+        world.command(ann, 3 + 2 * fork, seed());
     }
     world.settle();
     let told = timeline(world.peer(ann));
@@ -88,7 +91,7 @@ fn tt5_the_oldest_futures_are_forgotten_and_their_numbers_stay_unused() {
     let mut kept = lines(&told);
     kept.sort_unstable();
     assert_eq!(kept, (3..forks).collect::<Vec<_>>(), "lines 0, 1 and 2 are the oldest");
-    let (_, told) = then(&mut world, ann, 2 + 2 * forks, Command::TakeFuture { future: 0 });
+    let (_, told) = then(&mut world, ann, 2 + 2 * forks, json!({ "kind": "take_future", "future": 0 }));
     assert_eq!(told.line, forks);
     assert_eq!(world.peer(ann).refused().pop().map(|(_, problem)| problem.code), Some(ProblemCode::NotFound));
 }

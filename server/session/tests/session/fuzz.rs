@@ -2,10 +2,11 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::{ClientMessage, Command, Obstacle, Pose, Shape, StrokeSample};
-use espalier_session::{Action, ClientId, Document, Input, ReadId, Session};
+use espalier_proto::{Action, ClientMessage, Steps};
+use espalier_session::{ClientId, Document, Input, ReadId, Session};
 use espalier_settings::{Appearance, AppearancePatch, LeafLook, ParametersPatch};
 use proptest::prelude::*;
+use serde_json::{Value, json};
 
 use crate::{guiding::lasso, mirror::Mirror, world::World};
 
@@ -14,7 +15,7 @@ const KEYS: [&str; 4] = ["birch-01", "maple-01", "aspen-01", "cedar-01"];
 /// One thing someone does; `who` picks one of [`KEYS`].
 #[derive(Clone, Debug)]
 enum Deed {
-    Command(usize, Box<Command>),
+    Command(usize, Box<Value>),
     /// The last command once more.
     Again(usize),
     Leave(usize),
@@ -30,63 +31,49 @@ enum Deed {
     DiskTakes(u64),
 }
 
-fn command() -> impl Strategy<Value = Command> {
+fn command() -> impl Strategy<Value = Value> {
     let sample = (-5.0f32..5.0, 0.0f32..12.0, -5.0f32..5.0, 0.0f32..4.0)
-        .prop_map(|(x, y, z, radius)| StrokeSample { position: [x, y, z], radius });
+        .prop_map(|(x, y, z, radius)| json!({ "position": [x, y, z], "radius": radius }));
     prop_oneof![
-        3 => (1u32..6, prop::option::of(0u32..3)).prop_map(|(steps, gesture)| Command::Grow { steps, gesture, bud: None }),
-        2 => (1u32..8).prop_map(|steps| Command::Ungrow { steps }),
-        2 => Just(Command::Undo {}),
-        1 => Just(Command::Redo {}),
-        2 => (0u32..3).prop_map(|stroke| Command::StrokeBegin { stroke, bud: None }),
+        3 => (1u32..6, prop::option::of(0u32..3)).prop_map(|(steps, gesture)| json!({ "kind": "grow", "steps": steps, "gesture": gesture })),
+        2 => (1u32..8).prop_map(|steps| json!({ "kind": "ungrow", "steps": steps })),
+        2 => Just(json!({ "kind": "undo" })),
+        1 => Just(json!({ "kind": "redo" })),
+        2 => (0u32..3).prop_map(|stroke| json!({ "kind": "stroke_begin", "stroke": stroke })),
         4 => (0u32..3, prop::collection::vec(sample, 0..4))
-            .prop_map(|(stroke, samples)| Command::StrokeMove { stroke, samples }),
-        2 => (0u32..3).prop_map(|stroke| Command::StrokeEnd { stroke }),
-        2 => (0.3f32..0.8, prop::option::of(0u32..2)).prop_map(|(control, gesture)| Command::SetParameters {
-            parameters: ParametersPatch { apical_control: Some(control), ..ParametersPatch::default() },
-            gesture,
-        }),
+            .prop_map(|(stroke, samples)| json!({ "kind": "stroke_move", "stroke": stroke, "samples": samples })),
+        2 => (0u32..3).prop_map(|stroke| json!({ "kind": "stroke_end", "stroke": stroke })),
+        2 => (0.3f32..0.8, prop::option::of(0u32..2)).prop_map(|(control, gesture)| json!({ "kind": "set_parameters", "parameters": ParametersPatch { apical_control: Some(control), ..ParametersPatch::default() }, "gesture": gesture })),
         2 => (-0.5f32..3.5, prop::option::of(0u32..2)).prop_map(|(season, gesture)| {
             let leaves = LeafLook { season: season.round(), ..Appearance::default().leaves };
             let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
-            Command::SetAppearance { appearance, gesture }
+            json!({ "kind": "set_appearance", "appearance": appearance, "gesture": gesture })
         }),
-        1 => (0u32..20).prop_map(|leaves| Command::SetParameters {
-            parameters: ParametersPatch { leaves_per_node: Some(leaves), ..ParametersPatch::default() },
-            gesture: None,
-        }),
-        1 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| Command::PlantSeed { position: [x, 0.0, z] }),
-        2 => Just(Command::Stop { tick: None }),
+        1 => (0u32..20).prop_map(|leaves| json!({ "kind": "set_parameters", "parameters": ParametersPatch { leaves_per_node: Some(leaves), ..ParametersPatch::default() } })),
+        1 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| json!({ "kind": "plant_seed", "position": [x, 0.0, z] })),
+        2 => Just(json!({ "kind": "stop" })),
         1 => (0.5f32..5.0, 0.5f32..8.0, prop::option::of(0u32..40))
             .prop_map(|(width, height, bud)| lasso(width, height, bud)),
-        1 => (1u32..6, 0u32..60).prop_map(|(steps, bud)| Command::Grow { steps, gesture: None, bud: Some(bud) }),
+        1 => (1u32..6, 0u32..60).prop_map(|(steps, bud)| json!({ "kind": "grow", "steps": steps, "bud": Some(bud) })),
         3 => obstacle(),
         10 => shaping(),
     ]
 }
 
-fn obstacle() -> impl Strategy<Value = Command> {
+fn obstacle() -> impl Strategy<Value = Value> {
     let gesture = || prop::option::of(0u32..2);
     prop_oneof![
         (-6.0f32..6.0, 0.0f32..8.0, 0.0f32..3.0, gesture()).prop_map(|(x, y, radius, gesture)| {
-            let obstacle = Obstacle { shape: Shape::Sphere { radius }, pose: pose(x, y) };
-            Command::PlaceObstacle { obstacle, gesture }
+            let obstacle = json!({ "shape": json!({ "kind": "sphere", "radius": radius }), "pose": pose(x, y) });
+            json!({ "kind": "place_obstacle", "obstacle": obstacle, "gesture": gesture })
         }),
-        (0u32..4, -6.0f32..6.0, gesture()).prop_map(|(id, x, gesture)| Command::MoveObstacle {
-            id,
-            pose: pose(x, 1.0),
-            gesture
-        }),
-        (0u32..4, 0.0f32..3.0, gesture()).prop_map(|(id, radius, gesture)| Command::ReshapeObstacle {
-            id,
-            shape: Shape::Sphere { radius },
-            gesture
-        }),
-        (0u32..4, gesture()).prop_map(|(id, gesture)| Command::RemoveObstacle { id, gesture }),
+        (0u32..4, -6.0f32..6.0, gesture()).prop_map(|(id, x, gesture)| json!({ "kind": "move_obstacle", "id": id, "pose": pose(x, 1.0), "gesture": gesture })),
+        (0u32..4, 0.0f32..3.0, gesture()).prop_map(|(id, radius, gesture)| json!({ "kind": "reshape_obstacle", "id": id, "shape": json!({ "kind": "sphere", "radius": radius }), "gesture": gesture })),
+        (0u32..4, gesture()).prop_map(|(id, gesture)| json!({ "kind": "remove_obstacle", "id": id, "gesture": gesture })),
     ]
 }
 
-fn shaping() -> impl Strategy<Value = Command> {
+fn shaping() -> impl Strategy<Value = Value> {
     let row = || 1u32..60;
     let gesture = || prop::option::of(0u32..2);
     let rotation = (-1.0f32..1.0).prop_map(|x| [x, 0.0, 0.0, (1.0 - x * x).sqrt()]).boxed();
@@ -94,28 +81,28 @@ fn shaping() -> impl Strategy<Value = Command> {
     let place = || prop::array::uniform3(-3.0f32..9.0);
     prop_oneof![
         4 => (0u32..2, row(), prop::collection::vec(row(), 1..3), 0.0f32..1.0, gesture()).prop_map(
-            |(bend, base, touches, stretch, gesture)| Command::BendBegin { bend, base, touches, stretch, gesture },
+            |(bend, base, touches, stretch, gesture)| json!({ "kind": "bend_begin", "bend": bend, "base": base, "touches": touches, "stretch": stretch, "gesture": gesture }),
         ),
         4 => (0u32..2, prop::collection::vec(place(), 1..3))
-            .prop_map(|(bend, targets)| Command::BendMove { bend, targets }),
-        2 => (0u32..2).prop_map(|bend| Command::BendEnd { bend }),
-        1 => (0u32..2).prop_map(|bend| Command::BendCancel { bend }),
+            .prop_map(|(bend, targets)| json!({ "kind": "bend_move", "bend": bend, "targets": targets })),
+        2 => (0u32..2).prop_map(|bend| json!({ "kind": "bend_end", "bend": bend })),
+        1 => (0u32..2).prop_map(|bend| json!({ "kind": "bend_cancel", "bend": bend })),
         2 => (row(), prop::option::of(0.05f32..2.0), gesture())
-            .prop_map(|(row, diameter, gesture)| Command::SetWidth { row, diameter, gesture }),
+            .prop_map(|(row, diameter, gesture)| json!({ "kind": "set_width", "row": row, "diameter": diameter, "gesture": gesture })),
         2 => (prop::collection::vec(row(), 1..3), gesture())
-            .prop_map(|(rows, gesture)| Command::Prune { rows, gesture }),
-        1 => (0.0f32..1.0).prop_map(|exposure| Command::PruneDim { exposure }),
+            .prop_map(|(rows, gesture)| json!({ "kind": "prune", "rows": rows, "gesture": gesture })),
+        1 => (0.0f32..1.0).prop_map(|exposure| json!({ "kind": "prune_dim", "exposure": exposure })),
         2 => (row(), rotation, gesture())
-            .prop_map(|(row, rotation, gesture)| Command::TurnBranch { row, rotation, gesture }),
+            .prop_map(|(row, rotation, gesture)| json!({ "kind": "turn_branch", "row": row, "rotation": rotation, "gesture": gesture })),
         2 => (row(), row(), again, any::<bool>())
-            .prop_map(|(row, onto, rotation, keep)| Command::Graft { row, onto, rotation, keep }),
-        3 => (0u32..30).prop_map(|step| Command::GoTo { step }),
-        3 => (0u32..6).prop_map(|future| Command::TakeFuture { future }),
+            .prop_map(|(row, onto, rotation, keep)| json!({ "kind": "graft", "row": row, "onto": onto, "rotation": rotation, "keep": keep })),
+        3 => (0u32..30).prop_map(|step| json!({ "kind": "go_to", "step": step })),
+        3 => (0u32..6).prop_map(|future| json!({ "kind": "take_future", "future": future })),
     ]
 }
 
-fn pose(x: f32, y: f32) -> Pose {
-    Pose { position: [x, y, 0.0], rotation: [0.0, 0.0, 0.0, 1.0] }
+fn pose(x: f32, y: f32) -> Value {
+    json!({ "position": [x, y, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0] })
 }
 
 fn deed() -> impl Strategy<Value = Deed> {
@@ -141,7 +128,7 @@ fn deed() -> impl Strategy<Value = Deed> {
 /// A tree whose rows fill a window, as the first snapshot of a session.
 static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut document = Document::new(3);
-    document.apply("birch-01", &Action::Grow { steps: 18, gesture: None, bud: None }).unwrap();
+    document.apply("birch-01", &Action::Grow { steps: Steps::nearest(18), bud: None }.into()).unwrap();
     Session::first_snapshot(&document.to_bytes(), 1_000_000).unwrap()
 });
 
@@ -149,10 +136,10 @@ static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
 fn upheaval() -> impl Strategy<Value = Deed> {
     let who = || 0..KEYS.len();
     let command = prop_oneof![
-        1 => (1u32..3).prop_map(|steps| Command::Ungrow { steps }),
-        1 => Just(Command::Undo {}),
-        2 => Just(Command::Redo {}),
-        4 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| Command::PlantSeed { position: [x, 0.0, z] }),
+        1 => (1u32..3).prop_map(|steps| json!({ "kind": "ungrow", "steps": steps })),
+        1 => Just(json!({ "kind": "undo" })),
+        2 => Just(json!({ "kind": "redo" })),
+        4 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| json!({ "kind": "plant_seed", "position": [x, 0.0, z] })),
     ];
     prop_oneof![
         8 => (who(), command).prop_map(|(who, command)| Deed::Command(who, Box::new(command))),
@@ -166,7 +153,7 @@ fn upheaval() -> impl Strategy<Value = Deed> {
 #[derive(Default)]
 struct Person {
     connection: Option<u64>,
-    sent: Vec<Command>,
+    sent: Vec<Value>,
     mirror: Mirror,
     slow: bool,
 }
@@ -181,7 +168,7 @@ impl Crowd {
         match deed {
             Deed::Command(who, command) => {
                 let client = self.arrive(who);
-                self.people[who].sent.push(Command::clone(&command));
+                self.people[who].sent.push(Value::clone(&command));
                 let id = self.people[who].sent.len() as u32;
                 self.world.command(client, id, *command);
             }
@@ -208,7 +195,7 @@ impl Crowd {
             }
             Deed::Predict(who, rows, steps) => {
                 let client = self.arrive(who);
-                self.world.send(client, &ClientMessage::Predict { rows, steps });
+                self.world.send(client, &json!({ "type": "predict", "rows": rows, "steps": steps }));
             }
             Deed::Binary(who) => {
                 let client = self.arrive(who);

@@ -1,17 +1,20 @@
 //! `SG`, `LA`: growth of one branch, growth into an outline; and scenes with many plants.
 
 use espalier_plant::{AxisId, MetamerId};
-use espalier_proto::{Command, DrawingPlane, ProblemCode, ServerMessage, StrokeSample};
+use espalier_proto::{ProblemCode, ServerMessage};
+use serde_json::{Value, json};
 
 use crate::world::{World, grow};
 
 /// The x-y plane through the first seed.
-const PLANE: DrawingPlane = DrawingPlane { origin: [0.0; 3], right: [1.0, 0.0, 0.0], up: [0.0, 1.0, 0.0] };
+fn plane() -> Value {
+    json!({ "origin": [0.0, 0.0, 0.0], "right": [1.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0] })
+}
 
 /// A rectangle that stands on the ground.
-pub fn lasso(half_width: f32, height: f32, bud: Option<u32>) -> Command {
+pub fn lasso(half_width: f32, height: f32, bud: Option<u32>) -> Value {
     let outline = vec![[-half_width, 0.0], [half_width, 0.0], [half_width, height], [-half_width, height]];
-    Command::Lasso { outline, plane: PLANE, depth: 1.0, bud }
+    json!({ "kind": "lasso", "outline": outline, "plane": plane(), "depth": 1.0, "bud": bud })
 }
 
 /// A living row whose metamer is on a lateral axis.
@@ -62,7 +65,7 @@ fn la1_a_lasso_fills_its_outline_as_one_operation() {
         assert!(end.x.abs() < 9.0 && end.y < 17.0 && end.z.abs() < 9.0, "{end} is far outside");
     }
     assert_eq!(world.document().hash(), world.replayed_hash());
-    world.command(client, 2, Command::Undo {});
+    world.command(client, 2, json!({ "kind": "undo" }));
     world.settle();
     let state = world.peer(client).last_state().unwrap();
     assert_eq!((state.metamers, state.can_undo), (0, false));
@@ -77,10 +80,10 @@ fn la1_a_lasso_leaves_no_markers_behind() {
     world.settle();
     let grown = world.document().metamers();
     // A stroke far away settles only while something grows; markers left behind would still be grown into.
-    world.command(client, 2, Command::StrokeBegin { stroke: 1, bud: None });
-    let sample = StrokeSample { position: [900.0, 900.0, 0.0], radius: 1.0 };
-    world.command(client, 3, Command::StrokeMove { stroke: 1, samples: vec![sample] });
-    world.command(client, 4, Command::StrokeEnd { stroke: 1 });
+    world.command(client, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
+    let sample = json!({ "position": [900.0, 900.0, 0.0], "radius": 1.0 });
+    world.command(client, 3, json!({ "kind": "stroke_move", "stroke": 1, "samples": vec![sample] }));
+    world.command(client, 4, json!({ "kind": "stroke_end", "stroke": 1 }));
     world.settle();
     assert_eq!(world.document().metamers(), grown);
 }
@@ -89,14 +92,18 @@ fn la1_a_lasso_leaves_no_markers_behind() {
 fn la1_a_lasso_does_not_end_the_strokes_of_others() {
     let mut world = World::new();
     let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
-    let sample = |y: f32| StrokeSample { position: [0.0, y, 0.0], radius: 0.0 };
-    world.command(birch, 1, Command::StrokeBegin { stroke: 1, bud: None });
-    world.command(birch, 2, Command::StrokeMove { stroke: 1, samples: vec![sample(0.0), sample(6.0)] });
+    let sample = |y: f32| json!({ "position": [0.0, y, 0.0], "radius": 0.0 });
+    world.command(birch, 1, json!({ "kind": "stroke_begin", "stroke": 1 }));
+    world.command(
+        birch,
+        2,
+        json!({ "kind": "stroke_move", "stroke": 1, "samples": vec![sample(0.0), sample(6.0)] }),
+    );
     world.command(maple, 1, lasso(3.0, 6.0, None));
     world.settle();
     let before = world.document().metamers();
-    world.command(birch, 3, Command::StrokeMove { stroke: 1, samples: vec![sample(30.0)] });
-    world.command(birch, 4, Command::StrokeEnd { stroke: 1 });
+    world.command(birch, 3, json!({ "kind": "stroke_move", "stroke": 1, "samples": vec![sample(30.0)] }));
+    world.command(birch, 4, json!({ "kind": "stroke_end", "stroke": 1 }));
     world.settle();
     assert!(world.document().metamers() >= before + 10, "the pencil goes on where it was");
     assert_eq!(world.document().hash(), world.replayed_hash());
@@ -116,7 +123,7 @@ fn la1_what_encloses_nothing_is_refused() {
     .into_iter()
     .enumerate()
     {
-        let command = Command::Lasso { outline, plane: PLANE, depth: 1.0, bud: None };
+        let command = json!({ "kind": "lasso", "outline": outline, "plane": plane(), "depth": 1.0 });
         world.command(client, id as u32 + 1, command);
     }
     world.settle();
@@ -134,12 +141,16 @@ fn sg1_only_the_chosen_branch_grows() {
     world.settle();
     let (row, before) = (lateral_row(&world), world.document().plant().metamer_count());
     let chosen = world.document().plant().metamers().axis(MetamerId::new(row as usize));
-    world.command(client, 2, Command::Grow { steps: 6, gesture: None, bud: Some(row) });
+    world.command(client, 2, json!({ "kind": "grow", "steps": 6, "bud": Some(row) }));
     world.command(client, 3, lasso(9.0, 20.0, Some(row)));
-    world.command(client, 4, Command::StrokeBegin { stroke: 1, bud: Some(row) });
-    let sample = |y: f32| StrokeSample { position: [0.0, y, 0.0], radius: 6.0 };
-    world.command(client, 5, Command::StrokeMove { stroke: 1, samples: vec![sample(5.0), sample(25.0)] });
-    world.command(client, 6, Command::StrokeEnd { stroke: 1 });
+    world.command(client, 4, json!({ "kind": "stroke_begin", "stroke": 1, "bud": Some(row) }));
+    let sample = |y: f32| json!({ "position": [0.0, y, 0.0], "radius": 6.0 });
+    world.command(
+        client,
+        5,
+        json!({ "kind": "stroke_move", "stroke": 1, "samples": vec![sample(5.0), sample(25.0)] }),
+    );
+    world.command(client, 6, json!({ "kind": "stroke_end", "stroke": 1 }));
     world.settle();
     assert_eq!(world.peer(client).refused(), []);
     let plant = world.document().plant();
@@ -156,13 +167,13 @@ fn sg1_a_row_that_is_not_there_is_refused() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.command(client, 1, grow(4));
-    world.command(client, 2, Command::Ungrow { steps: 2 });
+    world.command(client, 2, json!({ "kind": "ungrow", "steps": 2 }));
     world.settle();
     let before = world.document().hash();
     let gone = world.document().plant().metamer_count() as u32;
     let bud = Some(gone);
-    world.command(client, 3, Command::Grow { steps: 1, gesture: None, bud });
-    world.command(client, 4, Command::StrokeBegin { stroke: 1, bud });
+    world.command(client, 3, json!({ "kind": "grow", "steps": 1, "bud": bud }));
+    world.command(client, 4, json!({ "kind": "stroke_begin", "stroke": 1, "bud": bud }));
     world.command(client, 5, lasso(5.0, 5.0, Some(u32::MAX)));
     world.settle();
     let refused = world.peer(client).refused();
@@ -184,7 +195,7 @@ fn lm4_reaching_the_budget_is_told_to_all() {
     assert!(state.budget_reached && state.metamers > 0 && state.pending_steps == 0, "{state:?}");
     assert_eq!(state.metamer_budget, 400);
     world.command(birch, 2, lasso(9.0, 20.0, None));
-    world.command(birch, 3, Command::Ungrow { steps: 1 });
+    world.command(birch, 3, json!({ "kind": "ungrow", "steps": 1 }));
     world.settle();
     assert_eq!(world.peer(birch).refused().len(), 1);
     assert!(!world.peer(maple).last_state().unwrap().budget_reached, "there is room again");
@@ -205,7 +216,7 @@ fn a_thousand_seeds_grow_in_one_scene() {
     for number in 0..1000u32 {
         let place = |n: u32| (n as f32 - 15.5) * 8.0;
         let position = [place(number % 32) + 4.0, 0.0, place(number / 32)];
-        world.command(client, number + 1, Command::PlantSeed { position });
+        world.command(client, number + 1, json!({ "kind": "plant_seed", "position": position }));
         world.pass(1);
     }
     world.command(client, 1001, grow(4));

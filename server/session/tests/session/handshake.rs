@@ -135,7 +135,7 @@ fn rs1_a_returning_client_gets_what_is_stale() {
     world.command(birch, 1, grow(12));
     world.settle();
     let left = world.leave(birch);
-    world.command(maple, 1, espalier_proto::Command::PlantSeed { position: [9.0, 0.0, 0.0] });
+    world.command(maple, 1, serde_json::json!({ "kind": "plant_seed", "position": [9.0, 0.0, 0.0] }));
     world.settle();
     let back = world.rejoin("birch-01", left.mirror);
     world.settle();
@@ -170,7 +170,7 @@ fn rs1_rows_ungrown_meanwhile_are_forgotten() {
     world.command(birch, 1, grow(12));
     world.settle();
     let left = world.leave(birch);
-    world.command(maple, 1, espalier_proto::Command::Ungrow { steps: 8 });
+    world.command(maple, 1, serde_json::json!({ "kind": "ungrow", "steps": 8 }));
     world.settle();
     let back = world.rejoin("birch-01", left.mirror);
     world.settle();

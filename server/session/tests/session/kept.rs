@@ -5,7 +5,7 @@
 
 use std::{fs, path::PathBuf};
 
-use espalier_session::{Action, Document, JournalEntry, Session};
+use espalier_session::{Document, JournalEntry, Session, read_command};
 use serde_json::{Value, json};
 
 /// The releases that `tests/kept` has documents of, with the version of the simulation each was made with.
@@ -151,19 +151,19 @@ fn hash(document: &Document) -> Value {
 
 /// Repeats a command until it is refused; how often it was done.
 fn repeat(document: &mut Document, command: &str) -> u32 {
-    let action = Action::from_json(command).unwrap();
+    let command = read_command(command).unwrap();
     let mut count = 0;
-    while document.apply("reader", &action).is_ok() {
+    while document.apply("reader", &command).is_ok() {
         count += 1;
-        assert!(count < 1000, "{command} has no end");
+        assert!(count < 1000, "{command:?} has no end");
     }
     count
 }
 
 fn apply(document: &mut Document, command: impl AsRef<str>) {
     let command = command.as_ref();
-    let action = Action::from_json(command).unwrap();
-    document.apply("reader", &action).unwrap_or_else(|problem| panic!("{command}: {problem}"));
+    let command = read_command(command).unwrap();
+    document.apply("reader", &command).unwrap_or_else(|problem| panic!("{command:?}: {problem}"));
 }
 
 /// Growth goes on from the present and from the seedling, and can be undone to the very plant before it.

@@ -1,12 +1,13 @@
 //! `LM`: what has the right form to become part of a document.
 
-use espalier_proto::{ClientMessage, Command, ProblemCode, version::CloseCode};
-use espalier_session::Action;
+use espalier_proto::{ClientMessage, ProblemCode, version::CloseCode};
+use espalier_session::read_command;
+use serde_json::json;
 
 use crate::{obstacles::tetrahedron, world::World};
 
 fn check(json: &str, expected: Result<(), (ProblemCode, Option<&str>)>) {
-    let found = Action::from_json(json).map(drop).map_err(|problem| {
+    let found = read_command(json).map(drop).map_err(|problem| {
         assert!(problem.message.len() > 10, "{json}: {}", problem.message);
         (problem.code, problem.field)
     });
@@ -35,7 +36,7 @@ fn lm2_samples_lie_within_the_world() {
     check(&sample("[0,0,0]", "-0.1"), Err((OUT, Some("samples[1].radius"))));
     check(&sample("[0,0,0]", "\"wide\""), Err((BAD, Some("samples[1].radius"))));
     check(&sample("[0,0]", "1"), Err((BAD, Some("samples[1].position"))));
-    check(&sample("[0,0,null]", "1"), Err((BAD, Some("samples[1].position"))));
+    check(&sample("[0,0,null]", "1"), Err((BAD, Some("samples[1].position[2]"))));
 }
 
 #[test]
@@ -66,10 +67,10 @@ fn unreadable_fields_are_named() {
     check(r#"{"kind":"grow","steps":1,"water":2}"#, Err((BAD, Some("water"))));
     check(r#"{"kind":"grow","steps":1.5}"#, Err((BAD, Some("steps"))));
     check(r#"{"kind":"grow","steps":1,"gesture":"a"}"#, Err((BAD, Some("gesture"))));
-    check(r#"{"kind":"stroke_end","stroke":-1}"#, Err((BAD, Some("stroke"))));
+    check(r#"{"kind":"stroke_end","stroke":-1}"#, Err((OUT, Some("stroke"))));
     check(r#"{"kind":"stroke_move","stroke":1,"samples":7}"#, Err((BAD, Some("samples"))));
     check(r#"{"kind":"stroke_move","stroke":1,"samples":[7]}"#, Err((BAD, Some("samples[0]"))));
-    check(r#"{"kind":"plant_seed","position":[0,"a",0]}"#, Err((BAD, Some("position"))));
+    check(r#"{"kind":"plant_seed","position":[0,"a",0]}"#, Err((BAD, Some("position[1]"))));
     check(r#"{"kind":"plant_seed","position":[0,0,2000]}"#, Err((OUT, Some("position[2]"))));
     check(r#"{"kind":"set_parameters","parameters":{"sap":1}}"#, Err((BAD, Some("parameters.sap"))));
     let not_a_number = r#"{"kind":"set_parameters","parameters":{"leaf_size":"big"}}"#;
@@ -133,7 +134,7 @@ fn lm5_a_lasso_has_its_ranges() {
         check(&lasso(&outline(3), plane, "1"), Err((OUT, Some(field))));
     }
     let missing = r#"{"kind":"lasso","outline":[[0,0],[1,0],[1,1]],"plane":{"origin":[0,0,0]}}"#;
-    check(missing, Err((BAD, Some("plane"))));
+    check(missing, Err((BAD, Some("plane.right"))));
 }
 
 #[test]
@@ -148,7 +149,7 @@ fn lm6_an_obstacle_has_its_ranges() {
     shape(r#"{"kind":"box","size":[1,1,1001]}"#, Err((OUT, Some("obstacle.shape.size[2]"))));
     shape(r#"{"kind":"sphere","radius":500}"#, Ok(()));
     shape(r#"{"kind":"sphere","radius":501}"#, Err((OUT, Some("obstacle.shape.radius"))));
-    shape(r#"{"kind":"cone"}"#, Err((BAD, Some("obstacle.shape"))));
+    shape(r#"{"kind":"cone"}"#, Err((BAD, Some("obstacle.shape.kind"))));
     let sphere = r#"{"kind":"sphere","radius":1}"#;
     let rotated = |rotation: &str| format!(r#"{{"position":[0,1,0],"rotation":{rotation}}}"#);
     check(&with(sphere, &rotated("[0.6,0,0.8,0]")), Ok(()));
@@ -211,7 +212,7 @@ fn lm10_a_prediction_has_up_to_100_steps() {
     let mut world = World::new();
     let client = world.join("birch-01");
     for (steps, ghosts) in [(100, 1), (101, 1), (1, 2)] {
-        world.send(client, &ClientMessage::Predict { rows: Vec::new(), steps });
+        world.send(client, &json!({ "type": "predict", "rows": [], "steps": steps }));
         world.settle();
         assert_eq!(world.peer(client).ghosts.len(), ghosts, "{steps} steps");
     }
@@ -247,7 +248,7 @@ fn commands_waiting_for_the_disk_are_bounded() {
 fn check_bounded(world: &mut World) {
     let client = world.join("birch-01");
     for id in 1..=5000 {
-        world.command(client, id, Command::Redo {});
+        world.command(client, id, json!({ "kind": "redo" }));
         if id % 200 == 0 {
             world.pass(20);
         }
@@ -255,4 +256,51 @@ fn check_bounded(world: &mut World) {
     let refused = world.peer(client).refused();
     let too_many = refused.iter().filter(|(_, problem)| problem.code == ProblemCode::TooMany).count();
     assert!((850..=910).contains(&too_many), "{too_many} were refused");
+}
+
+#[test]
+fn lm7_a_bend_in_bad_form_names_its_field() {
+    let touches =
+        |rows: &str| format!(r#"{{"kind":"bend_begin","bend":1,"base":1,"touches":{rows},"stretch":0}}"#);
+    let stretch =
+        |share: &str| format!(r#"{{"kind":"bend_begin","bend":1,"base":1,"touches":[2],"stretch":{share}}}"#);
+    let targets = |places: &str| format!(r#"{{"kind":"bend_move","bend":1,"targets":{places}}}"#);
+    let position = "three numbers, x and z -1000 to 1000, y -10 to 1000";
+    for (text, field, allowed) in [
+        (touches("[]"), "touches", "a list of 1 to 8 entries"),
+        (touches("[1,2,3,4,5,6,7,8,9]"), "touches", "a list of 1 to 8 entries"),
+        (touches("[2,3,2]"), "touches[2]", "a row that is touched once"),
+        (touches("[-2]"), "touches[0]", "a whole number from 0 to 4294967295"),
+        (stretch("1.5"), "stretch", "0 to 1"),
+        (stretch("1e99"), "stretch", "0 to 1"),
+        (stretch("NaN"), "stretch", "0 to 1"),
+        (targets("[]"), "targets", "a list of 1 to 8 entries"),
+        (targets("[[0,1,0],[0,1e39,0]]"), "targets[1][1]", "-10 to 1000"),
+        (targets("[[0,1,0],[0,Infinity,0]]"), "targets[1][1]", "-10 to 1000"),
+        (targets("[[-1001,1,0]]"), "targets[0][0]", "-1000 to 1000"),
+        (targets("[[0,1]]"), "targets[0]", position),
+    ] {
+        let problem = read_command(&text).expect_err(&text);
+        let found = (problem.field.as_deref(), problem.allowed.as_deref());
+        assert_eq!(found, (Some(field), Some(allowed)), "{text}: {}", problem.message);
+    }
+    check(&touches("[2,3,4,5,6,7,8,9]"), Ok(()));
+    check(&stretch("1"), Ok(()));
+}
+
+#[test]
+fn lm9_rows_and_light_have_their_ranges() {
+    let prune = |count: usize| json!({ "kind": "prune", "rows": vec![1; count] }).to_string();
+    check(&prune(0), Err((OUT, Some("rows"))));
+    check(&prune(1024), Ok(()));
+    check(&prune(1025), Err((ProblemCode::TooMany, Some("rows"))));
+    let predict = |count: usize| json!({ "type": "predict", "rows": vec![1; count], "steps": 1 }).to_string();
+    assert!(
+        ClientMessage::from_json(&predict(0)).is_ok() && ClientMessage::from_json(&predict(1024)).is_ok()
+    );
+    let problem = ClientMessage::from_json(&predict(1025)).expect_err("too many").problem;
+    assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::TooMany, Some("rows")));
+    for (exposure, allowed) in [("0", Ok(())), ("1", Ok(())), ("1.01", Err((OUT, Some("exposure"))))] {
+        check(&format!(r#"{{"kind":"prune_dim","exposure":{exposure}}}"#), allowed);
+    }
 }

@@ -1,20 +1,21 @@
 //! `AP`: looks of a session, told to all of its clients.
 
-use espalier_proto::{Command, ServerMessage};
+use espalier_proto::ServerMessage;
 use espalier_settings::{Appearance, AppearancePatch, Background, LeafLook, Sky};
+use serde_json::{Value, json};
 
 use crate::world::{Peer, World, grow};
 
-fn leaves(season: f32, gesture: Option<u32>) -> Command {
+fn leaves(season: f32, gesture: Option<u32>) -> Value {
     let leaves = LeafLook { season, ..Appearance::default().leaves };
     let appearance = AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() };
-    Command::SetAppearance { appearance, gesture }
+    json!({ "kind": "set_appearance", "appearance": appearance, "gesture": gesture })
 }
 
-fn background(sky: Sky) -> Command {
+fn background(sky: Sky) -> Value {
     let background = Background { sky, ..Appearance::default().background };
     let appearance = AppearancePatch { background: Some(background.into()), ..AppearancePatch::default() };
-    Command::SetAppearance { appearance, gesture: None }
+    json!({ "kind": "set_appearance", "appearance": appearance })
 }
 
 /// The seasons a client was told, in order.
@@ -39,9 +40,9 @@ fn ap3_looks_follow_each_welcome_and_change() {
     world.settle();
     world.command(maple, 1, background(Sky::Studio));
     world.settle();
-    world.command(maple, 2, Command::Undo {});
+    world.command(maple, 2, json!({ "kind": "undo" }));
     world.settle();
-    world.command(maple, 3, Command::Undo {});
+    world.command(maple, 3, json!({ "kind": "undo" }));
     world.settle();
     for client in [birch, maple] {
         assert_eq!(seasons(world.peer(client)), [1.0, 2.0, 2.0, 2.0, 1.0]);
@@ -83,7 +84,7 @@ fn looks_survive_journal_snapshot_and_undo() {
     assert_eq!(world.document().hash(), world.replayed_hash());
     let client = world.join("birch-01");
     assert_eq!(seasons(world.peer(client)), [2.5]);
-    world.command(client, 4, Command::Undo {});
+    world.command(client, 4, json!({ "kind": "undo" }));
     world.settle();
     assert_eq!(seasons(world.peer(client)), [2.5, 1.0], "AP2: a drag is one operation");
     assert_eq!(world.document().figures().step, 3);

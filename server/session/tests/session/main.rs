@@ -16,6 +16,7 @@ mod limits;
 mod looks;
 mod mirror;
 mod obstacles;
+mod refusals;
 mod rows;
 mod shaping;
 mod stopping;

@@ -1,23 +1,22 @@
 //! `OB`: obstacles in the scene, told to everybody and undone like anything else.
 
-use espalier_proto::{
-    Command, Obstacle, PlacedObstacle, PlacedShape, Pose, ProblemCode, ServerMessage, Shape,
-};
-use espalier_session::{ActId, Input, Mesh};
+use espalier_proto::{Command, Mesh, PlacedObstacle, PlacedShape, ProblemCode, ServerMessage};
+use espalier_session::{ActId, Input};
 use glam::Vec3;
+use serde_json::{Value, json};
 
 use crate::world::{World, grow};
 
-fn at(x: f32, y: f32, z: f32) -> Pose {
-    Pose { position: [x, y, z], rotation: [0.0, 0.0, 0.0, 1.0] }
+fn at(x: f32, y: f32, z: f32) -> Value {
+    json!({ "position": [x, y, z], "rotation": [0.0, 0.0, 0.0, 1.0] })
 }
 
-fn place(shape: Shape, pose: Pose) -> Command {
-    Command::PlaceObstacle { obstacle: Obstacle { shape, pose }, gesture: None }
+fn place(shape: Value, pose: Value) -> Value {
+    json!({ "kind": "place_obstacle", "obstacle": json!({ "shape": shape, "pose": pose }) })
 }
 
-fn ball(radius: f32, pose: Pose) -> Command {
-    place(Shape::Sphere { radius }, pose)
+fn ball(radius: f32, pose: Value) -> Value {
+    place(json!({ "kind": "sphere", "radius": radius }), pose)
 }
 
 /// A tetrahedron around its origin.
@@ -29,8 +28,13 @@ pub fn tetrahedron() -> Mesh {
     }
 }
 
-fn mesh(mesh: &Mesh) -> Command {
-    place(Shape::Mesh { mesh: mesh.to_base64(), scale: 2.0 }, at(0.0, 8.0, 0.0))
+/// A command as the server reads it.
+fn parsed(command: &Value) -> Box<Command> {
+    Box::new(Command::from_json(&command.to_string()).expect("it is in good form"))
+}
+
+fn mesh(mesh: &Mesh) -> Value {
+    place(json!({ "kind": "mesh", "mesh": mesh.to_base64(), "scale": 2.0 }), at(0.0, 8.0, 0.0))
 }
 
 /// What a client was told last, if anything.
@@ -51,14 +55,14 @@ fn ob3_everybody_is_told_and_newcomers_too() {
     let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
     world.settle();
     assert_eq!(told(&world, birch), None, "a welcome alone means none");
-    world.command(birch, 1, place(Shape::Box { size: [2.0, 3.0, 4.0] }, at(5.0, 1.5, 0.0)));
-    world.command(birch, 2, place(Shape::Plane {}, at(0.0, -1.0, 0.0)));
+    world.command(birch, 1, place(json!({ "kind": "box", "size": [2.0, 3.0, 4.0] }), at(5.0, 1.5, 0.0)));
+    world.command(birch, 2, place(json!({ "kind": "plane" }), at(0.0, -1.0, 0.0)));
     world.command(birch, 3, mesh(&tetrahedron()));
     world.settle();
     let list = told(&world, maple).unwrap();
     assert_eq!(list.iter().map(|obstacle| obstacle.id).collect::<Vec<_>>(), [1, 2, 3]);
     assert_eq!(list[0].shape, PlacedShape::Box { size: [2.0, 3.0, 4.0] });
-    assert_eq!(list[0].pose, at(5.0, 1.5, 0.0));
+    assert_eq!(json!(list[0].pose), at(5.0, 1.5, 0.0));
     assert_eq!(list[2].shape, PlacedShape::Mesh { vertices: 4, triangles: 4, scale: 2.0 });
     let aspen = world.join("aspen-01");
     assert_eq!(told(&world, aspen), Some(list));
@@ -76,25 +80,25 @@ fn ob2_obstacles_are_undone_and_redone_like_growth() {
     let client = world.join("birch-01");
     world.command(client, 1, ball(3.0, at(9.0, 3.0, 0.0)));
     world.command(client, 2, grow(3));
-    world.command(client, 3, Command::MoveObstacle { id: 1, pose: at(-9.0, 3.0, 0.0), gesture: None });
-    world.command(client, 4, Command::RemoveObstacle { id: 1, gesture: None });
+    world.command(client, 3, json!({ "kind": "move_obstacle", "id": 1, "pose": at(-9.0, 3.0, 0.0) }));
+    world.command(client, 4, json!({ "kind": "remove_obstacle", "id": 1 }));
     world.settle();
     assert_eq!(told(&world, client), Some(vec![]));
     let grown = world.document().plant().hash();
-    world.command(client, 5, Command::Undo {});
+    world.command(client, 5, json!({ "kind": "undo" }));
     world.settle();
-    assert_eq!(told(&world, client).unwrap()[0].pose, at(-9.0, 3.0, 0.0));
+    assert_eq!(json!(told(&world, client).unwrap()[0].pose), at(-9.0, 3.0, 0.0));
     for id in 6..=8 {
-        world.command(client, id, Command::Undo {});
+        world.command(client, id, json!({ "kind": "undo" }));
     }
     world.settle();
     assert_eq!(ids(&world, client), [0; 0]);
     for id in 9..=10 {
-        world.command(client, id, Command::Redo {});
+        world.command(client, id, json!({ "kind": "redo" }));
     }
     world.settle();
     assert_eq!(world.document().plant().hash(), grown);
-    assert_eq!(told(&world, client).unwrap()[0].pose, at(9.0, 3.0, 0.0));
+    assert_eq!(json!(told(&world, client).unwrap()[0].pose), at(9.0, 3.0, 0.0));
     assert_eq!(world.peer(client).refused(), []);
     assert_eq!(world.document().hash(), world.replayed_hash());
 }
@@ -104,7 +108,7 @@ fn ob2_a_number_is_never_used_again() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.command(client, 1, ball(1.0, at(9.0, 3.0, 0.0)));
-    world.command(client, 2, Command::Undo {});
+    world.command(client, 2, json!({ "kind": "undo" }));
     world.command(client, 3, ball(2.0, at(9.0, 3.0, 0.0)));
     world.settle();
     world.pass(40_000);
@@ -121,7 +125,7 @@ fn ob2_a_number_is_never_used_again() {
 fn ob1_a_wall_changes_how_a_tree_grows() {
     let mut world = World::new();
     let client = world.join("birch-01");
-    let wall = Shape::Box { size: [1.0, 80.0, 80.0] };
+    let wall = json!({ "kind": "box", "size": [1.0, 80.0, 80.0] });
     world.command(client, 1, place(wall, at(2.0, 40.0, 0.0)));
     world.command(client, 2, grow(14));
     world.settle();
@@ -155,8 +159,8 @@ fn ob2_who_is_not_there_is_refused() {
         world.document().hash()
     };
     let hash = before(&mut world);
-    world.command(client, 2, Command::RemoveObstacle { id: 0, gesture: None });
-    world.command(client, 3, Command::MoveObstacle { id: 2, pose: at(0.0, 0.0, 0.0), gesture: None });
+    world.command(client, 2, json!({ "kind": "remove_obstacle", "id": 0 }));
+    world.command(client, 3, json!({ "kind": "move_obstacle", "id": 2, "pose": at(0.0, 0.0, 0.0) }));
     assert_eq!(before(&mut world), hash);
     for (_, problem) in world.peer(client).refused() {
         assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("id")));
@@ -179,14 +183,14 @@ fn lm6_the_scene_and_its_history_are_bounded() {
         vertices: (0..65_536).map(|n| Vec3::new((n / 2) as f32 * 0.1, (n % 2) as f32, 0.0)).collect(),
         triangles: (0..65_534).flat_map(|n| [[n, n + 1, n + 2], [n, n + 2, n + 1]]).collect(),
     };
-    let shape = Shape::Mesh { mesh: strip.to_base64(), scale: 1.0 };
-    let obstacle = Obstacle { shape, pose: at(0.0, 500.0, 0.0) };
+    let shape = json!({ "kind": "mesh", "mesh": strip.to_base64(), "scale": 1.0 });
+    let obstacle = json!({ "shape": shape, "pose": at(0.0, 500.0, 0.0) });
     let mut world = World::new();
     let client = world.join("birch-01");
     for number in 1..=8 {
-        let command = Box::new(Command::PlaceObstacle { obstacle: obstacle.clone(), gesture: None });
+        let command = parsed(&json!({ "kind": "place_obstacle", "obstacle": obstacle.clone() }));
         world.handle(Input::Act(ActId(number), command));
-        world.command(client, number as u32, Command::RemoveObstacle { id: number as u32, gesture: None });
+        world.command(client, number as u32, json!({ "kind": "remove_obstacle", "id": number as u32 }));
         world.settle();
     }
     let outcomes: Vec<bool> = world.acts.iter().map(|(_, outcome)| outcome.is_ok()).collect();
@@ -199,17 +203,18 @@ fn ob6_an_upload_is_answered_when_it_is_durable() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.write_ms = 500;
-    world.handle(Input::Act(ActId(7), Box::new(mesh(&tetrahedron()))));
+    world.handle(Input::Act(ActId(7), parsed(&mesh(&tetrahedron()))));
     world.pass(400);
     assert!(world.acts.is_empty() && !world.session.is_idle());
     assert_eq!(ids(&world, client), [1], "it stands there already");
     world.pass(200);
     let (act, outcome) = world.acts.remove(0);
     assert_eq!((act, outcome.unwrap().unwrap().id), (ActId(7), 1));
-    // What is out of range is refused at once, and nothing is written.
-    world.handle(Input::Act(ActId(8), Box::new(ball(0.0, at(0.0, 0.0, 0.0)))));
+    // What is no obstacle is refused at once, and nothing is written.
+    let flat = Mesh { triangles: vec![[0, 0, 1]], ..tetrahedron() };
+    world.handle(Input::Act(ActId(8), parsed(&mesh(&flat))));
     let (act, outcome) = world.acts.remove(0);
-    assert_eq!((act, outcome.unwrap_err().field.as_deref()), (ActId(8), Some("obstacle.shape.radius")));
+    assert_eq!((act, outcome.unwrap_err().field.as_deref()), (ActId(8), Some("obstacle.shape.mesh")));
     assert_eq!(world.disk.len(), 1);
     assert_eq!(world.document().hash(), world.replayed_hash());
 }

@@ -1,6 +1,7 @@
 //! `FR`: what the columns of the table say, whatever a tree has been through.
 
-use espalier_proto::{ChunkChange, Command, Frame, Values, frame::CHUNK_ROWS};
+use espalier_proto::{ChunkChange, Frame, Values, frame::CHUNK_ROWS};
+use serde_json::{Value, json};
 
 use crate::{
     mirror::{Mirror, Row, rows_of},
@@ -20,11 +21,11 @@ fn fr7_light_and_vigor_are_functions_of_the_present() {
     let (mut detour, ann, _) = grown();
     for (id, command) in (2..).zip([
         grow(4),
-        Command::Ungrow { steps: 6 },
-        Command::PlantSeed { position: [2.0, 0.0, 0.0] },
+        json!({ "kind": "ungrow", "steps": 6 }),
+        json!({ "kind": "plant_seed", "position": [2.0, 0.0, 0.0] }),
         grow(5),
-        Command::TakeFuture { future: 0 },
-        Command::GoTo { step: 9 },
+        json!({ "kind": "take_future", "future": 0 }),
+        json!({ "kind": "go_to", "step": 9 }),
     ]) {
         detour.command(ann, id, command);
     }
@@ -40,9 +41,13 @@ fn fr7_faint_changes_are_kept_back_from_everybody_alike() {
     let mut world = World::new();
     let (ann, bob) = (world.join("birch-01"), world.join("maple-01"));
     let mut patched = 0;
-    for (id, command) in
-        (1..).zip([grow(12), Command::Ungrow { steps: 4 }, grow(5), Command::Undo {}, grow(9)])
-    {
+    for (id, command) in (1..).zip([
+        grow(12),
+        json!({ "kind": "ungrow", "steps": 4 }),
+        grow(5),
+        json!({ "kind": "undo" }),
+        grow(9),
+    ]) {
         world.command(ann, id, command);
         world.settle();
         // Carol stays for a while, and has all that bob has.
@@ -82,7 +87,7 @@ fn fr8_births_rise_with_the_rows_and_never_change() {
     assert_eq!((known[0], known.last()), (0, Some(&9)));
     let mut id = 1;
     // What each brings was born with the step of growth before it; the mirror refuses a patch of a birth.
-    let mut after = |world: &mut World, command: Command, brings: Option<u32>| {
+    let mut after = |world: &mut World, command: Value, brings: Option<u32>| {
         id += 1;
         world.command(ann, id, command);
         world.settle();
@@ -98,20 +103,28 @@ fn fr8_births_rise_with_the_rows_and_never_change() {
         known = births;
     };
     let rotation = [0.0, 0.0, 0.0, 1.0];
-    let seed = Command::PlantSeed { position: [6.0, 0.0, 0.0] };
+    let seed = json!({ "kind": "plant_seed", "position": [6.0, 0.0, 0.0] });
     after(&mut world, seed, Some(9));
-    after(&mut world, Command::Graft { row: top, onto: base, rotation, keep: true }, Some(9));
+    after(
+        &mut world,
+        json!({ "kind": "graft", "row": top, "onto": base, "rotation": rotation, "keep": true }),
+        Some(9),
+    );
     let bend = [
-        Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.1, gesture: None },
-        Command::BendMove { bend: 1, targets: vec![[3.0, 4.0, 0.0]] },
-        Command::BendEnd { bend: 1 },
-        Command::SetWidth { row: base, diameter: Some(0.7), gesture: None },
+        json!({ "kind": "bend_begin", "bend": 1, "base": base, "touches": vec![top], "stretch": 0.1 }),
+        json!({ "kind": "bend_move", "bend": 1, "targets": vec![[3.0, 4.0, 0.0]] }),
+        json!({ "kind": "bend_end", "bend": 1 }),
+        json!({ "kind": "set_width", "row": base, "diameter": Some(0.7) }),
     ];
     for command in bend {
         after(&mut world, command, None);
     }
     // Edits are no steps of growth: this one is the tenth, and the whole graft counts as young as it.
     after(&mut world, grow(1), Some(10));
-    after(&mut world, Command::Graft { row: top, onto: base, rotation, keep: true }, Some(10));
+    after(
+        &mut world,
+        json!({ "kind": "graft", "row": top, "onto": base, "rotation": rotation, "keep": true }),
+        Some(10),
+    );
     world.assert_mirrored(bob);
 }

@@ -1,9 +1,8 @@
 //! `BE`, `WI`, `TT`, `PD`: what clients see of bends, widths, lines of time and predictions.
 
 use espalier_plant::MetamerId;
-use espalier_proto::{
-    ClientMessage, Command, Frame, OperationKind, ProblemCode, ServerMessage, Timeline, WidthConstraint,
-};
+use espalier_proto::{Frame, OperationKind, ProblemCode, ServerMessage, Timeline, WidthConstraint};
+use serde_json::{Value, json};
 
 use crate::{
     mirror::Mirror,
@@ -20,13 +19,13 @@ pub fn limb(world: &World) -> (u32, u32) {
     (top.raw(), down(top).nth(6).expect("it stands higher").raw())
 }
 
-fn begin(world: &World) -> Command {
+fn begin(world: &World) -> Value {
     let (top, base) = limb(world);
-    Command::BendBegin { bend: 1, base, touches: vec![top], stretch: 0.1, gesture: None }
+    json!({ "kind": "bend_begin", "bend": 1, "base": base, "touches": vec![top], "stretch": 0.1 })
 }
 
-fn drag(x: f32) -> Command {
-    Command::BendMove { bend: 1, targets: vec![[x, 6.0, 0.0]] }
+fn drag(x: f32) -> Value {
+    json!({ "kind": "bend_move", "bend": 1, "targets": vec![[x, 6.0, 0.0]] })
 }
 
 pub fn timeline(peer: &Peer) -> Timeline {
@@ -73,7 +72,7 @@ fn be5_while_a_branch_is_dragged_only_poses_travel() {
     let carol = world.join("aspen-01");
     world.settle();
     assert_eq!(world.peer(carol).poses.last().map(|pose| &pose.motions), Some(&last.motions));
-    world.command(ann, 8, Command::BendEnd { bend: 1 });
+    world.command(ann, 8, json!({ "kind": "bend_end", "bend": 1 }));
     world.settle();
     for client in [ann, bob, carol] {
         let over = world.peer(client).poses.last().expect("it is told");
@@ -102,7 +101,7 @@ fn be5_slow_clients_get_the_newest_pose_alone() {
     assert_eq!(world.peer(bob).poses.last(), Some(&newest));
     assert_eq!(world.peer(bob).poses.len(), 2);
     // That it is over is said without waiting: its rows have moved.
-    world.command(ann, 23, Command::BendCancel { bend: 1 });
+    world.command(ann, 23, json!({ "kind": "bend_cancel", "bend": 1 }));
     world.pass(20);
     assert!(world.peer(bob).poses.last().is_some_and(|pose| pose.motions.is_empty()));
 }
@@ -144,7 +143,7 @@ fn be4_a_bend_goes_on_after_a_crash() {
         world.settle();
         assert_eq!(world.peer(ann).poses.len(), 1, "the pose is told again");
         world.command(ann, 5, drag(3.0));
-        world.command(ann, 6, Command::BendEnd { bend: 1 });
+        world.command(ann, 6, json!({ "kind": "bend_end", "bend": 1 }));
         world.settle();
         assert_eq!(world.peer(ann).refused(), []);
         assert_eq!(world.replayed_hash(), world.document().hash());
@@ -157,7 +156,7 @@ fn wi2_constraints_are_told_to_all_and_to_newcomers() {
     let (mut world, ann, bob) = grown();
     let (row, _) = limb(&world);
     assert_eq!(widths(world.peer(bob)), None);
-    let set = |diameter| Command::SetWidth { row, diameter, gesture: Some(1) };
+    let set = |diameter| json!({ "kind": "set_width", "row": row, "diameter": diameter, "gesture": Some(1) });
     world.command(ann, 2, set(Some(0.8)));
     world.settle();
     let told = widths(world.peer(bob)).expect("it changed");
@@ -166,7 +165,7 @@ fn wi2_constraints_are_told_to_all_and_to_newcomers() {
     world.assert_mirrored(bob);
     let carol = world.join("aspen-01");
     assert_eq!(widths(world.peer(carol)), Some(told));
-    world.command(ann, 3, Command::Undo {});
+    world.command(ann, 3, json!({ "kind": "undo" }));
     world.settle();
     assert_eq!(widths(world.peer(carol)), Some(Vec::new()));
     assert_eq!(widths(world.peer(bob)), Some(Vec::new()));
@@ -181,8 +180,8 @@ fn tt1_the_timeline_names_no_keys() {
     let told = timeline(world.peer(ann));
     assert_eq!(told.operations.iter().map(|op| op.author).collect::<Vec<_>>(), [0, 1, 0]);
     assert_eq!((told.step, told.last_step, told.done), (11, 11, 3));
-    world.command(ann, 3, Command::GoTo { step: 4 });
-    world.command(ann, 4, Command::PlantSeed { position: [5.0, 0.0, 0.0] });
+    world.command(ann, 3, json!({ "kind": "go_to", "step": 4 }));
+    world.command(ann, 4, json!({ "kind": "plant_seed", "position": [5.0, 0.0, 0.0] }));
     world.settle();
     let told = timeline(world.peer(bob));
     assert_eq!((told.step, told.futures.len(), told.futures[0].steps), (5, 1, 7));
@@ -207,13 +206,13 @@ fn pd3_the_ghost_is_what_comes_of_the_cut() {
     let (mut world, ann, bob) = grown();
     let (row, _) = limb(&world);
     let before = world.document().hash();
-    world.send(ann, &ClientMessage::Predict { rows: vec![row], steps: 6 });
+    world.send(ann, &json!({ "type": "predict", "rows": vec![row], "steps": 6 }));
     world.settle();
     assert_eq!(world.document().hash(), before, "PD1: nothing changes");
     assert_eq!((world.peer(ann).ghosts.len(), world.peer(bob).ghosts.len()), (1, 0), "PD2: for ann alone");
     let ghost = rows_of_ghost(world.peer(ann));
-    world.command(ann, 2, Command::Prune { rows: vec![row], gesture: Some(3) });
-    world.command(ann, 3, Command::Grow { steps: 6, gesture: Some(3), bud: None });
+    world.command(ann, 2, json!({ "kind": "prune", "rows": vec![row], "gesture": Some(3) }));
+    world.command(ann, 3, json!({ "kind": "grow", "steps": 6, "gesture": Some(3) }));
     world.settle();
     assert_eq!(world.peer(ann).ghosts.len(), 2);
     assert!(world.peer(ann).ghosts[1].changes.is_empty(), "PD2: a command ends it");
@@ -225,7 +224,7 @@ fn pd3_the_ghost_is_what_comes_of_the_cut() {
     };
     assert_eq!(form(&world.peer(carol).mirror), form(&ghost));
     assert_eq!(timeline(world.peer(ann)).operations.len(), 2, "PR2: cut and growth are one operation");
-    world.command(ann, 4, Command::Undo {});
+    world.command(ann, 4, json!({ "kind": "undo" }));
     world.settle();
     assert_eq!(timeline(world.peer(ann)).done, 1);
 }
@@ -235,17 +234,17 @@ fn pd2_a_newer_prediction_takes_the_place_of_the_older() {
     let (mut world, ann, _) = grown();
     let (row, _) = limb(&world);
     for steps in [50, 40, 1] {
-        world.send(ann, &ClientMessage::Predict { rows: vec![row], steps });
+        world.send(ann, &json!({ "type": "predict", "rows": vec![row], "steps": steps }));
     }
     world.settle();
     let rows: Vec<_> =
         world.peer(ann).ghosts.iter().map(|_| rows_of_ghost(world.peer(ann)).rows.len()).collect();
     assert_eq!(rows.len(), 1, "the newest alone is answered");
     assert!(rows[0] < 2 * world.document().plant().metamer_count(), "one step, not fifty");
-    world.send(ann, &ClientMessage::Predict { rows: Vec::new(), steps: 0 });
+    world.send(ann, &json!({ "type": "predict", "rows": [], "steps": 0 }));
     world.settle();
     assert!(world.peer(ann).ghosts.last().is_some_and(|ghost| ghost.changes.is_empty()));
-    world.send(ann, &ClientMessage::Predict { rows: vec![row], steps: 2 });
+    world.send(ann, &json!({ "type": "predict", "rows": vec![row], "steps": 2 }));
     world.leave(ann);
     world.settle();
     world.pass(100_000);
@@ -255,7 +254,7 @@ fn pd2_a_newer_prediction_takes_the_place_of_the_older() {
 #[test]
 fn pd1_impossible_predictions_are_answered() {
     let (mut world, ann, _) = grown();
-    let predict = |rows: &[u32], steps| ClientMessage::Predict { rows: rows.to_vec(), steps };
+    let predict = |rows: &[u32], steps| json!({ "type": "predict", "rows": rows.to_vec(), "steps": steps });
     for (message, code, field) in [
         (predict(&[1_000_000], 1), ProblemCode::NotFound, "rows[0]"),
         (predict(&[1], 1), ProblemCode::Refused, "rows[0]"),

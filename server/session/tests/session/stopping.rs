@@ -1,13 +1,15 @@
 //! `ST`: growth that somebody ends.
 
-use espalier_proto::Command;
+use serde_json::{Value, json};
 
 use crate::{
     guiding::lasso,
     world::{World, grow},
 };
 
-const STOP: Command = Command::Stop { tick: None };
+fn stop() -> Value {
+    json!({ "kind": "stop" })
+}
 
 fn check_replays(world: &mut World) {
     let hash = world.document().hash();
@@ -25,7 +27,7 @@ fn st1_growth_ends_and_stays_as_it_is() {
     world.pass(130);
     let under_way = world.peer(client).last_state().unwrap();
     assert!(under_way.pending_steps > 900);
-    world.command(client, 2, STOP);
+    world.command(client, 2, stop());
     world.settle();
     let state = world.peer(client).last_state().unwrap();
     assert!(state.step > 4 && state.step <= 20, "{state:?}");
@@ -33,9 +35,9 @@ fn st1_growth_ends_and_stays_as_it_is() {
     assert_eq!(world.peer(client).acknowledged().last(), Some(&2));
     // What comes later grows as ever, and what was grown is one operation.
     world.command(client, 3, grow(3));
-    world.command(client, 4, Command::Undo {});
-    world.command(client, 5, Command::Undo {});
-    world.command(client, 6, Command::Redo {});
+    world.command(client, 4, json!({ "kind": "undo" }));
+    world.command(client, 5, json!({ "kind": "undo" }));
+    world.command(client, 6, json!({ "kind": "redo" }));
     world.settle();
     assert_eq!(world.document().figures().step, state.step);
     check_replays(&mut world);
@@ -48,7 +50,7 @@ fn st1_growth_that_waits_does_not_begin() {
     world.command(birch, 1, grow(500));
     world.command(birch, 2, lasso(9.0, 20.0, None));
     world.command(birch, 3, grow(500));
-    world.command(maple, 1, STOP);
+    world.command(maple, 1, stop());
     world.command(birch, 4, grow(2));
     world.settle();
     let step = world.document().figures().step;
@@ -62,11 +64,11 @@ fn st1_a_lasso_can_be_stopped() {
     let client = world.join("birch-01");
     world.command(client, 1, lasso(25.0, 40.0, None));
     world.pass(4);
-    world.command(client, 2, STOP);
+    world.command(client, 2, stop());
     world.settle();
     let stopped = world.document().metamers();
     assert!(stopped > 0);
-    world.command(client, 3, Command::Undo {});
+    world.command(client, 3, json!({ "kind": "undo" }));
     world.command(client, 4, lasso(25.0, 40.0, None));
     world.settle();
     assert!(world.document().metamers() > 2 * stopped, "unstopped it goes on");
@@ -77,7 +79,7 @@ fn st1_a_lasso_can_be_stopped() {
 fn st1_with_nothing_to_stop_nothing_happens() {
     let mut world = World::new();
     let client = world.join("birch-01");
-    world.command(client, 1, STOP);
+    world.command(client, 1, stop());
     world.command(client, 2, grow(10));
     world.settle();
     // The count a client gives is not taken for true: what is done stays done, in a replay as well.
@@ -95,7 +97,7 @@ fn st1_a_stop_lost_in_a_crash_stops_nothing() {
     world.command(client, 1, grow(30));
     world.pass(6);
     world.write_ms = 1_000_000;
-    world.command(client, 2, STOP);
+    world.command(client, 2, stop());
     world.pass(50);
     world.crash();
     world.write_ms = 5;

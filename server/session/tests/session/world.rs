@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
-    Resume, ServerMessage,
+    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem, Resume,
+    ServerMessage,
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
     ActId, ClientId, Document, Foresight, Input, JournalEntry, Output, ReadId, Session, Work,
 };
+use serde_json::{Value, json};
 
 use crate::mirror::{Mirror, rows_of};
 
@@ -230,10 +231,10 @@ impl World {
     pub fn answer_frames(&mut self, id: u64) {
         let frames = std::mem::take(&mut self.peers.get_mut(&id).unwrap().in_flight);
         if let Some(&(sequence, _)) = frames.last() {
-            self.send(id, &ClientMessage::Received { sequence, kind: 1 });
+            self.send(id, &json!({ "type": "received", "sequence": sequence, "kind": 1 }));
         }
         for (kind, sequence) in std::mem::take(&mut self.peers.get_mut(&id).unwrap().unanswered) {
-            self.send(id, &ClientMessage::Received { sequence, kind });
+            self.send(id, &json!({ "type": "received", "sequence": sequence, "kind": kind }));
         }
     }
 
@@ -293,7 +294,7 @@ impl World {
         self.peers.remove(&id).unwrap()
     }
 
-    pub fn send(&mut self, id: u64, message: &ClientMessage) {
+    pub fn send(&mut self, id: u64, message: &impl serde::Serialize) {
         self.text(id, &serde_json::to_string(message).unwrap());
     }
 
@@ -301,8 +302,8 @@ impl World {
         self.handle(Input::Text(ClientId(id), text.into()));
     }
 
-    pub fn command(&mut self, client: u64, id: u32, command: Command) {
-        self.send(client, &ClientMessage::Command { id, command });
+    pub fn command(&mut self, client: u64, id: u32, command: Value) {
+        self.send(client, &json!({ "type": "command", "id": id, "command": command }));
     }
 
     pub fn peer(&self, id: u64) -> &Peer {
@@ -383,6 +384,6 @@ impl Peer {
     }
 }
 
-pub fn grow(steps: u32) -> Command {
-    Command::Grow { steps, gesture: None, bud: None }
+pub fn grow(steps: u32) -> Value {
+    json!({ "kind": "grow", "steps": steps })
 }

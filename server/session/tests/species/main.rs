@@ -3,7 +3,8 @@
 mod form;
 
 use espalier_growth::species;
-use espalier_session::{Action, Document, script, wire_species};
+use espalier_proto::Action;
+use espalier_session::{Document, script, wire_species};
 
 use crate::form::Form;
 
@@ -16,7 +17,7 @@ fn form(slug: &str) -> Form {
 fn raised(species: &species::Species) -> Document {
     let mut document = Document::new(1);
     for action in script(species) {
-        document.apply("gardener", &action).expect("a schedule can be done");
+        document.apply("gardener", &action.into()).expect("a schedule can be done");
     }
     document
 }
@@ -36,9 +37,7 @@ fn picking_sets_what_the_wire_says() {
     for species in species::all() {
         let mut document = Document::new(1);
         let patch = wire_species(species).parameters.into();
-        document
-            .apply("gardener", &Action::SetParameters { patch: Box::new(patch), gesture: None })
-            .expect("in range");
+        document.apply("gardener", &Action::SetParameters { parameters: patch }.into()).expect("in range");
         assert_eq!(document.parameters(), wire_species(species).parameters, "{}", species.slug);
     }
 }

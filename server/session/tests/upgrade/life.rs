@@ -1,7 +1,7 @@
 //! Random lives of a document, as commands of the journal.
 
 use espalier_plant::MetamerId;
-use espalier_session::{Action, Document};
+use espalier_session::{Document, read_command};
 use proptest::prelude::*;
 
 /// Something that is done. Rows are any numbers, from which a living metamer is found.
@@ -57,8 +57,8 @@ pub fn deeds() -> impl Strategy<Value = Vec<Deed>> {
 /// Does it; what the document refuses changes nothing.
 pub fn live(document: &mut Document, number: usize, deed: &Deed) {
     for command in commands(document, number, deed) {
-        let action = Action::from_json(&command).unwrap_or_else(|problem| panic!("{command}: {problem}"));
-        let _refused = document.apply("ann", &action);
+        let read = read_command(&command).unwrap_or_else(|problem| panic!("{command}: {problem}"));
+        let _refused = document.apply("ann", &read);
     }
 }
 

@@ -155,7 +155,7 @@ pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>
 /// All sets of obstacles.
 pub(super) fn read_obstacles(reader: &mut Reader<'_>) -> Result<Vec<Standings>, DocumentError> {
     let meshes = reader
-        .list(|r| Mesh::from_bytes(r.bytes()?).map(Arc::new).map_err(|problem| damaged(problem.message)))?;
+        .list(|r| Mesh::from_bytes(r.bytes()?).map(Arc::new).map_err(|fault| damaged(fault.to_string())))?;
     // An obstacle that was moved stands in many sets, but its mesh is made once.
     let mut forms = BTreeMap::new();
     reader.list(|r| {

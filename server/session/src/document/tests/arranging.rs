@@ -1,39 +1,41 @@
 //! Obstacles: what they keep out, and what one gesture does to them (`OB2`).
 
-use espalier_proto::{Command, OperationKind, PlacedShape, ProblemCode, Shape};
+use espalier_proto::{
+    Mesh, Obstacle, OperationKind, PlacedShape, Pose, ProblemCode, Scale, Shape, SimpleShape, SphereRadius,
+};
 use proptest::prelude::*;
 
 use super::{
     histories::{Event, Form, events, form, happen},
     *,
 };
-use crate::obstacle::{self, Mesh, Obstacle, Pose};
 
 /// The gesture of the hand that is tried; no event has it.
 const HAND: Option<u32> = Some(70);
 
 pub(super) fn pose(x: f32) -> Pose {
-    Pose { position: Vec3::new(x, 3.0, 0.0), rotation: Quat::from_rotation_y(x) }
+    Pose {
+        position: Position::nearest(Vec3::new(x, 3.0, 0.0)),
+        rotation: UnitRotation::nearest(Quat::from_rotation_y(x)),
+    }
 }
 
-pub(super) fn place(shape: &Shape, x: f32) -> Action {
+pub(super) fn place(shape: &Shape, x: f32) -> Command {
     place_in(None, shape, x)
 }
 
-pub(super) fn place_in(gesture: Option<u32>, shape: &Shape, x: f32) -> Action {
-    let pose = espalier_proto::Pose { position: [x, 3.0, 0.0], rotation: pose(x).rotation.to_array() };
-    let obstacle = espalier_proto::Obstacle { shape: shape.clone(), pose };
-    let obstacle = Box::new(Obstacle::parse(&obstacle).expect("in range"));
-    Action::PlaceObstacle { obstacle, gesture }
+pub(super) fn place_in(gesture: Option<u32>, shape: &Shape, x: f32) -> Command {
+    let obstacle = Obstacle { shape: shape.clone(), pose: pose(x) };
+    in_gesture(gesture, Action::PlaceObstacle { obstacle })
 }
 
 #[test]
 fn no_seed_is_planted_in_an_obstacle() {
     let mut document = Document::new(4);
-    let ball = place(&Shape::Sphere { radius: 4.0 }, 20.0);
+    let ball = place(&sphere(4.0), 20.0);
     document.apply("ann", &ball).expect("there is room");
     let before = document.hash();
-    let plant = |x: f32| Action::PlantSeed { position: Vec3::X * x };
+    let plant = |x: f32| plain(Action::PlantSeed { position: Position::nearest(Vec3::X * x) });
     let problem = document.apply("ann", &plant(20.0)).expect_err("the ball reaches below the ground there");
     assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::OutOfRange, Some("position")));
     assert!(problem.message.contains("obstacle"), "{}", problem.message);
@@ -52,25 +54,30 @@ fn a_moved_mesh_is_not_made_again() {
     document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
     document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
     let before = [made(&document, 0), made(&document, 1)];
-    document
-        .apply("ann", &Action::MoveObstacle { id: 1, pose: pose(5.0), gesture: None })
-        .expect("it is there");
-    document.apply("ann", &place(&Shape::Sphere { radius: 1.0 }, 15.0)).expect("there is room");
+    document.apply("ann", &plain(Action::MoveObstacle { id: 1, pose: pose(5.0) })).expect("it is there");
+    document.apply("ann", &place(&sphere(1.0), 15.0)).expect("there is room");
     for (index, before) in before.iter().enumerate() {
         assert!(Arc::ptr_eq(before, &made(&document, index)), "{index}");
     }
 }
 
 fn ball() -> Shape {
-    Shape::Sphere { radius: 2.0 }
+    sphere(2.0)
 }
 
-fn push(id: u32, x: f32, gesture: Option<u32>) -> Action {
-    Action::MoveObstacle { id, pose: pose(x), gesture }
+pub(super) fn sphere(radius: f32) -> Shape {
+    Shape::Sphere { radius: SphereRadius::nearest(radius) }
 }
 
-pub(super) fn swell(id: u32, radius: f32, gesture: Option<u32>) -> Action {
-    Action::ReshapeObstacle { id, form: obstacle::Form::Sphere { radius }, gesture }
+fn push(id: u32, x: f32, gesture: Option<u32>) -> Command {
+    in_gesture(gesture, Action::MoveObstacle { id, pose: pose(x) })
+}
+
+pub(super) fn swell(id: u32, radius: f32, gesture: Option<u32>) -> Command {
+    in_gesture(
+        gesture,
+        Action::ReshapeObstacle { id, shape: SimpleShape::try_from(sphere(radius)).expect("no mesh") },
+    )
 }
 
 #[test]
@@ -83,9 +90,8 @@ fn ob2_a_mesh_keeps_its_shape() {
     let problem = document.apply("ann", &swell(2, 2.0, None)).expect_err("nothing is there");
     assert_eq!(problem.code, ProblemCode::NotFound);
     assert_eq!(document.hash(), before);
-    let wire = Command::ReshapeObstacle { id: 1, shape: slab(), gesture: None };
-    let problem = Action::parse(&wire).expect_err("nothing becomes a mesh");
-    assert_eq!(problem.field.as_deref(), Some("shape.kind"));
+    let refused = SimpleShape::try_from(slab()).expect_err("nothing becomes a mesh");
+    assert_eq!(refused.at, "kind");
 }
 
 #[test]
@@ -99,9 +105,9 @@ fn ob2_another_shape_and_place_by_one_gesture_are_one_undo() {
     let after = form(&document);
     assert_eq!(document.obstacles()[0].shape, PlacedShape::Sphere { radius: 4.0 });
     assert_eq!(kinds(&document), [OperationKind::Growth, OperationKind::Obstacle, OperationKind::Obstacle]);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(form(&document), before);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(form(&document), after);
 }
 
@@ -115,7 +121,7 @@ fn ob2_what_comes_between_parts_a_gesture() {
         ("ann", push(1, 5.0, None)),
         ("bob", push(1, 6.0, Some(2))),
         ("ann", push(1, 7.0, Some(2))),
-        ("ann", Action::Grow { steps: 1, gesture: Some(2), bud: None }),
+        ("ann", in_gesture(Some(2), Action::Grow { steps: Steps::nearest(1), bud: None })),
         ("ann", push(1, 8.0, Some(2))),
     ] {
         let operations = document.timeline().operations.len();
@@ -134,7 +140,7 @@ fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
     let mut document = tree();
     apply(&mut document, &place(&ball(), 9.0));
     grow(&mut document, 2, None);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     let (before, timeline) = (document.hash(), document.timeline());
     apply(&mut document, &push(1, 4.0, HAND));
     assert_eq!(document.timeline().futures.len(), 1, "TT3: the growth undone is another future");
@@ -148,7 +154,7 @@ fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
     assert!(document.figures().can_redo);
     // What was placed and taken away at once was never there; its number stays its own.
     apply(&mut document, &place_in(HAND, &ball(), 4.0));
-    apply(&mut document, &Action::RemoveObstacle { id: 2, gesture: HAND });
+    apply(&mut document, &in_gesture(HAND, Action::RemoveObstacle { id: 2 }));
     assert!(document.figures().can_redo);
     apply(&mut document, &place_in(HAND, &ball(), 4.0));
     assert_eq!(document.obstacles().last().map(|obstacle| obstacle.id), Some(3));
@@ -180,7 +186,7 @@ fn arrange(document: &mut Document, deed: &Deed) {
         Deed::Place(x) => place_in(HAND, &ball(), 3.0 * x as f32),
         Deed::Push(any, x) => push(found(any), 3.0 * x as f32, HAND),
         Deed::Swell(any, radius) => swell(found(any), f32::from(radius), HAND),
-        Deed::Clear(any) => Action::RemoveObstacle { id: found(any), gesture: HAND },
+        Deed::Clear(any) => in_gesture(HAND, Action::RemoveObstacle { id: found(any) }),
     };
     // Where nothing stands there is nothing to move.
     let _ = document.apply("ann", &action);
@@ -204,9 +210,9 @@ fn check_gesture(seed: u32, earlier: &[Event], hand: &[Deed]) -> Result<(), Test
         return Ok(());
     }
     prop_assert!(!document.figures().can_redo, "what lay ahead is another future");
-    document.apply("ann", &Action::Undo).expect("there is the gesture");
+    document.apply("ann", &plain(Action::Undo {})).expect("there is the gesture");
     prop_assert_eq!(&form(&document), &before);
-    document.apply("ann", &Action::Redo).expect("it was just undone");
+    document.apply("ann", &plain(Action::Redo {})).expect("it was just undone");
     prop_assert_eq!(&form(&document), &after);
     Ok(())
 }
@@ -225,5 +231,5 @@ pub(super) fn slab() -> Shape {
     let corners = [[-3.0, -3.0, 0.0], [3.0, -3.0, 0.0], [3.0, 3.0, 0.5], [-3.0, 3.0, 0.5]];
     let mesh =
         Mesh { vertices: corners.map(Vec3::from_array).to_vec(), triangles: vec![[0, 1, 2], [0, 2, 3]] };
-    Shape::Mesh { mesh: mesh.to_base64(), scale: 1.5 }
+    Shape::Mesh { mesh, scale: Scale::nearest(1.5) }
 }

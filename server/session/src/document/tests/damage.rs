@@ -14,11 +14,11 @@ const ENTRY: usize = 28;
 /// A document with something in every section.
 static BYTES: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut document = tree();
-    apply(&mut document, &Action::SetWidth { row: 3, diameter: Some(0.4), gesture: None });
-    apply(&mut document, &Action::Ungrow { steps: 2 });
+    apply(&mut document, &plain(Action::SetWidth { row: 3, diameter: Some(Diameter::nearest(0.4)) }));
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(2) }));
     grow(&mut document, 1, None);
     stroke(&mut document, 1);
-    apply(&mut document, &Action::StrokeBegin { stroke: 2, bud: None });
+    apply(&mut document, &plain(Action::StrokeBegin { stroke: 2, bud: None }));
     document.to_bytes()
 });
 
@@ -207,8 +207,8 @@ proptest! {
         *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
         if let Ok(mut read) = Document::from_bytes(&container.to_bytes()) {
             // Whatever it is, it is a document: it can be gone through and grows on.
-            while read.apply("ann", &Action::Undo).is_ok() {}
-            let _full = read.apply("ann", &Action::Grow { steps: 1, gesture: None, bud: None });
+            while read.apply("ann", &plain(Action::Undo {})).is_ok() {}
+            let _full = read.apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), bud: None }));
             prop_assert!(Document::from_bytes(&read.to_bytes()).is_ok());
         }
     }

@@ -6,7 +6,6 @@ use espalier_plant::{AxisId, Carried, Internode, MetamerId, Plant, checks};
 use proptest::prelude::*;
 
 use super::*;
-use crate::action::Action;
 
 /// By how much wood stretches in a step.
 const STRETCH: f32 = 1.05;
@@ -123,7 +122,7 @@ fn row(document: &Document, pick: u16) -> u32 {
 }
 
 fn steps(document: &mut Document, step: Step, steps: u32) -> Result<(), Problem> {
-    document.begin_steps("ann", steps, None, step)?;
+    document.begin_steps(Cause::from("ann"), steps, step)?;
     while document.advance() {}
     Ok(())
 }
@@ -139,34 +138,44 @@ fn happen(document: &mut Document, event: &Event) -> Result<(), Problem> {
             *document = again;
             return Ok(());
         }
-        Event::Grow(steps) => vec![Action::Grow { steps, gesture: None, bud: None }],
-        Event::Ungrow(steps) => vec![Action::Ungrow { steps }],
-        Event::Undo => vec![Action::Undo],
-        Event::Redo => vec![Action::Redo],
+        Event::Grow(steps) => vec![plain(Action::Grow { steps: Steps::nearest(steps), bud: None })],
+        Event::Ungrow(steps) => vec![plain(Action::Ungrow { steps: Steps::nearest(steps) })],
+        Event::Undo => vec![plain(Action::Undo {})],
+        Event::Redo => vec![plain(Action::Redo {})],
         Event::GoTo(step) => {
-            vec![Action::GoTo { step: u32::from(step) % (document.plant().last_step() + 1) }]
+            vec![plain(Action::GoTo { step: u32::from(step) % (document.plant().last_step() + 1) })]
         }
         Event::TakeFuture => {
             let future = document.futures.all.first().map_or(u32::MAX, |future| future.line);
-            vec![Action::TakeFuture { future }]
+            vec![plain(Action::TakeFuture { future })]
         }
-        Event::Prune(pick) => vec![Action::Prune { rows: vec![of(pick)], gesture: None }],
+        Event::Prune(pick) => vec![plain(Action::Prune { rows: list(vec![of(pick)]) })],
         Event::Bend(pick) => {
             let touched = of(pick);
             let base = bearer(document, touched);
             let target = end(document, touched) + Vec3::new(0.4, 0.0, 0.2);
             vec![
-                Action::BendBegin { bend: 1, base, touches: vec![touched], stretch: 0.5, gesture: None },
-                Action::BendMove { bend: 1, targets: vec![target] },
-                Action::BendEnd { bend: 1 },
+                plain(Action::BendBegin {
+                    bend: 1,
+                    base,
+                    touches: held(vec![touched]),
+                    stretch: Share::nearest(0.5),
+                }),
+                plain(Action::BendMove { bend: 1, targets: places(vec![target]) }),
+                plain(Action::BendEnd { bend: 1 }),
             ]
         }
         Event::Width(pick) => {
-            vec![Action::SetWidth { row: of(pick), diameter: Some(0.5), gesture: None }]
+            vec![plain(Action::SetWidth { row: of(pick), diameter: Some(Diameter::nearest(0.5)) })]
         }
         Event::Graft(pick, onto) => {
             let rotation = Quat::from_xyzw(0.0, 0.6, 0.0, 0.8);
-            vec![Action::Graft { row: of(pick), onto: of(onto), rotation, keep: true }]
+            vec![plain(Action::Graft {
+                row: of(pick),
+                onto: of(onto),
+                rotation: UnitRotation::nearest(rotation),
+                keep: true,
+            })]
         }
     };
     actions.iter().try_for_each(|action| document.apply("ann", action))
@@ -226,12 +235,12 @@ proptest! {
             prop_assert_eq!(document.hash(), opened.hash());
         }
         let mut undone = 0;
-        while document.apply("ann", &Action::Undo).is_ok() {
+        while document.apply("ann", &plain(Action::Undo {})).is_ok() {
             undone += 1;
         }
         prop_assert_eq!(document.plant().hash(), seedling);
         for _ in 0..undone {
-            document.apply("ann", &Action::Redo).expect("it was undone");
+            document.apply("ann", &plain(Action::Redo {})).expect("it was undone");
         }
         prop_assert_eq!(document.plant().hash(), opened.plant().hash());
     }
@@ -249,11 +258,11 @@ fn a_fork_grows_by_its_own_rules_and_is_undone() {
     assert_eq!(plant.given_radius(MetamerId::new(1)), Some(0.05 + 0.01));
     assert_eq!(document.simulation.generator().forks().followed, 0);
     let grown = plant.hash();
-    apply(&mut document, &Action::Ungrow { steps: 1 });
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(1) }));
     assert!((document.plant().metamers().end(MetamerId::new(1)).y - STRETCH).abs() < 1e-5);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().living_count(), 0);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(document.plant().hash(), grown);
     assert!(document.simulation.generator().forks().followed >= 3, "it hears of every move in time");
 }

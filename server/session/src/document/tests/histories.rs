@@ -1,11 +1,10 @@
 //! Random histories: back to the seedling, forth to the tree, written down and read again, bit for bit.
 
 use espalier_plant::checks;
-use espalier_proto::Shape;
 use proptest::prelude::*;
 
 use super::{
-    arranging::{place_in, pose, slab, swell},
+    arranging::{place_in, pose, slab, sphere, swell},
     *,
 };
 
@@ -114,7 +113,7 @@ fn row(document: &Document, any: u32) -> u32 {
     living.next().map_or(u32::MAX, MetamerId::raw)
 }
 
-fn hold(document: &Document, bend: u32, end: u32, length: u32, touches: u32, stretch: f32) -> Action {
+fn hold(document: &Document, bend: u32, end: u32, length: u32, touches: u32, stretch: f32) -> Command {
     let plant = document.plant();
     let end = row(document, end);
     let mut path = vec![end];
@@ -125,16 +124,19 @@ fn hold(document: &Document, bend: u32, end: u32, length: u32, touches: u32, str
     }
     let base = path[path.len() - 1];
     let touches = path.iter().step_by(2).take(touches as usize).copied().collect();
-    Action::BendBegin { bend, base, touches, stretch, gesture: Some(bend % 2) }
+    in_gesture(
+        Some(bend % 2),
+        Action::BendBegin { bend, base, touches: held(touches), stretch: Share::nearest(stretch) },
+    )
 }
 
-fn drag(document: &Document, bend: u32, shift: [f32; 3]) -> Action {
+fn drag(document: &Document, bend: u32, shift: [f32; 3]) -> Command {
     let open = document.bends.open.iter().find(|open| open.number == bend);
     let wanted = |open: &bending::OpenBend| {
         let ends = open.touches.iter().map(|&touch| document.plant().metamers().end(open.path[touch]));
         ends.map(|end| end + Vec3::from_array(shift)).collect()
     };
-    Action::BendMove { bend, targets: open.map_or_else(|| vec![Vec3::ONE], wanted) }
+    plain(Action::BendMove { bend, targets: places(open.map_or_else(|| vec![Vec3::ONE], wanted)) })
 }
 
 pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
@@ -154,61 +156,68 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
             return;
         }
         Event::Stroke => return stroke(document, 1000 + number as u32),
-        Event::Grow(steps) => Action::Grow { steps: *steps, gesture: None, bud: None },
-        Event::GrowOn(steps, gesture) => Action::Grow { steps: *steps, gesture: Some(*gesture), bud: None },
-        Event::Ungrow(steps) => Action::Ungrow { steps: *steps },
-        Event::Undo => Action::Undo,
-        Event::Redo => Action::Redo,
+        Event::Grow(steps) => plain(Action::Grow { steps: Steps::nearest(*steps), bud: None }),
+        Event::GrowOn(steps, gesture) => {
+            in_gesture(Some(*gesture), Action::Grow { steps: Steps::nearest(*steps), bud: None })
+        }
+        Event::Ungrow(steps) => plain(Action::Ungrow { steps: Steps::nearest(*steps) }),
+        Event::Undo => plain(Action::Undo {}),
+        Event::Redo => plain(Action::Redo {}),
         Event::Apical(value, gesture) => patch_in(*gesture, *value),
         Event::Season(season, gesture) => looks::season(*gesture, *season as f32),
         Event::Shedding(threshold) => {
             let patch =
                 ParametersPatch { shedding_threshold: Some(*threshold), ..ParametersPatch::default() };
-            Action::SetParameters { patch: Box::new(patch), gesture: None }
+            plain(Action::SetParameters { parameters: patch })
         }
-        Event::Seed(x) => Action::PlantSeed { position: Vec3::X * *x },
-        Event::Begin(stroke) => Action::StrokeBegin { stroke: *stroke, bud: None },
+        Event::Seed(x) => plain(Action::PlantSeed { position: Position::nearest(Vec3::X * *x) }),
+        Event::Begin(stroke) => plain(Action::StrokeBegin { stroke: *stroke, bud: None }),
         Event::Move(stroke, x, y, r) => {
-            Action::StrokeMove { stroke: *stroke, samples: vec![sample(*x, *y, *r)] }
+            plain(Action::StrokeMove { stroke: *stroke, samples: list(vec![sample(*x, *y, *r)]) })
         }
-        Event::End(stroke) => Action::StrokeEnd { stroke: *stroke },
+        Event::End(stroke) => plain(Action::StrokeEnd { stroke: *stroke }),
         Event::Lasso(w, h) => lasso(*w, *h),
-        Event::Choose(row) => Action::Grow { steps: 2, gesture: None, bud: Some(*row) },
-        Event::Ball(x, radius, gesture) => place_in(*gesture, &Shape::Sphere { radius: *radius }, *x),
+        Event::Choose(row) => plain(Action::Grow { steps: Steps::nearest(2), bud: Some(*row) }),
+        Event::Ball(x, radius, gesture) => place_in(*gesture, &sphere(*radius), *x),
         Event::Mesh(x, gesture) => place_in(*gesture, &slab(), *x),
-        Event::Push(id, x, gesture) => Action::MoveObstacle { id: *id, pose: pose(*x), gesture: *gesture },
+        Event::Push(id, x, gesture) => in_gesture(*gesture, Action::MoveObstacle { id: *id, pose: pose(*x) }),
         Event::Swell(id, radius, gesture) => swell(*id, *radius, *gesture),
-        Event::Clear(id, gesture) => Action::RemoveObstacle { id: *id, gesture: *gesture },
+        Event::Clear(id, gesture) => in_gesture(*gesture, Action::RemoveObstacle { id: *id }),
         Event::Hold { bend, end, length, touches, stretch } => {
             hold(document, *bend, *end, *length, *touches, *stretch)
         }
         Event::Drag { bend, shift } => drag(document, *bend, *shift),
-        Event::LetGo(bend) => Action::BendEnd { bend: *bend },
-        Event::GiveUp(bend) => Action::BendCancel { bend: *bend },
-        Event::Width(row, diameter, gesture) => {
-            Action::SetWidth { row: found(row), diameter: *diameter, gesture: *gesture }
-        }
+        Event::LetGo(bend) => plain(Action::BendEnd { bend: *bend }),
+        Event::GiveUp(bend) => plain(Action::BendCancel { bend: *bend }),
+        Event::Width(row, diameter, gesture) => in_gesture(
+            *gesture,
+            Action::SetWidth { row: found(row), diameter: diameter.map(Diameter::nearest) },
+        ),
         Event::Prune(rows, gesture) => {
-            Action::Prune { rows: rows.iter().map(found).collect(), gesture: *gesture }
+            in_gesture(*gesture, Action::Prune { rows: list(rows.iter().map(found).collect()) })
         }
-        Event::PruneDim(exposure) => Action::PruneDim { exposure: *exposure },
-        Event::Turn(row, angle, gesture) => {
-            Action::TurnBranch { row: found(row), rotation: turned(*angle), gesture: *gesture }
-        }
-        Event::Graft(row, onto, angle, keep) => {
-            Action::Graft { row: found(row), onto: found(onto), rotation: turned(*angle), keep: *keep }
-        }
-        Event::GoTo(step) => Action::GoTo { step: step % (document.plant().last_step() + 2) },
+        Event::PruneDim(exposure) => plain(Action::PruneDim { exposure: Share::nearest(*exposure) }),
+        Event::Turn(row, angle, gesture) => in_gesture(
+            *gesture,
+            Action::TurnBranch { row: found(row), rotation: UnitRotation::nearest(turned(*angle)) },
+        ),
+        Event::Graft(row, onto, angle, keep) => plain(Action::Graft {
+            row: found(row),
+            onto: found(onto),
+            rotation: UnitRotation::nearest(turned(*angle)),
+            keep: *keep,
+        }),
+        Event::GoTo(step) => plain(Action::GoTo { step: step % (document.plant().last_step() + 2) }),
         Event::Take(any) => {
             let futures = document.timeline().futures;
             let future = futures.get(*any as usize % futures.len().max(1)).map_or(*any, |it| it.future);
-            Action::TakeFuture { future }
+            plain(Action::TakeFuture { future })
         }
     };
     let before = document.hash();
     let refused = document.apply("ann", &action).is_err();
     // A bend that cannot be kept ends nevertheless.
-    if refused && !matches!(action, Action::BendEnd { .. }) {
+    if refused && !matches!(action.action, Action::BendEnd { .. }) {
         assert_eq!(document.hash(), before, "a refused {event:?} changed something");
     }
 }
@@ -270,17 +279,17 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
             if !document.timeline().futures.iter().any(|listed| listed.future == future) {
                 continue;
             }
-            document.apply("ann", &Action::TakeFuture { future }).expect("it is listed");
+            document.apply("ann", &plain(Action::TakeFuture { future })).expect("it is listed");
             prop_assert_eq!(document.timeline().line, future);
         }
-        while document.apply("ann", &Action::Redo).is_ok() {}
+        while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
         // Ungrowing may have left a setting that is not the line's.
         let step = document.plant().step();
-        document.apply("ann", &Action::GoTo { step }).expect("it is here");
+        document.apply("ann", &plain(Action::GoTo { step })).expect("it is here");
         let end = form(&document);
-        while document.apply("ann", &Action::Undo).is_ok() {}
+        while document.apply("ann", &plain(Action::Undo {})).is_ok() {}
         prop_assert_eq!(&form(&document), &seedling);
-        while document.apply("ann", &Action::Redo).is_ok() {}
+        while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
         prop_assert_eq!(&form(&document), &end);
         prop_assert_eq!(checks::all(document.plant()), Ok(()));
         forms.push((document.timeline().line, end));
@@ -289,7 +298,7 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     for (line, end) in forms {
         let timeline = document.timeline();
         if timeline.futures.iter().any(|listed| listed.future == line) {
-            document.apply("ann", &Action::TakeFuture { future: line }).expect("it is listed");
+            document.apply("ann", &plain(Action::TakeFuture { future: line })).expect("it is listed");
             prop_assert_eq!(form(&document), end);
         }
     }

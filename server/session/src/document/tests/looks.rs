@@ -8,21 +8,20 @@ use espalier_settings::{
 use super::*;
 
 /// Another season of the leaves as they are by default.
-pub fn season(gesture: Option<u32>, season: f32) -> Action {
+pub fn season(gesture: Option<u32>, season: f32) -> Command {
     let leaves = LeafLook { season, ..Appearance::default().leaves };
     look(gesture, AppearancePatch { leaves: Some(leaves.into()), ..AppearancePatch::default() })
-        .expect("in range")
 }
 
-fn look(gesture: Option<u32>, appearance: AppearancePatch) -> Result<Action, Problem> {
-    Action::parse(&espalier_proto::Command::SetAppearance { appearance, gesture })
+fn look(gesture: Option<u32>, appearance: AppearancePatch) -> Command {
+    in_gesture(gesture, Action::SetAppearance { appearance })
 }
 
 fn kinds(document: &Document) -> Vec<OperationKind> {
     document.timeline().operations.iter().map(|operation| operation.kind).collect()
 }
 
-fn apply(document: &mut Document, action: &Action) {
+fn apply(document: &mut Document, action: &Command) {
     document.apply("ann", action).expect("it is done");
 }
 
@@ -31,16 +30,16 @@ fn ap1_looks_change_section_by_section() {
     let mut document = Document::new(1);
     let bark = BarkLook { kind: BarkKind::Papery, ..Appearance::default().bark };
     let patch = AppearancePatch { bark: Some(bark.into()), ..AppearancePatch::default() };
-    apply(&mut document, &look(None, patch).expect("in range"));
+    apply(&mut document, &look(None, patch));
     let looks = *document.appearance();
     assert_eq!((looks.bark.kind, looks.leaves.shape), (BarkKind::Papery, LeafKind::Ovate));
     let before = document.hash();
-    apply(&mut document, &look(None, patch).expect("in range"));
+    apply(&mut document, &look(None, patch));
     assert_eq!(document.hash(), before, "what is so already is no operation");
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(*document.appearance(), Appearance::default());
     assert!(!document.figures().can_undo && document.figures().can_redo);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(*document.appearance(), looks);
 }
 
@@ -50,9 +49,12 @@ fn ap1_what_is_out_of_range_names_its_section() {
         let flowers = FlowerLook { size, ..Appearance::default().flowers };
         AppearancePatch { flowers: Some(flowers.into()), ..AppearancePatch::default() }
     };
-    assert!(look(None, flowers(0.05)).is_ok() && look(None, flowers(2.0)).is_ok());
+    let mut document = Document::new(1);
+    for good in [0.05, 2.0] {
+        apply(&mut document, &look(None, flowers(good)));
+    }
     for bad in [0.04, 2.1, f32::NAN, f32::INFINITY] {
-        let problem = look(None, flowers(bad)).expect_err("out of range");
+        let problem = problem(&mut document, &look(None, flowers(bad)));
         assert_eq!(problem.field.as_deref(), Some("appearance.flowers.size"));
         assert_eq!(problem.allowed.as_deref(), Some("0.05 to 2"));
         assert!(problem.message.starts_with("appearance.flowers.size is "), "{problem}");
@@ -70,10 +72,10 @@ fn ap2_a_drag_is_one_operation() {
     apply(&mut document, &season(None, 2.8));
     assert_eq!(kinds(&document), [OperationKind::Appearance; 4]);
     for value in [2.7, 2.5, 2.0, 1.0] {
-        apply(&mut document, &Action::Undo);
+        apply(&mut document, &plain(Action::Undo {}));
         assert_eq!(document.appearance().leaves.season, value);
     }
-    assert!(document.apply("ann", &Action::Undo).is_err());
+    assert!(document.apply("ann", &plain(Action::Undo {})).is_err());
 }
 
 #[test]
@@ -84,9 +86,9 @@ fn ap2_a_species_is_picked_in_one_operation() {
     apply(&mut document, &patch_in(Some(1), 0.5));
     apply(&mut document, &season(Some(1), 2.2));
     assert_eq!(kinds(&document), [OperationKind::Parameters], "what changes growth gives the name");
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!((document.parameters(), *document.appearance()), (seedling, Appearance::default()));
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!((document.parameters().apical_control, document.appearance().leaves.season), (0.5, 2.2));
 }
 
@@ -107,13 +109,13 @@ fn ap2_a_drag_back_to_its_start_is_nothing() {
     let mut document = Document::new(1);
     grow(&mut document, 3, None);
     let grown = document.plant().hash();
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     apply(&mut document, &season(Some(1), 2.0));
     assert_eq!(document.timeline().futures.len(), 1, "what lay ahead is a future");
     apply(&mut document, &season(Some(1), 1.0));
     assert_eq!(kinds(&document), [OperationKind::Growth]);
     assert!(document.timeline().futures.is_empty() && !document.figures().can_undo);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(document.plant().hash(), grown, "it lies ahead again");
 }
 
@@ -124,18 +126,18 @@ fn looks_follow_the_line_of_time() {
     apply(&mut document, &season(None, 2.0));
     grow(&mut document, 4, None);
     let season_at = |document: &mut Document, step| {
-        apply(document, &Action::GoTo { step });
+        apply(document, &plain(Action::GoTo { step }));
         document.appearance().leaves.season
     };
     assert_eq!([2, 8, 3].map(|step| season_at(&mut document, step)), [1.0, 2.0, 1.0]);
-    apply(&mut document, &Action::GoTo { step: 8 });
-    apply(&mut document, &Action::Ungrow { steps: 6 });
+    apply(&mut document, &plain(Action::GoTo { step: 8 }));
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(6) }));
     assert_eq!(document.appearance().leaves.season, 2.0, "CM7: ungrowing keeps looks");
     grow(&mut document, 1, None);
     assert_eq!(kinds(&document)[1..], [OperationKind::Appearance, OperationKind::Growth]);
     let future = document.timeline().futures[0].future;
     apply(&mut document, &season(None, 3.0));
-    apply(&mut document, &Action::TakeFuture { future });
+    apply(&mut document, &plain(Action::TakeFuture { future }));
     assert_eq!((document.plant().step(), document.appearance().leaves.season), (8, 2.0));
 }
 
@@ -150,7 +152,7 @@ fn looks_are_saved_with_the_tree() {
     assert_eq!(saved.appearance().leaves.season, 2.0);
     // A drag goes on where it was.
     apply(&mut saved, &season(Some(2), 2.5));
-    apply(&mut saved, &Action::Undo);
+    apply(&mut saved, &plain(Action::Undo {}));
     assert_eq!(*saved.appearance(), Appearance::default());
 }
 
@@ -173,7 +175,7 @@ fn ap1_fields_of_two_people_both_count() {
     let tint = LeafPatch { tint: Some([10, 20, 30]), ..LeafPatch::default() };
     for (author, leaves) in [("ann", season), ("ben", tint)] {
         let patch = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
-        document.apply(author, &look(None, patch).expect("in range")).expect("it is done");
+        document.apply(author, &look(None, patch)).expect("it is done");
     }
     let leaves = document.appearance().leaves;
     assert_eq!((leaves.season, leaves.tint), (2.0, [10, 20, 30]));

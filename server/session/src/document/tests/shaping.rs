@@ -4,9 +4,9 @@ use super::*;
 
 const NO_TURN: Quat = Quat::IDENTITY;
 
-fn begin(bend: u32, base: MetamerId, touches: &[MetamerId]) -> Action {
+fn begin(bend: u32, base: MetamerId, touches: &[MetamerId]) -> Command {
     let touches = touches.iter().map(|id| id.raw()).collect();
-    Action::BendBegin { bend, base: base.raw(), touches, stretch: 0.2, gesture: None }
+    plain(Action::BendBegin { bend, base: base.raw(), touches: held(touches), stretch: Share::nearest(0.2) })
 }
 
 fn end(document: &Document, id: MetamerId) -> Vec3 {
@@ -22,18 +22,18 @@ fn be1_a_bend_is_one_operation_for_undo() {
     apply(&mut document, &begin(1, base, &[top]));
     for part in 1..=4 {
         let targets = vec![place + Vec3::X * 0.5 * part as f32];
-        apply(&mut document, &Action::BendMove { bend: 1, targets });
+        apply(&mut document, &plain(Action::BendMove { bend: 1, targets: places(targets) }));
         assert_eq!(document.plant().hash(), before, "BE5: the wood stays until it is let go");
         assert_eq!(document.poses().len(), 1);
     }
-    apply(&mut document, &Action::BendEnd { bend: 1 });
+    apply(&mut document, &plain(Action::BendEnd { bend: 1 }));
     assert!(end(&document, top).x > place.x + 0.5, "it followed the finger");
     assert_eq!(end(&document, base), foot, "the base never moves");
     assert_eq!(document.timeline().operations.len(), 2);
     let after = document.plant().hash();
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().hash(), before);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(document.plant().hash(), after);
 }
 
@@ -46,10 +46,16 @@ fn be1_bends_of_one_gesture_are_one_operation() {
     let bend = |document: &mut Document, bend, touches: &[MetamerId], gesture| {
         let rows = touches.iter().map(|id| id.raw()).collect();
         let base = base.raw();
-        apply(document, &Action::BendBegin { bend, base, touches: rows, stretch: 0.2, gesture });
+        apply(
+            document,
+            &in_gesture(
+                gesture,
+                Action::BendBegin { bend, base, touches: held(rows), stretch: Share::nearest(0.2) },
+            ),
+        );
         let targets = touches.iter().map(|&id| end(document, id) + Vec3::new(0.8, -0.2, 0.1)).collect();
-        apply(document, &Action::BendMove { bend, targets });
-        apply(document, &Action::BendEnd { bend });
+        apply(document, &plain(Action::BendMove { bend, targets: places(targets) }));
+        apply(document, &plain(Action::BendEnd { bend }));
     };
     bend(&mut document, 1, &[top], Some(5));
     bend(&mut document, 2, &[top, between], Some(5));
@@ -62,10 +68,10 @@ fn be1_bends_of_one_gesture_are_one_operation() {
     bend(&mut document, 3, &[top], Some(6));
     bend(&mut document, 4, &[top], None);
     assert_eq!(document.timeline().operations.len(), 4);
-    apply(&mut document, &Action::Undo);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().hash(), after);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().hash(), before, "both rounds of the gesture went with one undo");
 }
 
@@ -74,9 +80,11 @@ fn wi1_a_width_dragged_back_leaves_redo_as_it_was() {
     let mut document = tree();
     let row = long_path(&document, 4)[3].raw();
     grow(&mut document, 2, None);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     let timeline = document.timeline();
-    let width = |diameter| Action::SetWidth { row, diameter, gesture: Some(3) };
+    let width = |diameter: Option<f32>| {
+        in_gesture(Some(3), Action::SetWidth { row, diameter: diameter.map(Diameter::nearest) })
+    };
     apply(&mut document, &width(Some(0.8)));
     assert_eq!(document.timeline().futures.len(), 1, "TT3: the growth undone is another future");
     apply(&mut document, &width(None));
@@ -90,16 +98,23 @@ fn be4_a_bend_given_up_is_no_operation() {
     let path = long_path(&document, 6);
     let timeline = document.timeline();
     apply(&mut document, &begin(1, path[5], &[path[0]]));
-    apply(&mut document, &Action::BendMove { bend: 1, targets: vec![Vec3::new(3.0, 4.0, 0.0)] });
-    apply(&mut document, &Action::BendCancel { bend: 1 });
+    apply(
+        &mut document,
+        &plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::new(3.0, 4.0, 0.0)]) }),
+    );
+    apply(&mut document, &plain(Action::BendCancel { bend: 1 }));
     apply(&mut document, &begin(2, path[5], &[path[0]]));
-    apply(&mut document, &Action::BendEnd { bend: 2 });
+    apply(&mut document, &plain(Action::BendEnd { bend: 2 }));
     assert_eq!(document.timeline(), timeline, "one was given up, the other moved nothing");
-    for travel in [Action::Undo, Action::Ungrow { steps: 1 }, Action::GoTo { step: 7 }] {
+    for travel in [
+        plain(Action::Undo {}),
+        plain(Action::Ungrow { steps: Steps::nearest(1) }),
+        plain(Action::GoTo { step: 7 }),
+    ] {
         apply(&mut document, &begin(3, path[5], &[path[0]]));
         apply(&mut document, &travel);
         assert_eq!(document.open_bends("ann"), [] as [u32; 0], "{travel:?} gives it up");
-        apply(&mut document, &Action::GoTo { step: 9 });
+        apply(&mut document, &plain(Action::GoTo { step: 9 }));
     }
 }
 
@@ -118,9 +133,9 @@ fn be1_impossible_bends_name_what_is_wrong() {
         (begin(1, top, &[base]), OutOfRange, "touches[0]"),
         (begin(1, base, &[base]), OutOfRange, "touches[0]"),
         (begin(1, base, &[top, base]), OutOfRange, "touches[1]"),
-        (Action::BendMove { bend: 1, targets: vec![Vec3::ONE] }, NotFound, "bend"),
-        (Action::BendEnd { bend: 1 }, NotFound, "bend"),
-        (Action::BendCancel { bend: 1 }, NotFound, "bend"),
+        (plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) }), NotFound, "bend"),
+        (plain(Action::BendEnd { bend: 1 }), NotFound, "bend"),
+        (plain(Action::BendCancel { bend: 1 }), NotFound, "bend"),
     ] {
         assert_eq!(refusal(&mut document, &action), (code, field.to_owned()), "{action:?}");
     }
@@ -131,13 +146,13 @@ fn be1_impossible_bends_name_what_is_wrong() {
     );
     apply(&mut document, &begin(1, base, &[top, path[2]]));
     assert_eq!(refusal(&mut document, &begin(1, base, &[top])), (Refused, String::new()), "begun already");
-    let one = Action::BendMove { bend: 1, targets: vec![Vec3::ONE] };
+    let one = plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) });
     assert_eq!(refusal(&mut document, &one), (OutOfRange, "targets".into()));
     // BE2: wood that moves is in one pair of hands.
     for (base, top) in [(base, top), (path[3], path[1]), (path[5], path[3])] {
         assert_eq!(refusal(&mut document, &begin(2, base, &[top])), (Refused, "base".into()));
     }
-    let turn = Action::TurnBranch { row: path[4].raw(), rotation: NO_TURN, gesture: None };
+    let turn = plain(Action::TurnBranch { row: path[4].raw(), rotation: UnitRotation::nearest(NO_TURN) });
     assert_eq!(refusal(&mut document, &turn), (Refused, "row".into()));
 }
 
@@ -146,15 +161,21 @@ fn be4_a_branch_that_is_cut_takes_its_bend_along() {
     let mut document = tree();
     let path = long_path(&document, 6);
     apply(&mut document, &begin(1, path[5], &[path[0]]));
-    apply(&mut document, &Action::BendMove { bend: 1, targets: vec![Vec3::new(3.0, 4.0, 0.0)] });
-    document.apply("bob", &Action::Prune { rows: vec![path[0].raw()], gesture: None }).expect("a branch");
+    apply(
+        &mut document,
+        &plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::new(3.0, 4.0, 0.0)]) }),
+    );
+    document.apply("bob", &plain(Action::Prune { rows: list(vec![path[0].raw()]) })).expect("a branch");
     assert!(document.poses().is_empty());
-    let over = Action::BendMove { bend: 1, targets: vec![Vec3::ONE] };
+    let over = plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) });
     assert_eq!(refusal(&mut document, &over), (ProblemCode::NotFound, "bend".into()));
-    assert_eq!(refusal(&mut document, &Action::BendEnd { bend: 1 }), (ProblemCode::NotFound, "bend".into()));
+    assert_eq!(
+        refusal(&mut document, &plain(Action::BendEnd { bend: 1 })),
+        (ProblemCode::NotFound, "bend".into())
+    );
     let begun = begin(1, path[5], &[path[0]]);
     assert_eq!(refusal(&mut document, &begun), (ProblemCode::NotFound, "touches[0]".into()));
-    let width = Action::SetWidth { row: path[0].raw(), diameter: Some(1.0), gesture: None };
+    let width = plain(Action::SetWidth { row: path[0].raw(), diameter: Some(Diameter::nearest(1.0)) });
     assert_eq!(refusal(&mut document, &width), (ProblemCode::NotFound, "row".into()));
 }
 
@@ -162,7 +183,9 @@ fn be4_a_branch_that_is_cut_takes_its_bend_along() {
 fn wi1_widths_of_one_gesture_are_one_operation() {
     let mut document = tree();
     let row = long_path(&document, 4)[2].raw();
-    let set = |diameter, gesture| Action::SetWidth { row, diameter, gesture };
+    let set = |diameter: Option<f32>, gesture: Option<u32>| {
+        in_gesture(gesture, Action::SetWidth { row, diameter: diameter.map(Diameter::nearest) })
+    };
     let before = document.plant().hash();
     for diameter in [0.5, 0.6, 0.7] {
         apply(&mut document, &set(Some(diameter), Some(1)));
@@ -176,14 +199,14 @@ fn wi1_widths_of_one_gesture_are_one_operation() {
     assert_eq!((document.timeline().operations.len(), document.widths().len()), (3, 0));
     apply(&mut document, &set(None, Some(2)));
     assert_eq!(document.timeline().operations.len(), 3, "removing none does nothing");
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.widths().len(), 1);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().hash(), before);
     // A gesture that ends where it began has done nothing.
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     let timeline = document.timeline();
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Redo {}));
     apply(&mut document, &set(Some(0.9), Some(3)));
     apply(&mut document, &set(None, Some(3)));
     assert_eq!(document.timeline().operations.len(), timeline.operations.len());
@@ -206,14 +229,14 @@ fn pr1_a_branch_is_cut_at_its_branching_point() {
     }
     let (living, bearer) = (document.metamers(), plant.metamers().parent(lateral).expect("it is borne"));
     let tips = plant.metamers().tips(bearer);
-    let prune = Action::Prune { rows: vec![row.raw()], gesture: None };
+    let prune = plain(Action::Prune { rows: list(vec![row.raw()]) });
     let mut stub = document.clone();
     apply(&mut document, &prune);
     assert_eq!(document.metamers() as usize, living as usize - above.len());
     assert!(document.plant().is_alive(bearer) && !document.plant().is_alive(lateral));
     assert!(document.plant().metamers().tips(bearer) < tips, "PR2: the wood below gets thinner");
     // With a constraint on the way a stub stays.
-    apply(&mut stub, &Action::SetWidth { row: lateral.raw(), diameter: Some(0.4), gesture: None });
+    apply(&mut stub, &plain(Action::SetWidth { row: lateral.raw(), diameter: Some(Diameter::nearest(0.4)) }));
     if row == lateral {
         stub.apply("ann", &prune).expect_err("nothing stands above the constraint");
     } else {
@@ -228,13 +251,13 @@ fn pr1_the_trunk_is_not_cut() {
     let path = long_path(&document, 4);
     let foot = path[path.len() - 1].raw();
     let lateral = laterals(&document)[0].raw();
-    let prune = |rows: &[u32]| Action::Prune { rows: rows.to_vec(), gesture: None };
+    let prune = |rows: &[u32]| plain(Action::Prune { rows: list(rows.to_vec()) });
     assert_eq!(refusal(&mut document, &prune(&[foot])), (ProblemCode::Refused, "rows[0]".into()));
     assert_eq!(refusal(&mut document, &prune(&[lateral, foot])), (ProblemCode::Refused, "rows[1]".into()));
     assert_eq!(refusal(&mut document, &prune(&[lateral, 0])), (ProblemCode::NotFound, "rows[1]".into()));
     assert_eq!(refusal(&mut document, &prune(&[u32::MAX])), (ProblemCode::NotFound, "rows[0]".into()));
     // Above a constraint even the trunk can be cut, and its stub stays.
-    apply(&mut document, &Action::SetWidth { row: foot, diameter: Some(0.5), gesture: None });
+    apply(&mut document, &plain(Action::SetWidth { row: foot, diameter: Some(Diameter::nearest(0.5)) }));
     apply(&mut document, &prune(&[foot]));
     assert_eq!(document.metamers(), 1);
     assert_eq!(refusal(&mut document, &prune(&[foot])), (ProblemCode::Refused, "rows[0]".into()));
@@ -244,14 +267,14 @@ fn pr1_the_trunk_is_not_cut() {
 fn pr3_branches_in_the_dark_are_cut() {
     let mut document = tree();
     let living = document.metamers();
-    let dim = |exposure| Action::PruneDim { exposure };
+    let dim = |exposure| plain(Action::PruneDim { exposure: Share::nearest(exposure) });
     assert_eq!(refusal(&mut document, &dim(0.0)).0, ProblemCode::Refused);
     let mut light = document.clone();
     apply(&mut light, &dim(1.0));
     assert!(laterals(&light).is_empty(), "none gets more than full light");
     let darkest = laterals(&document);
     assert!(!darkest.is_empty() && light.metamers() < living);
-    apply(&mut light, &Action::Undo);
+    apply(&mut light, &plain(Action::Undo {}));
     assert_eq!(light.plant().hash(), document.plant().hash());
 }
 
@@ -260,10 +283,19 @@ fn br1_turns_of_one_gesture_replace_each_other() {
     let mut document = tree();
     let branch =
         *laterals(&document).iter().max_by_key(|&&id| document.plant().above(id).len()).expect("some");
-    let turn = |angle: f32, gesture| Action::TurnBranch {
-        row: branch.raw(),
-        rotation: Quat::from_xyzw(0.0, libm::sinf(angle), 0.0, libm::cosf(angle)),
-        gesture,
+    let turn = |angle: f32, gesture| {
+        in_gesture(
+            gesture,
+            Action::TurnBranch {
+                row: branch.raw(),
+                rotation: UnitRotation::nearest(Quat::from_xyzw(
+                    0.0,
+                    libm::sinf(angle),
+                    0.0,
+                    libm::cosf(angle),
+                )),
+            },
+        )
     };
     let mut once = document.clone();
     apply(&mut once, &turn(0.6, None));
@@ -275,7 +307,7 @@ fn br1_turns_of_one_gesture_replace_each_other() {
     let foot = document.plant().metamers().parent(branch).expect("it is borne");
     let trunk = long_path(&document, 3).pop().expect("a path");
     let row = trunk.raw();
-    let felled = Action::TurnBranch { row, rotation: NO_TURN, gesture: None };
+    let felled = plain(Action::TurnBranch { row, rotation: UnitRotation::nearest(NO_TURN) });
     assert_eq!(refusal(&mut document, &felled), (ProblemCode::Refused, "row".into()));
     assert_eq!(end(&document, foot), end(&once, foot));
 }
@@ -290,18 +322,25 @@ fn br2_a_graft_is_a_copy_or_moves() {
     let inside = plant.above(branch)[size - 1];
     let onto = long_path(&document, 3).pop().expect("a path");
     let living = document.metamers() as usize;
-    let graft = |onto: MetamerId, keep| Action::Graft {
-        row: branch.raw(),
-        onto: onto.raw(),
-        rotation: NO_TURN,
-        keep,
+    let graft = |onto: MetamerId, keep| {
+        plain(Action::Graft {
+            row: branch.raw(),
+            onto: onto.raw(),
+            rotation: UnitRotation::nearest(NO_TURN),
+            keep,
+        })
     };
     for (onto, keep) in [(branch, true), (inside, false)] {
         assert_eq!(refusal(&mut document, &graft(onto, keep)), (ProblemCode::Refused, "onto".into()));
     }
     let far = graft(MetamerId::new(999_999), true);
     assert_eq!(refusal(&mut document, &far), (ProblemCode::NotFound, "onto".into()));
-    let trunk = Action::Graft { row: onto.raw(), onto: inside.raw(), rotation: NO_TURN, keep: false };
+    let trunk = plain(Action::Graft {
+        row: onto.raw(),
+        onto: inside.raw(),
+        rotation: UnitRotation::nearest(NO_TURN),
+        keep: false,
+    });
     assert_eq!(refusal(&mut document, &trunk), (ProblemCode::Refused, "onto".into()));
     let mut moved = document.clone();
     apply(&mut moved, &graft(onto, false));
@@ -310,8 +349,8 @@ fn br2_a_graft_is_a_copy_or_moves() {
     apply(&mut document, &graft(onto, true));
     assert_eq!(document.metamers() as usize, living + size);
     document.set_metamer_budget(document.plant().metamer_count() as u32 + 1);
-    apply(&mut document, &Action::Undo);
-    apply(&mut document, &Action::Redo);
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::Redo {}));
     assert_eq!(refusal(&mut document, &graft(onto, true)).0, ProblemCode::Refused, "LM4: copies count");
 }
 
@@ -321,7 +360,7 @@ fn lm12_width_constraints_are_limited() {
     let rows: Vec<u32> = (1..document.plant().metamer_count() as u32)
         .filter(|&row| document.plant().is_alive(MetamerId::new(row as usize)))
         .collect();
-    let width = |row: u32| Action::SetWidth { row, diameter: Some(0.3), gesture: None };
+    let width = |row: u32| plain(Action::SetWidth { row, diameter: Some(Diameter::nearest(0.3)) });
     while document.plant().living_count() < 300 {
         grow(&mut document, 1, None);
     }
@@ -334,5 +373,5 @@ fn lm12_width_constraints_are_limited() {
     let hash = document.hash();
     assert_eq!(refusal(&mut document, &width(all[256])).0, ProblemCode::Refused);
     assert_eq!(document.hash(), hash);
-    apply(&mut document, &Action::SetWidth { row: all[0], diameter: Some(0.4), gesture: None });
+    apply(&mut document, &plain(Action::SetWidth { row: all[0], diameter: Some(Diameter::nearest(0.4)) }));
 }

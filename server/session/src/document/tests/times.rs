@@ -6,8 +6,8 @@ use super::*;
 fn tt3_what_lay_ahead_becomes_a_future() {
     let mut document = tree();
     let first = document.plant().hash();
-    apply(&mut document, &Action::Ungrow { steps: 4 });
-    apply(&mut document, &Action::PlantSeed { position: Vec3::X * 5.0 });
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(4) }));
+    apply(&mut document, &plain(Action::PlantSeed { position: Position::nearest(Vec3::X * 5.0) }));
     grow(&mut document, 2, None);
     let timeline = document.timeline();
     assert_eq!((timeline.line, timeline.step, timeline.last_step, timeline.done), (1, 8, 8, 3));
@@ -16,18 +16,18 @@ fn tt3_what_lay_ahead_becomes_a_future() {
     assert_eq!(future.operations.len(), 1, "the growth that was cut in two");
     let second = document.plant().hash();
     // A future of what is now a future.
-    apply(&mut document, &Action::GoTo { step: 7 });
+    apply(&mut document, &plain(Action::GoTo { step: 7 }));
     grow(&mut document, 1, None);
-    apply(&mut document, &Action::GoTo { step: 3 });
+    apply(&mut document, &plain(Action::GoTo { step: 3 }));
     grow(&mut document, 1, None);
     let futures = document.timeline().futures;
     let hangs: Vec<_> = futures.iter().map(|future| (future.future, future.on, future.from)).collect();
     assert_eq!(hangs, [(0, Some(2), 5), (1, Some(2), 7), (2, None, 3)]);
     for (line, hash) in [(0, first), (1, second), (0, first)] {
-        apply(&mut document, &Action::TakeFuture { future: line });
+        apply(&mut document, &plain(Action::TakeFuture { future: line }));
         assert_eq!((document.plant().hash(), document.timeline().line), (hash, line));
     }
-    let unknown = Action::TakeFuture { future: 0 };
+    let unknown = plain(Action::TakeFuture { future: 0 });
     assert_eq!(refusal(&mut document, &unknown), (ProblemCode::NotFound, "future".into()));
     assert_eq!(document.timeline().futures.len(), 3);
 }
@@ -39,27 +39,30 @@ fn tt2_scrubbing_follows_the_settings_of_the_line() {
     apply(&mut document, &patch(0.6));
     let changed = document.parameters();
     grow(&mut document, 2, None);
-    apply(&mut document, &Action::GoTo { step: 4 });
+    apply(&mut document, &plain(Action::GoTo { step: 4 }));
     assert_eq!(document.parameters(), seedling);
-    apply(&mut document, &Action::GoTo { step: 10 });
+    apply(&mut document, &plain(Action::GoTo { step: 10 }));
     assert_eq!(document.parameters(), changed);
-    assert_eq!(refusal(&mut document, &Action::GoTo { step: 12 }), (ProblemCode::OutOfRange, "step".into()));
+    assert_eq!(
+        refusal(&mut document, &plain(Action::GoTo { step: 12 })),
+        (ProblemCode::OutOfRange, "step".into())
+    );
     // CM7: ungrowing keeps them, and what is done then begins with that difference.
-    apply(&mut document, &Action::Ungrow { steps: 8 });
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(8) }));
     assert_eq!((document.parameters(), document.plant().step()), (changed.clone(), 2));
     grow(&mut document, 1, None);
     use espalier_proto::OperationKind::{Growth, Parameters};
     assert_eq!(kinds(&document), [Growth, Parameters, Growth]);
-    while document.apply("ann", &Action::Undo).is_ok() {}
+    while document.apply("ann", &plain(Action::Undo {})).is_ok() {}
     assert_eq!((document.parameters(), document.plant().step()), (seedling.clone(), 0));
-    let nothing = problem(&mut document, &Action::Undo);
+    let nothing = problem(&mut document, &plain(Action::Undo {}));
     assert_eq!((nothing.code, nothing.message.as_str()), (ProblemCode::Refused, "there is nothing to undo"));
-    while document.apply("ann", &Action::Redo).is_ok() {}
+    while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
     assert_eq!((document.parameters(), document.plant().step()), (changed.clone(), 3));
     // Undoing takes a difference back that nothing was done with.
-    apply(&mut document, &Action::Ungrow { steps: 3 });
+    apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(3) }));
     assert_eq!(document.parameters(), changed);
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.parameters(), seedling);
 }
 
@@ -67,7 +70,7 @@ fn tt2_scrubbing_follows_the_settings_of_the_line() {
 fn lm11_the_oldest_futures_are_forgotten() {
     let mut document = tree();
     for round in 0..70 {
-        apply(&mut document, &Action::GoTo { step: round % 3 });
+        apply(&mut document, &plain(Action::GoTo { step: round % 3 }));
         grow(&mut document, 3, None);
     }
     let futures = document.timeline().futures;
@@ -84,27 +87,31 @@ fn lm11_the_oldest_futures_are_forgotten() {
 #[test]
 fn cm5_a_stroke_that_goes_on_after_a_cut_is_another_operation() {
     let mut document = tree();
-    let stroke =
-        |x: f32| Action::StrokeMove { stroke: 7, samples: vec![sample(x, 12.0, 4.0), sample(x, 16.0, 4.0)] };
-    apply(&mut document, &Action::StrokeBegin { stroke: 7, bud: None });
+    let stroke = |x: f32| {
+        plain(Action::StrokeMove {
+            stroke: 7,
+            samples: list(vec![sample(x, 12.0, 4.0), sample(x, 16.0, 4.0)]),
+        })
+    };
+    apply(&mut document, &plain(Action::StrokeBegin { stroke: 7, bud: None }));
     let lateral = laterals(&document)[0];
     document
-        .apply("bob", &Action::Prune { rows: vec![lateral.raw()], gesture: None })
+        .apply("bob", &plain(Action::Prune { rows: list(vec![lateral.raw()]) }))
         .expect("it is a lateral");
     let cut = document.plant().hash();
     apply(&mut document, &stroke(3.0));
-    apply(&mut document, &Action::StrokeEnd { stroke: 7 });
+    apply(&mut document, &plain(Action::StrokeEnd { stroke: 7 }));
     let grown = document.plant().hash();
     assert_ne!(grown, cut, "the stroke grows something");
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_eq!(document.plant().hash(), cut, "undo takes back the stroke alone");
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert!(document.plant().is_alive(lateral), "and then the cut");
     let before = document.plant().hash();
-    apply(&mut document, &Action::Undo);
+    apply(&mut document, &plain(Action::Undo {}));
     assert_ne!(document.plant().hash(), before, "a stroke without growth is passed over");
     for _ in 0..3 {
-        apply(&mut document, &Action::Redo);
+        apply(&mut document, &plain(Action::Redo {}));
     }
     assert_eq!(document.plant().hash(), grown);
 }
@@ -112,8 +119,8 @@ fn cm5_a_stroke_that_goes_on_after_a_cut_is_another_operation() {
 #[test]
 fn tt2_scrubbing_to_where_one_is_ends_strokes() {
     let mut document = tree();
-    apply(&mut document, &Action::StrokeBegin { stroke: 7, bud: None });
+    apply(&mut document, &plain(Action::StrokeBegin { stroke: 7, bud: None }));
     let step = document.plant().step();
-    apply(&mut document, &Action::GoTo { step });
+    apply(&mut document, &plain(Action::GoTo { step }));
     assert!(document.open_strokes("ann").is_empty());
 }

@@ -1,0 +1,245 @@
+//! Every refusal of a message names the field at fault and what is allowed there (`CM3`, `CM8`).
+
+use espalier_proto::{ClientMessage, Problem};
+use espalier_session::read_command;
+use serde_json::{Value, json};
+
+use crate::obstacles::tetrahedron;
+
+/// One command of each kind, with all its fields.
+fn commands() -> Vec<Value> {
+    let pose = json!({ "position": [1, 2, 3], "rotation": [0, 0, 0, 1] });
+    let looks = Value::from_iter([("appearance", json!(espalier_settings::Appearance::default()))]);
+    let mut set_appearance = looks;
+    set_appearance["kind"] = "set_appearance".into();
+    let parameters = espalier_session::Document::new(1).parameters();
+    let mesh = json!({ "kind": "mesh", "mesh": tetrahedron().to_base64(), "scale": 1 });
+    vec![
+        json!({ "kind": "stroke_begin", "stroke": 1, "bud": 0 }),
+        json!({ "kind": "stroke_move", "stroke": 1, "samples": [{ "position": [0, 1, 0], "radius": 4 }] }),
+        json!({ "kind": "stroke_end", "stroke": 1 }),
+        json!({ "kind": "grow", "steps": 3, "gesture": 4, "bud": 7 }),
+        json!({
+            "kind": "lasso", "outline": [[0, 0], [1, 0], [1, 1]], "depth": 0.5, "bud": 1,
+            "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
+        }),
+        json!({ "kind": "stop", "tick": 9 }),
+        json!({ "kind": "ungrow", "steps": 2 }),
+        json!({ "kind": "undo" }),
+        json!({ "kind": "redo" }),
+        json!({ "kind": "set_parameters", "parameters": parameters, "gesture": 1 }),
+        set_appearance,
+        json!({ "kind": "plant_seed", "position": [1, 0, 2] }),
+        json!({ "kind": "place_obstacle", "obstacle": { "shape": mesh, "pose": pose }, "gesture": 1 }),
+        json!({ "kind": "place_obstacle", "obstacle": { "shape": { "kind": "plane" }, "pose": pose } }),
+        json!({ "kind": "move_obstacle", "id": 1, "pose": pose, "gesture": 1 }),
+        json!({ "kind": "reshape_obstacle", "id": 1, "shape": { "kind": "box", "size": [1, 2, 3] } }),
+        json!({ "kind": "reshape_obstacle", "id": 1, "shape": { "kind": "sphere", "radius": 2 } }),
+        json!({ "kind": "remove_obstacle", "id": 1, "gesture": 1 }),
+        json!({ "kind": "bend_begin", "bend": 1, "base": 2, "touches": [3, 4], "stretch": 0.5, "gesture": 1 }),
+        json!({ "kind": "bend_move", "bend": 1, "targets": [[0, 1, 0], [0, 2, 0]] }),
+        json!({ "kind": "bend_end", "bend": 1 }),
+        json!({ "kind": "bend_cancel", "bend": 1 }),
+        json!({ "kind": "set_width", "row": 1, "diameter": 0.5, "gesture": 1 }),
+        json!({ "kind": "prune", "rows": [1, 2], "gesture": 1 }),
+        json!({ "kind": "prune_dim", "exposure": 0.1 }),
+        json!({ "kind": "turn_branch", "row": 1, "rotation": [0, 0, 0, 1], "gesture": 1 }),
+        json!({ "kind": "graft", "row": 1, "onto": 2, "rotation": [0, 0, 0, 1], "keep": true }),
+        json!({ "kind": "go_to", "step": 1 }),
+        json!({ "kind": "take_future", "future": 1 }),
+    ]
+}
+
+/// One message of each type but commands.
+fn messages() -> Vec<Value> {
+    let resume = json!({ "epoch": 1, "generations": [1, 2], "rows": 3 });
+    vec![
+        json!({ "type": "hello", "protocol": 1, "client": "birch-01", "resume": resume }),
+        json!({ "type": "received", "sequence": 1, "kind": 2 }),
+        json!({ "type": "predict", "rows": [1], "steps": 3 }),
+        json!({ "type": "ping", "nonce": 1 }),
+    ]
+}
+
+/// A way to a value inside another one, as a refusal names it, and as JSON does.
+#[derive(Clone)]
+struct Way {
+    name: String,
+    pointer: String,
+}
+
+/// The ways to all values inside a value, and to itself.
+fn ways(value: &Value, at: &Way, found: &mut Vec<Way>) {
+    found.push(at.clone());
+    let inner: Vec<(String, String, &Value)> = match value {
+        Value::Object(fields) => fields
+            .iter()
+            .map(|(key, inner)| {
+                let dot = if at.name.is_empty() { "" } else { "." };
+                (format!("{dot}{key}"), key.clone(), inner)
+            })
+            .collect(),
+        Value::Array(entries) => {
+            let named = |(index, inner)| (format!("[{index}]"), format!("{index}"), inner);
+            entries.iter().enumerate().map(named).collect()
+        }
+        _ => Vec::new(),
+    };
+    for (name, key, inner) in inner {
+        let way = Way { name: at.name.clone() + &name, pointer: format!("{}/{key}", at.pointer) };
+        ways(inner, &way, found);
+    }
+}
+
+/// A text with something wrong in it, and the field that its refusal should name, or one inside it.
+fn mistakes(sample: &Value) -> Vec<(String, String)> {
+    let mut all = Vec::new();
+    ways(sample, &Way { name: String::new(), pointer: String::new() }, &mut all);
+    let mut mistakes = Vec::new();
+    for Way { name, pointer } in all {
+        let changed = |change: &dyn Fn(&mut Value)| {
+            let mut copy = sample.clone();
+            copy.pointer_mut(&pointer).map(change);
+            copy.to_string()
+        };
+        if let Some(Value::Object(_)) = sample.pointer(&pointer) {
+            let dot = if name.is_empty() { "" } else { "." };
+            mistakes.push((changed(&|it| it["extra"] = 1.into()), format!("{name}{dot}extra")));
+        }
+        if name.is_empty() {
+            continue;
+        }
+        for wrong in [
+            json!("x"),
+            json!(true),
+            json!(null),
+            json!(-1),
+            json!(1.5),
+            json!(1e6),
+            json!(-1e6),
+            json!(1e39),
+            json!([]),
+            json!({}),
+            json!([1, 2, 3, 4, 5]),
+            json!({ "extra": 1 }),
+            json!(u64::MAX),
+        ] {
+            mistakes.push((changed(&|it| *it = wrong.clone()), name.clone()));
+        }
+        for number in ["NaN", "1e999", "-Infinity"] {
+            let text = changed(&|it| *it = "@".into()).replace("\"@\"", number);
+            mistakes.push((text, name.clone()));
+        }
+        if let Some(Value::Array(entries)) = sample.pointer(&pointer) {
+            let many = vec![entries[0].clone(); 5000];
+            mistakes.push((changed(&|it| *it = json!(many)), name.clone()));
+        }
+        let (outer, key) = pointer.rsplit_once('/').expect("it is inside something");
+        let mut copy = sample.clone();
+        match copy.pointer_mut(outer).expect("it is there") {
+            Value::Object(fields) => drop(fields.remove(key)),
+            Value::Array(entries) => drop(entries.pop()),
+            _ => {}
+        }
+        let whole = name.trim_end_matches(&format!("[{key}]")).to_owned();
+        mistakes.push((copy.to_string(), whole));
+    }
+    mistakes
+}
+
+#[derive(Debug, Default, PartialEq)]
+struct Count {
+    refused: usize,
+    nameless: Vec<String>,
+    without_range: Vec<String>,
+}
+
+fn count(samples: &[Value], read: impl Fn(&str) -> Result<(), Problem>) -> Count {
+    let mut count = Count::default();
+    for sample in samples {
+        assert_eq!(read(&sample.to_string()), Ok(()), "{sample}");
+        for (text, wanted) in mistakes(sample) {
+            let Err(problem) = read(&text) else { continue };
+            count.refused += 1;
+            let Problem { field, allowed, message, .. } = problem;
+            let told = format!("{text:.120} at {wanted}: {message:.200}");
+            let field = field.unwrap_or_default();
+            // One wrong value may make the whole wrong that it is part of, or its neighbour.
+            let section = wanted.rsplit_once(['.', '[']).map_or(&*wanted, |(outer, _)| outer);
+            if field.is_empty() || !field.starts_with(section) || !message.contains(&field) {
+                count.nameless.push(format!("{told} ({field})"));
+            }
+            if allowed.is_none_or(|allowed| allowed.is_empty() || !message.contains(&allowed)) {
+                count.without_range.push(told);
+            }
+        }
+    }
+    count
+}
+
+fn check(count: &Count, least: usize) {
+    println!(
+        "{} refusals: {} without a field, {} without what is allowed",
+        count.refused,
+        count.nameless.len(),
+        count.without_range.len()
+    );
+    assert!(count.refused > least, "only {} refusals", count.refused);
+    assert!(count.nameless.is_empty(), "{:#?}", &count.nameless[..count.nameless.len().min(20)]);
+    assert!(
+        count.without_range.is_empty(),
+        "{:#?}",
+        &count.without_range[..count.without_range.len().min(20)]
+    );
+}
+
+#[test]
+fn cm3_every_refused_command_names_field_and_range() {
+    check(&count(&commands(), |text| read_command(text).map(drop)), 3000);
+}
+
+#[test]
+fn cm8_every_refused_message_names_field_and_range() {
+    let read = |text: &str| ClientMessage::from_json(text).map(drop).map_err(|unread| unread.problem);
+    check(&count(&messages(), read), 150);
+}
+
+#[test]
+fn a_sample_of_each_kind_is_tried() {
+    let unknown = read_command(r#"{"kind":"fell"}"#).expect_err("no such kind");
+    let kinds = unknown.allowed.expect("the kinds");
+    let samples = commands();
+    for kind in kinds.split(", ") {
+        assert!(samples.iter().any(|sample| sample["kind"] == kind), "{kind} has no sample");
+    }
+}
+
+#[test]
+fn cm9_any_command_may_carry_a_gesture() {
+    for mut sample in commands() {
+        sample["gesture"] = 5.into();
+        let command = read_command(&sample.to_string()).expect("it is in good form");
+        assert_eq!(command.gesture, Some(5), "{sample}");
+        let written = serde_json::to_string(&command).expect("plain values");
+        assert_eq!(
+            read_command(&written),
+            Ok(command),
+            "what is written is read again as the same: {written}"
+        );
+    }
+}
+
+#[test]
+fn scripts_of_the_gallery_are_read() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/gallery/sketches");
+    let mut lines = 0;
+    for entry in std::fs::read_dir(folder).expect("the gallery is there") {
+        let path = entry.expect("it is listed").path();
+        let script = std::fs::read_to_string(&path).expect("it is text");
+        for line in script.lines().filter(|line| !line.trim().is_empty()) {
+            read_command(line).unwrap_or_else(|problem| panic!("{}: {problem}: {line}", path.display()));
+            lines += 1;
+        }
+    }
+    assert!(lines > 20, "only {lines} commands");
+}
