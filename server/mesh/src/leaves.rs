@@ -27,20 +27,12 @@ pub struct Leaf {
     pub random: f32,
 }
 
-/// All leaves of the present, in birth order.
-pub fn all(plant: &Plant, style: &Style) -> impl Iterator<Item = Leaf> {
-    (0..plant.metamer_count()).map(MetamerId::new).flat_map(move |id| {
-        let count = foliage::leaves(plant, id, style);
-        let to = plant.metamers().end(id);
-        let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-        on_metamer(id.raw(), from, to, count, style.options().leaf_size)
-    })
-}
-
-/// How many leaves there are.
-pub fn count(plant: &Plant, style: &Style) -> usize {
-    let leaves = |index| foliage::leaves(plant, MetamerId::new(index), style);
-    (0..plant.metamer_count()).map(|index| usize::from(leaves(index))).sum()
+/// The leaves that a metamer bears in the present.
+pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> + use<> {
+    let count = foliage::leaves(plant, id, style);
+    let to = plant.metamers().end(id);
+    let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
+    on_metamer(id.raw(), from, to, count, style.options().leaf_size)
 }
 
 /// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length.
