@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use espalier_settings::{self as settings, Appearance, ParameterValues, Setting};
+use espalier_settings::{self as settings, Appearance, LeafKind, ParameterValues, Setting};
 use serde::Serialize;
 use ts_rs::{Config, TS};
 
@@ -68,7 +68,10 @@ pub fn declarations() -> String {
         obstacle::Obstacle::decl(&config),
         obstacle::PlacedShape::decl(&config),
         obstacle::PlacedObstacle::decl(&config),
-        settings::LeafKind::decl(&config),
+        LeafKind::decl(&config),
+        settings::Change::decl(&config),
+        settings::Course::decl(&config),
+        settings::LeafNature::decl(&config),
         settings::LeafLook::decl(&config),
         settings::LeafPatch::decl(&config),
         settings::Place::decl(&config),
@@ -130,6 +133,11 @@ fn add_tables(out: &mut String) {
     out.push_str(
         "} as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };\n",
     );
+    out.push_str("\nexport const LEAF_NATURES: Record<LeafKind, LeafNature> = {\n");
+    for &kind in LeafKind::ALL {
+        let _ = writeln!(out, "  {}: {},", kind.name(), json(&kind.nature()));
+    }
+    out.push_str("};\n");
     let (parameters, looks) = (json(&ParameterValues::default()), json(&Appearance::default()));
     let _ = writeln!(out, "\nexport const DEFAULT_PARAMETERS: Parameters = {parameters};");
     let _ = writeln!(out, "\nexport const DEFAULT_APPEARANCE: Appearance = {looks};");

@@ -117,6 +117,18 @@ export const LOOKS = {
   },
 } as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };
 
+export const LEAF_NATURES: Record<LeafKind, LeafNature> = {
+  ovate: {"is_spray":false,"lean":0.0,"autumn":[[222,176,50],[192,96,34],[124,82,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.77000004}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  round: {"is_spray":false,"lean":0.0,"autumn":[[236,194,54],[220,152,38],[120,88,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  lanceolate: {"is_spray":false,"lean":0.0,"autumn":[[224,200,84],[206,160,62],[124,98,58]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  lobed: {"is_spray":false,"lean":0.0,"autumn":[[190,142,60],[142,80,42],[116,78,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.74}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  palmate: {"is_spray":false,"lean":0.0,"autumn":[[240,164,38],[190,44,28],[130,70,44]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  fan: {"is_spray":false,"lean":0.0,"autumn":[[246,208,54],[242,188,40],[150,112,56]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  compound: {"is_spray":false,"lean":0.0,"autumn":[[232,182,50],[208,92,36],[122,82,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  needle: {"is_spray":true,"lean":0.6,"autumn":[[170,140,60],[160,110,50],[122,96,60]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
+  scale: {"is_spray":true,"lean":0.72,"autumn":[[150,140,66],[150,120,60],[112,96,62]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
+};
+
 export const DEFAULT_PARAMETERS: Parameters = {"internode_length":0.1,"occupancy_radius":1.5,"perception_depth":3.0,"perception_angle":90.0,"phyllotactic_angle":137.5,"buds_per_node":1,"branching_angle":50.0,"deflection_angle":5.0,"apical_control":0.52,"mature_apical_control":0.52,"maturity_start":0,"maturity_steps":0,"light_sensitivity":1.0,"max_shoot_length":4,"shedding_threshold":0.0,"vigor_gain":2.0,"vigor_model":"borchert_honda","priority_least_weight":0.006,"priority_decline":0.5,"heading_weight":0.5,"tropism_weight":0.25,"space_weight":0.25,"phototropism":0.0,"setpoint_angle":0.0,"trunk_upward":true,"tropism_from_stroke":false,"gravimorphism_vertical":1.0,"gravimorphism_horizontal":1.0,"gravimorphism_shift":0.0,"marker_density":0.15,"markers_per_bud":6,"marker_max_age":8,"shadow_strength":0.12,"shadow_decay":2.0,"shadow_depth":6,"girth_exponent":2.5,"twig_diameter":0.07,"leaves_per_node":4,"leaf_size":1.0};
 
 export const DEFAULT_APPEARANCE: Appearance = {"leaves":{"shape":"ovate","tint":[88,128,52],"vigor_shift":0.4,"season":1.0,"orientation":0.0},"flowers":{"kind":"none","tint":[246,236,240],"size":0.5,"share":0.5,"place":"twigs","vigor":0.0},"fruits":{"kind":"none","tint":[178,44,34],"size":0.4,"share":0.2,"place":"twigs","vigor":0.0},"bark":{"kind":"furrowed","tint":[121,110,97],"relief":1.0,"root_flare":1.0,"collar":1.0,"smoothing":1.0},"background":{"sky":"meadow","ground":"grass","backdrop":[226,222,214],"sun_azimuth":310.0,"sun_elevation":48.0}};
@@ -570,6 +582,64 @@ shape: PlacedShape,
 pose: Pose, };
 
 export type LeafKind = "ovate" | "round" | "lanceolate" | "lobed" | "palmate" | "fan" | "compound" | "needle" | "scale";
+
+export type Change = { 
+/**
+ * The season in which it begins.
+ */
+from: number, 
+/**
+ * The season in which it ends.
+ */
+to: number, 
+/**
+ * How much it adds in all.
+ */
+by: number, };
+
+export type Course = { 
+/**
+ * What it is at bud burst.
+ */
+start: number, 
+/**
+ * What is added to it.
+ */
+changes: Array<Change>, };
+
+export type LeafNature = { 
+/**
+ * Whether many small ones stand on a twig together and are drawn as one spray.
+ */
+is_spray: boolean, 
+/**
+ * How far it lies along its twig, 0 as `LF2` has it to 1 along the twig.
+ */
+lean: number, 
+/**
+ * The sRGB colours that it turns into: at first, at last, and dead.
+ */
+autumn: [[number, number, number], [number, number, number], [number, number, number]], 
+/**
+ * How large it is, 0 to 1.
+ */
+unfolded: Course, 
+/**
+ * The share of the leaves that are there.
+ */
+present: Course, 
+/**
+ * How young its green is, 0 to 1.
+ */
+fresh: Course, 
+/**
+ * How far the colours of autumn have come, 0 to 1.
+ */
+turned: Course, 
+/**
+ * How far it has died, 0 to 1.
+ */
+withered: Course, };
 
 export type LeafLook = { 
 /**

@@ -9,7 +9,7 @@ use crate::gltf::{
     ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Material,
     Mesh, Node, PbrMetallicRoughness, Primitive, Root, Scene, UNSIGNED_INT, UNSIGNED_SHORT,
 };
-use crate::picture::{linear, season};
+use crate::picture::{leaf_look, linear};
 
 const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
 const VERSION: u32 = 2;
@@ -44,9 +44,11 @@ pub fn glb(
     }
     let mut writer = Writer::new(metres_per_internode);
     writer.add("Bark", &bark_mesh(plant, style), bark_material(linear(appearance.bark.tint)))?;
-    if let Some(colour) = season::mean_colour(&appearance.leaves) {
-        writer.add("Leaves", &leaf_mesh(plant, style), leaf_material(colour))?;
-    }
+    let (leaves, hues): (Vec<_>, Vec<_>) =
+        leaf_look::hanging(plant, style, &appearance.leaves).into_iter().unzip();
+    // The material has one colour for all of them.
+    let colour = hues.iter().sum::<Vec3>() / hues.len().max(1) as f32;
+    writer.add("Leaves", &leaf_mesh(&leaves), leaf_material(colour.min(Vec3::ONE)))?;
     writer.finish()
 }
 

@@ -1,13 +1,8 @@
 //! Leaves as triangles: an ovate blade, folded along its midrib and bowed towards its tip, as clients draw it.
 
-use espalier_plant::Plant;
 use glam::{Vec2, Vec3};
 
-use crate::{
-    leaves::{self, Leaf},
-    style::Style,
-    triangle_mesh::TriangleMesh,
-};
+use crate::{leaves::Leaf, triangle_mesh::TriangleMesh};
 
 /// An outline between base and tip: how far along, and half the width there.
 type Outline = &'static [(f32, f32)];
@@ -17,12 +12,12 @@ const PLAIN: Outline = &[(0.42, 0.3)];
 /// With more leaves than this each gets half the triangles: nobody sees single ones then.
 const MANY_LEAVES: usize = 60_000;
 
-/// All leaves of the present. Texture coordinates run from 0 to 1 across a blade and from its base to its tip.
-pub fn leaf_mesh(plant: &Plant, style: &Style) -> TriangleMesh {
+/// Leaves as triangles. Texture coordinates run from 0 to 1 across a blade and from its base to its tip.
+pub fn leaf_mesh(leaves: &[Leaf]) -> TriangleMesh {
     let mut mesh = TriangleMesh::default();
-    let outline = if leaves::count(plant, style) > MANY_LEAVES { PLAIN } else { DETAILED };
-    for leaf in leaves::all(plant, style) {
-        add_blade(&mut mesh, &leaf, outline);
+    let outline = if leaves.len() > MANY_LEAVES { PLAIN } else { DETAILED };
+    for leaf in leaves {
+        add_blade(&mut mesh, leaf, outline);
     }
     mesh
 }

@@ -27,20 +27,12 @@ pub struct Leaf {
     pub random: f32,
 }
 
-/// All leaves of the present, in birth order.
-pub fn all(plant: &Plant, style: &Style) -> impl Iterator<Item = Leaf> {
-    (0..plant.metamer_count()).map(MetamerId::new).flat_map(move |id| {
-        let count = foliage::leaves(plant, id, style);
-        let to = plant.metamers().end(id);
-        let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-        on_metamer(id.raw(), from, to, count, style.options().leaf_size)
-    })
-}
-
-/// How many leaves there are.
-pub fn count(plant: &Plant, style: &Style) -> usize {
-    let leaves = |index| foliage::leaves(plant, MetamerId::new(index), style);
-    (0..plant.metamer_count()).map(|index| usize::from(leaves(index))).sum()
+/// The leaves that a metamer bears in the present.
+pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = Leaf> + use<> {
+    let count = foliage::leaves(plant, id, style);
+    let to = plant.metamers().end(id);
+    let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
+    on_metamer(id.raw(), from, to, count, style.options().leaf_size)
 }
 
 /// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length.
@@ -78,7 +70,52 @@ pub fn hash(input: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
+    use std::{fmt::Write, fs, path::PathBuf};
+
     use super::*;
+
+    /// Leaves of many rows and headings as JSON, a leaf on each line.
+    fn placed() -> String {
+        let headings =
+            [[0.0, 1.0, 0.0], [0.6, 0.8, 0.0], [-0.7, -0.1, 0.5], [0.05, -0.9, 0.02], [0.0, 0.2, -1.3]];
+        let mut lines = Vec::new();
+        for (i, row) in [1, 7, 36, 5_000, 250_000, 3_999_999].into_iter().enumerate() {
+            for (j, &to) in headings.iter().enumerate() {
+                let from = [0.0, 0.25 * i as f32, 0.5];
+                let (from, to) = (Vec3::from_array(from), Vec3::from_array(from) + Vec3::from_array(to));
+                let count = [1, 2, 3, 15][(i + j) % 4];
+                for (k, leaf) in on_metamer(row, from, to, count, 1.0).enumerate().step_by(4) {
+                    let Leaf { base, direction, normal, random, .. } = leaf;
+                    let mut line = format!(r#"{{"row":{row},"k":{k},"count":{count},"random":{random:?}"#);
+                    let places = [
+                        ("from", from),
+                        ("to", to),
+                        ("base", base),
+                        ("direction", direction),
+                        ("normal", normal),
+                    ];
+                    for (name, place) in places {
+                        // Writing to a string cannot fail.
+                        let _ = write!(line, r#","{name}":{:?}"#, place.to_array());
+                    }
+                    lines.push(line + "}");
+                }
+            }
+        }
+        format!("[\n{}\n]\n", lines.join(",\n"))
+    }
+
+    /// Clients place leaves by themselves: both must place those in `golden/leaves.json`.
+    ///
+    /// After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-mesh leaves`.
+    #[test]
+    fn lf1_to_lf4_leaves_are_as_they_were_written_down() {
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/leaves.json");
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
+            fs::write(&file, placed()).expect("the leaves can be written");
+        }
+        assert!(fs::read_to_string(&file).is_ok_and(|stored| stored == placed()), "leaves differ");
+    }
 
     /// Numbers from a separate calculation in 64 bits.
     #[test]

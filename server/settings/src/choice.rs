@@ -13,7 +13,7 @@ use serde::{
 /// An enum that travels as a name.
 pub(crate) trait Choice: Copy + 'static {
     /// All of them, each with its name.
-    const ALL: &'static [(&'static str, Self)];
+    const NAMED: &'static [(&'static str, Self)];
 }
 
 /// Reads a choice by its name; an error lists all names.
@@ -31,7 +31,7 @@ impl<C: Choice> Visitor<'_> for Reader<C> {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<C, E> {
-        let found = C::ALL.iter().find(|(name, _)| *name == text);
+        let found = C::NAMED.iter().find(|(name, _)| *name == text);
         found
             .map(|&(_, choice)| choice)
             .ok_or_else(|| E::custom(format_args!("unknown name `{text}`, expected {}", names::<C>())))
@@ -39,7 +39,7 @@ impl<C: Choice> Visitor<'_> for Reader<C> {
 }
 
 fn names<C: Choice>() -> String {
-    C::ALL.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
+    C::NAMED.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
 }
 
 /// Declares an enum whose variants have names, as which they travel.
@@ -52,6 +52,8 @@ macro_rules! choices {
         }
 
         impl $choice {
+            /// All of them, in their order.
+            pub const ALL: &'static [Self] = &[$(Self::$variant),+];
             /// The names, in their order.
             pub const NAMES: &'static [&'static str] = &[$($name),+];
 
@@ -62,7 +64,7 @@ macro_rules! choices {
         }
 
         impl $crate::choice::Choice for $choice {
-            const ALL: &'static [(&'static str, Self)] = &[$(($name, Self::$variant)),+];
+            const NAMED: &'static [(&'static str, Self)] = &[$(($name, Self::$variant)),+];
         }
 
         impl $crate::value::Value for $choice {

@@ -7,6 +7,7 @@
 
 mod appearance;
 mod choice;
+mod leaf_nature;
 pub mod looks;
 pub mod parameters;
 mod setting;
@@ -14,6 +15,7 @@ mod table;
 mod value;
 
 pub use appearance::{Appearance, AppearancePatch};
+pub use leaf_nature::{Change, Course, LeafNature};
 pub use looks::{
     Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerKind, FlowerLook, FlowerPatch,
     FruitKind, FruitLook, FruitPatch, Ground, LeafKind, LeafLook, LeafPatch, Place, Sky,

@@ -1,14 +1,44 @@
+import { readFileSync } from "node:fs";
 import { expect, it } from "vitest";
+import { shaderFunctions } from "../../../test/shader-functions";
+import { LEAF_PLACE } from "../glsl/leaf";
 import { leafHash } from "../leaf-hash";
 import { leafAzimuth, leafRandom } from "./leaves";
+
+/** A leaf as the server places it. */
+interface Placed {
+  row: number;
+  k: number;
+  count: number;
+  from: number[];
+  to: number[];
+  base: number[];
+  direction: number[];
+  normal: number[];
+  random: number;
+}
+
+interface PlaceFunctions {
+  leafAt(a: number[], b: number[], azimuth: number, share: number): Pick<Placed, "base" | "direction" | "normal">;
+}
+
+const file = new URL("../../../../server/mesh/golden/leaves.json", import.meta.url);
+const leaves: Placed[] = JSON.parse(readFileSync(file, "utf8"));
 
 it("LF3: a leaf hashes in 32-bit arithmetic", () => {
   expect([0, 1, 16, 82, 1599998].map(leafHash)).toEqual([129708002, 2831084092, 980210444, 1877514304, 922964444]);
 });
 
-it("LF2: a leaf's azimuth and size follow from its row", () => {
-  expect(leafAzimuth(7, 1, 3)).toBeCloseTo((2.39996323 * 7 + (2 * Math.PI) / 3) % (2 * Math.PI), 12);
-  expect(leafAzimuth(123456, 14, 15)).toBeLessThan(2 * Math.PI);
-  expect(0.75 + 0.5 * leafRandom(7, 1)).toBeCloseTo(1.147272, 6);
-  expect(0.75 + 0.5 * leafRandom(123456, 14)).toBeCloseTo(0.92693, 5);
+it("LF1, LF2, LF4: leaves are where the server has them", () => {
+  const { leafAt } = shaderFunctions<PlaceFunctions>(LEAF_PLACE, ["leafAt"]);
+  expect(leaves.length).toBeGreaterThan(50);
+  for (const { row, k, count, from, to, random, ...wanted } of leaves) {
+    expect(leafRandom(row, k)).toBeCloseTo(random, 6);
+    const azimuth = leafAzimuth(row, k, count);
+    expect(azimuth).toBeLessThan(2 * Math.PI);
+    const found = leafAt(from, to, azimuth, (k + 1) / count);
+    for (const name of ["base", "direction", "normal"] as const) {
+      for (let i = 0; i < 3; i += 1) expect(Math.abs(found[name][i]! - wanted[name][i]!)).toBeLessThan(1e-4);
+    }
+  }
 });

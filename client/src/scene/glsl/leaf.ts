@@ -23,6 +23,21 @@ Leaf leafAt(vec3 a, vec3 b, float azimuth, float share) {
 }
 `;
 
+/** What a season and a look make of a leaf's shape; the server's exports compute the same. */
+export const LEAF_SHAPE = /* glsl */ `
+/** More numbers of a leaf's own, 0 to 1. */
+vec4 ownNumbers(float random) { return fract(random * vec4(57.31, 131.7, 313.3, 709.9)); }
+/** A leaf is there while its number lies below a share; where that nears it, it shrinks away. */
+float presence(float share, float number) { return clamp((share * 1.08 - number) / 0.08, 0.0, 1.0); }
+/** The size of a leaf that unfolds a little earlier than others, or later. */
+float unfolding(float unfolded, float number) { return mix(unfolded, 1.0, 0.35 * number * (1.0 - unfolded)); }
+/** Where a leaf points that lies so far along its twig, and hangs or is raised. */
+vec3 pointing(vec3 d, vec3 h, vec3 side, float lean, float turn) {
+  vec3 lying = mix(d, h, lean);
+  return normalize(mix(lying, vec3(0.0, sign(turn), 0.0), 0.92 * abs(turn)) + 1e-4 * side);
+}
+`;
+
 /** Cards that show a tile of an atlas: how they turn to the eye, and which part of the picture they show. */
 export const CARD = /* glsl */ `
 const float MARGIN = ${TILE_MARGIN.toFixed(4)};
@@ -62,10 +77,16 @@ uniform sampler2D uLeafRelief; // normal across and along, wood, margin
 #endif
 `;
 
-/** The colour of a leaf, in its middle and along its margin. */
-const LEAF_COLOUR = /* glsl */ `
+/** The colour of a leaf, in its middle and along its margin; the server's exports compute that of the middle. */
+export const LEAF_COLOUR = /* glsl */ `
+uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies along its twig, how much it bends
+uniform vec4 uLeafSeason; // size, presence, fresh, turned
+uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
 uniform vec3 uLeafTint;
-uniform vec3 uLeafAutumn[3]; // first, at last, dead
+// The colours of autumn, at first and at last, and of dead leaves.
+uniform vec3 uLeafFirst;
+uniform vec3 uLeafLast;
+uniform vec3 uLeafDead;
 const vec3 BRIGHTNESS = vec3(0.30, 0.59, 0.11);
 struct Hues { vec3 middle; vec3 margin; };
 Hues leafHues(float vigor, float light, vec3 random) {
@@ -87,10 +108,10 @@ Hues leafHues(float vigor, float light, vec3 random) {
   float middle = smoothstep(late - 0.25, late + 0.25, turned - 0.12);
   float margin = smoothstep(late - 0.25, late + 0.25, turned + 0.16);
   float depth = clamp(0.75 * random.x + 0.5 * light - 0.3 + 0.3 * (1.0 - vigor), 0.0, 1.0);
-  vec3 autumn = mix(uLeafAutumn[0], uLeafAutumn[1], smoothstep(0.2, 0.9, depth)) * (0.82 + 0.36 * random.y);
-  vec3 dead = uLeafAutumn[2] * (0.7 + 0.5 * random.y);
+  vec3 autumn = mix(uLeafFirst, uLeafLast, smoothstep(0.2, 0.9, depth)) * (0.82 + 0.36 * random.y);
+  vec3 dead = uLeafDead * (0.7 + 0.5 * random.y);
   float died = clamp(uLeafTraits.z * 1.3 - 0.3 * random.z, 0.0, 1.0);
-  Hues hues = Hues(mix(summer, autumn, middle), mix(summer, mix(autumn, uLeafAutumn[1], 0.3), margin));
+  Hues hues = Hues(mix(summer, autumn, middle), mix(summer, mix(autumn, uLeafLast, 0.3), margin));
   return Hues(mix(hues.middle, dead, died), mix(hues.margin, dead, min(1.0, died * 1.4)));
 }
 `;
@@ -99,9 +120,6 @@ Hues leafHues(float vigor, float light, vec3 random) {
 export const LEAF_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform float uLeafSize;
-uniform vec4 uLeafForm; // half width, whether it is a spray, how far that lies along its twig, how much it bends
-uniform vec4 uLeafSeason; // size, presence, fresh, turned
-uniform vec4 uLeafTraits; // shift by vigor, orientation, withered
 uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
 uniform vec3 uLeafBand; // length of a leaf in pixels up to which all give way to sprigs, and from which none; how much sprigs swell
 #ifdef SPRIG
@@ -119,15 +137,12 @@ out vec3 vMargin;
 out vec2 vLight; // below 0 for what is marked; how open to the sky it is
 out float vTrait;
 const float SECONDS = 0.35;
-${CARD}${LEAF_COLOUR}
-/** A leaf is there while its number lies below a share; where that nears it, it shrinks away. */
-float presence(float share, float number) { return clamp((share * 1.08 - number) / 0.08, 0.0, 1.0); }
-
+${CARD}${LEAF_SHAPE}${LEAF_COLOUR}
 void main() {
   Node node = nodeAt(int(leaf.x + 0.5));
   Node from = nodeAt(int(leaf.y + 0.5));
   float random = fract(tint);
-  vec4 more = fract(random * vec4(57.31, 131.7, 313.3, 709.9));
+  vec4 more = ownNumbers(random);
   // From afar single leaves give way to sprigs, one here and one there, until none is left.
   float length_ = uLeafSize * uView.w / max(0.1, distance(uView.xyz, node.position));
   float single = uLeafBand.y > 0.0 ? smoothstep(uLeafBand.x, uLeafBand.y, length_) : 1.0;
@@ -145,14 +160,11 @@ void main() {
   }
   float vigor = floor(tint) / 15.0;
   float grown = eased(uTime - node.birth - node.growing * 0.6, SECONDS);
-  float unfolded = mix(uLeafSeason.x, 1.0, 0.35 * more.y * (1.0 - uLeafSeason.x));
-  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolded * there * inversesqrt(max(haste, 0.2));
+  float size = (0.75 + 0.5 * random) * uLeafSize * grown * unfolding(uLeafSeason.x, more.y) * there * inversesqrt(max(haste, 0.2));
   Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
   vec3 h = normalize(node.position - from.position);
   vec3 side = cross(place.direction, place.normal);
-  vec3 d = mix(place.direction, h, uLeafForm.z);
-  float turn = uLeafTraits.y;
-  d = normalize(mix(d, vec3(0.0, sign(turn), 0.0), 0.92 * abs(turn)) + 1e-4 * side);
+  vec3 d = pointing(place.direction, h, side, uLeafForm.z, uLeafTraits.y);
   side = normalize(side - dot(side, d) * d);
   vec3 n = cross(side, d);
   float mirror = more.x > 0.5 ? 1.0 : -1.0;

@@ -1,4 +1,4 @@
-import type { LeafKind } from "../../wire/generated";
+import { LEAF_NATURES, type LeafKind } from "../../wire/generated";
 
 /** x across, from the midrib; y along, from 0 where the stalk begins to 1. */
 export type Point = readonly [x: number, y: number];
@@ -42,7 +42,7 @@ export function laminaOf(kind: LeafKind, random: Random = typical): Lamina {
 
 /** Leaves that are many small ones on a twig, drawn as a spray that is seen from all around. */
 export function isSpray(kind: LeafKind): boolean {
-  return kind === "needle" || kind === "scale";
+  return LEAF_NATURES[kind].is_spray;
 }
 
 /** Needles in a panel's picture. */

@@ -11,9 +11,9 @@ use espalier_settings::{Appearance, LeafKind, Place};
 use glam::{Vec2, Vec3};
 
 use super::{
+    leaf_look::{LeafPainter, Shoot},
     ornaments::{self, Spot},
     scene::Painted,
-    season::dressed,
 };
 
 /// Half an outline: how far along the blade, and how far out, in lengths of the leaf.
@@ -31,6 +31,7 @@ pub(crate) fn foliage(plant: &Plant, style: &Style, appearance: &Appearance) -> 
     let Appearance { leaves: look, flowers, fruits, .. } = appearance;
     let mut painter = Painter { painted: Painted::default(), colour: Vec3::ONE };
     let goes_on = goes_on(plant);
+    let leaf_painter = LeafPainter::new(look);
     for id in (0..plant.metamer_count()).map(MetamerId::new) {
         if plant.is_seed(id) || !plant.is_alive(id) {
             continue;
@@ -38,20 +39,19 @@ pub(crate) fn foliage(plant: &Plant, style: &Style, appearance: &Appearance) -> 
         let count = foliage::leaves(plant, id, style);
         let to = plant.metamers().end(id);
         let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-        let heading = (to - from).normalize_or(Vec3::Y);
-        let seen = plant.metamers().appearance(id);
-        // The shadows of the simulation are soft; within them leaves are darker and bluer.
-        let light = 0.62 + 0.38 * f32::from(seen.light) / 255.0;
-        let vigor = f32::from(seen.vigor) / 255.0;
+        let shoot = Shoot::of(plant, id);
+        let Shoot { heading, vigor, light } = shoot;
+        // The shadows of the simulation are soft: deep in a crown there is little of the sky.
+        let sky = 0.62 + 0.38 * light;
         let bear = |painter: &mut Painter, place: Place, at: Vec3, out: Vec3, random: f32| {
             let spot = Spot { place, at, out, vigor, random: share(random) };
             ornaments::flower(painter, &spot, flowers);
             ornaments::fruit(painter, &spot, fruits);
         };
         for leaf in leaves::on_metamer(id.raw(), from, to, count, style.options().leaf_size) {
-            if let Some((leaf, tint)) = dressed(&leaf, look, vigor) {
-                painter.colour = varied(tint, leaf.random) * light;
-                painter.leaf(&leaf, look.shape, heading);
+            if let Some((leaf, hue)) = leaf_painter.paint(&leaf, &shoot) {
+                painter.colour = hue * sky;
+                painter.leaf(&leaf, look.shape);
             }
             bear(&mut painter, Place::Twigs, leaf.base, leaf.direction, leaf.random);
         }
@@ -85,12 +85,6 @@ pub(super) fn share(random: f32) -> f32 {
     leaves::hash(1 + (random * 1e6) as u32) as f32 / u32::MAX as f32
 }
 
-/// No two leaves are quite alike.
-fn varied(tint: Vec3, random: f32) -> Vec3 {
-    let warmth = 0.16 * (random - 0.5);
-    tint * Vec3::new(1.0 + 1.6 * warmth, 1.0 + 0.4 * warmth, 1.0 - warmth) * (0.84 + 0.32 * share(random))
-}
-
 /// Collects triangles in the colour of the moment.
 pub(super) struct Painter {
     pub(super) painted: Painted,
@@ -98,20 +92,13 @@ pub(super) struct Painter {
 }
 
 impl Painter {
-    fn leaf(&mut self, leaf: &Leaf, kind: LeafKind, heading: Vec3) {
+    fn leaf(&mut self, leaf: &Leaf, kind: LeafKind) {
         let Leaf { base, direction, normal, size, random } = *leaf;
         let side = direction.cross(normal);
         match kind {
             LeafKind::Ovate => self.blade(base, direction, side, size, OVATE),
-            LeafKind::Round => {
-                // Such leaves hang from long stalks and flutter.
-                let hanging = (direction - 0.6 * Vec3::Y).normalize_or(direction);
-                self.blade(base, hanging, side, size, ROUND);
-            }
-            LeafKind::Lanceolate => {
-                let hanging = (direction + heading - 0.5 * Vec3::Y).normalize_or(direction);
-                self.blade(base, hanging, side, size, LANCEOLATE);
-            }
+            LeafKind::Round => self.blade(base, direction, side, size, ROUND),
+            LeafKind::Lanceolate => self.blade(base, direction, side, size, LANCEOLATE),
             LeafKind::Lobed => self.blade(base, direction, side, size, LOBED),
             LeafKind::Palmate => {
                 let centre = base + direction * (0.35 * size);
@@ -133,16 +120,15 @@ impl Painter {
                 for needle in 0..6 {
                     let turn = TAU * (needle as f32 / 6.0 + random);
                     let (sin, cos) = libm::sincosf(turn);
-                    let along =
-                        (heading * 0.75 + (direction * cos + side * sin) * 0.66).normalize_or(heading);
-                    let across = along.cross(heading).normalize_or(side);
+                    let out = normal * cos + side * sin;
+                    let along = (direction * 0.75 + out * 0.66).normalize_or(direction);
+                    let across = along.cross(direction).normalize_or(side);
                     self.blade(base, along, across, size, &[(0.5, 0.045), (1.0, 0.0)]);
                 }
             }
             LeafKind::Scale => {
-                let along = (heading + 0.5 * direction).normalize_or(heading);
-                self.blade(base, along, side, size, &[(0.4, 0.17), (1.0, 0.0)]);
-                self.blade(base, along, normal, size, &[(0.4, 0.17), (1.0, 0.0)]);
+                self.blade(base, direction, side, size, &[(0.4, 0.17), (1.0, 0.0)]);
+                self.blade(base, direction, normal, size, &[(0.4, 0.17), (1.0, 0.0)]);
             }
             LeafKind::Compound => {
                 for pair in 0..4 {

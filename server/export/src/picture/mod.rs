@@ -3,13 +3,13 @@
 mod bark;
 mod blades;
 mod canvas;
+pub(crate) mod leaf_look;
 mod lettering;
 mod ornaments;
 mod palette;
 mod png;
 mod raster;
 mod scene;
-pub(crate) mod season;
 mod sheet;
 
 pub use canvas::Canvas;

@@ -4,7 +4,7 @@ mod reader;
 mod saplings;
 
 use espalier_export::{ExportError, glb, skeleton_json};
-use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh};
+use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh, leaves};
 use espalier_plant::{MetamerId, Plant, Widths};
 use espalier_settings::{Appearance, LeafKind};
 use glam::Vec3;
@@ -21,21 +21,33 @@ fn looks() -> Appearance {
     Appearance::default()
 }
 
+/// Whether places or directions are the same but for rounding.
+fn are_near(found: &[Vec3], wanted: impl ExactSizeIterator<Item = Vec3>) -> bool {
+    found.len() == wanted.len()
+        && found
+            .iter()
+            .zip(wanted)
+            .all(|(&found, wanted)| found.distance(wanted) < 1e-4 * wanted.length().max(1.0))
+}
+
 proptest! {
     #[test]
     fn any_plant_is_a_valid_glb(growth in saplings::growth(), metres in 0.005f32..1.0) {
         let (plant, style) = (saplings::grown(&growth), style());
         let file = glb(&plant, &style, &looks(), metres).expect("it exports");
         let meshes = reader::read(&file);
-        let sources = [("Bark", bark_mesh(&plant, &style)), ("Leaves", leaf_mesh(&plant, &style))];
+        // In summer leaves are as the rules have them.
+        let ids = (0..plant.metamer_count()).map(MetamerId::new);
+        let leaves: Vec<_> = ids.flat_map(|id| leaves::of(&plant, id, &style)).collect();
+        let sources = [("Bark", bark_mesh(&plant, &style)), ("Leaves", leaf_mesh(&leaves))];
         let sources: Vec<_> = sources.into_iter().filter(|(_, mesh)| !mesh.is_empty()).collect();
         prop_assert_eq!(meshes.len(), sources.len());
         for (read, (name, source)) in meshes.iter().zip(&sources) {
             prop_assert_eq!(&read.name, name);
             prop_assert_eq!(&read.indices, &source.indices);
-            prop_assert_eq!(&read.normals, &source.normals);
-            let scaled: Vec<Vec3> = source.positions.iter().map(|&position| position * metres).collect();
-            prop_assert_eq!(&read.positions, &scaled);
+            let scaled = source.positions.iter().map(|&position| position * metres);
+            prop_assert!(are_near(&read.normals, source.normals.iter().copied()));
+            prop_assert!(are_near(&read.positions, scaled));
             prop_assert!(read.uvs.iter().zip(&source.uvs).all(|(read, uv)| read.x == uv.x && read.y == 1.0 - uv.y));
         }
         prop_assert_eq!(file, glb(&plant, &style, &looks(), metres).expect("it exports again"));
@@ -142,9 +154,20 @@ fn materials_have_the_colours_of_the_looks() {
     looks.bark.tint = [255, 0, 0];
     let [(_, bark), (_, leaves)] = &materials(&looks)[..] else { panic!("two materials") };
     assert_eq!(bark[..], [1.0, 0.0, 0.0, 1.0]);
-    assert!(leaves[2] > 0.99 && leaves[0] < 0.01, "{leaves:?}");
-    looks.leaves.season = 3.0;
-    assert_eq!(materials(&looks).len(), 1, "leaves have fallen");
+    assert!(leaves[2] > 0.8 && leaves[0] < 0.01, "{leaves:?}");
+}
+
+#[test]
+fn a_file_has_the_leaves_of_its_season() {
+    let positions = |season| {
+        let looks = looks().leafy(LeafKind::Round, [88, 128, 52]).turned(0.0, season, 0.0);
+        let file = glb(&saplings::pole(60), &style(), &looks, METRES).expect("it exports");
+        let leaves = reader::read(&file).into_iter().find(|mesh| mesh.name == "Leaves");
+        leaves.map_or(0, |leaves| leaves.positions.len())
+    };
+    let [burst, summer, autumn, winter] = [0.0, 1.0, 2.0, 3.0].map(positions);
+    assert!(0 < burst && burst < summer && 0 < autumn && autumn < summer, "{burst} {summer} {autumn}");
+    assert_eq!(winter, 0, "leaves have fallen");
 }
 
 #[test]
