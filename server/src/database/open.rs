@@ -8,8 +8,8 @@ use std::{
 };
 
 use sqlx::{
-    ConnectOptions, SqlitePool,
-    migrate::{MigrateError, Migrator},
+    ConnectOptions, SqlSafeStr, SqlitePool,
+    migrate::{MigrateError, Migration, MigrationType, Migrator},
     sqlite::{
         SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous,
     },
@@ -17,8 +17,9 @@ use sqlx::{
 
 use super::{in_words, writer::Writer};
 
-/// The schema, one file for each change.
-static MIGRATIONS: Migrator = sqlx::migrate!("../migrations");
+/// The schema: one file of `migrations/` for each change, in order.
+const MIGRATIONS: [(&str, &str); 1] =
+    [("0001_sessions_and_trees", include_str!("../../../migrations/0001_sessions_and_trees.sql"))];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.
 const OLDEST_SAFE_SQLITE: [u32; 3] = [3, 51, 3];
@@ -73,7 +74,7 @@ impl Database {
         if size <= MAX_CHECKED_BYTES {
             check_integrity(&mut connection).await?;
         }
-        MIGRATIONS
+        migrator()
             .run_direct(None, &mut connection, false)
             .await
             .map_err(|error| migration_sentence(&error))?;
@@ -105,6 +106,16 @@ pub(super) fn writer_options(path: &Path) -> SqliteConnectOptions {
         .create_if_missing(true)
         .journal_mode(SqliteJournalMode::Wal)
         .synchronous(SqliteSynchronous::Full)
+}
+
+/// Versions and descriptions are those that `sqlx::migrate!` reads from the names of files.
+fn migrator() -> Migrator {
+    let migration = |(version, (name, sql)): (i64, (&'static str, &'static str))| {
+        let description = name.trim_start_matches(|letter: char| !letter.is_alphabetic()).replace('_', " ");
+        let sql = sql.into_sql_str();
+        Migration::new(version, description.into(), MigrationType::Simple, sql, false)
+    };
+    Migrator::with_migrations((1..).zip(MIGRATIONS).map(migration).collect())
 }
 
 fn lock(path: &Path) -> Result<File, String> {
@@ -201,6 +212,30 @@ pub(super) mod tests {
 
     async fn refusal(path: &Path) -> String {
         Database::open(path).await.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_migration_is_embedded_under_its_number() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../migrations");
+        let files =
+            fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+        let files: std::collections::BTreeSet<String> = files.collect();
+        assert_eq!(files, MIGRATIONS.iter().map(|(name, _)| format!("{name}.sql")).collect());
+        for (version, (name, _)) in (1..).zip(MIGRATIONS) {
+            assert!(name.starts_with(&format!("{version:04}_")), "{name} is number {version}");
+        }
+    }
+
+    #[test]
+    fn the_first_migration_is_the_one_that_was_released() {
+        // What stands in `_sqlx_migrations` of every database that people have.
+        let first = &migrator().migrations[0];
+        let checksum: String = first.checksum.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!((first.version, &*first.description), (1, "sessions and trees"));
+        assert_eq!(
+            checksum,
+            "784b77d6a7065b3d1fdd7d351a37b1ab79e517aa16209037a6594f239e51de7eb634325c7da0ff49fbdc2763714808d8"
+        );
     }
 
     #[tokio::test]

@@ -1,6 +1,9 @@
 //! The library of saved trees.
 
-use sqlx::{FromRow, sqlite::SqliteConnection};
+use sqlx::{
+    FromRow, Row,
+    sqlite::{SqliteConnection, SqliteRow},
+};
 
 use super::{Database, DatabaseError, writer::Write};
 
@@ -31,7 +34,7 @@ pub struct NewTree {
 }
 
 /// One line of the library.
-#[derive(Debug, PartialEq, Eq, FromRow)]
+#[derive(Debug, PartialEq, Eq)]
 pub struct StoredTree {
     /// Its identifier.
     pub id: String,
@@ -43,6 +46,18 @@ pub struct StoredTree {
     pub saved_at: String,
     /// Whether it has a picture.
     pub has_thumbnail: bool,
+}
+
+impl FromRow<'_, SqliteRow> for StoredTree {
+    fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
+        Ok(Self {
+            id: row.try_get("id")?,
+            name: row.try_get("name")?,
+            metamers: row.try_get("metamers")?,
+            saved_at: row.try_get("saved_at")?,
+            has_thumbnail: row.try_get("has_thumbnail")?,
+        })
+    }
 }
 
 #[derive(Debug)]
