@@ -24,7 +24,7 @@ pub mod varint;
 pub mod version;
 
 pub use command::{Command, DrawingPlane, StrokeSample};
-pub use control::{ClientMessage, DocumentState, Resume, ServerMessage};
+pub use control::{ClientMessage, DocumentState, Notice, Resume, ServerMessage};
 pub use envelope::FrameKind;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;

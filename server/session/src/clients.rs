@@ -2,7 +2,10 @@
 
 use std::{collections::BTreeMap, sync::Arc};
 
-use crate::{action::Prediction, foresight::Cancelled, io::ClientId, to_proto::Held, window::Window};
+use crate::{
+    action::Prediction, foresight::Cancelled, io::ClientId, principal::Principal, to_proto::Held,
+    window::Window,
+};
 
 /// One connection.
 #[derive(Debug, Default)]
@@ -16,7 +19,7 @@ pub(crate) struct Client {
 /// A client that has said hello.
 #[derive(Debug)]
 pub(crate) struct Guest {
-    pub(crate) key: Arc<str>,
+    pub(crate) principal: Principal,
     pub(crate) window: Window,
     pub(crate) view: View,
     pub(crate) watch: Watch,

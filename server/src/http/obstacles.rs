@@ -1,7 +1,7 @@
 //! Meshes as obstacles: uploaded as glTF, fetched as they stand.
 
 use axum::{
-    Json,
+    Extension, Json,
     body::Bytes,
     extract::{Path, State, rejection::BytesRejection},
     http::{StatusCode, header},
@@ -12,7 +12,7 @@ use espalier_proto::{
     Command, Obstacle, Pose, Problem, ProblemCode, Shape,
     version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
 };
-use espalier_session::Mesh;
+use espalier_session::{Mesh, Principal};
 
 use super::{Shared, failure::Failure, sessions};
 
@@ -22,6 +22,7 @@ const LIMITS: Limits = Limits { vertices: MAX_MESH_VERTICES, triangles: MAX_MESH
 /// Places the triangles of a file with its own origin at the scene's.
 pub(super) async fn upload(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Path(session): Path<String>,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<impl IntoResponse, Failure> {
@@ -39,7 +40,7 @@ pub(super) async fn upload(
         },
         gesture: None,
     };
-    match session.act(command).await?? {
+    match session.act(principal, command).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(placed))),
         None => Err(Failure::unavailable("The obstacle was not placed.")),
     }

@@ -3,7 +3,7 @@
 use espalier_proto::{
     Command, Obstacle, PlacedObstacle, PlacedShape, Pose, ProblemCode, ServerMessage, Shape,
 };
-use espalier_session::{ActId, Input, Mesh};
+use espalier_session::{ActId, Input, Mesh, Principal};
 use glam::Vec3;
 
 use crate::world::{World, grow};
@@ -185,7 +185,7 @@ fn lm6_the_scene_and_its_history_are_bounded() {
     let client = world.join("birch-01");
     for number in 1..=8 {
         let command = Box::new(Command::PlaceObstacle { obstacle: obstacle.clone(), gesture: None });
-        world.handle(Input::Act(ActId(number), command));
+        world.handle(Input::Act(ActId(number), Principal::visitor(), command));
         world.command(client, number as u32, Command::RemoveObstacle { id: number as u32, gesture: None });
         world.settle();
     }
@@ -199,7 +199,7 @@ fn ob6_an_upload_is_answered_when_it_is_durable() {
     let mut world = World::new();
     let client = world.join("birch-01");
     world.write_ms = 500;
-    world.handle(Input::Act(ActId(7), Box::new(mesh(&tetrahedron()))));
+    world.handle(Input::Act(ActId(7), Principal::visitor(), Box::new(mesh(&tetrahedron()))));
     world.pass(400);
     assert!(world.acts.is_empty() && !world.session.is_idle());
     assert_eq!(ids(&world, client), [1], "it stands there already");
@@ -207,7 +207,7 @@ fn ob6_an_upload_is_answered_when_it_is_durable() {
     let (act, outcome) = world.acts.remove(0);
     assert_eq!((act, outcome.unwrap().unwrap().id), (ActId(7), 1));
     // What is out of range is refused at once, and nothing is written.
-    world.handle(Input::Act(ActId(8), Box::new(ball(0.0, at(0.0, 0.0, 0.0)))));
+    world.handle(Input::Act(ActId(8), Principal::visitor(), Box::new(ball(0.0, at(0.0, 0.0, 0.0)))));
     let (act, outcome) = world.acts.remove(0);
     assert_eq!((act, outcome.unwrap_err().field.as_deref()), (ActId(8), Some("obstacle.shape.radius")));
     assert_eq!(world.disk.len(), 1);
