@@ -304,6 +304,7 @@ export class Studio {
       },
       widths: (widths) => this.tools.receiveWidths(widths),
       timeline: (timeline) => this.time.receive(timeline),
+      notice: (notice) => this.toasts.show(say(`notices.${notice.kind}`)),
       problem: (problem, command) => refused(this, problem, command),
       rekeyed: () => {
         this.growing.letGo();

@@ -15,6 +15,19 @@ export const NOTICES = {
     "Der Link nennt einen Baum, den dieser Server nicht kennt. Vielleicht wurde er auf einem anderen Rechner begonnen.",
   ],
   "notices.unknown-session.way": ["Plant a new tree", "Neuen Baum pflanzen"],
+  "notices.cannot-open": ["This tree cannot be opened", "Dieser Baum lässt sich nicht öffnen"],
+  "notices.cannot-open.text": [
+    "It is kept as it is, and nothing of it was changed.",
+    "Er bleibt aufbewahrt, wie er ist; nichts an ihm wurde verändert.",
+  ],
+  "notices.regrown": [
+    "Espalier was updated while this tree was open. The last strokes have been grown again by the new rules.",
+    "Espalier wurde aktualisiert, während dieser Baum offen war. Die letzten Striche sind nach den neuen Regeln neu gewachsen.",
+  ],
+  "notices.damaged": [
+    "The last part of this tree’s record was damaged. You see the tree as it was before; the rest is kept on the server.",
+    "Der letzte Teil der Aufzeichnung dieses Baums war beschädigt. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
+  ],
   "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
   "notices.version.text": [
     "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",

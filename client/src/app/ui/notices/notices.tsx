@@ -1,4 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
+import { plainly } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 
@@ -12,7 +13,8 @@ export function HindranceCard({ studio }: { studio: Studio }) {
     <section class="panel hindrance" role="alert" data-hindrance={hindrance}>
       <h2>{say(`notices.${hindrance}`)}</h2>
       <p>{say(`notices.${hindrance}.text`)}</p>
-      {hindrance === "unknown-session" && (
+      {hindrance === "cannot-open" && <p>{plainly({ code: "refused", message: studio.link.refusal.value })}</p>}
+      {(hindrance === "unknown-session" || hindrance === "cannot-open") && (
         <button type="button" class="primary" onClick={() => studio.newSession()}>
           {say("notices.unknown-session.way")}
         </button>
