@@ -3,8 +3,8 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
-    ServerMessage, Timeline, WidthConstraint,
+    ClientMessage, Command, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, PoseFrame,
+    Problem, ServerMessage, Timeline, WidthConstraint,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -71,6 +71,8 @@ pub struct Client {
     pub refused: Vec<(u32, Problem)>,
     /// Messages that could not be read.
     pub problems: Vec<Problem>,
+    /// How the session was opened.
+    pub notices: Vec<Notice>,
     /// Pongs.
     pub pongs: Vec<u32>,
     /// Bytes of all frames.
@@ -174,6 +176,7 @@ impl Client {
             resumed,
             refused: Vec::new(),
             problems: Vec::new(),
+            notices: Vec::new(),
             pongs: Vec::new(),
             frame_bytes: 0,
             frames: 0,
@@ -376,6 +379,7 @@ impl Client {
                 self.appearance = *appearance;
                 self.appearances += 1;
             }
+            ServerMessage::Notice { notice } => self.notices.push(notice),
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }
