@@ -21,7 +21,6 @@ const PREBUILT: &str = "ESPALIER_CLIENT_DIST";
 const NOT_SOURCES: [&str; 6] = ["node_modules", "dist", "test", "coverage", "biome.json", "README.md"];
 
 fn main() {
-    println!("cargo::rerun-if-changed=../migrations");
     println!("cargo::rerun-if-env-changed={PREBUILT}");
     if let Err(sentence) = build() {
         println!("cargo::error={}", sentence.replace('\n', " "));

@@ -21,8 +21,8 @@ export class FakeSocket implements Socket {
   arrive(data: unknown) {
     this.onmessage?.({ data } as MessageEvent);
   }
-  end(code: number) {
-    this.onclose?.({ code } as CloseEvent);
+  end(code: number, reason = "") {
+    this.onclose?.({ code, reason } as CloseEvent);
   }
   begin() {
     this.onopen?.({} as Event);

@@ -140,6 +140,25 @@ pub struct DocumentState {
     pub people: u32,
 }
 
+/// What everybody in a session is notified of once: how it was opened (`OP`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Notice {
+    /// The last commands were done again by newer rules of growth, and may have grown otherwise (`OP2`).
+    Regrown {
+        /// The version of the simulation by which they were done first.
+        from: u32,
+        /// The version that this server has.
+        to: u32,
+    },
+    /// The journal is damaged: what was done from this entry on is missing and kept aside (`OP4`).
+    Damaged {
+        /// The first entry that is missing; 1, 2, 3 … within the session.
+        #[ts(type = "number")]
+        entry: u64,
+    },
+}
+
 /// From the server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
@@ -204,6 +223,11 @@ pub enum ServerMessage {
     Widths {
         /// In order of their rows.
         widths: Vec<WidthConstraint>,
+    },
+    /// How the session was opened, after the welcome (`OP3`).
+    Notice {
+        /// What happened.
+        notice: Notice,
     },
     /// The answer to a ping.
     Pong {

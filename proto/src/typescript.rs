@@ -50,6 +50,7 @@ pub fn declarations() -> String {
         ("TooSlow", version::CloseCode::TooSlow),
         ("UnknownSession", version::CloseCode::UnknownSession),
         ("Replaced", version::CloseCode::Replaced),
+        ("CannotOpen", version::CloseCode::CannotOpen),
     ] {
         out.push_str(&format!("  {name}: {},\n", u16::from(code)));
     }
@@ -103,6 +104,7 @@ pub fn declarations() -> String {
         control::Resume::decl(&config),
         control::DocumentState::decl(&config),
         control::ClientMessage::decl(&config),
+        control::Notice::decl(&config),
         control::ServerMessage::decl(&config),
         library::NewSession::decl(&config),
         library::SessionCreated::decl(&config),

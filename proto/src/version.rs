@@ -68,6 +68,8 @@ pub enum CloseCode {
     UnknownSession = 4003,
     /// The same client key connected again; this older socket ends.
     Replaced = 4004,
+    /// The session cannot be opened by this server, however often one asks: it needs a newer program, or is damaged.
+    CannotOpen = 4007,
 }
 
 impl From<CloseCode> for u16 {

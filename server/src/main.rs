@@ -1,8 +1,8 @@
 //! The Espalier server and command line: a thin shell around the session's state machine.
 
 mod announce;
+mod authority;
 mod cli;
-mod database;
 mod document;
 mod headless;
 mod http;
@@ -12,6 +12,7 @@ mod name;
 mod pool;
 mod portrait;
 mod serve;
+mod store;
 
 use std::process::ExitCode;
 

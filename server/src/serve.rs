@@ -13,13 +13,13 @@ use tracing_subscriber::{EnvFilter, fmt};
 
 use crate::{
     announce::{self, Medium},
-    cli,
-    database::{Database, OpenError},
+    authority, cli,
     http::{self, Shared},
     listener,
     live::Sessions,
     pool::SimulationPool,
     portrait::Portraits,
+    store::{AnyStore, OpenError, SqliteStore, Store},
 };
 
 /// How long the server waits for sessions and connections when it stops.
@@ -75,16 +75,17 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         _ => ServeError::Listen { address, cause },
     })?;
     let bound = listener.local_addr().map_err(|cause| ServeError::Listen { address, cause })?;
-    let database = Arc::new(Database::open(&options.database).await?);
+    let store = Arc::new(AnyStore::Sqlite(SqliteStore::open(&options.database).await?));
 
     let stop = CancellationToken::new();
-    let sessions = Sessions::new(Arc::clone(&database), pool.clone(), stop.clone());
+    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
     let shared = Shared {
-        database: Arc::clone(&database),
+        store: Arc::clone(&store),
         sessions: sessions.clone(),
         pool,
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
+        authority: authority::may,
     };
     let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
 
@@ -104,7 +105,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         Ok(Err(error)) => tracing::error!(%error, "the listener ended badly"),
         Err(_) => tracing::warn!("some connections did not end in time"),
     }
-    database.close().await;
+    store.close().await;
     Ok(())
 }
 

@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem,
+    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, PoseFrame, Problem,
     ServerMessage, Timeline, WidthConstraint,
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -72,6 +72,8 @@ pub struct Client {
     pub refused: Vec<(u32, Problem)>,
     /// Messages that could not be read.
     pub problems: Vec<Problem>,
+    /// How the session was opened.
+    pub notices: Vec<Notice>,
     /// Pongs.
     pub pongs: Vec<u32>,
     /// Bytes of all frames.
@@ -175,6 +177,7 @@ impl Client {
             resumed,
             refused: Vec::new(),
             problems: Vec::new(),
+            notices: Vec::new(),
             pongs: Vec::new(),
             frame_bytes: 0,
             frames: 0,
@@ -378,6 +381,7 @@ impl Client {
                 self.appearance = *appearance;
                 self.appearances += 1;
             }
+            ServerMessage::Notice { notice } => self.notices.push(notice),
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }

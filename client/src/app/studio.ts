@@ -25,6 +25,7 @@ import { ChosenBud } from "./tools/chosen-bud";
 import { PICK_TOLERANCE } from "./tools/tool";
 import { Toolbox } from "./tools/toolbox";
 import { Stage } from "./view/stage";
+import { laterWords } from "./words/later-words";
 import { say } from "./words/say";
 
 /** Cards over the workspace, one at a time. */
@@ -304,6 +305,10 @@ export class Studio {
       },
       widths: (widths) => this.tools.receiveWidths(widths),
       timeline: (timeline) => this.time.receive(timeline),
+      notice: async ({ kind }) => {
+        await laterWords();
+        this.toasts.show(say(`problems.${kind}`));
+      },
       problem: (problem, command) => refused(this, problem, command),
       rekeyed: () => {
         this.growing.letGo();

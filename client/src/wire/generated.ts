@@ -32,6 +32,7 @@ export const CloseCode = {
   TooSlow: 4002,
   UnknownSession: 4003,
   Replaced: 4004,
+  CannotOpen: 4007,
 } as const;
 
 export const PARAMETERS = {
@@ -1374,6 +1375,20 @@ steps: number, } | { "type": "ping",
  */
 nonce: number, };
 
+export type Notice = { "kind": "regrown", 
+/**
+ * The version of the simulation by which they were done first.
+ */
+from: number, 
+/**
+ * The version that this server has.
+ */
+to: number, } | { "kind": "damaged", 
+/**
+ * The first entry that is missing; 1, 2, 3 … within the session.
+ */
+entry: number, };
+
 export type ServerMessage = { "type": "welcome", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
@@ -1438,7 +1453,11 @@ obstacles: Array<PlacedObstacle>, } | { "type": "timeline" } & Timeline | { "typ
 /**
  * In order of their rows.
  */
-widths: Array<WidthConstraint>, } | { "type": "pong", 
+widths: Array<WidthConstraint>, } | { "type": "notice", 
+/**
+ * What happened.
+ */
+notice: Notice, } | { "type": "pong", 
 /**
  * The ping's.
  */

@@ -5,6 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use crate::{
     foresight::{Cancelled, Prediction},
     io::ClientId,
+    principal::Principal,
     to_proto::Held,
     window::Window,
 };
@@ -21,7 +22,7 @@ pub(crate) struct Client {
 /// A client that has said hello.
 #[derive(Debug)]
 pub(crate) struct Guest {
-    pub(crate) key: Arc<str>,
+    pub(crate) principal: Principal,
     pub(crate) window: Window,
     pub(crate) view: View,
     pub(crate) watch: Watch,

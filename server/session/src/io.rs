@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 
-use crate::{foresight::Foresight, work::Work};
+use crate::{foresight::Foresight, principal::Principal, work::Work};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,8 +44,8 @@ pub enum Input {
     Foreseen(Box<Foresight>),
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
-    /// Someone outside, who is no client, wants something done (an uploaded mesh placed).
-    Act(ActId, Box<Command>),
+    /// Someone outside wants something done (an uploaded mesh placed).
+    Act(ActId, Principal, Box<Command>),
     /// The time asked for by `WakeAt` has come.
     Woken,
     /// The session is to be put away: as soon as all commands are done, keep a snapshot that contains them.
@@ -102,8 +102,8 @@ pub enum Output {
 pub struct JournalEntry {
     /// 1, 2, 3 … within the session.
     pub number: u64,
-    /// The key of the client it is done for.
-    pub client: String,
+    /// Who it is done for.
+    pub principal: Principal,
     /// The client's number for it; 0 where the session acts in a client's place (`CM5`).
     pub id: u32,
     /// The command as JSON.

@@ -5,7 +5,7 @@ use std::{
     sync::Arc,
 };
 
-use crate::io::JournalEntry;
+use crate::{io::JournalEntry, principal::Principal};
 
 /// Numbers entries and knows which are durable.
 #[derive(Debug)]
@@ -60,7 +60,12 @@ impl Journal {
         self.last += 1;
         self.waiting.push_back((Arc::clone(client), id, command.len()));
         self.waiting_bytes += command.len();
-        self.gathering.push(JournalEntry { number: self.last, client: client.to_string(), id, command });
+        self.gathering.push(JournalEntry {
+            number: self.last,
+            principal: Principal::named(client),
+            id,
+            command,
+        });
         self.last
     }
 

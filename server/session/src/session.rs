@@ -14,8 +14,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline, Unreadable,
-    WidthConstraint,
+    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline,
+    Unreadable, WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -66,6 +66,8 @@ pub struct Session {
     /// Predictions that are being made.
     foreseeing: usize,
     upkeep: Upkeep,
+    /// What everybody here is notified of.
+    notices: Vec<Notice>,
     failed: bool,
     outputs: VecDeque<Output>,
 }
@@ -115,14 +117,14 @@ impl Session {
             let command = read_command(&entry.command)
                 .map_err(|problem| RestoreError::Entry { number: entry.number, problem })?;
             stops.note(entry.number, &command.action);
-            orders.push((entry.number, entry.client, entry.id, command));
+            orders.push((entry.number, entry.principal, entry.id, command));
         }
-        for (number, client, id, command) in orders {
+        for (number, principal, id, command) in orders {
             stops.forget_through(number);
             document.stop_at(stops.end_of(number));
             // What the document refuses now it refused the first time as well.
-            let _refused_again = document.apply(&client, &command);
-            note_last(&mut last_commands, &Arc::from(client), LastCommand { id, entry: number });
+            let _refused_again = document.apply(principal.name(), &command);
+            note_last(&mut last_commands, principal.name(), LastCommand { id, entry: number });
         }
         Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
     }
@@ -180,9 +182,16 @@ impl Session {
             foreseeing: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
+            notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
         }
+    }
+
+    /// Notifies everybody who comes of how the session was opened (`OP`), and keeps what was restored in a snapshot.
+    pub fn notify(&mut self, notices: impl IntoIterator<Item = Notice>) {
+        self.notices.extend(notices);
+        self.upkeep.keep_through(self.journal.last());
     }
 
     /// Something happened at this time, in milliseconds of a clock that never goes back.
@@ -210,7 +219,7 @@ impl Session {
             Input::Worked(work) => self.worked(work),
             Input::Foreseen(foresight) => self.foreseen(*foresight),
             Input::Read(read) => self.reads.push(read),
-            Input::Act(act, command) => self.act(act, *command),
+            Input::Act(act, principal, command) => self.act(act, &principal, *command),
             Input::Woken => self.upkeep.woken(),
             Input::Stopping => self.upkeep.keep_through(self.journal.last()),
         }
@@ -267,7 +276,7 @@ impl Session {
         }
         let message = ClientMessage::from_json(text);
         let Some(guest) = guest else { return self.greet(client, text, message) };
-        let key = Arc::clone(&guest.key);
+        let key = Arc::clone(guest.principal.name());
         match message {
             Ok(ClientMessage::Command { id, command }) => {
                 self.end_prediction(client);

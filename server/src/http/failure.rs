@@ -10,9 +10,9 @@ use espalier_proto::{Problem, ProblemCode};
 use serde::de::DeserializeOwned;
 
 use crate::{
-    database::DatabaseError,
     live::{Ended, OpenError},
     pool::Panicked,
+    store::StoreError,
 };
 
 /// A request that could not be done.
@@ -33,6 +33,11 @@ impl Failure {
 
     pub(super) fn conflict(sentence: impl Into<String>) -> Self {
         Problem::new(ProblemCode::Refused, sentence).into()
+    }
+
+    pub(super) fn forbidden() -> Self {
+        let problem = Problem::new(ProblemCode::Refused, "You may not do this here.");
+        Self { status: StatusCode::FORBIDDEN, problem }
     }
 
     pub(super) fn too_large(field: Option<&str>, allowed: &str, sentence: String) -> Self {
@@ -60,9 +65,9 @@ impl From<Problem> for Failure {
     }
 }
 
-impl From<DatabaseError> for Failure {
-    fn from(error: DatabaseError) -> Self {
-        tracing::error!(%error, "the database failed");
+impl From<StoreError> for Failure {
+    fn from(error: StoreError) -> Self {
+        tracing::error!(%error, "the store failed");
         Self::unavailable("The server cannot use its database now; nothing was changed. Is its disk full?")
     }
 }
@@ -71,7 +76,10 @@ impl From<OpenError> for Failure {
     fn from(error: OpenError) -> Self {
         match error {
             OpenError::Stopping => Self::unavailable("The server is stopping."),
-            OpenError::OtherSimulation { .. } => Self::conflict(format!("It cannot be opened: {error}.")),
+            error if error.is_final() => {
+                tracing::error!(%error, "a session cannot be opened");
+                Self::conflict(error.to_string())
+            }
             error => {
                 tracing::error!(%error, "a session could not be opened");
                 Self::unavailable("The session cannot be opened now.")

@@ -1,15 +1,23 @@
-//! What holds for every request: where it may come from, how long it may take, what the browser may do with it.
+//! What holds for every request: where it may come from, who asks, how long it may take, what the browser may do with
+//! the answer.
 
 use std::time::Duration;
 
 use axum::{
-    extract::Request,
+    extract::{RawPathParams, Request, State},
     http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
 
+use espalier_proto::{Problem, ProblemCode};
+use espalier_session::Principal;
+
 use super::failure::Failure;
+use crate::authority::{Action, Authority, Object};
+
+/// The key of the client that asks, as in its hello.
+pub(super) const CLIENT: HeaderName = HeaderName::from_static("espalier-client");
 
 /// A request whose body or answer takes longer is dropped.
 const TIME_LIMIT: Duration = Duration::from_secs(30);
@@ -49,6 +57,40 @@ pub(super) async fn time_limit(request: Request, next: Next) -> Response {
         Ok(response) => response,
         Err(_) => Failure::unavailable("The request took too long.").into_response(),
     }
+}
+
+/// What is asked for at an address.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    pub(super) authority: Authority,
+    pub(super) action: Action,
+}
+
+/// Finds out who asks, and whether they may do what this address does to what it names.
+pub(super) async fn ask(
+    State(asked): State<Asked>,
+    params: RawPathParams,
+    mut request: Request,
+    next: Next,
+) -> Response {
+    let principal = match principal(request.headers()) {
+        Ok(principal) => principal,
+        Err(problem) => return Failure::from(problem).into_response(),
+    };
+    let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
+    let object = named("session").map(Object::Session).or_else(|| named("tree").map(Object::Tree));
+    if !(asked.authority)(&principal, asked.action, object.unwrap_or(Object::Server)) {
+        return Failure::forbidden().into_response();
+    }
+    request.extensions_mut().insert(principal);
+    next.run(request).await
+}
+
+fn principal(headers: &HeaderMap) -> Result<Principal, Problem> {
+    let Some(key) = headers.get(CLIENT) else { return Ok(Principal::visitor()) };
+    key.to_str().ok().and_then(Principal::client).ok_or_else(|| {
+        Problem::new(ProblemCode::Malformed, "The request cannot be read: its client key is none.")
+    })
 }
 
 /// Another site's page may neither open a socket (browsers allow that across sites) nor change anything here.

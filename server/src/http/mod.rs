@@ -15,13 +15,21 @@ use std::sync::Arc;
 use axum::{
     Router,
     extract::DefaultBodyLimit,
-    middleware::{from_fn, map_response},
-    routing::{get, patch, post},
+    middleware::{from_fn, from_fn_with_state, map_response},
+    routing::{MethodRouter, delete, get, patch, post},
 };
 use espalier_proto::version::MAX_GLB_BYTES;
+use espalier_session::Principal;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
-use crate::{database::Database, live::Sessions, pool::SimulationPool, portrait::Portraits};
+use self::{failure::Failure, guard::Asked};
+use crate::{
+    authority::{Action, Authority, Object},
+    live::Sessions,
+    pool::SimulationPool,
+    portrait::Portraits,
+    store::AnyStore,
+};
 
 /// A request for a session or a name is tiny.
 const MAX_SMALL_BODY: usize = 4 * 1024;
@@ -40,8 +48,8 @@ const MAX_SCHEMATICS: usize = 4;
 /// What the handlers work with.
 #[derive(Clone, Debug)]
 pub struct Shared {
-    /// The library.
-    pub database: Arc<Database>,
+    /// What is kept.
+    pub store: Arc<AnyStore>,
     /// The sessions in memory.
     pub sessions: Sessions,
     /// For what takes long.
@@ -50,51 +58,214 @@ pub struct Shared {
     pub metamer_budget: u32,
     /// Pictures of the species.
     pub portraits: Portraits,
+    /// Who may do what.
+    pub authority: Authority,
+}
+
+impl Shared {
+    /// Asks for what a request names in its body; its address has been asked for before.
+    fn ask(&self, principal: &Principal, action: Action, object: Object<'_>) -> Result<(), Failure> {
+        if (self.authority)(principal, action, object) { Ok(()) } else { Err(Failure::forbidden()) }
+    }
+}
+
+/// An address of the API, what is asked for there, and how it is answered.
+struct Route {
+    /// Method and path, in which `{session}` and `{tree}` name what is asked for.
+    address: &'static str,
+    action: Action,
+    answer: MethodRouter<Shared>,
+}
+
+/// The API, but for the socket.
+fn routes() -> Vec<Route> {
+    let route = |address, action, answer| Route { address, action, answer };
+    let at_once = GlobalConcurrencyLimitLayer::new;
+    let body = DefaultBodyLimit::max;
+    vec![
+        route("POST /api/sessions", Action::BeginSession, post(sessions::create)),
+        route("GET /api/sessions/{session}", Action::SeeSession, get(sessions::find)),
+        route(
+            "GET /api/sessions/{session}/tree.glb",
+            Action::TakeTree,
+            get(sessions::export).layer(at_once(MAX_EXPORTS)),
+        ),
+        route(
+            "POST /api/sessions/{session}/obstacles",
+            Action::PlaceObstacle,
+            post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))),
+        ),
+        route("GET /api/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh)),
+        route("GET /api/species", Action::SeeSpecies, get(species::list)),
+        route(
+            "GET /api/species/{slug}/picture",
+            Action::SeeSpecies,
+            get(species::picture).layer(at_once(MAX_PICTURES)),
+        ),
+        route(
+            "POST /api/schematic",
+            Action::DrawSchematic,
+            post(schematic::draw).layer(at_once(MAX_SCHEMATICS)),
+        ),
+        route("GET /api/trees", Action::ListTrees, get(trees::list)),
+        route("POST /api/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY))),
+        route("PATCH /api/trees/{tree}", Action::RenameTree, patch(trees::rename)),
+        route("DELETE /api/trees/{tree}", Action::DeleteTree, delete(trees::delete)),
+        route("GET /api/trees/{tree}/thumbnail", Action::SeeThumbnail, get(trees::thumbnail)),
+    ]
+}
+
+const SOCKET: &str = "GET /api/sessions/{session}/socket";
+
+fn path_of(address: &'static str) -> &'static str {
+    address.split_once(' ').map_or(address, |(_, path)| path)
 }
 
 /// Everything the server answers.
 pub fn router(shared: Shared) -> Router {
-    let requests = Router::new()
-        .route("/api/sessions", post(sessions::create))
-        .route("/api/sessions/{name}", get(sessions::find))
-        .route(
-            "/api/sessions/{name}/tree.glb",
-            get(sessions::export).layer(GlobalConcurrencyLimitLayer::new(MAX_EXPORTS)),
-        )
-        .route("/api/sessions/{name}/obstacles/{id}", get(obstacles::mesh))
-        .route("/api/species", get(species::list))
-        .route(
-            "/api/species/{slug}/picture",
-            get(species::picture).layer(GlobalConcurrencyLimitLayer::new(MAX_PICTURES)),
-        )
-        .route(
-            "/api/schematic",
-            post(schematic::draw).layer(GlobalConcurrencyLimitLayer::new(MAX_SCHEMATICS)),
-        )
-        .route("/api/trees/{id}", patch(trees::rename).delete(trees::delete))
-        .route("/api/trees/{id}/thumbnail", get(trees::thumbnail))
-        .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
-        .merge(
-            Router::new()
-                .route("/api/trees", get(trees::list).post(trees::save))
-                .layer(DefaultBodyLimit::max(MAX_TREE_BODY)),
-        )
-        .merge(
-            Router::new()
-                .route("/api/sessions/{name}/obstacles", post(obstacles::upload))
-                .layer(GlobalConcurrencyLimitLayer::new(MAX_UPLOADS))
-                .layer(DefaultBodyLimit::max(MAX_GLB_BYTES)),
-        )
+    let authority = shared.authority;
+    let asks = |action| from_fn_with_state(Asked { authority, action }, guard::ask);
+    let api = routes().into_iter().fold(Router::new(), |router, Route { address, action, answer }| {
+        router.route(path_of(address), answer.layer(asks(action)))
+    });
+    let requests = api
         .route("/api/{*unknown}", get(failure::unknown_route))
         .route("/health", get("ok"))
+        .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
         .layer(from_fn(guard::time_limit));
     Router::new()
         .merge(requests)
         // A socket lasts as long as its drawing, so no time limit holds here.
-        .route("/api/sessions/{name}/socket", get(sessions::socket))
+        .route(path_of(SOCKET), get(sessions::socket).layer(asks(Action::JoinSession)))
         .route("/", get(client::page))
         .route("/s/{name}", get(client::page))
         .fallback(client::file)
         .layer(ServiceBuilder::new().layer(map_response(guard::headers)).layer(from_fn(guard::same_origin)))
         .with_state(shared)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use axum::{
+        body::Body,
+        http::{Method, Request, StatusCode, header},
+    };
+    use tokio_util::sync::CancellationToken;
+    use tower::ServiceExt;
+
+    use super::*;
+    use crate::{
+        authority,
+        store::{MemoryStore, NewSession, NewTree, Store, TreeDocument},
+    };
+
+    async fn server(authority: Authority) -> Router {
+        let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
+        let pool = SimulationPool::new(None).unwrap();
+        let oak = NewSession { name: "oak".into(), seed: 1, simulation_version: 1, snapshot: None };
+        store.create_session(oak).await.unwrap();
+        let ash = NewTree {
+            id: "ash".into(),
+            name: "Ash".into(),
+            metamers: 1,
+            saved_at: "2026-05-01T09:00:00.000Z".into(),
+            document: TreeDocument { simulation_version: 1, bytes: vec![1] },
+            thumbnail: None,
+        };
+        store.save_tree(ash).await.unwrap();
+        router(Shared {
+            sessions: Sessions::new(Arc::clone(&store), pool.clone(), CancellationToken::new()),
+            store,
+            pool,
+            metamer_budget: 1000,
+            portraits: Portraits::default(),
+            authority,
+        })
+    }
+
+    async fn status(server: &Router, method: &Method, path: &str, body: &'static str) -> StatusCode {
+        let request =
+            Request::builder().method(method).uri(path).header(header::CONTENT_TYPE, "application/json");
+        server.clone().oneshot(request.body(Body::from(body)).unwrap()).await.unwrap().status()
+    }
+
+    fn method_of(address: &str) -> Method {
+        address.split(' ').next().unwrap().parse().unwrap()
+    }
+
+    fn filled(path: &str) -> String {
+        path.replace("{session}", "oak")
+            .replace("{tree}", "ash")
+            .replace("{id}", "1")
+            .replace("{slug}", "oak")
+    }
+
+    #[tokio::test]
+    async fn au1_every_address_asks_whether_one_may() {
+        let (closed, open) = (server(|_, _, _| false).await, server(authority::may).await);
+        for address in routes().into_iter().map(|route| route.address).chain([SOCKET]) {
+            let (method, path) = (method_of(address), filled(path_of(address)));
+            assert_eq!(status(&closed, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");
+            assert_ne!(status(&open, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");
+        }
+    }
+
+    #[tokio::test]
+    async fn what_a_request_names_is_asked_for_as_well() {
+        let server = server(|_, action, object| match object {
+            Object::Session(name) => name != "oak" || action != Action::TakeTree,
+            Object::Tree(id) => id != "ash" || action != Action::OpenTree,
+            Object::Server => true,
+        })
+        .await;
+        for (path, body) in [
+            ("/api/sessions", r#"{"tree":"ash"}"#),
+            ("/api/trees", r#"{"session":"oak","name":"Oak"}"#),
+            ("/api/sessions/oak/tree.glb", ""),
+        ] {
+            let method = if body.is_empty() { Method::GET } else { Method::POST };
+            assert_eq!(status(&server, &method, path, body).await, StatusCode::FORBIDDEN, "{path}");
+        }
+        let new = status(&server, &Method::POST, "/api/sessions", r#"{"seed":1}"#).await;
+        assert_eq!(new, StatusCode::CREATED);
+    }
+
+    #[tokio::test]
+    async fn au1_who_asks_is_known_by_a_key() {
+        let server = server(|principal, _, _| principal.to_string() == "browser-1").await;
+        for (key, expected) in [
+            (Some("browser-1"), StatusCode::OK),
+            (Some("browser-2"), StatusCode::FORBIDDEN),
+            (None, StatusCode::FORBIDDEN),
+            (Some("short"), StatusCode::BAD_REQUEST),
+            (Some("outside"), StatusCode::BAD_REQUEST),
+        ] {
+            let mut request = Request::builder().uri("/api/trees");
+            if let Some(key) = key {
+                request = request.header(guard::CLIENT, key);
+            }
+            let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
+            assert_eq!(answer.status(), expected, "{key:?}");
+        }
+    }
+
+    #[test]
+    fn the_protocol_lists_every_address() {
+        let protocol = include_str!("../../../proto/PROTOCOL.md");
+        let (_, table) = protocol.split_once("\n## HTTP\n").unwrap();
+        let rows = table.split("\n## ").next().unwrap().lines().filter_map(|line| line.strip_prefix("| `"));
+        let listed: BTreeSet<String> = rows
+            .filter_map(|row| row.split('`').next())
+            .filter(|row| row.contains("/api/"))
+            .map(str::to_owned)
+            .collect();
+        let named = |address: &str| {
+            let address = address.replace("{session}", "NAME").replace("{slug}", "SLUG");
+            address.replace("{tree}", "ID").replace("{id}", "ID")
+        };
+        let answered = routes().into_iter().map(|route| route.address).chain([SOCKET]);
+        assert_eq!(listed, answered.map(named).collect());
+    }
 }

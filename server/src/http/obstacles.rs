@@ -1,7 +1,7 @@
 //! Meshes as obstacles: uploaded as glTF, fetched as they stand.
 
 use axum::{
-    Json,
+    Extension, Json,
     body::Bytes,
     extract::{Path, State, rejection::BytesRejection},
     http::{StatusCode, header},
@@ -12,6 +12,7 @@ use espalier_proto::{
     Action, Mesh, Obstacle, Pose, Position, Problem, ProblemCode, Scale, Shape, UnitRotation,
     version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
 };
+use espalier_session::Principal;
 
 use super::{Shared, failure::Failure, sessions};
 
@@ -21,6 +22,7 @@ const LIMITS: Limits = Limits { vertices: MAX_MESH_VERTICES, triangles: MAX_MESH
 /// Places the triangles of a file with its own origin at the scene's.
 pub(super) async fn upload(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Path(session): Path<String>,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<impl IntoResponse, Failure> {
@@ -36,7 +38,7 @@ pub(super) async fn upload(
     let shape = Shape::Mesh { mesh, scale };
     let pose = Pose { position: Position::ORIGIN, rotation: UnitRotation::IDENTITY };
     let action = Action::PlaceObstacle { obstacle: Obstacle { shape, pose } };
-    match session.act(action.into()).await?? {
+    match session.act(principal, action.into()).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(placed))),
         None => Err(Failure::unavailable("The obstacle was not placed.")),
     }

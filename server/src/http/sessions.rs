@@ -1,7 +1,7 @@
 //! Sessions: making one, its socket, its tree as a file.
 
 use axum::{
-    Json,
+    Extension, Json,
     extract::{
         Path, State, WebSocketUpgrade,
         ws::{WebSocket, rejection::WebSocketUpgradeRejection},
@@ -13,16 +13,19 @@ use espalier_proto::{
     library::{NewSession, SessionCreated},
     version::CloseCode,
 };
-use espalier_session::Session;
+use espalier_session::{DocumentError, Principal, RestoreError, Session};
 
 use super::{
     Shared,
     failure::{Body, Failure},
 };
 use crate::{
-    SIMULATION_VERSION, document,
+    SIMULATION_VERSION,
+    authority::{Action, Object},
+    document,
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
     name,
+    store::{self, Store, StoreError},
 };
 
 /// Bytes read from a socket at once.
@@ -32,15 +35,21 @@ const MAX_WRITE_BUFFER: usize = espalier_proto::frame::MAX_BODY_BYTES + 1024 * 1
 
 pub(super) async fn create(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Body(new): Body<NewSession>,
 ) -> Result<impl IntoResponse, Failure> {
     let seed = new.seed.unwrap_or_else(rand::random);
     let snapshot = match new.tree {
         None => Session::seedling(seed, shared.metamer_budget),
-        Some(id) => planted(&shared, &id).await?,
+        Some(id) => {
+            shared.ask(&principal, Action::OpenTree, Object::Tree(&id))?;
+            planted(&shared, &id).await?
+        }
     };
     let session = name::unguessable();
-    shared.database.create_session(session.clone(), seed, SIMULATION_VERSION, Some(snapshot)).await?;
+    let (simulation_version, snapshot) = (SIMULATION_VERSION, Some(snapshot));
+    let made = store::NewSession { name: session.clone(), seed, simulation_version, snapshot };
+    shared.store.create_session(made).await?;
     Ok((StatusCode::CREATED, Json(SessionCreated { session })))
 }
 
@@ -48,7 +57,7 @@ pub(super) async fn find(
     State(shared): State<Shared>,
     Path(session): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
-    if shared.database.has_session(&session).await? {
+    if shared.store.has_session(&session).await? {
         Ok(Json(SessionCreated { session }))
     } else {
         Err(Failure::not_found("session"))
@@ -100,6 +109,9 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
         Err(OpenError::Stopping) => (CloseCode::GoingAway, "The server is stopping."),
         Err(error) => {
             tracing::error!(session = name, %error, "a session could not be opened");
+            if error.is_final() {
+                return live::turn_away(socket, CloseCode::CannotOpen, &error.to_string()).await;
+            }
             (CloseCode::InternalError, "The session cannot be opened now.")
         }
     };
@@ -108,18 +120,31 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
 
 /// A snapshot of a new session that goes on with a saved tree.
 async fn planted(shared: &Shared, tree: &str) -> Result<Vec<u8>, Failure> {
-    let (version, document) =
-        shared.database.tree_document(tree).await?.ok_or_else(|| Failure::not_found("tree"))?;
-    if version != SIMULATION_VERSION {
+    let document = match shared.store.tree_document(tree).await {
+        Ok(document) => document.ok_or_else(|| Failure::not_found("tree"))?,
+        Err(StoreError::Damaged(what)) => return Err(unreadable(tree, &what)),
+        Err(error) => return Err(error.into()),
+    };
+    let version = document.simulation_version;
+    if version > SIMULATION_VERSION {
         return Err(Failure::conflict(format!(
-            "The tree was grown by version {version} of the simulation; this is version {SIMULATION_VERSION}."
+            "A newer Espalier saved this tree (simulation {version}; this one has {SIMULATION_VERSION}): update the server."
         )));
     }
     let budget = shared.metamer_budget;
-    shared.pool.run(move || Session::first_snapshot(&document, budget)).await?.map_err(|error| {
-        tracing::error!(tree, %error, "a saved tree cannot be read");
-        Failure::unavailable("The tree cannot be read.")
+    let planted = shared.pool.run(move || Session::first_snapshot(&document.bytes, budget)).await?;
+    planted.map_err(|error| match error {
+        RestoreError::Document(DocumentError::Later(what)) => {
+            Failure::conflict(format!("A newer Espalier saved this tree ({what}): update the server."))
+        }
+        RestoreError::Document(error) => unreadable(tree, &error),
+        error => unreadable(tree, &error),
     })
+}
+
+fn unreadable(tree: &str, error: &dyn std::fmt::Display) -> Failure {
+    tracing::error!(tree, %error, "a saved tree cannot be read");
+    Failure::conflict(format!("The tree cannot be read: {error}."))
 }
 
 /// A live session for a request.

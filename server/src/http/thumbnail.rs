@@ -4,7 +4,7 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 use espalier_proto::{Problem, ProblemCode};
 
 use super::failure::Failure;
-use crate::database::Picture;
+use crate::store::Picture;
 
 const MAX_BYTES: usize = 192 * 1024;
 const ALLOWED: &str = "a PNG, JPEG or WebP picture as a base64 data URL";

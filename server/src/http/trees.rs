@@ -1,7 +1,9 @@
 //! The library of saved trees.
 
+use std::time::SystemTime;
+
 use axum::{
-    Json,
+    Extension, Json,
     extract::{Path, Query, State, rejection::QueryRejection},
     http::{StatusCode, header},
     response::IntoResponse,
@@ -10,6 +12,7 @@ use espalier_proto::{
     Problem, ProblemCode,
     library::{RenameTree, SaveTree, SavedTree},
 };
+use espalier_session::Principal;
 use serde::Deserialize;
 
 use super::{
@@ -19,8 +22,9 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
-    database::{NewTree, StoredTree},
+    authority::{Action, Object},
     name,
+    store::{NewTree, Store, StoredTree, TreeDocument},
 };
 
 const MAX_NAME_CHARACTERS: usize = 80;
@@ -40,7 +44,7 @@ pub(super) struct Page {
 pub(super) async fn list(
     State(shared): State<Shared>,
     page: Result<Query<Page>, QueryRejection>,
-) -> Result<impl IntoResponse, Failure> {
+) -> Result<Json<Vec<SavedTree>>, Failure> {
     let Query(page) = page.map_err(|rejection| {
         Problem::new(
             ProblemCode::Malformed,
@@ -51,27 +55,36 @@ pub(super) async fn list(
     if !(1..=MAX_TREES).contains(&limit) {
         return Err(Problem::out_of_range("limit", limit, format!("1 to {MAX_TREES}")).into());
     }
-    let trees = shared.database.trees(limit, page.behind.as_deref()).await?;
-    Ok(Json(trees.into_iter().map(to_proto).collect::<Vec<SavedTree>>()))
+    let behind = match &page.behind {
+        None => None,
+        Some(id) => match shared.store.tree(id).await? {
+            Some(tree) => Some(tree.key),
+            None => return Ok(Json(Vec::new())),
+        },
+    };
+    let trees = shared.store.trees(limit, behind.as_ref()).await?;
+    Ok(Json(trees.into_iter().map(to_proto).collect()))
 }
 
 pub(super) async fn save(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Body(save): Body<SaveTree>,
 ) -> Result<impl IntoResponse, Failure> {
     let name = parse_name(&save.name)?;
     let thumbnail = save.thumbnail.as_deref().map(thumbnail::parse).transpose()?;
+    shared.ask(&principal, Action::TakeTree, Object::Session(&save.session))?;
     let document = sessions::open(&shared, &save.session).await?.read().await?;
     let id = name::unguessable();
     let tree = NewTree {
         id: id.clone(),
         name,
         metamers: document.metamers,
-        simulation_version: SIMULATION_VERSION,
-        document: document.bytes,
+        saved_at: humantime::format_rfc3339_millis(SystemTime::now()).to_string(),
+        document: TreeDocument { simulation_version: SIMULATION_VERSION, bytes: document.bytes },
         thumbnail,
     };
-    shared.database.save_tree(tree).await?;
+    shared.store.save_tree(tree).await?;
     Ok((StatusCode::CREATED, Json(find(&shared, &id).await?)))
 }
 
@@ -81,7 +94,7 @@ pub(super) async fn rename(
     Body(rename): Body<RenameTree>,
 ) -> Result<impl IntoResponse, Failure> {
     let name = parse_name(&rename.name)?;
-    if !shared.database.rename_tree(id.clone(), name).await? {
+    if !shared.store.rename_tree(&id, &name).await? {
         return Err(Failure::not_found("tree"));
     }
     Ok(Json(find(&shared, &id).await?))
@@ -91,7 +104,7 @@ pub(super) async fn delete(
     State(shared): State<Shared>,
     Path(id): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    if shared.database.delete_tree(id).await? {
+    if shared.store.delete_tree(&id).await? {
         Ok(StatusCode::NO_CONTENT)
     } else {
         Err(Failure::not_found("tree"))
@@ -102,7 +115,7 @@ pub(super) async fn thumbnail(
     State(shared): State<Shared>,
     Path(id): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
-    let picture = shared.database.thumbnail(&id).await?.ok_or_else(|| Failure::not_found("picture"))?;
+    let picture = shared.store.thumbnail(&id).await?.ok_or_else(|| Failure::not_found("picture"))?;
     let headers = [
         (header::CONTENT_TYPE, picture.media_type),
         // A tree keeps its picture for life, and no two trees share an identifier.
@@ -112,12 +125,18 @@ pub(super) async fn thumbnail(
 }
 
 async fn find(shared: &Shared, id: &str) -> Result<SavedTree, Failure> {
-    shared.database.tree(id).await?.map(to_proto).ok_or_else(|| Failure::not_found("tree"))
+    shared.store.tree(id).await?.map(to_proto).ok_or_else(|| Failure::not_found("tree"))
 }
 
 fn to_proto(tree: StoredTree) -> SavedTree {
-    let thumbnail = tree.has_thumbnail.then(|| format!("/api/trees/{}/thumbnail", tree.id));
-    SavedTree { id: tree.id, name: tree.name, metamers: tree.metamers, saved_at: tree.saved_at, thumbnail }
+    let thumbnail = tree.has_thumbnail.then(|| format!("/api/trees/{}/thumbnail", tree.key.id));
+    SavedTree {
+        id: tree.key.id,
+        name: tree.name,
+        metamers: tree.metamers,
+        saved_at: tree.key.saved_at,
+        thumbnail,
+    }
 }
 
 fn parse_name(name: &str) -> Result<String, Problem> {

@@ -8,7 +8,9 @@ use std::{
 };
 
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
-use espalier_session::{ActId, ClientId, Foresight, Input, JournalEntry, Output, ReadId, Session, Work};
+use espalier_session::{
+    ActId, ClientId, Foresight, Input, JournalEntry, Output, Principal, ReadId, Session, Work,
+};
 use espalier_settings::ParameterValues;
 use tokio::{
     sync::{mpsc, oneshot},
@@ -17,13 +19,17 @@ use tokio::{
 use tokio_util::sync::CancellationToken;
 
 use super::outbox::{Outbox, Outgoing};
-use crate::{database::Database, pool::SimulationPool};
+use crate::{
+    SIMULATION_VERSION,
+    pool::SimulationPool,
+    store::{AnyStore, Lease, NewSnapshot, Store},
+};
 
 /// Requests waiting for a session; beyond that, sockets stop reading.
 const MAILBOX: usize = 256;
 /// A session in which nobody has been for so long leaves the memory.
 const IDLE: Duration = Duration::from_secs(60);
-/// How long a session that ends waits for its journal.
+/// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
 
 /// The document at one moment.
@@ -44,7 +50,7 @@ pub(super) enum Request {
     Written(ClientId, usize),
     Leave(ClientId),
     Read(oneshot::Sender<DocumentBytes>),
-    Act(Box<Command>, oneshot::Sender<Outcome>),
+    Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
 }
@@ -97,10 +103,10 @@ impl SessionHandle {
         answered.await.map_err(|_| Ended)
     }
 
-    /// Does a command that comes from no client; answers when it is durable.
-    pub async fn act(&self, command: Command) -> Result<Outcome, Ended> {
+    /// Does a command that comes over no socket; answers when it is durable.
+    pub async fn act(&self, principal: Principal, command: Command) -> Result<Outcome, Ended> {
         let (answer, answered) = oneshot::channel();
-        self.send(Request::Act(Box::new(command), answer)).await?;
+        self.send(Request::Act(principal, Box::new(command), answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 
@@ -122,7 +128,7 @@ impl SessionHandle {
 /// Everything a session needs from its surroundings.
 #[derive(Clone, Debug)]
 pub(super) struct Surroundings {
-    pub(super) database: Arc<Database>,
+    pub(super) store: Arc<AnyStore>,
     pub(super) pool: SimulationPool,
     pub(super) stop: CancellationToken,
     pub(super) started: Instant,
@@ -131,6 +137,8 @@ pub(super) struct Surroundings {
 pub(super) struct Actor {
     name: String,
     session: Session,
+    /// The right to write to the session.
+    lease: Lease,
     around: Surroundings,
     requests: mpsc::Receiver<Request>,
     errands: mpsc::UnboundedReceiver<Errand>,
@@ -144,9 +152,8 @@ pub(super) struct Actor {
     wake_at: Option<Instant>,
     /// When somebody was here last.
     empty_since: Instant,
-    /// Errands that have not come back, and how many of them write to the database.
+    /// Errands that have not come back.
     under_way: usize,
-    writes: usize,
 }
 
 /// Why a session leaves the memory.
@@ -158,13 +165,19 @@ enum End {
 }
 
 impl Actor {
-    pub(super) fn new(name: String, session: Session, around: Surroundings) -> (Self, SessionHandle) {
+    pub(super) fn new(
+        name: String,
+        session: Session,
+        lease: Lease,
+        around: Surroundings,
+    ) -> (Self, SessionHandle) {
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (errand, errands) = mpsc::unbounded_channel();
         let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };
         let actor = Self {
             name,
             session,
+            lease,
             around,
             requests,
             errands,
@@ -178,7 +191,6 @@ impl Actor {
             wake_at: None,
             empty_since: Instant::now(),
             under_way: 0,
-            writes: 0,
         };
         (actor, handle)
     }
@@ -202,8 +214,12 @@ impl Actor {
             }
         }
         if end != End::Failed && !matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(()))) {
-            tracing::warn!(session = self.name, "the last commands may not have been kept");
+            tracing::warn!(
+                session = self.name,
+                "the last commands may not have been kept, or are in no snapshot"
+            );
         }
+        self.around.store.release(self.lease).await;
     }
 
     async fn live(&mut self) -> Result<End, Failed> {
@@ -237,14 +253,15 @@ impl Actor {
         self.clients.is_empty() && self.under_way == 0 && self.session.is_idle()
     }
 
-    /// Sees to it that what was accepted is durable. Steps still to be run are run after the next start.
+    /// Sees to it that what was accepted is durable, done, and in a snapshot, so that nothing is left to be replayed.
     async fn finish(&mut self) -> Result<(), Failed> {
         let clients: Vec<ClientId> = self.clients.keys().copied().collect();
         self.clients.clear();
         for client in clients {
             self.handle(Input::Disconnected(client))?;
         }
-        while self.writes > 0 {
+        self.handle(Input::Stopping)?;
+        while self.under_way > 0 {
             let Some(errand) = self.errands.recv().await else { break };
             if let Some(input) = self.returned(errand)? {
                 self.handle(input)?;
@@ -276,11 +293,11 @@ impl Actor {
                 self.reads.insert(read, answer);
                 Input::Read(ReadId(read))
             }
-            Request::Act(command, answer) => {
+            Request::Act(principal, command, answer) => {
                 let act = self.next_act;
                 self.next_act += 1;
                 self.acts.insert(act, answer);
-                Input::Act(ActId(act), command)
+                Input::Act(ActId(act), principal, command)
             }
             // Whoever asked may have gone meanwhile.
             Request::Parameters(answer) => {
@@ -296,9 +313,6 @@ impl Actor {
 
     fn returned(&mut self, errand: Errand) -> Result<Option<Input>, Failed> {
         self.under_way -= 1;
-        if !matches!(errand, Errand::Worked(_) | Errand::Foreseen(_) | Errand::WorkFailed) {
-            self.writes -= 1;
-        }
         match errand {
             Errand::Journaled(through) => Ok(Some(Input::Journaled(through))),
             Errand::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
@@ -362,12 +376,12 @@ impl Actor {
 
     fn journal(&mut self, entries: Vec<JournalEntry>) {
         let Some(last) = entries.last().map(|entry| entry.number) else { return };
-        let (database, session, errand) =
-            (Arc::clone(&self.around.database), self.name.clone(), self.errand.clone());
+        let (store, lease, errand) =
+            (Arc::clone(&self.around.store), self.lease.clone(), self.errand.clone());
+        let session = self.name.clone();
         self.under_way += 1;
-        self.writes += 1;
         tokio::spawn(async move {
-            let _ = errand.send(match database.append_journal(session.clone(), &entries).await {
+            let _ = errand.send(match store.append(&lease, SIMULATION_VERSION, &entries).await {
                 Ok(()) => Errand::Journaled(last),
                 Err(error) => {
                     tracing::error!(session, %error, "the journal could not be written");
@@ -409,13 +423,14 @@ impl Actor {
     }
 
     fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
-        let (database, session, errand) =
-            (Arc::clone(&self.around.database), self.name.clone(), self.errand.clone());
+        let (store, lease, errand) =
+            (Arc::clone(&self.around.store), self.lease.clone(), self.errand.clone());
+        let session = self.name.clone();
+        let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes };
         self.under_way += 1;
-        self.writes += 1;
         tokio::spawn(async move {
             // Without it the next start replays more, that is all.
-            if let Err(error) = database.keep_snapshot(session.clone(), through, bytes).await {
+            if let Err(error) = store.keep_snapshot(&lease, snapshot).await {
                 tracing::warn!(session, %error, "a snapshot could not be kept");
             }
             let _ = errand.send(Errand::SnapshotKept);

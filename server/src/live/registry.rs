@@ -5,7 +5,8 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
 };
 
-use espalier_session::{RestoreError, Session};
+use espalier_proto::Notice;
+use espalier_session::{DocumentError, RestoreError, Session};
 use tokio::{
     sync::{OnceCell, OwnedSemaphorePermit, Semaphore},
     time::Instant,
@@ -14,33 +15,65 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::actor::{Actor, SessionHandle, Surroundings};
 use crate::{
-    database::{Database, DatabaseError},
+    SIMULATION_VERSION,
     pool::{Panicked, SimulationPool},
+    store::{AnyStore, Damage, Lease, Store, StoreError, StoredSession},
 };
 
 /// A session exists but cannot be opened.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
     /// Reading failed.
-    #[error("the session cannot be read: {0}")]
-    Database(#[from] DatabaseError),
+    #[error("The session cannot be read: {0}.")]
+    Store(#[source] StoreError),
+    /// Nothing of it that a tree could be made from is whole.
+    #[error("The session is damaged: {0}.")]
+    Damaged(String),
     /// What was read is not a session.
-    #[error("the session cannot be restored: {0}")]
-    Restore(#[from] RestoreError),
-    /// It would grow into another plant now.
-    #[error("the session was made with version {found} of the simulation; this is version {current}")]
-    OtherSimulation {
-        /// The version it was made with.
+    #[error("The session cannot be restored: {0}.")]
+    Restore(#[source] RestoreError),
+    /// A newer program made it.
+    #[error(
+        "A newer Espalier made this tree (simulation {found}; this one has {SIMULATION_VERSION}): update the server."
+    )]
+    Newer {
+        /// The version of the simulation it was made with.
         found: u32,
-        /// The version of this program.
-        current: u32,
     },
+    /// A newer program wrote its snapshot, in a way that this one cannot read.
+    #[error("A newer Espalier made this tree ({0}): update the server.")]
+    Later(String),
     /// Restoring it panicked.
-    #[error("the session cannot be restored: {0}")]
+    #[error("The session cannot be restored: {0}.")]
     Panicked(#[from] Panicked),
     /// The server is stopping.
-    #[error("the server is stopping")]
+    #[error("The server is stopping.")]
     Stopping,
+}
+
+impl OpenError {
+    /// Whether asking again is of no use.
+    pub fn is_final(&self) -> bool {
+        !matches!(self, Self::Store(_) | Self::Stopping)
+    }
+}
+
+impl From<RestoreError> for OpenError {
+    fn from(error: RestoreError) -> Self {
+        match error {
+            RestoreError::Document(DocumentError::Later(what)) => Self::Later(what),
+            error => Self::Restore(error),
+        }
+    }
+}
+
+impl From<StoreError> for OpenError {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Damaged(what) => Self::Damaged(what),
+            error => Self::Store(error),
+        }
+    }
 }
 
 /// Sockets at a time, over all sessions.
@@ -63,8 +96,8 @@ struct Inner {
 
 impl Sessions {
     /// None are loaded yet. When `stop` is cancelled all of them end.
-    pub fn new(database: Arc<Database>, pool: SimulationPool, stop: CancellationToken) -> Self {
-        let around = Surroundings { database, pool, stop, started: Instant::now() };
+    pub fn new(store: Arc<AnyStore>, pool: SimulationPool, stop: CancellationToken) -> Self {
+        let around = Surroundings { store, pool, stop, started: Instant::now() };
         Self(Arc::new(Inner {
             around,
             slots: Mutex::default(),
@@ -113,18 +146,15 @@ impl Sessions {
 
     async fn load(&self, name: &str, slot: &Arc<Slot>) -> Result<SessionHandle, Unloaded> {
         let Inner { around, tasks, .. } = &*self.0;
-        let session = match restore(around, name, 0).await? {
+        let lease = around.store.acquire(name).await?;
+        let session = match restored(around, name, &lease).await {
             Ok(session) => session,
-            Err(error) => {
-                tracing::error!(session = name, %error, "the newest snapshot is of no use; trying the one before");
-                match restore(around, name, 1).await {
-                    Ok(Ok(session)) => session,
-                    // The first error is the one that tells.
-                    _ => return Err(OpenError::from(error).into()),
-                }
+            Err(unloaded) => {
+                around.store.release(lease).await;
+                return Err(unloaded);
             }
         };
-        let (actor, handle) = Actor::new(name.to_owned(), session, around.clone());
+        let (actor, handle) = Actor::new(name.to_owned(), session, lease, around.clone());
         let place = Place {
             sessions: Arc::downgrade(&self.0),
             name: name.to_owned(),
@@ -148,25 +178,80 @@ impl Sessions {
     }
 }
 
-/// Restores a session from its newest snapshot but so many.
+/// Restores a session from its newest snapshot, or from the one before if that is of no use.
+async fn restored(around: &Surroundings, name: &str, lease: &Lease) -> Result<Session, Unloaded> {
+    let stored = around.store.load_session(name, None).await?.ok_or(Unloaded::Unknown)?;
+    let (through, passed_over) = (stored.through, stored.damage.clone());
+    match restore(around, name, lease, stored).await? {
+        Ok(session) => Ok(session),
+        // Going on from an older snapshot would grow another tree than the newer program did.
+        Err(error @ RestoreError::Document(DocumentError::Later(_))) => Err(error.into()),
+        Err(error) => {
+            tracing::error!(session = name, %error, "the newest snapshot is of no use; trying the one before");
+            // The first error is the one that tells.
+            let Ok(Some(mut older)) = around.store.load_session(name, Some(through)).await else {
+                return Err(error.into());
+            };
+            older
+                .damage
+                .extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
+            Ok(restore(around, name, lease, older).await?.map_err(|_| error)?)
+        }
+    }
+}
+
+/// Makes a session of what was read of it, and puts aside what was damaged; nothing of that is done in silence.
 async fn restore(
     around: &Surroundings,
     name: &str,
-    damaged: u32,
+    lease: &Lease,
+    stored: StoredSession,
 ) -> Result<Result<Session, RestoreError>, Unloaded> {
-    let stored = around.database.load_session(name, damaged).await.map_err(OpenError::from)?;
-    let stored = stored.ok_or(Unloaded::Unknown)?;
-    let current = crate::SIMULATION_VERSION;
-    if stored.simulation_version != current {
-        return Err(OpenError::OtherSimulation { found: stored.simulation_version, current }.into());
+    if stored.newest_version > SIMULATION_VERSION {
+        return Err(OpenError::Newer { found: stored.newest_version }.into());
     }
-    tracing::info!(session = name, entries = stored.entries.len(), last = stored.last, "loading");
+    let last = stored.through + stored.entries.len() as u64;
+    tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
+    let notices = notices(&stored);
+    for damage in &stored.damage {
+        match damage {
+            Damage::Snapshot(entry) => {
+                tracing::error!(session = name, entry, "the snapshot after an entry is damaged")
+            }
+            Damage::Journal(entry) => {
+                tracing::error!(session = name, entry, "the journal is damaged from an entry on")
+            }
+        }
+    }
+    let StoredSession { seed, snapshot, entries, damage, .. } = stored;
     let epoch = rand::random();
-    let restored = around.pool.run({
+    let made = around.pool.run({
         let name = name.to_owned();
-        move || Session::restore(name, epoch, stored.snapshot.as_deref(), stored.seed, stored.entries)
+        move || Session::restore(name, epoch, snapshot.as_deref(), seed, entries)
     });
-    Ok(restored.await.map_err(OpenError::from)?)
+    let mut session = match made.await? {
+        Ok(session) => session,
+        Err(error) => return Ok(Err(error)),
+    };
+    if !damage.is_empty() {
+        around.store.set_aside(lease, &damage).await?;
+    }
+    if !notices.is_empty() {
+        session.notify(notices);
+    }
+    Ok(Ok(session))
+}
+
+/// What everybody who comes into the session is notified of.
+fn notices(stored: &StoredSession) -> Vec<Notice> {
+    let older = stored.oldest_entries.filter(|&version| version < SIMULATION_VERSION);
+    let regrown = older.map(|from| Notice::Regrown { from, to: SIMULATION_VERSION });
+    let lost = stored.damage.iter().filter_map(|damage| match *damage {
+        Damage::Journal(entry) => Some(Notice::Damaged { entry }),
+        // What it contained has been done again.
+        Damage::Snapshot(_) => None,
+    });
+    regrown.into_iter().chain(lost).collect()
 }
 
 impl Inner {
@@ -212,47 +297,49 @@ mod tests {
     use std::time::Duration;
 
     use espalier_proto::{ServerMessage, version::CloseCode};
-    use espalier_session::{ClientId, JournalEntry};
+    use espalier_session::{ClientId, Document, JournalEntry, Principal};
     use tokio::time::timeout;
 
     use super::{
         super::{
-            actor::Request,
+            actor::{DocumentBytes, Request},
             outbox::{self, Outgoing, Outgoings},
         },
         *,
     };
-    use crate::{SIMULATION_VERSION, database::Folder};
+    use crate::store::{MemoryStore, NewSession, NewSnapshot};
 
     const HELLO: &str = r#"{"type":"hello","protocol":1,"client":"test-client"}"#;
 
     struct House {
-        folder: Folder,
-        database: Arc<Database>,
+        store: Arc<AnyStore>,
         stop: CancellationToken,
         sessions: Sessions,
     }
 
     impl House {
         async fn new() -> Self {
-            let house = Self::at(Folder::new()).await;
-            house.database.create_session("oak".into(), 7, SIMULATION_VERSION, None).await.unwrap();
+            let house = Self::at(Arc::new(AnyStore::Memory(MemoryStore::default())));
+            house.begin("oak", SIMULATION_VERSION, None).await;
             house
         }
 
-        async fn at(folder: Folder) -> Self {
-            let database = Arc::new(Database::open(&folder.database()).await.unwrap());
+        fn at(store: Arc<AnyStore>) -> Self {
             let stop = CancellationToken::new();
             let sessions =
-                Sessions::new(Arc::clone(&database), SimulationPool::new(None).unwrap(), stop.clone());
-            Self { folder, database, stop, sessions }
+                Sessions::new(Arc::clone(&store), SimulationPool::new(None).unwrap(), stop.clone());
+            Self { store, stop, sessions }
+        }
+
+        async fn begin(&self, name: &str, simulation_version: u32, snapshot: Option<Vec<u8>>) {
+            let new = NewSession { name: name.into(), seed: 7, simulation_version, snapshot };
+            self.store.create_session(new).await.unwrap();
         }
 
         async fn restarted(self) -> Self {
             self.stop.cancel();
             self.sessions.ended().await;
-            self.database.close().await;
-            Self::at(self.folder).await
+            Self::at(self.store)
         }
 
         async fn visit(&self) -> Visitor {
@@ -308,6 +395,16 @@ mod tests {
             .await
         }
 
+        /// The document when this step is reached.
+        async fn reached(&self, step: u32) -> DocumentBytes {
+            loop {
+                let document = self.session.read().await.unwrap();
+                if Document::from_bytes(&document.bytes).unwrap().figures().step == step {
+                    return document;
+                }
+            }
+        }
+
         /// Epoch, acknowledged command and living metamers of the welcome.
         async fn welcome(&mut self) -> (u32, u32, u32) {
             self.hear(|message| match message {
@@ -351,7 +448,7 @@ mod tests {
         visitor.grow(1).await;
         visitor.grow(2).await;
         while visitor.acknowledged().await < 2 {}
-        let before = visitor.session.read().await.unwrap();
+        let before = visitor.reached(6).await;
         assert!(before.metamers > 0);
 
         let house = house.restarted().await;
@@ -362,20 +459,28 @@ mod tests {
         assert_eq!(visitor.session.read().await.unwrap().bytes, before.bytes);
     }
 
+    fn grown(number: u64) -> JournalEntry {
+        let command = r#"{"kind":"grow","steps":2}"#.into();
+        let principal = Principal::client("test-client").unwrap();
+        JournalEntry { number, principal, id: number as u32, command }
+    }
+
     #[tokio::test]
     async fn a_damaged_snapshot_falls_back_to_the_one_before() {
         let house = House::new().await;
         let mut visitor = house.visit().await;
         visitor.grow(1).await;
         visitor.acknowledged().await;
-        let tree = visitor.session.read().await.unwrap();
+        let tree = visitor.reached(3).await;
 
         let start = Session::first_snapshot(&tree.bytes, 1_000_000).unwrap();
-        house.database.create_session("elm".into(), 7, SIMULATION_VERSION, Some(start)).await.unwrap();
-        let command = r#"{"kind":"grow","steps":2}"#.into();
-        let entry = JournalEntry { number: 1, client: "test-client".into(), id: 1, command };
-        house.database.append_journal("elm".into(), &[entry]).await.unwrap();
-        house.database.keep_snapshot("elm".into(), 1, b"damaged".to_vec()).await.unwrap();
+        house.begin("elm", SIMULATION_VERSION, Some(start)).await;
+        let lease = house.store.acquire("elm").await.unwrap();
+        house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
+        // Its checksum is right, and still it is no snapshot.
+        let (simulation_version, bytes) = (SIMULATION_VERSION, b"damaged".to_vec());
+        let damaged = NewSnapshot { through: 1, simulation_version, bytes };
+        house.store.keep_snapshot(&lease, damaged).await.unwrap();
         let (_, acknowledged, metamers) = house.visit_to("elm").await.welcome().await;
         assert_eq!(acknowledged, 1);
         assert!(metamers > tree.metamers, "the tree it began with, grown on");
@@ -384,10 +489,81 @@ mod tests {
     #[tokio::test]
     async fn a_session_without_a_sound_snapshot_is_not_invented() {
         let house = House::new().await;
-        let damaged = Some(b"damaged".to_vec());
-        house.database.create_session("elm".into(), 7, SIMULATION_VERSION, damaged).await.unwrap();
-        assert!(matches!(house.sessions.open("elm").await, Err(OpenError::Restore(RestoreError::Damaged))));
+        house.begin("elm", SIMULATION_VERSION, Some(b"damaged".to_vec())).await;
+        let error = house.sessions.open("elm").await.unwrap_err();
+        assert!(matches!(error, OpenError::Restore(RestoreError::Damaged)) && error.is_final(), "{error}");
         assert!(house.sessions.0.slots().is_empty());
+    }
+
+    #[tokio::test]
+    async fn op1_a_session_of_a_newer_program_stays_closed() {
+        let house = House::new().await;
+        house.begin("elm", SIMULATION_VERSION + 1, None).await;
+        let error = house.sessions.open("elm").await.unwrap_err();
+        assert!(error.is_final());
+        let words = format!("simulation {}; this one has {SIMULATION_VERSION}", SIMULATION_VERSION + 1);
+        assert!(error.to_string().contains(&words), "{error}");
+        assert!(error.to_string().len() <= 123, "it fits into the reason of a close");
+    }
+
+    #[tokio::test]
+    async fn op1_a_snapshot_in_a_newer_format_is_not_passed_over() {
+        let house = House::new().await;
+        let start = Session::seedling(7, 1_000_000);
+        house.begin("elm", SIMULATION_VERSION, Some(start.clone())).await;
+        let lease = house.store.acquire("elm").await.unwrap();
+        house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
+        let mut bytes = start;
+        // The container's format follows eight bytes of magic.
+        bytes[8] = 99;
+        let newer = NewSnapshot { through: 1, simulation_version: SIMULATION_VERSION, bytes };
+        house.store.keep_snapshot(&lease, newer).await.unwrap();
+        let error = house.sessions.open("elm").await.unwrap_err();
+        assert!(matches!(error, OpenError::Later(_)) && error.is_final(), "{error}");
+    }
+
+    #[tokio::test]
+    async fn op2_op3_an_older_journal_is_done_again_and_said_once() {
+        let house = House::new().await;
+        house.begin("elm", SIMULATION_VERSION - 1, Some(Session::seedling(7, 1_000_000))).await;
+        let lease = house.store.acquire("elm").await.unwrap();
+        house.store.append(&lease, SIMULATION_VERSION - 1, &[grown(1)]).await.unwrap();
+        let notified = |message| match message {
+            ServerMessage::Notice { notice } => Some(notice),
+            _ => None,
+        };
+        let mut visitor = house.visit_to("elm").await;
+        let regrown = Notice::Regrown { from: SIMULATION_VERSION - 1, to: SIMULATION_VERSION };
+        assert_eq!(visitor.hear(notified).await, regrown);
+        assert!(visitor.session.read().await.unwrap().metamers > 1);
+        // The snapshot that is made at once leaves nothing to be said the next time.
+        let house = house.restarted().await;
+        let stored = house.store.load_session("elm", None).await.unwrap().unwrap();
+        assert_eq!((stored.through, stored.oldest_entries), (1, None));
+        let mut visitor = house.visit_to("elm").await;
+        visitor.welcome().await;
+        visitor.say(r#"{"type":"ping","nonce":5}"#).await;
+        let pong = |message| match message {
+            ServerMessage::Notice { notice } => panic!("{notice:?}"),
+            ServerMessage::Pong { nonce } => Some(nonce),
+            _ => None,
+        };
+        assert_eq!(visitor.hear(pong).await, 5);
+    }
+
+    #[tokio::test]
+    async fn a_clean_stop_leaves_nothing_to_replay() {
+        let house = House::new().await;
+        let mut visitor = house.visit().await;
+        visitor.grow(1).await;
+        visitor.grow(2).await;
+        while visitor.acknowledged().await < 2 {}
+        let before = visitor.reached(6).await;
+        let house = house.restarted().await;
+        let stored = house.store.load_session("oak", None).await.unwrap().unwrap();
+        assert_eq!((stored.through, stored.entries.len()), (2, 0));
+        let visitor = house.visit().await;
+        assert_eq!(visitor.session.read().await.unwrap().bytes, before.bytes);
     }
 
     #[tokio::test]
@@ -406,7 +582,7 @@ mod tests {
         let mut visitor = house.visit().await;
         let (epoch, ..) = visitor.welcome().await;
         // From here on every write fails, as on a full disk.
-        house.database.refuse_writes().await;
+        house.store.close().await;
         visitor.grow(1).await;
         assert_eq!(visitor.close_code().await, CloseCode::InternalError);
         while let Ok(outgoing) = visitor.outgoings.lane.try_recv() {

@@ -1,6 +1,6 @@
 //! Journals, as a session is restored from them.
 
-use espalier_session::{JournalEntry, Session};
+use espalier_session::{JournalEntry, Principal, Session};
 
 use crate::{METAMERS, SEED, command};
 
@@ -34,5 +34,10 @@ pub fn seeds() -> Vec<Vec<u8>> {
 fn entry(number: u64, line: &str) -> Option<JournalEntry> {
     let (client, rest) = line.split_once(' ')?;
     let (id, command) = rest.split_once(' ')?;
-    Some(JournalEntry { number, client: client.into(), id: id.parse().ok()?, command: command.into() })
+    Some(JournalEntry {
+        number,
+        principal: Principal::parse(client)?,
+        id: id.parse().ok()?,
+        command: command.into(),
+    })
 }

@@ -14,3 +14,4 @@ mod shared_tree;
 mod slow_clients;
 mod species;
 mod startup;
+mod upgrades;

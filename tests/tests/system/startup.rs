@@ -47,6 +47,24 @@ fn a_file_of_something_else_is_left_alone() {
 }
 
 #[tokio::test]
+async fn a_database_of_another_program_is_left_alone() {
+    let scratch = Scratch::new();
+    let path = scratch.path("photos.db");
+    let mut connection = SqliteConnectOptions::new()
+        .filename(&path)
+        .create_if_missing(true)
+        .connect()
+        .await
+        .expect("a database is made");
+    connection.execute("CREATE TABLE photos (id INTEGER PRIMARY KEY)").await.expect("it takes a table");
+    drop(connection);
+    let before = fs::read(&path).expect("it is there");
+    is_sentence(&serve(&path, 0), &["photos.db", "belongs to another program"]);
+    assert!(fs::read(&path).expect("it is still there") == before, "the file is as it was");
+    assert!(!scratch.path("photos.db.lock").exists(), "nothing is left beside it");
+}
+
+#[tokio::test]
 async fn a_newer_schema_stops_the_server() {
     let scratch = Scratch::new();
     let path = scratch.path("trees.db");

@@ -117,6 +117,25 @@ describe("handshake", () => {
     expect([core.phase, core.stopReason]).toEqual(["stopped", "unknown-session"]);
   });
 
+  it("HS6: a session that cannot be opened stops for good, with the server's sentence", () => {
+    const { core } = setUp();
+    core.start(0);
+    core.effects();
+    core.closed(1, 4007, "The session is damaged: 7.");
+    expect(core.effects()).toEqual([{ kind: "cannot-open", sentence: "The session is damaged: 7." }]);
+    core.wake(2);
+    core.tick(1e6);
+    expect([core.phase, core.stopReason, core.effects()]).toEqual(["stopped", "cannot-open", []]);
+  });
+
+  it("OP3: a notice is handed on", () => {
+    const { core, connect } = setUp();
+    connect();
+    core.effects();
+    core.message(1, { type: "notice", notice: { kind: "damaged", entry: 7 } });
+    expect(core.effects()).toEqual([{ kind: "notice", notice: { kind: "damaged", entry: 7 } }]);
+  });
+
   it("HS4: a replaced client goes on under a fresh key", () => {
     const { core, connect, reconnect } = setUp();
     connect();

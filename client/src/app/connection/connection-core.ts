@@ -4,6 +4,7 @@ import {
   CloseCode,
   type Command,
   type DocumentState,
+  type Notice,
   type Parameters,
   type PlacedObstacle,
   PROTOCOL_VERSION,
@@ -29,7 +30,7 @@ const BACKOFF_GARBLED = 60_000;
 const GARBLED_FOR = 120_000;
 
 export type Phase = "idle" | "opening" | "greeting" | "connected" | "waiting" | "stopped";
-export type StopReason = "unknown-session" | "version";
+export type StopReason = "unknown-session" | "cannot-open" | "version";
 
 /** What outlives a page: the key, and what was sent under it. */
 export interface ClientRecord extends OutboxRecord {
@@ -50,6 +51,8 @@ export type Effect =
   | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
   | { readonly kind: "timeline"; readonly timeline: Timeline }
   | { readonly kind: "widths"; readonly widths: readonly WidthConstraint[] }
+  | { readonly kind: "notice"; readonly notice: Notice }
+  | { readonly kind: "cannot-open"; readonly sentence: string }
   | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
 
 export interface CoreOptions {
@@ -212,6 +215,9 @@ export class ConnectionCore {
       case "widths":
         this.#effects.push({ kind: "widths", widths: message.widths });
         break;
+      case "notice":
+        this.#effects.push({ kind: "notice", notice: message.notice });
+        break;
       case "pong":
         break;
     }
@@ -267,14 +273,18 @@ export class ConnectionCore {
     }
   }
 
-  /** The socket closed, by whichever side. */
-  closed(now: number, code: number): void {
+  /** The socket closed, by whichever side; a server says why in a sentence. */
+  closed(now: number, code: number, sentence = ""): void {
     if (this.#phase === "stopped" || this.#phase === "waiting" || this.#phase === "idle") {
       return;
     }
     switch (code) {
       case CloseCode.UnknownSession:
         this.#stop("unknown-session");
+        break;
+      case CloseCode.CannotOpen:
+        this.#stop("cannot-open");
+        this.#effects.push({ kind: "cannot-open", sentence });
         break;
       case CloseCode.VersionMismatch:
         this.#stop("version");

@@ -58,6 +58,8 @@ function setUp() {
       timeline: nothing,
       widths: nothing,
       aside: ({ kind, frame }) => asides.push([kind, frame.sequence]),
+      notice: nothing,
+      cannotOpen: nothing,
       problem: nothing,
       rows: nothing,
       rekeyed: nothing,

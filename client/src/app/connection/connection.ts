@@ -3,6 +3,7 @@ import type {
   ClientMessage,
   Command,
   DocumentState,
+  Notice,
   Parameters,
   PlacedObstacle,
   Problem,
@@ -56,6 +57,10 @@ export interface ConnectionEvents<Aside> {
   widths(widths: readonly WidthConstraint[]): void;
   /** A branch that is being bent, or a prediction. */
   aside(aside: Aside): void;
+  /** How the session was opened. */
+  notice(notice: Notice): void;
+  /** The server cannot open the session, however often one asks; it says why. */
+  cannotOpen(sentence: string): void;
   problem(problem: Problem, command?: Command): void;
   /** Rows have changed; draw. */
   rows(): void;
@@ -159,10 +164,10 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
       }
     };
     socket.onopen = () => mine(() => this.#core.opened(this.#now()));
-    socket.onclose = ({ code }) =>
+    socket.onclose = ({ code, reason }) =>
       mine(() => {
         this.#socket = null;
-        this.#core.closed(this.#now(), code);
+        this.#core.closed(this.#now(), code, reason);
       });
     socket.onmessage = ({ data }) =>
       mine(() => {
@@ -265,6 +270,12 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
           break;
         case "widths":
           events.widths(effect.widths);
+          break;
+        case "notice":
+          events.notice(effect.notice);
+          break;
+        case "cannot-open":
+          events.cannotOpen(effect.sentence);
           break;
         case "problem":
           events.problem(effect.problem, effect.command);

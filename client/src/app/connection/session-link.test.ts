@@ -57,6 +57,7 @@ function setUp(path = "/", { last = null as string | null, store = storage(), be
     aside: nothing,
     widths: nothing,
     timeline: nothing,
+    notice: nothing,
     problem: nothing,
     rekeyed: nothing,
   };
@@ -234,6 +235,15 @@ describe("what is in the way", () => {
     expect([hindrance.peek(), lastSession.peek()]).toEqual(["unknown-session", null]);
     link.leave();
     expect(calls, "nothing of it is kept").not.toContain("parted");
+  });
+
+  it("HS6: a session that cannot be opened, with the reason", async () => {
+    const { link, hindrance, lastSession, newest, clock } = setUp("/s/oak");
+    await link.start();
+    newest().end(CloseCode.CannotOpen, "The session is damaged: 7.");
+    clock.pass(600_000);
+    expect([hindrance.peek(), link.refusal.peek()]).toEqual(["cannot-open", "The session is damaged: 7."]);
+    expect(lastSession.peek(), "it is not come back to").toBeNull();
   });
 
   it("HS1: another version, answered by loading the page once", async () => {

@@ -21,7 +21,7 @@ const SILENT_AFTER = 2;
 
 /** The events of a session: those of its connection and its own. */
 export interface SessionEvents
-  extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows"> {
+  extends Omit<ConnectionEvents<AsideServerFrame>, "phase" | "commands" | "reload" | "rows" | "cannotOpen"> {
   /** Another session is opened: nothing of the one before counts any more. */
   opened(): void;
   rows(): void;
@@ -63,6 +63,8 @@ export interface SessionLinkOptions {
 /** The session a page is in: found or begun, left for another, and kept through lost networks and closed pages. */
 export class SessionLink implements PageEvents {
   readonly session = signal<string | null>(null);
+  /** Why the server cannot open the session, if it cannot. */
+  readonly refusal = signal("");
   readonly phase = signal<Phase>("idle");
   readonly attempts = signal(0);
   /** How often of late what the server sent could not be read. */
@@ -230,6 +232,9 @@ export class SessionLink implements PageEvents {
           });
           events.settled(settled);
         },
+        cannotOpen: (sentence) => {
+          this.refusal.value = sentence;
+        },
         reload: () => {
           if (mayReload(page.store, Date.now())) {
             page.location.reload();
@@ -257,7 +262,8 @@ export class SessionLink implements PageEvents {
         hindrance.value ??= "no-server";
       }
     });
-    if (stopped === "unknown-session" && lastSession.peek() === this.session.peek()) {
+    const isShut = stopped === "unknown-session" || stopped === "cannot-open";
+    if (isShut && lastSession.peek() === this.session.peek()) {
       lastSession.value = null;
     }
   }

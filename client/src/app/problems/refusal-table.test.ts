@@ -121,7 +121,7 @@ const known = (table: typeof REFUSALS, words: string) => table.some(([pattern]) 
 const FOR_PROGRAMMERS =
   /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has/;
 /** Why a session was not restored is written to the log, why a socket closes to nobody. */
-const FOR_THE_LOG = /^the session cannot be (read|restored)|^the server is stopping|^7: 7$/;
+const FOR_THE_LOG = /^The session cannot be read|^7: 7$/;
 
 describe("what the server refuses", () => {
   it("is found in its sources, none without words", () => {

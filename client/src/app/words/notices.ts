@@ -15,6 +15,7 @@ export const NOTICES = {
     "Der Link nennt einen Baum, den dieser Server nicht kennt. Vielleicht wurde er auf einem anderen Rechner begonnen.",
   ],
   "notices.unknown-session.way": ["Plant a new tree", "Neuen Baum pflanzen"],
+  "notices.cannot-open": ["This tree cannot be opened", "Dieser Baum lässt sich nicht öffnen"],
   "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
   "notices.version.text": [
     "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",

@@ -132,10 +132,20 @@ export const PROBLEMS = {
     "Dieser Server kennt den Baum zu diesem Link nicht.",
   ],
   "problems.none-such": ["The server does not have this.", "Das hat der Server nicht."],
-  "problems.simulation": [
-    "This tree was grown by another version of Espalier, and this one cannot go on with it.",
-    "Diesen Baum hat eine andere Version von Espalier wachsen lassen; diese kann ihn nicht fortsetzen.",
+  "problems.newer": [
+    "This tree was made by a newer Espalier; the server must be updated to open it.",
+    "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",
   ],
+  "problems.session-damaged": ["The record of this tree is damaged.", "Die Aufzeichnung dieses Baums ist beschädigt."],
+  "problems.regrown": [
+    "Espalier was updated while this tree was open. The last strokes have been grown again by the new rules.",
+    "Espalier wurde aktualisiert, während dieser Baum offen war. Die letzten Striche sind nach den neuen Regeln neu gewachsen.",
+  ],
+  "problems.damaged": [
+    "The last part of this tree’s record was damaged. You see the tree as it was before; the rest is kept on the server.",
+    "Der letzte Teil der Aufzeichnung dieses Baums war beschädigt. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
+  ],
+  "problems.forbidden": ["You may not do this here.", "Das darfst du hier nicht."],
   "problems.thumbnail": [
     "The picture for the library could not be taken; try again.",
     "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",

@@ -1,14 +1,12 @@
-//! Commands from outside: from people who upload, not from clients.
-
-use std::sync::Arc;
+//! Commands from outside: from people who upload, not over a client's socket.
 
 use espalier_proto::{Command, PlacedObstacle, Problem};
 
 use super::Session;
-use crate::io::{ActId, Output};
-
-/// Commands from outside are done in this name; it is too short to be a client's key.
-const OUTSIDE: &str = "outside";
+use crate::{
+    io::{ActId, Output},
+    principal::Principal,
+};
 
 /// A command from outside whose answer is owed.
 #[derive(Debug)]
@@ -21,10 +19,10 @@ pub(super) struct Act {
 
 impl Session {
     /// Takes a command from outside into the order.
-    pub(super) fn act(&mut self, id: ActId, command: Command) {
+    pub(super) fn act(&mut self, id: ActId, principal: &Principal, command: Command) {
         match self.check(command) {
             Ok((command, text)) => {
-                let entry = self.accept(&Arc::from(OUTSIDE), 0, command, text, Some(id));
+                let entry = self.accept(principal.name(), 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });
             }
             Err(problem) => self.outputs.push_back(Output::Acted { act: id, outcome: Err(problem) }),

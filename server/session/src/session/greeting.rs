@@ -13,6 +13,7 @@ use super::Session;
 use crate::{
     clients::{Client, Guest, View, Vision, Watch},
     io::ClientId,
+    principal::Principal,
     to_proto::Held,
     window::Window,
 };
@@ -32,11 +33,13 @@ impl Session {
             Ok(ClientMessage::Hello { protocol, .. }) if protocol != PROTOCOL_VERSION => {
                 self.close_version(client)
             }
-            Ok(ClientMessage::Hello { client: key, .. }) if !is_client_key(&key) => {
-                let sentence = "a client key has 8 to 64 letters, digits, hyphens and underscores";
-                self.close(client, CloseCode::HelloExpected, sentence);
-            }
-            Ok(ClientMessage::Hello { client: key, resume, .. }) => self.welcome(client, key.into(), resume),
+            Ok(ClientMessage::Hello { client: key, resume, .. }) => match Principal::client(&key) {
+                Some(principal) => self.welcome(client, principal, resume),
+                None => {
+                    let sentence = "a client key has 8 to 64 letters, digits, hyphens and underscores";
+                    self.close(client, CloseCode::HelloExpected, sentence);
+                }
+            },
             // The hello of another version may look different in all but its number.
             Err(_) if states_another_version(text) => self.close_version(client),
             _ => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),
@@ -48,7 +51,8 @@ impl Session {
         self.close(client, CloseCode::VersionMismatch, &sentence);
     }
 
-    fn welcome(&mut self, client: ClientId, key: Arc<str>, resume: Option<Resume>) {
+    fn welcome(&mut self, client: ClientId, principal: Principal, resume: Option<Resume>) {
+        let key = Arc::clone(principal.name());
         if let Some(older) = self.authors.get(&key).and_then(|author| author.client) {
             self.close(older, CloseCode::Replaced, "the same client connected again");
         }
@@ -62,7 +66,7 @@ impl Session {
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
         if let Some(client) = self.clients.get_mut(&client) {
             client.guest = Some(Guest {
-                key,
+                principal,
                 window: Window::default(),
                 view,
                 watch: Watch::default(),
@@ -87,20 +91,20 @@ impl Session {
             self.send(client, &ServerMessage::Widths { widths: self.widths.clone() });
         }
         self.send(client, &ServerMessage::Timeline(Box::new(self.timeline.clone())));
+        // Who resumes has been notified before, for the epoch is the same (`OP3`).
+        let notices = if resumed { Vec::new() } else { self.notices.clone() };
+        for notice in notices {
+            self.send(client, &ServerMessage::Notice { notice });
+        }
         self.upkeep.state_changed = true;
     }
 
     pub(super) fn forget(&mut self, id: ClientId) {
         let Some(Client { guest: Some(guest), .. }) = self.clients.remove(&id) else { return };
         guest.vision.cancel();
-        self.author_left(&guest.key, id);
+        self.author_left(guest.principal.name(), id);
         self.upkeep.state_changed = true;
     }
-}
-
-fn is_client_key(key: &str) -> bool {
-    let allowed = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
-    (8..=64).contains(&key.len()) && key.bytes().all(allowed)
 }
 
 fn is_consistent(resume: &Resume) -> bool {

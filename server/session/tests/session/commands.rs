@@ -211,7 +211,7 @@ fn cm5_strokes_end_30_s_after_their_client_left() {
     world.pass(1_500);
     assert!(world.document().open_strokes("birch-01").is_empty());
     let last = world.disk.last().unwrap();
-    assert_eq!((last.client.as_str(), last.id), ("birch-01", 0));
+    assert_eq!((last.principal.to_string().as_str(), last.id), ("birch-01", 0));
     assert_eq!(last.command, r#"{"kind":"stroke_end","stroke":4}"#);
     assert!(world.peer(maple).refused().is_empty());
     assert_eq!(world.document().hash(), world.replayed_hash());

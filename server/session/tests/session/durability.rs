@@ -2,8 +2,8 @@
 
 use std::sync::LazyLock;
 
-use espalier_proto::version::CloseCode;
-use espalier_session::{Document, Input, JournalEntry, ReadId, RestoreError, Session};
+use espalier_proto::{Notice, ServerMessage, version::CloseCode};
+use espalier_session::{Document, Input, JournalEntry, Principal, ReadId, RestoreError, Session};
 use proptest::prelude::*;
 use serde_json::json;
 
@@ -163,10 +163,63 @@ fn undo_reaches_behind_a_restart() {
 }
 
 #[test]
+fn a_session_that_is_put_away_keeps_a_snapshot_of_everything() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(40));
+    world.command(client, 2, grow(3));
+    world.pass(10);
+    assert!(world.working.is_some(), "it is still growing");
+    world.handle(Input::Stopping);
+    world.settle();
+    assert_eq!(world.snapshot.as_ref().map(|(through, _)| *through), Some(2));
+    assert_eq!((world.disk.len(), world.document().figures().step), (2, 43));
+    // What a snapshot holds already needs no other.
+    let before = world.snapshots;
+    world.handle(Input::Stopping);
+    world.settle();
+    assert_eq!(world.snapshots, before);
+}
+
+#[test]
+fn op3_everybody_is_notified_once_of_how_the_session_was_opened() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(2));
+    world.settle();
+    world.crash();
+    let sent = [Notice::Regrown { from: 1, to: 2 }, Notice::Damaged { entry: 7 }];
+    world.session.notify(sent.clone());
+    let notices = |world: &World, client: u64| -> Vec<Notice> {
+        let texts = world.peer(client).texts.iter();
+        texts
+            .filter_map(|text| match text {
+                ServerMessage::Notice { notice } => Some(notice.clone()),
+                _ => None,
+            })
+            .collect()
+    };
+    let (first, second) = (world.join("birch-01"), world.join("birch-02"));
+    world.settle();
+    assert_eq!(notices(&world, first), sent);
+    assert_eq!(notices(&world, second), sent);
+    assert_eq!(
+        world.snapshot.as_ref().map(|(through, _)| *through),
+        Some(1),
+        "what was restored is kept at once"
+    );
+    let mirror = world.leave(first).mirror;
+    let returned = world.rejoin("birch-01", mirror);
+    world.settle();
+    assert!(world.peer(returned).resumed());
+    assert_eq!(notices(&world, returned), []);
+}
+
+#[test]
 fn a_missing_entry_is_noticed() {
     let entry = |number| JournalEntry {
         number,
-        client: "birch-01".into(),
+        principal: Principal::client("birch-01").unwrap(),
         id: number as u32,
         command: r#"{"kind":"grow","steps":1}"#.into(),
     };

@@ -5,7 +5,7 @@
 
 use std::{fs, path::PathBuf};
 
-use espalier_session::{Document, JournalEntry, Session, read_command};
+use espalier_session::{Document, JournalEntry, Principal, Session, read_command};
 use serde_json::{Value, json};
 
 /// The releases that `tests/kept` has documents of, with the version of the simulation each was made with.
@@ -69,7 +69,12 @@ fn kept_files_that_were_damaged_are_refused() {
 fn tail(release: &str) -> Vec<JournalEntry> {
     let rows: Vec<(u64, String, u32, String)> =
         serde_json::from_slice(&file(release, "session.tail.json")).unwrap();
-    let entry = |(number, client, id, command)| JournalEntry { number, client, id, command };
+    let entry = |(number, client, id, command): (u64, String, u32, String)| JournalEntry {
+        number,
+        principal: Principal::parse(&client).unwrap(),
+        id,
+        command,
+    };
     rows.into_iter().map(entry).collect()
 }
 

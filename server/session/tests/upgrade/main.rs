@@ -16,7 +16,7 @@ use std::{
 use espalier_growth::{SIMULATION_VERSION, simulation_version, use_next_simulation};
 use espalier_plant::checks;
 use espalier_proto::{Action, Steps};
-use espalier_session::{Document, JournalEntry, Session};
+use espalier_session::{Document, JournalEntry, Principal, Session};
 use proptest::prelude::*;
 
 use crate::life::{Deed, deeds, live};
@@ -123,7 +123,12 @@ fn a_tail_is_replayed_by_the_new_rules() {
     let age = Age::present();
     let snapshot = kept("session.snapshot");
     let rows: Vec<(u64, String, u32, String)> = serde_json::from_slice(&kept("session.tail.json")).unwrap();
-    let entry = |(number, client, id, command)| JournalEntry { number, client, id, command };
+    let entry = |(number, client, id, command): (u64, String, u32, String)| JournalEntry {
+        number,
+        principal: Principal::parse(&client).unwrap(),
+        id,
+        command,
+    };
     let entries: Vec<JournalEntry> = rows.into_iter().map(entry).collect();
     let restore = |tail: &[JournalEntry]| {
         let session = Session::restore("elm", 1, Some(&snapshot), 0, tail.iter().cloned()).unwrap();

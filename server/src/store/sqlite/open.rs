@@ -8,17 +8,20 @@ use std::{
 };
 
 use sqlx::{
-    ConnectOptions, SqlitePool,
-    migrate::{MigrateError, Migrator},
+    ConnectOptions, SqlSafeStr, SqlitePool,
+    migrate::{MigrateError, Migration, MigrationType, Migrator},
     sqlite::{
         SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous,
     },
 };
 
-use super::{in_words, writer::Writer};
+use super::{identity, in_words, writer::Writer};
 
-/// The schema, one file for each change.
-static MIGRATIONS: Migrator = sqlx::migrate!("../migrations");
+/// The schema: one file of `migrations/` for each change, in order.
+const MIGRATIONS: [(&str, &str); 2] = [
+    ("0001_sessions_and_trees", include_str!("../../../../migrations/0001_sessions_and_trees.sql")),
+    ("0002_checksums", include_str!("../../../../migrations/0002_checksums.sql")),
+];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.
 const OLDEST_SAFE_SQLITE: [u32; 3] = [3, 51, 3];
@@ -37,16 +40,16 @@ pub struct OpenError {
     reason: String,
 }
 
-/// The library of sessions and trees.
+/// Sessions and trees in one file.
 #[derive(Debug)]
-pub struct Database {
+pub struct SqliteStore {
     pub(super) readers: SqlitePool,
     pub(super) writer: Writer,
     /// Two servers on one file would each think that they hold its sessions; the system frees the lock when we die.
     lock: File,
 }
 
-impl Database {
+impl SqliteStore {
     /// Opens the file, or makes it together with its folder.
     pub async fn open(path: &Path) -> Result<Self, OpenError> {
         Self::try_open(path).await.map_err(|reason| OpenError { path: path.to_owned(), reason })
@@ -66,6 +69,9 @@ impl Database {
             Err(error) if error.kind() == io::ErrorKind::NotFound => 0,
             Err(error) => return Err(error.to_string()),
         };
+        if size > 0 {
+            identity::check(path).await?;
+        }
         let lock = lock(path)?;
 
         let mut connection = writer_options(path).connect().await.map_err(|error| sentence(&error))?;
@@ -73,7 +79,7 @@ impl Database {
         if size <= MAX_CHECKED_BYTES {
             check_integrity(&mut connection).await?;
         }
-        MIGRATIONS
+        migrator()
             .run_direct(None, &mut connection, false)
             .await
             .map_err(|error| migration_sentence(&error))?;
@@ -87,7 +93,7 @@ impl Database {
     }
 
     /// Commits what is under way and closes the file.
-    pub async fn close(&self) {
+    pub(super) async fn shut(&self) {
         self.readers.close().await;
         self.writer.close().await;
         if let Err(error) = self.lock.unlock() {
@@ -96,7 +102,7 @@ impl Database {
     }
 }
 
-fn common_options(path: &Path) -> SqliteConnectOptions {
+pub(super) fn common_options(path: &Path) -> SqliteConnectOptions {
     SqliteConnectOptions::new().filename(path).busy_timeout(BUSY_TIMEOUT).foreign_keys(true)
 }
 
@@ -105,6 +111,16 @@ pub(super) fn writer_options(path: &Path) -> SqliteConnectOptions {
         .create_if_missing(true)
         .journal_mode(SqliteJournalMode::Wal)
         .synchronous(SqliteSynchronous::Full)
+}
+
+/// Versions and descriptions are those that `sqlx::migrate!` reads from the names of files.
+pub(super) fn migrator() -> Migrator {
+    let migration = |(version, (name, sql)): (i64, (&'static str, &'static str))| {
+        let description = name.trim_start_matches(|letter: char| !letter.is_alphabetic()).replace('_', " ");
+        let sql = sql.into_sql_str();
+        Migration::new(version, description.into(), MigrationType::Simple, sql, false)
+    };
+    Migrator::with_migrations((1..).zip(MIGRATIONS).map(migration).collect())
 }
 
 fn lock(path: &Path) -> Result<File, String> {
@@ -146,7 +162,7 @@ async fn check_integrity(connection: &mut SqliteConnection) -> Result<(), String
     if found == "ok" { Ok(()) } else { Err(format!("it is damaged ({})", found.replace('\n', " "))) }
 }
 
-fn sentence(error: &sqlx::Error) -> String {
+pub(super) fn sentence(error: &sqlx::Error) -> String {
     in_words(error).map_or_else(|| error.to_string(), str::to_owned)
 }
 
@@ -169,7 +185,8 @@ fn migration_sentence(error: &MigrateError) -> String {
 pub(super) mod tests {
     use sqlx::Connection;
 
-    use super::*;
+    use super::{super::writer::Write, *};
+    use crate::store::Store;
 
     /// A folder of its own for one test, removed when the test ends.
     pub struct Folder(PathBuf);
@@ -186,10 +203,10 @@ pub(super) mod tests {
         }
     }
 
-    impl Database {
-        /// From here on every write fails, while reading goes on.
-        pub(crate) async fn refuse_writes(&self) {
-            self.writer.close().await;
+    impl SqliteStore {
+        /// Does something behind the store's back.
+        pub(in super::super) async fn sql(&self, sql: String) {
+            self.writer.write(Write::Raw(sql)).await.unwrap();
         }
     }
 
@@ -200,21 +217,45 @@ pub(super) mod tests {
     }
 
     async fn refusal(path: &Path) -> String {
-        Database::open(path).await.unwrap_err().to_string()
+        SqliteStore::open(path).await.unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_migration_is_embedded_under_its_number() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../migrations");
+        let files =
+            fs::read_dir(folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+        let files: std::collections::BTreeSet<String> = files.collect();
+        assert_eq!(files, MIGRATIONS.iter().map(|(name, _)| format!("{name}.sql")).collect());
+        for (version, (name, _)) in (1..).zip(MIGRATIONS) {
+            assert!(name.starts_with(&format!("{version:04}_")), "{name} is number {version}");
+        }
+    }
+
+    #[test]
+    fn the_first_migration_is_the_one_that_was_released() {
+        // What stands in `_sqlx_migrations` of every database that people have.
+        let first = &migrator().migrations[0];
+        let checksum: String = first.checksum.iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!((first.version, &*first.description), (1, "sessions and trees"));
+        assert_eq!(
+            checksum,
+            "784b77d6a7065b3d1fdd7d351a37b1ab79e517aa16209037a6594f239e51de7eb634325c7da0ff49fbdc2763714808d8"
+        );
     }
 
     #[tokio::test]
     async fn makes_the_file_and_its_folder() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
         assert!(folder.database().is_file());
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
     }
 
     #[tokio::test]
     async fn writes_are_logged_and_synchronous() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
         let mut connection = writer_options(&folder.database()).connect().await.unwrap();
         for (pragma, expected) in
             [("PRAGMA synchronous", 2), ("PRAGMA foreign_keys", 1), ("PRAGMA busy_timeout", 5000)]
@@ -230,16 +271,16 @@ pub(super) mod tests {
     #[tokio::test]
     async fn a_second_server_is_turned_away() {
         let folder = Folder::new();
-        let first = Database::open(&folder.database()).await.unwrap();
+        let first = SqliteStore::open(&folder.database()).await.unwrap();
         assert!(refusal(&folder.database()).await.contains("another Espalier server is using it"));
         first.close().await;
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
     }
 
     #[tokio::test]
     async fn a_newer_schema_is_said_so() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
         let mut connection = writer_options(&folder.database()).connect().await.unwrap();
         sqlx::query(
             "INSERT INTO _sqlx_migrations (version, description, success, checksum, execution_time)
@@ -266,7 +307,7 @@ pub(super) mod tests {
     #[tokio::test]
     async fn a_damaged_file_is_refused() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
         let mut bytes = fs::read(folder.database()).unwrap();
         bytes[4096..].fill(0xa5);
         fs::write(folder.database(), bytes).unwrap();
@@ -277,7 +318,7 @@ pub(super) mod tests {
     #[tokio::test]
     async fn a_read_only_file_is_refused() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
         let mut permissions = fs::metadata(folder.database()).unwrap().permissions();
         permissions.set_readonly(true);
         fs::set_permissions(folder.database(), permissions).unwrap();

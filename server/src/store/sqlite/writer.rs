@@ -1,6 +1,6 @@
 //! The one writer: collects what arrives within a few milliseconds and commits it together.
 
-use std::time::Duration;
+use std::{sync::Arc, time::Duration};
 
 use sqlx::{Connection, sqlite::SqliteConnection};
 use tokio::{
@@ -10,7 +10,11 @@ use tokio::{
 };
 use tokio_util::sync::CancellationToken;
 
-use super::{DatabaseError, sessions::SessionWrite, trees::TreeWrite};
+use super::{
+    super::{StoreError, lease::Leases},
+    sessions::SessionWrite,
+    trees::TreeWrite,
+};
 
 /// How long a write waits for company. What arrives during a commit makes up the next group anyway.
 const GROUP_WINDOW: Duration = Duration::from_millis(5);
@@ -24,14 +28,21 @@ const QUEUE: usize = 256;
 pub(super) enum Write {
     Session(SessionWrite),
     Tree(TreeWrite),
+    #[cfg(test)]
+    Raw(String),
 }
 
 impl Write {
     /// Answers with the number of rows changed.
-    async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, sqlx::Error> {
+    async fn apply(&self, connection: &mut SqliteConnection, leases: &Leases) -> Result<u64, StoreError> {
         match self {
-            Self::Session(write) => write.apply(connection).await,
+            Self::Session(write) => write.apply(connection, leases).await,
             Self::Tree(write) => write.apply(connection).await,
+            #[cfg(test)]
+            Self::Raw(sql) => {
+                let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));
+                Ok(query.execute(connection).await?.rows_affected())
+            }
         }
     }
 }
@@ -39,12 +50,13 @@ impl Write {
 #[derive(Debug)]
 struct Request {
     write: Write,
-    answer: oneshot::Sender<Result<u64, sqlx::Error>>,
+    answer: oneshot::Sender<Result<u64, StoreError>>,
 }
 
 #[derive(Debug)]
 pub(super) struct Writer {
     requests: mpsc::Sender<Request>,
+    leases: Arc<Leases>,
     closing: CancellationToken,
     task: Mutex<Option<JoinHandle<()>>>,
 }
@@ -53,15 +65,21 @@ impl Writer {
     pub(super) fn start(connection: SqliteConnection) -> Self {
         let (requests, receiver) = mpsc::channel(QUEUE);
         let closing = CancellationToken::new();
-        let task = tokio::spawn(run(connection, receiver, closing.clone()));
-        Self { requests, closing, task: Mutex::new(Some(task)) }
+        let leases = Arc::new(Leases::default());
+        let task = tokio::spawn(run(connection, receiver, Arc::clone(&leases), closing.clone()));
+        Self { requests, leases, closing, task: Mutex::new(Some(task)) }
+    }
+
+    /// Who may write to which session.
+    pub(super) fn leases(&self) -> &Leases {
+        &self.leases
     }
 
     /// Returns once the write is durable.
-    pub(super) async fn write(&self, write: Write) -> Result<u64, DatabaseError> {
+    pub(super) async fn write(&self, write: Write) -> Result<u64, StoreError> {
         let (answer, answered) = oneshot::channel();
-        self.requests.send(Request { write, answer }).await.map_err(|_| DatabaseError::Closed)?;
-        Ok(answered.await.map_err(|_| DatabaseError::Closed)??)
+        self.requests.send(Request { write, answer }).await.map_err(|_| StoreError::Closed)?;
+        answered.await.map_err(|_| StoreError::Closed)?
     }
 
     /// Commits what has come so far and closes the connection.
@@ -77,6 +95,7 @@ impl Writer {
 async fn run(
     mut connection: SqliteConnection,
     mut requests: mpsc::Receiver<Request>,
+    leases: Arc<Leases>,
     closing: CancellationToken,
 ) {
     loop {
@@ -98,7 +117,7 @@ async fn run(
                 Ok(None) | Err(_) => break,
             }
         }
-        commit(&mut connection, group).await;
+        commit(&mut connection, &leases, group).await;
     }
     if let Err(error) = connection.close().await {
         tracing::error!(%error, "closing the database failed");
@@ -106,10 +125,10 @@ async fn run(
 }
 
 /// A group is committed as one; if that fails, each write is tried alone, so that one cannot spoil the others.
-async fn commit(connection: &mut SqliteConnection, group: Vec<Request>) {
+async fn commit(connection: &mut SqliteConnection, leases: &Leases, group: Vec<Request>) {
     if group.len() > 1 {
         let writes: Vec<&Write> = group.iter().map(|request| &request.write).collect();
-        match commit_together(connection, &writes).await {
+        match commit_together(connection, leases, &writes).await {
             Ok(changed) => {
                 for (request, changed) in group.into_iter().zip(changed) {
                     // Whoever asked may have gone; the write stands all the same.
@@ -121,16 +140,17 @@ async fn commit(connection: &mut SqliteConnection, group: Vec<Request>) {
         }
     }
     for request in group {
-        let result = commit_together(connection, &[&request.write]).await;
+        let result = commit_together(connection, leases, &[&request.write]).await;
         let _ = request.answer.send(result.map(|changed| changed.into_iter().sum()));
     }
 }
 
 async fn commit_together(
     connection: &mut SqliteConnection,
+    leases: &Leases,
     writes: &[&Write],
-) -> Result<Vec<u64>, sqlx::Error> {
-    let result = try_together(connection, writes).await;
+) -> Result<Vec<u64>, StoreError> {
+    let result = try_together(connection, leases, writes).await;
     if result.is_err() {
         // SQLite itself ends a transaction that meets a full disk; then there is none to roll back.
         // sqlx's own transactions would count that one as open for ever, so they are not used here.
@@ -139,11 +159,15 @@ async fn commit_together(
     result
 }
 
-async fn try_together(connection: &mut SqliteConnection, writes: &[&Write]) -> Result<Vec<u64>, sqlx::Error> {
+async fn try_together(
+    connection: &mut SqliteConnection,
+    leases: &Leases,
+    writes: &[&Write],
+) -> Result<Vec<u64>, StoreError> {
     sqlx::query("BEGIN IMMEDIATE").execute(&mut *connection).await?;
     let mut changed = Vec::with_capacity(writes.len());
     for write in writes {
-        changed.push(write.apply(connection).await?);
+        changed.push(write.apply(connection, leases).await?);
     }
     sqlx::query("COMMIT").execute(connection).await?;
     Ok(changed)
@@ -153,37 +177,35 @@ async fn try_together(connection: &mut SqliteConnection, writes: &[&Write]) -> R
 mod tests {
     use sqlx::ConnectOptions;
 
-    use super::{super::open::tests::Folder, *};
-    use crate::database::{Database, NewTree};
+    use super::{
+        super::{Folder, SqliteStore, open::writer_options},
+        *,
+    };
+    use crate::store::{NewTree, Store, TreeDocument, contract::tree};
 
     fn save(id: &str, bytes: usize) -> Write {
-        Write::Tree(TreeWrite::Save(NewTree {
-            id: id.into(),
-            name: id.into(),
-            metamers: 1,
-            simulation_version: 1,
-            document: vec![7; bytes],
-            thumbnail: None,
-        }))
+        let document = TreeDocument { simulation_version: 1, bytes: vec![7; bytes] };
+        Write::Tree(TreeWrite::Save(NewTree { document, ..tree(id, "2026") }))
     }
 
     #[tokio::test]
     async fn writing_goes_on_when_the_disk_has_room_again() {
         let folder = Folder::new();
-        Database::open(&folder.database()).await.unwrap().close().await;
-        let mut connection = super::super::open::writer_options(&folder.database()).connect().await.unwrap();
+        SqliteStore::open(&folder.database()).await.unwrap().close().await;
+        let mut connection = writer_options(&folder.database()).connect().await.unwrap();
         // Asked for less than the file has, SQLite keeps to what it has: the file cannot grow.
         let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 1");
         limit.fetch_one(&mut connection).await.unwrap();
         let (small, large) = (save("small", 10), save("large", 1_000_000));
-        let error = commit_together(&mut connection, &[&small, &large]).await.unwrap_err();
-        assert_eq!(crate::database::in_words(&error), Some("the disk is full"), "{error}");
+        let leases = Leases::default();
+        let error = commit_together(&mut connection, &leases, &[&small, &large]).await.unwrap_err();
+        assert_eq!(error.in_words(), "the disk is full", "{error}");
 
         let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 100000");
         limit.fetch_one(&mut connection).await.unwrap();
         let ids = || sqlx::query_scalar::<_, String>("SELECT id FROM trees ORDER BY id");
         assert!(ids().fetch_all(&mut connection).await.unwrap().is_empty(), "all of a group or nothing");
-        commit_together(&mut connection, &[&small, &large]).await.unwrap();
+        commit_together(&mut connection, &leases, &[&small, &large]).await.unwrap();
         assert_eq!(ids().fetch_all(&mut connection).await.unwrap(), ["large", "small"]);
     }
 }

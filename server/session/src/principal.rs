@@ -1,0 +1,72 @@
+//! Who does something.
+
+use std::{fmt, sync::Arc};
+
+/// What a client key may have besides letters and digits.
+const OF_KEYS: [u8; 2] = *b"-_";
+/// Whoever is no client; too short to be a client's key.
+const VISITOR: &str = "outside";
+
+/// Who does something, in every request, socket and journal entry.
+///
+/// Nobody has to say who they are: a page is known by the client key it made up (`HS1`), a request without one
+/// comes from a visitor.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Principal(Arc<str>);
+
+impl Principal {
+    /// The client with this key, if that is one: 8 to 64 letters, digits, `-` and `_`.
+    pub fn client(key: &str) -> Option<Self> {
+        let allowed = |byte: u8| byte.is_ascii_alphanumeric() || OF_KEYS.contains(&byte);
+        ((8..=64).contains(&key.len()) && key.bytes().all(allowed)).then(|| Self(key.into()))
+    }
+
+    /// Someone who sends requests and has no key.
+    pub fn visitor() -> Self {
+        Self(VISITOR.into())
+    }
+
+    /// Reads what [`Principal::to_string`] wrote.
+    pub fn parse(text: &str) -> Option<Self> {
+        if text == VISITOR { Some(Self::visitor()) } else { Self::client(text) }
+    }
+
+    /// The name in which commands are done; no two principals share one.
+    pub(crate) fn name(&self) -> &Arc<str> {
+        &self.0
+    }
+
+    /// Of a name that [`Principal::name`] gave.
+    pub(crate) fn named(name: &Arc<str>) -> Self {
+        Self(Arc::clone(name))
+    }
+}
+
+impl fmt::Display for Principal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hs1_a_client_key_has_8_to_64_plain_characters() {
+        for key in ["browser-1", "ABCD_efgh", &"k".repeat(64)] {
+            assert_eq!(Principal::client(key).map(|who| who.to_string()).as_deref(), Some(key));
+        }
+        for key in ["", "outside", "seven_7", &"k".repeat(65), "with space", "größer-als", "semi;colon"] {
+            assert_eq!(Principal::client(key), None, "{key}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        for principal in [Principal::visitor(), Principal::client("browser-1").expect("a key")] {
+            assert_eq!(Principal::parse(&principal.to_string()), Some(principal));
+        }
+        assert_eq!(Principal::parse("nobody"), None);
+    }
+}

@@ -1,0 +1,72 @@
+//! Who may do what: the one place that decides.
+
+use espalier_session::Principal;
+
+/// What is asked for, at an address or for something that a request names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    BeginSession,
+    SeeSession,
+    JoinSession,
+    /// Takes the tree of a session, as a file or into the library.
+    TakeTree,
+    PlaceObstacle,
+    SeeObstacle,
+    SeeSpecies,
+    DrawSchematic,
+    ListTrees,
+    SaveTree,
+    /// Begins a session with a saved tree.
+    OpenTree,
+    RenameTree,
+    DeleteTree,
+    SeeThumbnail,
+}
+
+/// What it is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Object<'a> {
+    /// The server as a whole, and its library.
+    Server,
+    /// The session of this name.
+    Session(&'a str),
+    /// The saved tree with this identifier.
+    Tree(&'a str),
+}
+
+/// Decides whether somebody may do something.
+pub type Authority = fn(&Principal, Action, Object<'_>) -> bool;
+
+/// Who may do an action.
+enum Right {
+    /// Whoever reaches the server; for sessions and trees this means who knows the name.
+    Anybody,
+}
+
+impl Action {
+    fn right(self) -> Right {
+        match self {
+            Self::BeginSession
+            | Self::SeeSession
+            | Self::JoinSession
+            | Self::TakeTree
+            | Self::PlaceObstacle
+            | Self::SeeObstacle
+            | Self::SeeSpecies
+            | Self::DrawSchematic
+            | Self::ListTrees
+            | Self::SaveTree
+            | Self::OpenTree
+            | Self::RenameTree
+            | Self::DeleteTree
+            | Self::SeeThumbnail => Right::Anybody,
+        }
+    }
+}
+
+/// The rights that hold on this server.
+pub fn may(_principal: &Principal, action: Action, _object: Object<'_>) -> bool {
+    match action.right() {
+        Right::Anybody => true,
+    }
+}

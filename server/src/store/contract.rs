@@ -1,0 +1,299 @@
+//! What every store must do, as tests: `contract::all(make)` runs them on stores that `make` gives, each empty.
+
+use std::ops::RangeInclusive;
+
+use espalier_session::{JournalEntry, Principal};
+
+use super::{
+    Damage, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError, StoredSession, TreeDocument,
+    TreeKey,
+};
+
+/// A store whose parts can be damaged behind its back.
+pub(super) trait Breakable: Store {
+    /// Changes a command in the row of the journal that begins with an entry.
+    async fn break_journal(&self, session: &str, first: u64);
+    /// Changes a byte of a snapshot.
+    async fn break_snapshot(&self, session: &str, through: u64);
+    /// Changes a byte of a document.
+    async fn break_tree(&self, id: &str);
+    /// How many parts of a session are kept aside.
+    async fn set_aside_parts(&self, session: &str) -> usize;
+}
+
+/// Runs the whole contract, each test on a store of its own; beside it comes what the store needs while it lives.
+pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
+    macro_rules! run {
+        ($($test:ident),* $(,)?) => {$({
+            let (store, _guard) = make().await;
+            $test(&store).await;
+        })*};
+    }
+    run!(
+        sessions_begin_empty,
+        entries_come_back,
+        entries_follow_one_another,
+        snapshots_shorten_the_replay,
+        two_snapshots_are_kept,
+        versions_are_known,
+        leases_end_when_another_begins,
+        damaged_entries_are_named_and_kept,
+        damaged_snapshots_are_passed_over,
+        trees_are_listed_newest_first,
+        pages_hold_each_tree_once,
+        trees_come_back_whole,
+        changes_say_whether_there_was_a_tree,
+        a_closed_store_takes_nothing,
+    );
+}
+
+pub(super) fn entries(numbers: RangeInclusive<u64>) -> Vec<JournalEntry> {
+    numbers
+        .map(|number| JournalEntry {
+            number,
+            principal: Principal::parse("browser-1").unwrap(),
+            id: number as u32,
+            command: format!(r#"{{"kind":"grow","steps":{number}}}"#),
+        })
+        .collect()
+}
+
+pub(super) fn oak(snapshot: Option<&[u8]>) -> NewSession {
+    NewSession {
+        name: "oak".into(),
+        seed: u32::MAX,
+        simulation_version: 3,
+        snapshot: snapshot.map(<[u8]>::to_vec),
+    }
+}
+
+pub(super) fn tree(id: &str, saved_at: &str) -> NewTree {
+    NewTree {
+        id: id.into(),
+        name: format!("The {id}"),
+        metamers: 4_000_000_000,
+        saved_at: saved_at.into(),
+        document: TreeDocument { simulation_version: 3, bytes: id.as_bytes().to_vec() },
+        thumbnail: None,
+    }
+}
+
+pub(super) async fn with_oak(store: &impl Store) -> Lease {
+    store.create_session(oak(None)).await.unwrap();
+    store.acquire("oak").await.unwrap()
+}
+
+async fn load(store: &impl Store) -> StoredSession {
+    store.load_session("oak", None).await.unwrap().unwrap()
+}
+
+async fn snapshot(store: &impl Store, lease: &Lease, through: u64) {
+    let snapshot = NewSnapshot { through, simulation_version: 3, bytes: vec![through as u8] };
+    store.keep_snapshot(lease, snapshot).await.unwrap();
+}
+
+async fn sessions_begin_empty(store: &impl Store) {
+    with_oak(store).await;
+    let expected = StoredSession { seed: u32::MAX, newest_version: 3, ..StoredSession::default() };
+    assert_eq!(load(store).await, expected);
+    assert!(store.has_session("oak").await.unwrap());
+    assert!(!store.has_session("elm").await.unwrap());
+    assert_eq!(store.load_session("elm", None).await.unwrap(), None);
+    assert!(store.create_session(oak(None)).await.is_err(), "a name is given only once");
+}
+
+async fn entries_come_back(store: &impl Store) {
+    let lease = with_oak(store).await;
+    for numbers in [1..=3, 4..=4] {
+        store.append(&lease, 3, &entries(numbers)).await.unwrap();
+    }
+    store.append(&lease, 3, &[]).await.unwrap();
+    assert_eq!(load(store).await.entries, entries(1..=4));
+}
+
+/// ST1 of the contract: gaps and doubles are refused, and leave no trace.
+async fn entries_follow_one_another(store: &impl Store) {
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=2)).await.unwrap();
+    for (numbers, found) in [(4..=5, 4), (2..=3, 2), (1..=2, 1)] {
+        let error = store.append(&lease, 3, &entries(numbers)).await.unwrap_err();
+        assert!(
+            matches!(error, StoreError::OutOfOrder { last: 2, found: refused } if refused == found),
+            "{error}"
+        );
+    }
+    store.append(&lease, 3, &entries(3..=3)).await.unwrap();
+    assert_eq!(load(store).await.entries, entries(1..=3));
+}
+
+async fn snapshots_shorten_the_replay(store: &impl Store) {
+    store.create_session(oak(Some(b"start"))).await.unwrap();
+    let lease = store.acquire("oak").await.unwrap();
+    assert_eq!(load(store).await.snapshot.as_deref(), Some(b"start".as_slice()));
+    store.append(&lease, 3, &entries(1..=4)).await.unwrap();
+    store.append(&lease, 3, &entries(5..=6)).await.unwrap();
+    snapshot(store, &lease, 3).await;
+    let stored = load(store).await;
+    assert_eq!((stored.through, stored.snapshot, stored.entries), (3, Some(vec![3]), entries(4..=6)));
+    snapshot(store, &lease, 6).await;
+    store.append(&lease, 3, &entries(7..=7)).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((stored.through, stored.entries), (6, entries(7..=7)));
+}
+
+async fn two_snapshots_are_kept(store: &impl Store) {
+    let lease = with_oak(store).await;
+    for numbers in [1..=2, 3..=4, 5..=6] {
+        let through = *numbers.end();
+        store.append(&lease, 3, &entries(numbers)).await.unwrap();
+        snapshot(store, &lease, through).await;
+    }
+    let newest = load(store).await;
+    assert_eq!((newest.snapshot, newest.entries), (Some(vec![6]), vec![]));
+    let older = store.load_session("oak", Some(6)).await.unwrap().unwrap();
+    assert_eq!((older.snapshot, older.entries), (Some(vec![4]), entries(5..=6)));
+    assert!(matches!(store.load_session("oak", Some(4)).await, Err(StoreError::Damaged(_))));
+}
+
+async fn versions_are_known(store: &impl Store) {
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    store.append(&lease, 5, &entries(2..=2)).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((stored.newest_version, stored.oldest_entries), (5, Some(3)));
+    let through = NewSnapshot { through: 2, simulation_version: 5, bytes: vec![2] };
+    store.keep_snapshot(&lease, through).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((stored.newest_version, stored.oldest_entries), (5, None));
+}
+
+/// ST3 of the contract: who was fenced off writes nothing.
+async fn leases_end_when_another_begins(store: &impl Store) {
+    let first = with_oak(store).await;
+    store.append(&first, 3, &entries(1..=1)).await.unwrap();
+    let second = store.acquire("oak").await.unwrap();
+    let fenced = |result: Result<(), StoreError>| assert!(matches!(result, Err(StoreError::Fenced)));
+    fenced(store.append(&first, 3, &entries(2..=2)).await);
+    let late = NewSnapshot { through: 1, simulation_version: 3, bytes: vec![1] };
+    fenced(store.keep_snapshot(&first, late).await);
+    fenced(store.set_aside(&first, &[Damage::Journal(1)]).await);
+    // Giving back what one has no longer takes nothing from who has it now.
+    store.release(first).await;
+    store.append(&second, 3, &entries(2..=2)).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((stored.snapshot, stored.entries), (None, entries(1..=2)));
+    let given_back = second.clone();
+    store.release(second).await;
+    fenced(store.append(&given_back, 3, &entries(3..=3)).await);
+}
+
+async fn damaged_entries_are_named_and_kept(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    for numbers in [1..=2, 3..=4, 5..=5] {
+        store.append(&lease, 3, &entries(numbers)).await.unwrap();
+    }
+    store.break_journal("oak", 3).await;
+    let stored = load(store).await;
+    assert_eq!((&stored.entries, &stored.damage), (&entries(1..=2), &vec![Damage::Journal(3)]));
+    assert_eq!(load(store).await, stored, "looking changes nothing");
+    store.set_aside(&lease, &stored.damage).await.unwrap();
+    assert_eq!(store.set_aside_parts("oak").await, 2);
+    store.append(&lease, 3, &entries(3..=3)).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((stored.entries, stored.damage), (entries(1..=3), vec![]));
+}
+
+async fn damaged_snapshots_are_passed_over(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    for through in [1, 2] {
+        store.append(&lease, 3, &entries(through..=through)).await.unwrap();
+        snapshot(store, &lease, through).await;
+    }
+    store.break_snapshot("oak", 2).await;
+    let stored = load(store).await;
+    assert_eq!((&stored.snapshot, &stored.entries), (&Some(vec![1]), &entries(2..=2)));
+    assert_eq!(stored.damage, [Damage::Snapshot(2)]);
+    store.set_aside(&lease, &stored.damage).await.unwrap();
+    assert_eq!(load(store).await.damage, []);
+    // A snapshot of the same moment takes its place again.
+    snapshot(store, &lease, 2).await;
+    assert_eq!(load(store).await.snapshot, Some(vec![2]));
+    store.break_snapshot("oak", 1).await;
+    store.break_snapshot("oak", 2).await;
+    let refused = store.load_session("oak", None).await;
+    assert!(matches!(refused, Err(StoreError::Damaged(_))), "nothing is made up");
+}
+
+async fn ids(store: &impl Store, limit: u32, behind: Option<&TreeKey>) -> Vec<String> {
+    store.trees(limit, behind).await.unwrap().into_iter().map(|tree| tree.key.id).collect()
+}
+
+async fn trees_are_listed_newest_first(store: &impl Store) {
+    assert!(store.trees(9, None).await.unwrap().is_empty());
+    for (id, hour) in [("ash", 9), ("birch", 8), ("cedar", 10)] {
+        store.save_tree(tree(id, &format!("2026-05-01T{hour:02}:00:00.000Z"))).await.unwrap();
+    }
+    assert_eq!(ids(store, 9, None).await, ["cedar", "ash", "birch"]);
+    let ash = store.tree("ash").await.unwrap().unwrap();
+    assert_eq!((ash.name.as_str(), ash.metamers, ash.has_thumbnail), ("The ash", 4_000_000_000, false));
+    assert_eq!(ash.key.saved_at, "2026-05-01T09:00:00.000Z");
+    assert_eq!(ids(store, 9, Some(&ash.key)).await, ["birch"]);
+    // The tree at which a page ended may be gone by the next.
+    store.delete_tree("ash").await.unwrap();
+    assert_eq!(ids(store, 9, Some(&ash.key)).await, ["birch"]);
+}
+
+/// ST5 of the contract: pages over equal times hold each tree once, while others are saved.
+async fn pages_hold_each_tree_once(store: &impl Store) {
+    const TIME: &str = "2026-05-01T09:00:00.000Z";
+    for number in 0..100 {
+        store.save_tree(tree(&format!("tree-{number:03}"), TIME)).await.unwrap();
+    }
+    let mut seen: Vec<String> = Vec::new();
+    let mut behind = None;
+    while let Some(last) = {
+        let page = store.trees(7, behind.as_ref()).await.unwrap();
+        seen.extend(page.iter().map(|tree| tree.key.id.clone()));
+        page.last().map(|tree| tree.key.clone())
+    } {
+        behind = Some(last);
+        store.save_tree(tree(&format!("young-{}", seen.len()), "2026-05-01T09:00:01.000Z")).await.unwrap();
+    }
+    let all: Vec<String> = (0..100).rev().map(|number| format!("tree-{number:03}")).collect();
+    assert_eq!(seen, all);
+}
+
+async fn trees_come_back_whole(store: &impl Breakable) {
+    let picture = Picture { media_type: "image/png".into(), bytes: vec![1, 2, 3] };
+    let with_picture = NewTree { thumbnail: Some(picture.clone()), ..tree("ash", "2026") };
+    store.save_tree(with_picture).await.unwrap();
+    store.save_tree(tree("birch", "2026")).await.unwrap();
+    let document = TreeDocument { simulation_version: 3, bytes: b"ash".to_vec() };
+    assert_eq!(store.tree_document("ash").await.unwrap(), Some(document));
+    assert_eq!(store.tree_document("elm").await.unwrap(), None);
+    assert_eq!(store.thumbnail("ash").await.unwrap(), Some(picture));
+    assert_eq!(store.thumbnail("birch").await.unwrap(), None);
+    assert_eq!(store.thumbnail("elm").await.unwrap(), None);
+    assert!(store.tree("ash").await.unwrap().unwrap().has_thumbnail);
+    store.break_tree("birch").await;
+    assert!(matches!(store.tree_document("birch").await, Err(StoreError::Damaged(_))));
+    assert!(store.tree_document("ash").await.is_ok(), "the others are whole");
+}
+
+async fn changes_say_whether_there_was_a_tree(store: &impl Store) {
+    store.save_tree(tree("ash", "2026")).await.unwrap();
+    assert!(store.rename_tree("ash", "Old ash").await.unwrap());
+    assert!(!store.rename_tree("elm", "Elm").await.unwrap());
+    assert_eq!(store.tree("ash").await.unwrap().unwrap().name, "Old ash");
+    assert!(store.delete_tree("ash").await.unwrap());
+    assert!(!store.delete_tree("ash").await.unwrap());
+    assert_eq!(store.tree("ash").await.unwrap(), None);
+}
+
+async fn a_closed_store_takes_nothing(store: &impl Store) {
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    store.close().await;
+    let error = store.append(&lease, 3, &entries(2..=2)).await.unwrap_err();
+    assert!(matches!(error, StoreError::Closed), "{error}");
+}

@@ -1,0 +1,334 @@
+//! What is kept: sessions with their journals and snapshots, and the library of trees.
+//!
+//! [`Store`] is the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
+
+#[cfg(test)]
+mod contract;
+mod lease;
+#[cfg(test)]
+mod memory;
+mod seal;
+mod sqlite;
+
+use std::error::Error;
+
+use espalier_session::JournalEntry;
+
+#[cfg(test)]
+pub use self::memory::MemoryStore;
+pub use self::{
+    lease::Lease,
+    sqlite::{OpenError, SqliteStore},
+};
+
+/// Snapshots kept of each session: the last one, and one before it should the last be damaged.
+const KEPT_SNAPSHOTS: usize = 2;
+
+/// Keeps sessions and trees. What a call that writes has returned from is durable.
+pub trait Store {
+    /// Makes a session, which may start from a snapshot before its first entry.
+    async fn create_session(&self, new: NewSession) -> Result<(), StoreError>;
+
+    /// Whether there is such a session.
+    async fn has_session(&self, name: &str) -> Result<bool, StoreError>;
+
+    /// Gives the right to write to a session, which nobody who had it before has any longer.
+    async fn acquire(&self, session: &str) -> Result<Lease, StoreError>;
+
+    /// Gives the right back.
+    async fn release(&self, lease: Lease);
+
+    /// Reads a session: its newest whole snapshot, or the newest whole one `before` an entry, with the whole
+    /// entries that follow it. What is damaged is named, not read.
+    async fn load_session(
+        &self,
+        name: &str,
+        before: Option<u64>,
+    ) -> Result<Option<StoredSession>, StoreError>;
+
+    /// Puts damaged parts of a session aside, where they no longer count; nothing is deleted.
+    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError>;
+
+    /// Writes entries that follow the last one, made under a version of the simulation.
+    async fn append(
+        &self,
+        lease: &Lease,
+        simulation_version: u32,
+        entries: &[JournalEntry],
+    ) -> Result<(), StoreError>;
+
+    /// Keeps a snapshot, and drops the entries that no kept snapshot needs for its replay.
+    async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError>;
+
+    /// Puts a tree into the library.
+    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError>;
+
+    /// Gives a tree another name; answers whether there is such a tree.
+    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError>;
+
+    /// Takes a tree out of the library; answers whether there was such a tree.
+    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError>;
+
+    /// So many trees, newest first and by id where times are equal; those behind a place, if one is given.
+    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError>;
+
+    /// One line of the library.
+    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError>;
+
+    /// A tree's document.
+    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError>;
+
+    /// A tree's picture, if there is such a tree and it has one.
+    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError>;
+
+    /// Finishes what is being written; every later write fails.
+    async fn close(&self);
+}
+
+/// Why something could not be read or written. Causes go to the log; a client reads a sentence made for people.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    /// The medium failed.
+    #[error("{cause}")]
+    Failed {
+        /// Half a sentence for people, without anything about our insides.
+        words: &'static str,
+        /// What the medium said.
+        cause: Box<dyn Error + Send + Sync>,
+    },
+    /// What was read is not what was once written.
+    #[error("{0}")]
+    Damaged(String),
+    /// Somebody else writes to this session now.
+    #[error("the session has been taken over")]
+    Fenced,
+    /// An entry that does not follow the last one.
+    #[error("entry {found} was to be written after entry {last}")]
+    OutOfOrder {
+        /// The last entry there is.
+        last: u64,
+        /// The one that was to follow.
+        found: u64,
+    },
+    /// The store has been closed; the server is stopping.
+    #[error("the store is closed")]
+    Closed,
+}
+
+impl StoreError {
+    /// What can be told to a client: half a sentence.
+    pub fn in_words(&self) -> &'static str {
+        match self {
+            Self::Failed { words, .. } => words,
+            Self::Damaged(_) => "its database is damaged",
+            Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
+            Self::Closed => "it is stopping",
+        }
+    }
+}
+
+/// A session to be made.
+#[derive(Clone, Debug)]
+pub struct NewSession {
+    /// Its name.
+    pub name: String,
+    /// The seed of all its randomness.
+    pub seed: u32,
+    /// The version of the simulation it is made by.
+    pub simulation_version: u32,
+    /// Its state before the first entry.
+    pub snapshot: Option<Vec<u8>>,
+}
+
+/// A snapshot to be kept.
+#[derive(Clone, Debug)]
+pub struct NewSnapshot {
+    /// The last entry it contains.
+    pub through: u64,
+    /// The version of the simulation it is made by.
+    pub simulation_version: u32,
+    /// The state after that entry.
+    pub bytes: Vec<u8>,
+}
+
+/// A session as it is read back.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StoredSession {
+    /// The seed of all its randomness.
+    pub seed: u32,
+    /// A snapshot; none if the session started from its seed and has none yet.
+    pub snapshot: Option<Vec<u8>>,
+    /// The last entry that snapshot contains.
+    pub through: u64,
+    /// The entries after that snapshot.
+    pub entries: Vec<JournalEntry>,
+    /// The greatest version of the simulation that any of this was made by.
+    pub newest_version: u32,
+    /// The least version that any of the entries was made by; none without entries.
+    pub oldest_entries: Option<u32>,
+    /// What of it is damaged.
+    pub damage: Vec<Damage>,
+}
+
+/// A part of a session that is not what was once written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damage {
+    /// The snapshot that contains entries up to this one.
+    Snapshot(u64),
+    /// The journal from this entry on: it is damaged or missing, and what follows does not count without it.
+    Journal(u64),
+}
+
+/// A picture as it was handed in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// `image/png`, `image/jpeg` or `image/webp`.
+    pub media_type: String,
+    /// The file.
+    pub bytes: Vec<u8>,
+}
+
+/// A tree to be saved.
+#[derive(Clone, Debug)]
+pub struct NewTree {
+    /// Its identifier, made by the caller.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// Living metamers.
+    pub metamers: u32,
+    /// When: RFC 3339, UTC, with milliseconds, so that times order as texts do.
+    pub saved_at: String,
+    /// The document.
+    pub document: TreeDocument,
+    /// Its picture.
+    pub thumbnail: Option<Picture>,
+}
+
+/// The document of a saved tree.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TreeDocument {
+    /// The version of the simulation that grew it.
+    pub simulation_version: u32,
+    /// The document's bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// A tree's place in the library.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct TreeKey {
+    /// When it was saved.
+    pub saved_at: String,
+    /// Its identifier.
+    pub id: String,
+}
+
+/// One line of the library.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StoredTree {
+    /// Its place.
+    pub key: TreeKey,
+    /// Its name.
+    pub name: String,
+    /// Living metamers.
+    pub metamers: u32,
+    /// Whether it has a picture.
+    pub has_thumbnail: bool,
+}
+
+/// The store that the server was started with.
+#[derive(Debug)]
+pub enum AnyStore {
+    /// A file of SQLite.
+    Sqlite(SqliteStore),
+    /// The model, for tests.
+    #[cfg(test)]
+    Memory(MemoryStore),
+}
+
+/// Hands a call on to the store there is.
+macro_rules! delegate {
+    ($self:ident.$method:ident($($argument:expr),*)) => {
+        match $self {
+            Self::Sqlite(store) => store.$method($($argument),*).await,
+            #[cfg(test)]
+            Self::Memory(store) => store.$method($($argument),*).await,
+        }
+    };
+}
+
+impl Store for AnyStore {
+    async fn create_session(&self, new: NewSession) -> Result<(), StoreError> {
+        delegate!(self.create_session(new))
+    }
+
+    async fn has_session(&self, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.has_session(name))
+    }
+
+    async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
+        delegate!(self.acquire(session))
+    }
+
+    async fn release(&self, lease: Lease) {
+        delegate!(self.release(lease));
+    }
+
+    async fn load_session(
+        &self,
+        name: &str,
+        before: Option<u64>,
+    ) -> Result<Option<StoredSession>, StoreError> {
+        delegate!(self.load_session(name, before))
+    }
+
+    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError> {
+        delegate!(self.set_aside(lease, damage))
+    }
+
+    async fn append(
+        &self,
+        lease: &Lease,
+        simulation_version: u32,
+        entries: &[JournalEntry],
+    ) -> Result<(), StoreError> {
+        delegate!(self.append(lease, simulation_version, entries))
+    }
+
+    async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
+        delegate!(self.keep_snapshot(lease, snapshot))
+    }
+
+    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
+        delegate!(self.save_tree(tree))
+    }
+
+    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.rename_tree(id, name))
+    }
+
+    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
+        delegate!(self.delete_tree(id))
+    }
+
+    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError> {
+        delegate!(self.trees(limit, behind))
+    }
+
+    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
+        delegate!(self.tree(id))
+    }
+
+    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError> {
+        delegate!(self.tree_document(id))
+    }
+
+    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError> {
+        delegate!(self.thumbnail(id))
+    }
+
+    async fn close(&self) {
+        delegate!(self.close());
+    }
+}

@@ -1,0 +1,183 @@
+//! A store in one SQLite file: one writer that commits in groups, and readers beside it.
+
+mod identity;
+mod open;
+mod sessions;
+mod trees;
+mod writer;
+
+use espalier_session::JournalEntry;
+
+#[cfg(test)]
+use self::open::tests::Folder;
+pub use self::open::{OpenError, SqliteStore};
+use self::{sessions::SessionWrite, trees::TreeWrite, writer::Write};
+use super::{
+    Damage, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError, StoredSession, StoredTree,
+    TreeDocument, TreeKey,
+    seal::{JournalRow, SnapshotRow, snapshot_sum},
+};
+
+impl Store for SqliteStore {
+    async fn create_session(&self, new: NewSession) -> Result<(), StoreError> {
+        self.writer.write(Write::Session(SessionWrite::Create(new))).await.map(drop)
+    }
+
+    async fn has_session(&self, name: &str) -> Result<bool, StoreError> {
+        sessions::exists(&self.readers, name).await
+    }
+
+    async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
+        // The lock on the file keeps other processes away.
+        Ok(self.writer.leases().acquire(session))
+    }
+
+    async fn release(&self, lease: Lease) {
+        self.writer.leases().release(&lease);
+    }
+
+    async fn load_session(
+        &self,
+        name: &str,
+        before: Option<u64>,
+    ) -> Result<Option<StoredSession>, StoreError> {
+        sessions::load(&self.readers, name, before).await
+    }
+
+    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError> {
+        let write = SessionWrite::SetAside(lease.clone(), damage.to_vec());
+        self.writer.write(Write::Session(write)).await.map(drop)
+    }
+
+    async fn append(
+        &self,
+        lease: &Lease,
+        simulation_version: u32,
+        entries: &[JournalEntry],
+    ) -> Result<(), StoreError> {
+        if entries.is_empty() {
+            return Ok(());
+        }
+        let row = JournalRow::seal(&lease.session, simulation_version, entries)?;
+        self.writer.write(Write::Session(SessionWrite::Append(lease.clone(), row))).await.map(drop)
+    }
+
+    async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
+        let NewSnapshot { through, simulation_version, bytes } = snapshot;
+        let checksum = Some(snapshot_sum(&lease.session, through, &bytes));
+        let row = SnapshotRow { through, bytes, checksum, simulation_version };
+        self.writer.write(Write::Session(SessionWrite::Snapshot(lease.clone(), row))).await.map(drop)
+    }
+
+    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
+        self.writer.write(Write::Tree(TreeWrite::Save(tree))).await.map(drop)
+    }
+
+    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
+        let write = TreeWrite::Rename { id: id.to_owned(), name: name.to_owned() };
+        Ok(self.writer.write(Write::Tree(write)).await? > 0)
+    }
+
+    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
+        Ok(self.writer.write(Write::Tree(TreeWrite::Delete { id: id.to_owned() })).await? > 0)
+    }
+
+    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError> {
+        trees::list(&self.readers, limit, behind).await
+    }
+
+    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
+        trees::find(&self.readers, id).await
+    }
+
+    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError> {
+        trees::document(&self.readers, id).await
+    }
+
+    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError> {
+        trees::thumbnail(&self.readers, id).await
+    }
+
+    async fn close(&self) {
+        self.shut().await;
+    }
+}
+
+impl From<sqlx::Error> for StoreError {
+    fn from(error: sqlx::Error) -> Self {
+        let words = in_words(&error).unwrap_or("its database failed");
+        Self::Failed { words, cause: Box::new(error) }
+    }
+}
+
+/// Sentences for the ways in which SQLite refuses, by its primary result code.
+fn in_words(error: &sqlx::Error) -> Option<&'static str> {
+    let sqlx::Error::Database(error) = error else { return None };
+    let code: u32 = error.code()?.parse().ok()?;
+    Some(match code & 0xff {
+        5 | 6 => "another program holds it locked",
+        8 => "it is read-only",
+        10 => "the disk cannot be read or written",
+        11 => "it is damaged",
+        13 => "the disk is full",
+        14 => "it cannot be opened; does the folder exist, and may you write there?",
+        23 => "access to it is denied",
+        26 => "it is not a database",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::{
+            MemoryStore,
+            contract::{self, Breakable},
+        },
+        *,
+    };
+
+    impl Breakable for SqliteStore {
+        async fn break_journal(&self, session: &str, first: u64) {
+            self.sql(format!(
+                "UPDATE journal SET entries = replace(entries, 'grow', 'glow')
+                 WHERE session = '{session}' AND first = {first}"
+            ))
+            .await;
+        }
+
+        async fn break_snapshot(&self, session: &str, through: u64) {
+            self.sql(format!(
+                "UPDATE snapshots SET bytes = x'ff' WHERE session = '{session}' AND through = {through}"
+            ))
+            .await;
+        }
+
+        async fn break_tree(&self, id: &str) {
+            self.sql(format!("UPDATE trees SET document = x'ff' WHERE id = '{id}'")).await;
+        }
+
+        async fn set_aside_parts(&self, session: &str) -> usize {
+            let count: i64 = sqlx::query_scalar("SELECT count(*) FROM set_aside WHERE session = ?")
+                .bind(session)
+                .fetch_one(&self.readers)
+                .await
+                .unwrap();
+            count as usize
+        }
+    }
+
+    #[tokio::test]
+    async fn keeps_the_contract() {
+        contract::all(async || {
+            let folder = Folder::new();
+            (SqliteStore::open(&folder.database()).await.unwrap(), folder)
+        })
+        .await;
+    }
+
+    #[tokio::test]
+    async fn the_model_keeps_the_contract() {
+        contract::all(async || (MemoryStore::default(), ())).await;
+    }
+}
