@@ -140,6 +140,18 @@ fn add_tables(out: &mut String) {
         let _ = writeln!(out, "  {}: {},", kind.name(), json(&kind.nature()));
     }
     out.push_str("};\n");
+    let flowers: Vec<_> =
+        settings::FlowerKind::ALL.iter().map(|kind| (kind.name(), kind.together())).collect();
+    let fruits: Vec<_> = settings::FruitKind::ALL.iter().map(|kind| (kind.name(), kind.together())).collect();
+    for (sort, salt, together) in
+        [("Flower", settings::FLOWER_SALT, flowers), ("Fruit", settings::FRUIT_SALT, fruits)]
+    {
+        let together: String = together.iter().map(|(name, count)| format!(" {name}: {count},")).collect();
+        let name = sort.to_uppercase();
+        let _ = writeln!(out, "\nexport const {name}_SALT = {salt};");
+        let _ = writeln!(out, "export const {name}S_TOGETHER: Record<{sort}Kind, number> = {{{together} }};");
+    }
+    let _ = writeln!(out, "export const THICKEST_BEARING = {};", settings::THICKEST_BEARING);
     let (parameters, looks) = (json(&ParameterValues::default()), json(&Appearance::default()));
     let _ = writeln!(out, "\nexport const DEFAULT_PARAMETERS: Parameters = {parameters};");
     let _ = writeln!(out, "\nexport const DEFAULT_APPEARANCE: Appearance = {looks};");

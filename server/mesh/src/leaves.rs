@@ -32,11 +32,19 @@ pub fn of(plant: &Plant, id: MetamerId, style: &Style) -> impl Iterator<Item = L
     let count = foliage::leaves(plant, id, style);
     let to = plant.metamers().end(id);
     let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-    on_metamer(id.raw(), from, to, count, style.options().leaf_size)
+    on_metamer(id.raw(), 0, from, to, count, style.options().leaf_size)
 }
 
-/// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length.
-pub fn on_metamer(row: u32, from: Vec3, to: Vec3, count: u8, leaf_size: f32) -> impl Iterator<Item = Leaf> {
+/// The leaves of the metamer in `row`, which runs from `from` to `to`; none on one without length. A `salt` other
+/// than 0 gives other things than leaves places and numbers of their own.
+pub fn on_metamer(
+    row: u32,
+    salt: u32,
+    from: Vec3,
+    to: Vec3,
+    count: u8,
+    leaf_size: f32,
+) -> impl Iterator<Item = Leaf> {
     let heading = (to - from).try_normalize();
     let count = if heading.is_some() { count } else { 0 };
     let heading = heading.unwrap_or(Vec3::Y);
@@ -45,10 +53,12 @@ pub fn on_metamer(row: u32, from: Vec3, to: Vec3, count: u8, leaf_size: f32) -> 
     let w = heading.cross(u);
     (0..count).map(move |k| {
         // LF2. In 64 bits, for 32 do not hold the angle of a row in the hundred thousands.
-        let azimuth = GOLDEN_ANGLE * f64::from(row) + TAU * f64::from(k) / f64::from(count);
+        let azimuth =
+            GOLDEN_ANGLE * f64::from(row) + f64::from(salt % 7) + TAU * f64::from(k) / f64::from(count);
         let (cos, sin) = (libm::cos(azimuth) as f32, libm::sin(azimuth) as f32);
         let direction = (0.5 * heading + 0.866 * (cos * u + sin * w) - 0.15 * Vec3::Y).normalize();
-        let random = hash(row.wrapping_mul(16).wrapping_add(u32::from(k))) as f32 / (1u64 << 32) as f32;
+        let random =
+            hash((row ^ salt).wrapping_mul(16).wrapping_add(u32::from(k))) as f32 / (1u64 << 32) as f32;
         // LF4
         let up = if direction.y.abs() > PARALLEL { heading } else { Vec3::Y };
         Leaf {
@@ -83,10 +93,11 @@ mod tests {
             for (j, &to) in headings.iter().enumerate() {
                 let from = [0.0, 0.25 * i as f32, 0.5];
                 let (from, to) = (Vec3::from_array(from), Vec3::from_array(from) + Vec3::from_array(to));
-                let count = [1, 2, 3, 15][(i + j) % 4];
-                for (k, leaf) in on_metamer(row, from, to, count, 1.0).enumerate().step_by(4) {
+                let (count, salt) = ([1, 2, 3, 15][(i + j) % 4], [0, 0x1f3d, 0x6b21][(i + 2 * j) % 3]);
+                for (k, leaf) in on_metamer(row, salt, from, to, count, 1.0).enumerate().step_by(4) {
                     let Leaf { base, direction, normal, random, .. } = leaf;
-                    let mut line = format!(r#"{{"row":{row},"k":{k},"count":{count},"random":{random:?}"#);
+                    let mut line =
+                        format!(r#"{{"row":{row},"salt":{salt},"k":{k},"count":{count},"random":{random:?}"#);
                     let places = [
                         ("from", from),
                         ("to", to),
@@ -126,8 +137,9 @@ mod tests {
                      placed: [[f32; 3]; 3],
                      size: f32| {
             let [from, to] = [from, to].map(Vec3::from_array);
-            let leaf =
-                on_metamer(row, from, to, count as u8, leaf_size).nth(k as usize).expect("it has the leaf");
+            let leaf = on_metamer(row, 0, from, to, count as u8, leaf_size)
+                .nth(k as usize)
+                .expect("it has the leaf");
             for (is, should) in [leaf.base, leaf.direction, leaf.normal].into_iter().zip(placed) {
                 assert!(is.distance(Vec3::from_array(should)) < 2e-5, "row {row}: {is} is not {should:?}");
             }
@@ -155,6 +167,6 @@ mod tests {
 
     #[test]
     fn metamer_without_length_bears_nothing() {
-        assert_eq!(on_metamer(1, Vec3::ONE, Vec3::ONE, 3, 1.0).count(), 0);
+        assert_eq!(on_metamer(1, 0, Vec3::ONE, Vec3::ONE, 3, 1.0).count(), 0);
     }
 }

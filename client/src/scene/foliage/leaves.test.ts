@@ -8,6 +8,8 @@ import { leafAzimuth, leafRandom } from "./leaves";
 /** A leaf as the server places it. */
 interface Placed {
   row: number;
+  /** 0 for a leaf. */
+  salt: number;
   k: number;
   count: number;
   from: number[];
@@ -32,9 +34,9 @@ it("LF3: a leaf hashes in 32-bit arithmetic", () => {
 it("LF1, LF2, LF4: leaves are where the server has them", () => {
   const { leafAt } = shaderFunctions<PlaceFunctions>(LEAF_PLACE, ["leafAt"]);
   expect(leaves.length).toBeGreaterThan(50);
-  for (const { row, k, count, from, to, random, ...wanted } of leaves) {
-    expect(leafRandom(row, k)).toBeCloseTo(random, 6);
-    const azimuth = leafAzimuth(row, k, count);
+  for (const { row, salt, k, count, from, to, random, ...wanted } of leaves) {
+    expect(leafRandom(row, k, salt)).toBeCloseTo(random, 6);
+    const azimuth = leafAzimuth(row, k, count, salt);
     expect(azimuth).toBeLessThan(2 * Math.PI);
     const found = leafAt(from, to, azimuth, (k + 1) / count);
     for (const name of ["base", "direction", "normal"] as const) {

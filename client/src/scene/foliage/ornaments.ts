@@ -99,14 +99,14 @@ export class Ornaments<Look extends OrnamentLook> {
     const [parent, vigor] = [table.parent[row]!, table.foliage[row]! >> 4];
     const first = instances.place(row, count);
     for (let k = 0; k < count; k += 1) {
-      const azimuth = leafAzimuth(row, k, count) + (sort.salt % 7);
-      instances.write(first + k, row, parent, azimuth, (k + 1) / count, vigor, leafRandom(row ^ sort.salt, k));
+      const azimuth = leafAzimuth(row, k, count, sort.salt);
+      instances.write(first + k, row, parent, azimuth, (k + 1) / count, vigor, leafRandom(row, k, sort.salt));
     }
   }
 
   /** Uploads what was written since the last call. */
   upload(table: TreeTable): void {
-    if (this.stale) this.search(table, this.kind?.together ?? 0);
+    if (this.stale) this.search(table, this.look ? this.sort.together[this.look.kind as Look["kind"]] : 0);
     while (this.instances.filled > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));
     this.instances.upload();
     const visible = this.kind !== null && this.instances.filled > 0;

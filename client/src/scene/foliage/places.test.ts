@@ -1,7 +1,8 @@
+import { readFileSync } from "node:fs";
 import { expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
 import { TreeTable } from "../table/tree-table";
-import { chanceOf, isBearing, isPlace, type Placing } from "./places";
+import { chanceOf, isBearing, isChosen, isPlace, type Placing } from "./places";
 
 const table = new TreeTable(() => 0);
 table.apply(sampleTree({ seed: 5, height: 30, orders: 3 }));
@@ -80,5 +81,16 @@ it("the dead and the seed bear nothing", () => {
   });
   for (let row = 0; row < Math.min(256, dead.rows); row += 1) {
     for (const place of ["tips", "twigs", "wood"] as const) expect(isPlace(dead, row, place)).toBe(false);
+  }
+});
+
+it("the server's exports choose the same places", () => {
+  const file = new URL("../../../../server/export/golden/ornaments.json", import.meta.url);
+  const samples: { share: number; vigor: number; salt: number; rows: number[] }[] = JSON.parse(
+    readFileSync(file, "utf8"),
+  );
+  const all = Array.from({ length: Math.ceil(4_000_000 / 20_011) }, (_, i) => 20_011 * i);
+  for (const { salt, rows, ...placing } of samples) {
+    expect(all.filter((row) => isChosen(row, row % 16, placing, salt))).toEqual(rows);
   }
 });

@@ -1,4 +1,4 @@
-import type { FlowerKind } from "../../wire/generated";
+import { FLOWER_SALT, FLOWERS_TOGETHER, type FlowerKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { round } from "./leaf-painter";
 import { LeafTile } from "./leaf-tile";
@@ -9,11 +9,11 @@ type Random = () => number;
 /** Kinds of flowers. */
 export const FLOWERS: OrnamentSort<FlowerKind> = {
   name: "Flower",
-  salt: 0x1f3d,
+  salt: FLOWER_SALT,
+  together: FLOWERS_TOGETHER,
   kinds: {
     rosette: {
       reach: 0.5,
-      together: 7,
       hang: 0.35,
       turn: -1,
       stalk: 0.55,
@@ -23,7 +23,6 @@ export const FLOWERS: OrnamentSort<FlowerKind> = {
     },
     catkin: {
       reach: 0.11,
-      together: 2,
       hang: -1,
       turn: 0.25,
       stalk: 0,
@@ -33,7 +32,6 @@ export const FLOWERS: OrnamentSort<FlowerKind> = {
     },
     panicle: {
       reach: 0.27,
-      together: 1,
       hang: 0.85,
       turn: 0.25,
       stalk: 0,

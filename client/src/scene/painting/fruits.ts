@@ -1,4 +1,4 @@
-import type { FruitKind } from "../../wire/generated";
+import { FRUIT_SALT, FRUITS_TOGETHER, type FruitKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { LeafTile, type Paint } from "./leaf-tile";
 import type { OrnamentSort } from "./ornament-sort";
@@ -8,11 +8,11 @@ type Random = () => number;
 /** Kinds of fruits; all hang. */
 export const FRUITS: OrnamentSort<FruitKind> = {
   name: "Fruit",
-  salt: 0x6b21,
+  salt: FRUIT_SALT,
+  together: FRUITS_TOGETHER,
   kinds: {
     round: {
       reach: 0.5,
-      together: 1,
       hang: -0.95,
       turn: 0.9,
       stalk: 0.0,
@@ -22,7 +22,6 @@ export const FRUITS: OrnamentSort<FruitKind> = {
     },
     cone: {
       reach: 0.27,
-      together: 1,
       hang: -0.75,
       turn: 0.4,
       stalk: 0,
@@ -30,10 +29,9 @@ export const FRUITS: OrnamentSort<FruitKind> = {
       second: [184, 140, 92],
       paint: cone,
     },
-    nut: { reach: 0.33, together: 2, hang: -0.8, turn: 0.5, stalk: 0, gloss: 1.4, second: [150, 134, 96], paint: nut },
+    nut: { reach: 0.33, hang: -0.8, turn: 0.5, stalk: 0, gloss: 1.4, second: [150, 134, 96], paint: nut },
     winged: {
       reach: 0.5,
-      together: 2,
       hang: -0.9,
       turn: 0.35,
       stalk: 0,

@@ -4,8 +4,6 @@ import type { LeafTile } from "./leaf-tile";
 export interface OrnamentKind {
   /** Half of its width, in its own lengths. */
   readonly reach: number;
-  /** How many stand together at a place. */
-  readonly together: number;
   /** −1 hanging, 0 as a leaf stands, 1 upright. */
   readonly hang: number;
   /** How far it turns its face to the eye, 0 to 1; below 0 for a disc that looks where a leaf points. */
@@ -24,5 +22,7 @@ export interface OrnamentKind {
 export interface OrnamentSort<Kind extends string> {
   readonly name: "Flower" | "Fruit";
   readonly salt: number;
+  /** How many of a kind stand at a place. */
+  readonly together: Record<Kind | "none", number>;
   readonly kinds: Record<Exclude<Kind, "none">, OrnamentKind>;
 }

@@ -6,13 +6,13 @@ use espalier_mesh::{
     Style, TriangleMesh, foliage,
     leaves::{self, Leaf},
 };
-use espalier_plant::{MetamerId, Plant};
-use espalier_settings::{Appearance, LeafKind, Place};
+use espalier_plant::{MetamerId, Plant, Widths};
+use espalier_settings::{Appearance, LeafKind};
 use glam::{Vec2, Vec3};
 
 use super::{
     leaf_look::{LeafPainter, Shoot},
-    ornaments::{self, Spot},
+    ornaments::{self, Bearer},
     scene::Painted,
 };
 
@@ -31,6 +31,7 @@ pub(crate) fn foliage(plant: &Plant, style: &Style, appearance: &Appearance) -> 
     let Appearance { leaves: look, flowers, fruits, .. } = appearance;
     let mut painter = Painter { painted: Painted::default(), colour: Vec3::ONE };
     let goes_on = goes_on(plant);
+    let widths = Widths::of(plant, style.girth());
     let leaf_painter = LeafPainter::new(look);
     for id in (0..plant.metamer_count()).map(MetamerId::new) {
         if plant.is_seed(id) || !plant.is_alive(id) {
@@ -40,49 +41,39 @@ pub(crate) fn foliage(plant: &Plant, style: &Style, appearance: &Appearance) -> 
         let to = plant.metamers().end(id);
         let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
         let shoot = Shoot::of(plant, id);
-        let Shoot { heading, vigor, light } = shoot;
         // The shadows of the simulation are soft: deep in a crown there is little of the sky.
-        let sky = 0.62 + 0.38 * light;
-        let bear = |painter: &mut Painter, place: Place, at: Vec3, out: Vec3, random: f32| {
-            let spot = Spot { place, at, out, vigor, random: share(random) };
-            ornaments::flower(painter, &spot, flowers);
-            ornaments::fruit(painter, &spot, fruits);
-        };
-        for leaf in leaves::on_metamer(id.raw(), from, to, count, style.options().leaf_size) {
+        let sky = 0.62 + 0.38 * shoot.light;
+        for leaf in leaves::of(plant, id, style) {
             if let Some((leaf, hue)) = leaf_painter.paint(&leaf, &shoot) {
                 painter.colour = hue * sky;
                 painter.leaf(&leaf, look.shape);
             }
-            bear(&mut painter, Place::Twigs, leaf.base, leaf.direction, leaf.random);
         }
-        let number = share(leaves::hash(id.raw()) as f32 / u32::MAX as f32);
-        if count == 0 {
-            let radius = style.girth().radius(plant.metamers().tips(id));
-            for leaf in leaves::on_metamer(id.raw(), from, to, 1, 1.0) {
-                let out = leaf.direction.reject_from_normalized(heading).normalize_or(leaf.direction);
-                bear(&mut painter, Place::Wood, 0.5 * (from + to) + out * radius, out, number);
-            }
-        } else if !goes_on[id.index()] {
-            bear(&mut painter, Place::Tips, to, heading, number);
-        }
+        let bearer = Bearer {
+            row: id.raw(),
+            ends: [from, to],
+            radius: widths.radius(id),
+            is_leafy: count > 0,
+            is_tip: !goes_on[id.index()],
+            vigor: shoot.vigor,
+        };
+        ornaments::flowers(&mut painter, &bearer, flowers);
+        ornaments::fruits(&mut painter, &bearer, fruits);
     }
     painter.painted
 }
 
-/// Which metamers bear living wood.
+/// Which metamers their axis goes on beyond.
 fn goes_on(plant: &Plant) -> Vec<bool> {
     let mut goes_on = vec![false; plant.metamer_count()];
     for id in (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id)) {
-        if let Some(parent) = plant.metamers().parent(id) {
+        let metamers = plant.metamers();
+        if let Some(parent) = metamers.parent(id).filter(|&parent| metamers.axis(parent) == metamers.axis(id))
+        {
             goes_on[parent.index()] = true;
         }
     }
     goes_on
-}
-
-/// Another number from 0 to 1 that belongs to a leaf.
-pub(super) fn share(random: f32) -> f32 {
-    leaves::hash(1 + (random * 1e6) as u32) as f32 / u32::MAX as f32
 }
 
 /// Collects triangles in the colour of the moment.

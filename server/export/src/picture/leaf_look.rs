@@ -127,8 +127,8 @@ pub(crate) fn hanging(plant: &Plant, style: &Style, look: &LeafLook) -> Vec<(Lea
     hanging.collect()
 }
 
-/// More numbers of a leaf's own, 0 to 1.
-fn own_numbers(random: f32) -> Vec4 {
+/// More numbers of a leaf's own, 0 to 1, or of a flower's or fruit's.
+pub(super) fn own_numbers(random: f32) -> Vec4 {
     (random * Vec4::new(57.31, 131.7, 313.3, 709.9)).fract()
 }
 
