@@ -20,10 +20,14 @@ import { loadSettings } from "./page/settings";
 import { Toasts } from "./page/toasts";
 import { explained } from "./problems/explained";
 import { refused } from "./problems/refusals";
+import { SharedPoses } from "./tools/bend/shared-poses";
 import { BranchWork } from "./tools/branch/branch-work";
 import { ChosenBud } from "./tools/chosen-bud";
+import { OutlineTrace } from "./tools/lasso/outline-trace";
 import { PICK_TOLERANCE } from "./tools/tool";
 import { Toolbox } from "./tools/toolbox";
+import { FIRST_TOOL } from "./tools/tools";
+import { WidthList } from "./tools/width/width-list";
 import { Stage } from "./view/stage";
 import { say } from "./words/say";
 
@@ -90,6 +94,9 @@ export class Studio {
     events: this.#events(),
   });
   readonly bud = new ChosenBud(this.table);
+  readonly outline = new OutlineTrace();
+  readonly widths = new WidthList();
+  readonly poses = new SharedPoses();
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     newGesture: () => this.newGesture(),
@@ -125,8 +132,8 @@ export class Studio {
     submit: (command) => this.submit(command),
     newGesture: () => this.newGesture(),
     predict: (rows, steps) => this.link.predict(rows, steps),
-    limits: () => this.tools.shaping.peek()?.width.limits.peek() ?? new Set(),
-    cut: (rows) => this.tools.shaping.peek()?.prune.cut(rows),
+    limits: () => this.widths.rows.peek(),
+    cut: (rows) => this.tools.made.peek()?.prune.cut(rows),
     screen: () => this.stage.middle(),
     say: (text) => this.toasts.show(say(text)),
     busy: () => this.#busy(),
@@ -138,6 +145,9 @@ export class Studio {
     bud: this.bud,
     obstacles: this.obstacles,
     branch: this.branches.held,
+    outline: this.outline,
+    widths: this.widths,
+    poses: this.poses,
     submit: (command) => this.submit(command),
     next: () => this.link.next,
     // What is durable may still have to grow: a heavy tree must not fall behind the finger.
@@ -153,6 +163,7 @@ export class Studio {
     ready: () => this.link.open && this.hindrance.peek() === null,
     arranging: () => this.panel.peek() === "scene",
     choose: (x, y) => this.chooseBud(x, y),
+    cutAt: (x, y) => this.tools.made.peek()?.prune.cutAt(x, y),
   });
 
   readonly tour = new Tour({
@@ -231,8 +242,8 @@ export class Studio {
       this.tools.cancel();
     } else if (this.tools.release()) {
       // What the tool had marked was nearest.
-    } else if (this.tools.chosen.peek() !== "brush") {
-      this.tools.choose("brush");
+    } else if (this.tools.chosen.peek() !== FIRST_TOOL) {
+      this.tools.choose(FIRST_TOOL);
     } else if (this.bud.row.peek() !== null) {
       this.bud.release();
     } else {
@@ -268,7 +279,7 @@ export class Studio {
   /** The growth that is left; of an outline only the greatest number of steps is known (`LA1`). */
   #ahead(): GrowthAhead {
     const { step = 0, pending_steps: pending = 0 } = this.document.peek() ?? {};
-    const outlined = pending > 0 && this.tools.outline.shown.peek()?.stage === "growing";
+    const outlined = pending > 0 && this.outline.shown.peek()?.stage === "growing";
     return { step, pending: outlined ? Math.max(pending, OUTLINE_STEPS) : pending };
   }
 
@@ -282,12 +293,12 @@ export class Studio {
         this.looks.settle(settled);
         this.obstacles.settle(settled);
         this.tools.changed();
-        this.tools.outline.settled(settled);
+        this.outline.settled(settled);
       },
       state: (state) => {
         this.document.value = state;
         this.tools.changed();
-        this.tools.outline.progressed(this.link.answered, state.pending_steps);
+        this.outline.progressed(this.link.answered, state.pending_steps);
       },
       parameters: (parameters) => this.growing.receive(parameters),
       appearance: (appearance) => this.looks.receive(appearance),
@@ -299,10 +310,12 @@ export class Studio {
         if (aside.kind === FrameKind.Ghost) {
           this.branches.prediction.receive(aside.frame);
         } else {
-          this.tools.receivePose(aside.frame);
+          this.poses.receive(aside.frame);
         }
       },
-      widths: (widths) => this.tools.receiveWidths(widths),
+      widths: (widths) => {
+        this.widths.all.value = widths;
+      },
       timeline: (timeline) => this.time.receive(timeline),
       problem: (problem, command) => refused(this, problem, command),
       rekeyed: () => {
@@ -310,10 +323,10 @@ export class Studio {
         this.looks.letGo();
         this.obstacles.letGo();
         this.tools.abandon();
-        this.tools.outline.clear();
+        this.outline.clear();
       },
       lost: () => {
-        this.tools.losePoses();
+        this.poses.clear();
         this.branches.prediction.lost();
       },
       leaving: () => {
@@ -332,6 +345,9 @@ export class Studio {
     this.rows.value = 0;
     this.bud.release();
     this.tools.clear();
+    this.outline.clear();
+    this.poses.clear();
+    this.widths.all.value = [];
     this.obstacles.forget();
     this.time.clear();
     this.branches.clear();

@@ -21,9 +21,6 @@ export interface RefusalTargets {
 
 /** Undoes the previews of a command that the server refused, and shows the reason where the user does not know it yet. */
 export function refused(page: RefusalTargets, problem: Problem, command?: Command): void {
-  if (command?.kind === "lasso") {
-    page.tools.outline.clear();
-  }
   if (command?.kind === "go_to") {
     page.time.stop();
   }

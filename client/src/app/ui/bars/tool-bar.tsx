@@ -1,6 +1,6 @@
 import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
-import type { PlaceName } from "../../help/help-topics";
+import type { PlaceName } from "../../help/help-places";
 import { PANEL_NAMES, type PanelName, type SheetName, type Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import {

@@ -51,7 +51,7 @@ export function Chips({ studio }: { studio: Studio }) {
 
 function GrowthChip({ studio }: { studio: Studio }) {
   const pending = studio.document.value?.pending_steps ?? 0;
-  const outline = studio.tools.outline.shown.value?.stage === "growing";
+  const outline = studio.outline.shown.value?.stage === "growing";
   const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
   const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
   const shown = useLasting(growing && studio.link.phase.value === "connected");

@@ -1,5 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
+import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 
 /** What keeps the workspace from being used, and the way on. */
@@ -79,12 +80,10 @@ function hint(studio: Studio): string | null {
   if (!usable) {
     return null;
   }
-  if (tools.chosen.value === "seed") {
-    return say("notices.hint.seed");
-  }
-  if (tools.chosen.value === "lasso" && tools.outline.shown.value === null && !settings.hasOutlined.value) {
-    return say("notices.hint.lasso");
-  }
-  const untouched = !settings.hasDrawn.value && studio.document.value?.metamers === 0;
-  return tools.chosen.value === "brush" && untouched ? say("notices.hint.brush") : null;
+  const text = descriptorOf(tools.chosen.value).hint?.({
+    settings,
+    outlined: studio.outline.shown.value !== null,
+    empty: studio.document.value?.metamers === 0,
+  });
+  return text ? say(text) : null;
 }

@@ -1,4 +1,5 @@
-import type { Control, PlaceName, Subject } from "../../help/help-topics";
+import type { PlaceName } from "../../help/help-places";
+import type { Control, Subject } from "../../help/help-topics";
 import type { Studio } from "../../studio";
 import { softly } from "../../words/joints";
 import { say } from "../../words/say";
