@@ -3,10 +3,9 @@ import { viewIn, WHOLE } from "../scene/camera/view";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { axisStart } from "../scene/table/branch-rows";
 import { TreeTable } from "../scene/table/tree-table";
-import { FrameKind } from "../wire/envelope";
 import type { AppearancePatch, Command, DocumentState, Parameters, ParametersPatch } from "../wire/generated";
 import { rowStore } from "./connection/row-store";
-import { type SessionEvents, SessionLink } from "./connection/session-link";
+import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
 import { Draft, type GrowthAhead } from "./document/draft";
 import { GrowControl } from "./document/growth/grow-control";
@@ -19,7 +18,7 @@ import type { Hindrance } from "./page/hindrance";
 import { loadSettings } from "./page/settings";
 import { Toasts } from "./page/toasts";
 import { explained } from "./problems/explained";
-import { refused } from "./problems/refusals";
+import { sessionEvents } from "./session-events";
 import { SharedPoses } from "./tools/bend/shared-poses";
 import { BranchWork } from "./tools/branch/branch-work";
 import { ChosenBud } from "./tools/chosen-bud";
@@ -91,7 +90,7 @@ export class Studio {
     dark: () => this.stage.dark,
     lastSession: this.settings.lastSession,
     begun: () => this.document.peek() !== null,
-    events: this.#events(),
+    events: sessionEvents(this),
   });
   readonly bud = new ChosenBud(this.table);
   readonly outline = new OutlineTrace();
@@ -283,62 +282,8 @@ export class Studio {
     return { step, pending: outlined ? Math.max(pending, OUTLINE_STEPS) : pending };
   }
 
-  /** Hands each event of the session to the parts that it concerns. */
-  #events(): SessionEvents {
-    return {
-      opened: () => this.#onOpened(),
-      rows: () => this.#onRows(),
-      settled: (settled) => {
-        this.growing.settle(settled);
-        this.looks.settle(settled);
-        this.obstacles.settle(settled);
-        this.tools.changed();
-        this.outline.settled(settled);
-      },
-      state: (state) => {
-        this.document.value = state;
-        this.tools.changed();
-        this.outline.progressed(this.link.answered, state.pending_steps);
-      },
-      parameters: (parameters) => this.growing.receive(parameters),
-      appearance: (appearance) => this.looks.receive(appearance),
-      obstacles: (obstacles) => {
-        // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
-        obstacles.length === 0 ? this.obstacles.clear() : this.obstacles.receive(obstacles);
-      },
-      aside: (aside) => {
-        if (aside.kind === FrameKind.Ghost) {
-          this.branches.prediction.receive(aside.frame);
-        } else {
-          this.poses.receive(aside.frame);
-        }
-      },
-      widths: (widths) => {
-        this.widths.all.value = widths;
-      },
-      timeline: (timeline) => this.time.receive(timeline),
-      problem: (problem, command) => refused(this, problem, command),
-      rekeyed: () => {
-        this.growing.letGo();
-        this.looks.letGo();
-        this.obstacles.letGo();
-        this.tools.abandon();
-        this.outline.clear();
-      },
-      lost: () => {
-        this.poses.clear();
-        this.branches.prediction.lost();
-      },
-      leaving: () => {
-        this.tools.end();
-        this.growth.release();
-      },
-      parted: () => this.toasts.show(say("notices.parted")),
-      failed: (error) => void this.#explain(error),
-    };
-  }
-
-  #onOpened(): void {
+  /** Another session was opened: nothing of the one before counts. */
+  forget(): void {
     this.document.value = null;
     this.growing.clear();
     this.looks.clear();
@@ -357,7 +302,8 @@ export class Studio {
     this.stage.changed();
   }
 
-  #onRows(): void {
+  /** Rows have changed. */
+  followRows(): void {
     this.rows.value = this.table.rows;
     this.revision.value += 1;
     this.branches.held.keep();

@@ -51,14 +51,9 @@ function setUp() {
     events: {
       phase: nothing,
       commands: nothing,
-      state: nothing,
-      parameters: nothing,
-      appearance: nothing,
-      obstacles: nothing,
-      timeline: nothing,
-      widths: nothing,
+      message: nothing,
       aside: ({ kind, frame }) => asides.push([kind, frame.sequence]),
-      problem: nothing,
+      refused: nothing,
       rows: nothing,
       rekeyed: nothing,
       reload: () => {
