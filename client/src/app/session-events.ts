@@ -1,4 +1,5 @@
 import type { Signal } from "@preact/signals";
+import type { TreeTable } from "../scene/table/tree-table";
 import { FrameKind } from "../wire/envelope";
 import type { DocumentState, Parameters } from "../wire/generated";
 import { handle, type MessageHandlers } from "./connection/page-message";
@@ -11,6 +12,8 @@ import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
 import type { WidthList } from "./tools/width/width-list";
+import type { FirstView } from "./view/first-view";
+import type { Stage } from "./view/stage";
 import { say } from "./words/say";
 
 /** The parts of a page that follow its session. */
@@ -23,10 +26,12 @@ export interface SessionTargets extends RefusalTargets {
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
   readonly poses: SharedPoses;
-  /** Another session was opened: nothing of the one before counts. */
-  forget(): void;
-  /** Rows have changed. */
-  followRows(): void;
+  readonly table: TreeTable;
+  readonly rows: Signal<number>;
+  /** Counts the frames of rows that came in. */
+  readonly revision: Signal<number>;
+  readonly stage: Pick<Stage, "changed">;
+  readonly firstView: FirstView;
 }
 
 /** What a page does with the messages of the server: a row for each. */
@@ -55,8 +60,8 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
   return {
     message: (message) => handle(handlers, message),
     refused: (problem, command) => refused(page, problem, command),
-    opened: () => page.forget(),
-    rows: () => page.followRows(),
+    opened: () => forget(page),
+    rows: () => followRows(page),
     settled: (settled) => {
       page.growing.settle(settled);
       page.looks.settle(settled);
@@ -89,4 +94,35 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
     parted: () => page.toasts.show(say("notices.parted")),
     failed: (error) => void explained(error).then((text) => page.toasts.show(text)),
   };
+}
+
+/** Another session was opened: nothing of the one before counts. */
+function forget(page: SessionTargets): void {
+  page.document.value = null;
+  page.growing.clear();
+  page.looks.clear();
+  page.rows.value = 0;
+  page.bud.release();
+  page.tools.clear();
+  page.outline.clear();
+  page.poses.clear();
+  page.widths.all.value = [];
+  page.obstacles.forget();
+  page.time.clear();
+  page.branches.clear();
+  page.firstView.forget();
+  page.table.clear();
+  page.stage.changed();
+}
+
+function followRows(page: SessionTargets): void {
+  page.rows.value = page.table.rows;
+  page.revision.value += 1;
+  page.branches.held.keep();
+  page.tools.changed();
+  if (!page.bud.keep()) {
+    page.toasts.show(say("notices.bud-lost"));
+  }
+  page.stage.changed();
+  page.firstView.follow();
 }

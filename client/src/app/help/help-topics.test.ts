@@ -1,5 +1,5 @@
 import { afterEach, describe, expect, it } from "vitest";
-import { PANEL_NAMES, SHEET_NAMES } from "../studio";
+import { PANEL_NAMES, SHEET_NAMES } from "../page/layout";
 import { laterOfAll, TOOL_NAMES } from "../tools/tools";
 import { language } from "../words/say";
 import { helpGroups as groupsOf, searched } from "./help-topics";

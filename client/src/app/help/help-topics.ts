@@ -1,6 +1,6 @@
 import { PARAMETERS } from "../../wire/generated";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
-import type { PanelName, SheetName } from "../studio";
+import type { PanelName, SheetName } from "../page/layout";
 import type { ToolDescriptor, ToolLater } from "../tools/descriptor";
 import { TOOL_NAMES, TOOLS, type ToolName } from "../tools/tools";
 import { inAll, type Key, keysSaid, say, type Text } from "../words/say";

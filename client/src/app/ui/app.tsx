@@ -25,10 +25,10 @@ import { useRoom } from "./workspace-size";
 
 /** The whole page: the workspace, around it as little as possible, and beside it the panel that is pulled down. */
 export function App({ studio }: { studio: Studio }) {
-  const sheet = studio.sheet.value;
+  const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
-  const bare = studio.bare.value;
-  const panel = bare ? null : studio.panel.value;
+  const bare = studio.layout.bare.value;
+  const panel = bare ? null : studio.layout.panel.value;
   return (
     <div
       class="app"
@@ -68,7 +68,7 @@ function Workspace({ studio }: { studio: Studio }) {
   }, [studio]);
   const tool = useToolViews(studio);
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
-  const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.panel.value === "background");
+  const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.layout.panel.value === "background");
   return (
     <main
       class="workspace"
@@ -83,7 +83,7 @@ function Workspace({ studio }: { studio: Studio }) {
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
       {prediction && <prediction.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
-      {studio.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
+      {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
       {SunHandle && <SunHandle studio={studio} />}
       {prediction && <prediction.PredictionBar studio={studio} />}
       <HindranceCard studio={studio} />

@@ -1,4 +1,5 @@
-import type { PanelName, SheetName, Studio } from "../studio";
+import type { PanelName, SheetName } from "../page/layout";
+import type { Studio } from "../studio";
 import type { ToolLater } from "../tools/descriptor";
 import { descriptorOf, laterOfAll, TOOL_NAMES, type ToolName } from "../tools/tools";
 import { laterWordsIn } from "../words/later-words";

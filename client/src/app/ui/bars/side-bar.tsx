@@ -29,7 +29,7 @@ export function SideBar({ studio }: { studio: Studio }) {
           aria-label={say("bars.undo")}
           title={say("bars.undo.title")}
           aria-disabled={document?.can_undo !== true}
-          onClick={() => studio.undo()}
+          onClick={() => studio.submit({ kind: "undo" })}
         >
           <UndoIcon />
         </button>
@@ -39,7 +39,7 @@ export function SideBar({ studio }: { studio: Studio }) {
           aria-label={say("bars.redo")}
           title={say("bars.redo.title")}
           aria-disabled={document?.can_redo !== true}
-          onClick={() => studio.redo()}
+          onClick={() => studio.submit({ kind: "redo" })}
         >
           <RedoIcon />
         </button>

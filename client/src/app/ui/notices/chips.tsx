@@ -70,7 +70,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <progress aria-label={text} max={1} value={share} />
       )}
       {text}
-      <button type="button" class="chip-stop" onClick={() => studio.stop()}>
+      <button type="button" class="chip-stop" onClick={() => studio.submit({ kind: "stop" })}>
         <StopIcon />
         {say("tools.growing.stop")}
       </button>

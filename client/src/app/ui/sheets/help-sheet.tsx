@@ -38,8 +38,8 @@ function HelpSheet({ studio, tools }: { studio: Studio; tools: ToolHelp }) {
           type="button"
           class="small"
           onClick={() => {
-            studio.sheet.value = null;
-            studio.setBare(false);
+            studio.layout.sheet.value = null;
+            studio.layout.bare.value = false;
             studio.tour.start();
           }}
         >
