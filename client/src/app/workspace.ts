@@ -8,6 +8,7 @@ import { publishFacts } from "./page/page-facts";
 import { followPageLife } from "./page/page-life";
 import type { Studio } from "./studio";
 import { stepRadius } from "./tools/brush/brush-radius";
+import { stepBack } from "./tools/step-back";
 import { PictureLoss } from "./view/picture-loss";
 
 /** So many of the wheel's notches are one doubling of what it changes, roughly. */
@@ -42,7 +43,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
   const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
   const stopScene = effect(() => {
-    const chosen = studio.panel.value === "scene" ? studio.obstacles.chosen.value : null;
+    const chosen = studio.layout.panel.value === "scene" ? studio.obstacles.chosen.value : null;
     viewport.showObstacles(studio.obstacles.drawn.value, chosen);
   });
   const stopLife = followPageLife(studio.link);
@@ -57,6 +58,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     keys.stop();
     studio.link.leave();
     studio.tools.detach();
+    studio.poses.detach();
     studio.branches.detach();
     studio.stage.detach();
     viewport.dispose();
@@ -66,24 +68,26 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
 
 function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
   return listenToKeys({
-    undo: () => studio.undo(),
-    redo: () => studio.redo(),
+    undo: () => studio.submit({ kind: "undo" }),
+    redo: () => studio.submit({ kind: "redo" }),
     fit: () => studio.stage.fitTree(),
     help: () => {
-      studio.sheet.value = "help";
+      studio.layout.sheet.value = "help";
     },
     drawMode: (direction) => {
       studio.drawMode.value = nextDrawMode(studio.drawMode.peek(), direction);
     },
-    bare: () => studio.setBare(!studio.bare.peek()),
+    bare: () => {
+      studio.layout.bare.value = !studio.layout.bare.peek();
+    },
     tool: (tool) => studio.tools.choose(tool),
-    escape: () => studio.escape(),
+    escape: () => stepBack(studio),
     widen: (notches) => studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches)),
     turn: (right, up, twist) => studio.branches.step(right, up, twist) || turnTree(studio, right),
     travel: (direction, edge) => (edge ? studio.time.toEdge(direction) : studio.time.by(direction)),
     grow: (direction) =>
       direction === 0 ? studio.growth.release() : studio.growth.to(direction * deflectionFor(KEY_RATE)),
-    busy: () => studio.sheet.peek() !== null,
+    busy: () => studio.layout.sheet.peek() !== null,
   });
 }
 

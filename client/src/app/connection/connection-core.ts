@@ -1,20 +1,14 @@
 import {
-  type Appearance,
   type ClientMessage,
   CloseCode,
   type Command,
-  type DocumentState,
-  type Notice,
-  type Parameters,
-  type PlacedObstacle,
   PROTOCOL_VERSION,
   type Problem,
   type Resume,
   type ServerMessage,
-  type Timeline,
-  type WidthConstraint,
 } from "../../wire/generated";
 import { Outbox, type OutboxRecord } from "./outbox";
+import type { PageMessage } from "./page-message";
 
 /** Silence after which the server is asked whether it is there, in milliseconds. */
 export const PING_AFTER = 3000;
@@ -45,15 +39,9 @@ export type Effect =
   | { readonly kind: "forget-rows" }
   | { readonly kind: "reload" }
   | { readonly kind: "rekeyed" }
-  | { readonly kind: "state"; readonly state: DocumentState }
-  | { readonly kind: "parameters"; readonly parameters: Parameters }
-  | { readonly kind: "appearance"; readonly appearance: Appearance }
-  | { readonly kind: "obstacles"; readonly obstacles: readonly PlacedObstacle[] }
-  | { readonly kind: "timeline"; readonly timeline: Timeline }
-  | { readonly kind: "widths"; readonly widths: readonly WidthConstraint[] }
-  | { readonly kind: "notice"; readonly notice: Notice }
+  | { readonly kind: "message"; readonly message: PageMessage }
   | { readonly kind: "cannot-open"; readonly sentence: string }
-  | { readonly kind: "problem"; readonly problem: Problem; readonly command?: Command };
+  | { readonly kind: "refused"; readonly problem: Problem; readonly command?: Command };
 
 export interface CoreOptions {
   /** Draws a new client key. */
@@ -192,34 +180,10 @@ export class ConnectionCore {
       case "refused":
         this.#refuse(message.id, message.problem);
         break;
-      case "problem":
-        this.#effects.push({ kind: "problem", problem: message.problem });
-        break;
-      case "state":
-        this.#effects.push({ kind: "state", state: message.state });
-        break;
-      case "parameters":
-        this.#effects.push({ kind: "parameters", parameters: message.parameters });
-        break;
-      case "appearance":
-        this.#effects.push({ kind: "appearance", appearance: message.appearance });
-        break;
-      case "obstacles":
-        this.#effects.push({ kind: "obstacles", obstacles: message.obstacles });
-        break;
-      case "timeline": {
-        const { type: _, ...timeline } = message;
-        this.#effects.push({ kind: "timeline", timeline });
-        break;
-      }
-      case "widths":
-        this.#effects.push({ kind: "widths", widths: message.widths });
-        break;
-      case "notice":
-        this.#effects.push({ kind: "notice", notice: message.notice });
-        break;
       case "pong":
         break;
+      default:
+        this.#effects.push({ kind: "message", message });
     }
   }
 
@@ -384,10 +348,14 @@ export class ConnectionCore {
       this.#effects.push({ kind: "forget-rows" });
     }
     this.#outbox.acknowledge(welcome.acknowledged);
-    this.#effects.push({ kind: "parameters", parameters: welcome.parameters });
-    this.#effects.push({ kind: "state", state: welcome.state });
-    // The lists follow only if there is something on them.
-    this.#effects.push({ kind: "obstacles", obstacles: [] }, { kind: "widths", widths: [] });
+    const messages: readonly PageMessage[] = [
+      { type: "parameters", parameters: welcome.parameters },
+      { type: "state", state: welcome.state },
+      // The lists follow only if there is something on them.
+      { type: "obstacles", obstacles: [] },
+      { type: "widths", widths: [] },
+    ];
+    this.#effects.push(...messages.map((message) => ({ kind: "message", message }) as const));
     for (const { id, command } of this.#outbox.pending) {
       this.#send({ type: "command", id, command });
     }
@@ -396,7 +364,7 @@ export class ConnectionCore {
   #refuse(id: number, problem: Problem): void {
     const command = this.#outbox.commandOf(id);
     if (this.#outbox.refuse(id)) {
-      this.#effects.push(command ? { kind: "problem", problem, command } : { kind: "problem", problem });
+      this.#effects.push(command ? { kind: "refused", problem, command } : { kind: "refused", problem });
     }
   }
 

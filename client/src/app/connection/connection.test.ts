@@ -51,16 +51,10 @@ function setUp() {
     events: {
       phase: nothing,
       commands: nothing,
-      state: nothing,
-      parameters: nothing,
-      appearance: nothing,
-      obstacles: nothing,
-      timeline: nothing,
-      widths: nothing,
+      message: nothing,
       aside: ({ kind, frame }) => asides.push([kind, frame.sequence]),
-      notice: nothing,
       cannotOpen: nothing,
-      problem: nothing,
+      refused: nothing,
       rows: nothing,
       rekeyed: nothing,
       reload: () => {

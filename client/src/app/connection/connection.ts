@@ -1,16 +1,4 @@
-import type {
-  Appearance,
-  ClientMessage,
-  Command,
-  DocumentState,
-  Notice,
-  Parameters,
-  PlacedObstacle,
-  Problem,
-  ServerMessage,
-  Timeline,
-  WidthConstraint,
-} from "../../wire/generated";
+import type { ClientMessage, Command, Problem, ServerMessage } from "../../wire/generated";
 import type { Clock } from "../page/clock";
 import {
   type AsideHead,
@@ -20,6 +8,7 @@ import {
   type Phase,
   type StopReason,
 } from "./connection-core";
+import type { PageMessage } from "./page-message";
 import type { RowStore } from "./row-store";
 
 /** The part of a WebSocket that is used; tests bring their own. */
@@ -45,23 +34,14 @@ export interface AsideFrame {
 export interface ConnectionEvents<Aside> {
   phase(phase: Phase, attempts: number, stopped: StopReason | null, garbled: number): void;
   commands(sent: number, settled: number): void;
-  state(state: DocumentState): void;
-  parameters(parameters: Parameters): void;
-  /** How the tree looks from now on. */
-  appearance(appearance: Appearance): void;
-  /** All obstacles there are. */
-  obstacles(obstacles: readonly PlacedObstacle[]): void;
-  /** What was done, and all other futures. */
-  timeline(timeline: Timeline): void;
-  /** All width constraints there are. */
-  widths(widths: readonly WidthConstraint[]): void;
+  /** The server says what the page has to show. */
+  message(message: PageMessage): void;
   /** A branch that is being bent, or a prediction. */
   aside(aside: Aside): void;
-  /** How the session was opened. */
-  notice(notice: Notice): void;
   /** The server cannot open the session, however often one asks; it says why. */
   cannotOpen(sentence: string): void;
-  problem(problem: Problem, command?: Command): void;
+  /** The server would not do a command, which is unknown where an earlier page sent it. */
+  refused(problem: Problem, command?: Command): void;
   /** Rows have changed; draw. */
   rows(): void;
   /** The client goes on under another key: a stroke in progress is lost. */
@@ -253,32 +233,14 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
         case "rekeyed":
           events.rekeyed();
           break;
-        case "state":
-          events.state(effect.state);
-          break;
-        case "parameters":
-          events.parameters(effect.parameters);
-          break;
-        case "appearance":
-          events.appearance(effect.appearance);
-          break;
-        case "obstacles":
-          events.obstacles(effect.obstacles);
-          break;
-        case "timeline":
-          events.timeline(effect.timeline);
-          break;
-        case "widths":
-          events.widths(effect.widths);
-          break;
-        case "notice":
-          events.notice(effect.notice);
+        case "message":
+          events.message(effect.message);
           break;
         case "cannot-open":
           events.cannotOpen(effect.sentence);
           break;
-        case "problem":
-          events.problem(effect.problem, effect.command);
+        case "refused":
+          events.refused(effect.problem, effect.command);
           break;
       }
     }

@@ -50,15 +50,9 @@ function setUp(path = "/", { last = null as string | null, store = storage(), be
     failed: tells("failed"),
     rows: nothing,
     settled: nothing,
-    state: nothing,
-    parameters: nothing,
-    appearance: nothing,
-    obstacles: nothing,
+    message: nothing,
     aside: nothing,
-    widths: nothing,
-    timeline: nothing,
-    notice: nothing,
-    problem: nothing,
+    refused: nothing,
     rekeyed: nothing,
   };
   const link = new SessionLink({

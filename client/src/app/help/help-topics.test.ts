@@ -1,9 +1,11 @@
 import { afterEach, describe, expect, it } from "vitest";
-import { PANEL_NAMES, SHEET_NAMES } from "../studio";
-import { TOOL_NAMES } from "../tools/toolbox";
+import { PANEL_NAMES, SHEET_NAMES } from "../page/layout";
+import { laterOfAll, TOOL_NAMES } from "../tools/tools";
 import { language } from "../words/say";
-import { helpGroups, searched } from "./help-topics";
+import { helpGroups as groupsOf, searched } from "./help-topics";
 
+const tools = await laterOfAll();
+const helpGroups = () => groupsOf(tools);
 const found = (query: string) => searched(helpGroups(), query).flatMap(({ topics }) => topics.map(({ id }) => id));
 
 describe("help", () => {

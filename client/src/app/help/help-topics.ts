@@ -1,22 +1,12 @@
 import { PARAMETERS } from "../../wire/generated";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
-import type { PanelName, SheetName } from "../studio";
-import type { ToolName } from "../tools/toolbox";
-import { inAll, type Key, keysSaid, say } from "../words/say";
+import type { PanelName, SheetName } from "../page/layout";
+import type { ToolDescriptor, ToolLater } from "../tools/descriptor";
+import { TOOL_NAMES, TOOLS, type ToolName } from "../tools/tools";
+import { inAll, type Key, keysSaid, say, type Text } from "../words/say";
+import type { PlaceName } from "./help-places";
 
 export type SketchName = "draw" | "turn" | "grow" | "move" | "hold" | "cut";
-
-/** Things on the page that are no panel, sheet or tool, and can be pointed at. */
-export type PlaceName =
-  | "undo"
-  | "grow"
-  | "radius"
-  | "rotation"
-  | "timeline"
-  | "draw-modes"
-  | "hide"
-  | "new"
-  | "download";
 
 /** What a topic speaks of, to be shown. */
 export type Subject =
@@ -68,21 +58,6 @@ const CARDS = [
 ] as const satisfies Named<SketchName>;
 
 /** Topics by their names, each with what it speaks of. */
-const DRAWING = [
-  ["brush", { tool: "brush" }],
-  ["depth", { tool: "brush" }],
-  ["rest", { tool: "brush" }],
-  ["sketch", { place: "radius" }],
-  ["lasso", { tool: "lasso" }],
-  ["seed", { tool: "seed" }],
-] as const;
-const SHAPING = [
-  ["bend", { tool: "bend" }],
-  ["width", { tool: "width" }],
-  ["prune", { tool: "prune" }],
-  ["branch", { tool: "branch" }],
-  ["what-if", { tool: "prune" }],
-] as const;
 const TRAVELLING = [
   ["travel", { place: "timeline" }],
   ["sign", { place: "timeline" }],
@@ -118,9 +93,7 @@ const WHOLE = [
 
 /** Keys by what they do; those that are named differently in each language stand in the table. */
 const KEYS: readonly (readonly [Key, () => string])[] = [
-  ["help.key.draw", () => "B  L  P"],
-  ["help.key.shape", () => "N  W  X"],
-  ["help.key.branch", () => "T  ← ↑ → ↓"],
+  ["help.key.branch", () => `${TOOLS.branch.key}  ← ↑ → ↓`],
   ["help.key.turn", () => "←  →"],
   ["help.key.radius", () => "[  ]"],
   ["help.key.grow", () => "G  U"],
@@ -135,11 +108,12 @@ const KEYS: readonly (readonly [Key, () => string])[] = [
   ["help.key.help", () => "?"],
 ];
 
+/** What the tools say of themselves. */
+export type ToolHelp = Readonly<Record<ToolName, ToolLater>>;
+
 /** All entries of the help, in the present language. */
-export function helpGroups(): readonly TopicGroup[] {
+export function helpGroups(tools: ToolHelp): readonly TopicGroup[] {
   const about = ([name, subject]:
-    | (typeof DRAWING)[number]
-    | (typeof SHAPING)[number]
     | (typeof TRAVELLING)[number]
     | (typeof LOOKING)[number]
     | (typeof PANELS)[number]
@@ -163,24 +137,21 @@ export function helpGroups(): readonly TopicGroup[] {
         ...(subject ? { subject } : {}),
       })),
     },
-    { title: "help.group.drawing", topics: DRAWING.map(about) },
-    { title: "help.group.shaping", topics: SHAPING.map(about) },
+    { title: "help.group.drawing", topics: toolTopics(tools, "drawing") },
+    { title: "help.group.shaping", topics: toolTopics(tools, "shaping") },
     { title: "help.group.travelling", topics: TRAVELLING.map(about) },
     { title: "help.group.looking", topics: LOOKING.map(about) },
     { title: "help.group.panels", topics: PANELS.map(about) },
     { title: "help.group.whole", topics: WHOLE.map(about) },
     {
       title: "help.group.keys",
-      topics: KEYS.map(([key, keys]) => ({
-        id: key,
-        title: keys(),
-        text: say(key),
-        also: say("help.group.keys.words"),
-        everywhere: everywhere(key, "help.group.keys.words"),
-        keys: keys(),
-      })),
+      topics: [
+        keyTopic("keys-drawing", toolKeys("drawing"), ...toolLabels("drawing")),
+        keyTopic("keys-shaping", toolKeys("shaping"), ...toolLabels("shaping")),
+        ...KEYS.map(([key, keys]) => keyTopic(key, keys(), key)),
+      ],
     },
-    { title: "help.group.controls", topics: controls() },
+    { title: "help.group.controls", topics: controls(tools) },
   ];
 }
 
@@ -201,13 +172,53 @@ export function searched(groups: readonly TopicGroup[], query: string): readonly
   return own.length > 0 ? own : among((topic) => topic.everywhere);
 }
 
-/** What these keys say in every language. */
-function everywhere(...keys: readonly Key[]): string {
+/** What the tools of a group say of themselves. */
+function toolTopics(tools: ToolHelp, group: ToolDescriptor["group"]): readonly Topic[] {
+  return toolsIn(group).flatMap((tool) =>
+    tools[tool].HELP.map(({ name, title, text, words, place }) => ({
+      id: name,
+      title: say(title),
+      text: say(text),
+      also: say(words),
+      everywhere: everywhere(title, text, words),
+      subject: place ? { place } : { tool },
+    })),
+  );
+}
+
+function toolsIn(group: ToolDescriptor["group"]): readonly ToolName[] {
+  return TOOL_NAMES.filter((name) => TOOLS[name].group === group);
+}
+
+function toolKeys(group: ToolDescriptor["group"]): string {
+  return toolsIn(group)
+    .map((name) => TOOLS[name].key)
+    .join("  ");
+}
+
+function toolLabels(group: ToolDescriptor["group"]): readonly Text[] {
+  return toolsIn(group).map((name) => TOOLS[name].label);
+}
+
+/** What some keys do. */
+function keyTopic(id: string, keys: string, ...texts: readonly (Key | Text)[]): Topic {
+  return {
+    id,
+    title: keys,
+    text: texts.map((text) => say(text)).join(", "),
+    also: say("help.group.keys.words"),
+    everywhere: everywhere(...texts, "help.group.keys.words"),
+    keys,
+  };
+}
+
+/** What these texts are in every language. */
+function everywhere(...keys: readonly (Key | Text)[]): string {
   return keys.map(inAll).join(" ");
 }
 
 /** Every parameter and control that explains itself in a sentence; what a panel says need not be said again here. */
-function controls(): readonly Topic[] {
+function controls(tools: ToolHelp): readonly Topic[] {
   const seen = new Set<string>();
   const keys = new Set(keysSaid());
   return [...keys].flatMap((key) => {
@@ -216,7 +227,7 @@ function controls(): readonly Topic[] {
       return [];
     }
     const label = explained as Key;
-    const subject = subjectOf(label);
+    const subject = subjectOf(label, tools);
     const topic = {
       id: explained,
       title: say(label),
@@ -234,7 +245,7 @@ function controls(): readonly Topic[] {
 }
 
 /** Where a control stands. */
-function subjectOf(label: Key): Subject | undefined {
+function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
   const [area = "", name = ""] = label.split(".");
   const section = SECTION_OF[label] ?? SECTION_OF[area];
   const control = { label, ...(section === undefined ? {} : { section }) };
@@ -264,10 +275,11 @@ function subjectOf(label: Key): Subject | undefined {
       return { panel: "brush", control };
     case "scene":
       return { panel: "scene" };
-    case "tools":
+    case "tools": {
+      const tool = TOOL_NAMES.find((name) => tools[name].CONTROLS?.includes(label));
       // What is ahead is asked for while something is cut, in a bar of its own.
-      if (name === "prediction") return { tool: "prune" };
-      return { tool: name === "stretch" ? "bend" : "prune", control };
+      return tool ? { tool, control } : { tool: "prune" };
+    }
     default:
       return undefined;
   }

@@ -1,4 +1,4 @@
-import type { ToolName } from "../tools/toolbox";
+import { type ToolName, toolOfKey } from "../tools/tools";
 
 /** What the keyboard can do. */
 export interface KeyActions {
@@ -86,27 +86,6 @@ export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop():
       case "]":
         actions.widen(1);
         break;
-      case "b":
-        actions.tool("brush");
-        break;
-      case "l":
-        actions.tool("lasso");
-        break;
-      case "p":
-        actions.tool("seed");
-        break;
-      case "t":
-        actions.tool("branch");
-        break;
-      case "n":
-        actions.tool("bend");
-        break;
-      case "w":
-        actions.tool("width");
-        break;
-      case "x":
-        actions.tool("prune");
-        break;
       case "escape":
         actions.escape();
         break;
@@ -122,8 +101,14 @@ export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop():
       case "?":
         actions.help();
         break;
-      default:
-        travel(event, actions);
+      default: {
+        const tool = toolOfKey(key);
+        if (tool) {
+          actions.tool(tool);
+        } else {
+          travel(event, actions);
+        }
+      }
     }
   };
   const release = (event: KeyboardEvent) => {

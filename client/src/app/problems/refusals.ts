@@ -4,6 +4,7 @@ import type { TimelineControl } from "../document/timeline/timeline-control";
 import type { Toasts } from "../page/toasts";
 import { RequestFailed } from "../requests/request";
 import type { BranchWork } from "../tools/branch/branch-work";
+import type { ChosenBud } from "../tools/chosen-bud";
 import type { Toolbox } from "../tools/toolbox";
 import { say } from "../words/say";
 import { explained } from "./explained";
@@ -15,15 +16,11 @@ export interface RefusalTargets {
   readonly obstacles: ObstacleList;
   readonly time: TimelineControl;
   readonly toasts: Toasts;
-  /** The chosen branch no longer exists. */
-  loseBud(): void;
+  readonly bud: ChosenBud;
 }
 
 /** Undoes the previews of a command that the server refused, and shows the reason where the user does not know it yet. */
 export function refused(page: RefusalTargets, problem: Problem, command?: Command): void {
-  if (command?.kind === "lasso") {
-    page.tools.outline.clear();
-  }
   if (command?.kind === "go_to") {
     page.time.stop();
   }
@@ -33,7 +30,12 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     page.obstacles.refused(command);
   }
   if (problem.code === "not_found" && problem.field === "bud") {
-    page.loseBud();
+    // It was shed, or someone went back to before it grew.
+    page.tools.abandon();
+    if (page.bud.row.peek() !== null) {
+      page.bud.release();
+      page.toasts.show(say("notices.bud-lost"));
+    }
     return;
   }
   if (problem.code === "not_found" && problem.field === "stroke") {

@@ -1,3 +1,4 @@
+import type { Command } from "../../wire/generated";
 import type { Grip, StrokePoint } from "../input/gesture-recogniser";
 
 /** A tool that works on the tree with fingers, a pen or the left mouse button. */
@@ -6,6 +7,8 @@ export interface Tool {
   end(): void;
   /** Forgets what is in progress: nothing more of it is sent. */
   abandon(): void;
+  /** Takes back what is in progress, where that is more than forgetting it. */
+  cancel?(): void;
   /** Called again and again while something is in progress. */
   tick?(): void;
   /** A mouse or pen is over the canvas and not down. */
@@ -14,6 +17,10 @@ export interface Tool {
   leave?(): void;
   /** Rows have changed, or commands were answered. */
   changed?(): void;
+  /** The server would not do a command: what was shown of it is as it was. */
+  refused?(command: Command): void;
+  /** The wheel turns by a factor; false if the tool has no use for it. */
+  zoom?(factor: number): boolean;
   /** Releases what is marked, as Escape does while nothing is in progress; false if there was nothing. */
   release?(): boolean;
 }

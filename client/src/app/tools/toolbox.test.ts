@@ -11,9 +11,13 @@ import type { PoseFrame, RowMotion } from "../../wire/pose";
 import { ObstacleList } from "../document/obstacles/obstacle-list";
 import { loadSettings } from "../page/settings";
 import { Toasts } from "../page/toasts";
+import { SharedPoses } from "./bend/shared-poses";
 import type { HeldBranch } from "./branch/held-branch";
 import { ChosenBud } from "./chosen-bud";
+import { OutlineTrace } from "./lasso/outline-trace";
 import { Toolbox } from "./toolbox";
+import { TOOL_NAMES } from "./tools";
+import { WidthList } from "./width/width-list";
 
 afterEach(() => vi.useRealTimers());
 
@@ -51,7 +55,11 @@ function setUp(table = new TreeTable()) {
   });
   obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);
   const toasts = new Toasts();
+  const [outline, widths, poses] = [new OutlineTrace(), new WidthList(), new SharedPoses()];
   const tools = new Toolbox({
+    outline,
+    widths,
+    poses,
     table,
     settings: loadSettings(store),
     toasts,
@@ -62,7 +70,14 @@ function setUp(table = new TreeTable()) {
     unsettledMoves: () => 0,
     unsettled: () => 0,
     girth: () => ({ exponent: 2.5, twigDiameter: 0.07 }),
-    branch: { release: () => {}, cancelTurn: () => {}, cancelPlacing: () => {} } as unknown as HeldBranch,
+    branch: {
+      release: () => {},
+      hide: () => {},
+      row: { peek: () => null },
+      placing: { peek: () => null },
+      cancelTurn: () => {},
+      cancelPlacing: () => {},
+    } as unknown as HeldBranch,
     predict: () => {},
     hold: () => {
       world.held += 1;
@@ -73,6 +88,7 @@ function setUp(table = new TreeTable()) {
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),
+    cutAt: (x, y) => tools.made.peek()?.prune.cutAt(x, y),
   });
   tools.attach(view);
   const at = (x: number, y: number) => ({ x, y, pressure: null });
@@ -85,7 +101,7 @@ function setUp(table = new TreeTable()) {
     begin(points);
     tools.gesture({ kind: "stroke-end" });
   };
-  return { tools, view, sent, world, toasts, obstacles, begin, draw };
+  return { tools, outline, widths, poses, view, sent, world, toasts, obstacles, begin, draw };
 }
 
 const kinds = (commands: Command[]) => commands.map(({ kind }) => kind);
@@ -111,29 +127,26 @@ describe("toolbox", () => {
   });
 
   it("widths that come before the tools are not lost", () => {
-    const { tools, view } = setUp();
+    const { tools, view, widths } = setUp();
     tools.detach();
-    const widths = [{ row: 3, diameter: 0.5 }] as unknown as WidthConstraint[];
-    tools.receiveWidths(widths);
+    const set = [{ row: 3, diameter: 0.5 }] as unknown as WidthConstraint[];
+    widths.all.value = set;
     tools.attach(view);
-    expect(tools.shaping.value?.width.widths.value).toEqual(widths);
-    tools.detach();
-    tools.clear();
-    tools.attach(view);
-    expect(tools.shaping.value?.width.widths.value, "another session has its own").toEqual([]);
+    expect(tools.made.value?.width.widths.value).toEqual(set);
   });
 
   it("BE5: poses that come before the tools are not lost", () => {
-    const { tools, view, world } = setUp(tableOf(SMALL));
+    const { tools, poses, view, world } = setUp(tableOf(SMALL));
     const pose = (bend: number, rows: number[], x = 0): PoseFrame => {
       const motions = rows.map((row): RowMotion => ({ row, rotation: [0, 0, 0, 1], to: [x, row, 0] }));
       return { epoch: 1, sequence: 1, bend, motions };
     };
     const shown = () => [...world.overlays].map(({ path }) => path);
     tools.detach();
+    poses.detach();
     world.overlays.clear();
     for (const frame of [pose(7, [2, 6, 7]), pose(8, [3, 12]), pose(7, [2, 6, 7], 9), pose(8, [])]) {
-      tools.receivePose(frame);
+      poses.receive(frame);
     }
     tools.attach(view);
     expect(shown(), "only that which is not over").toEqual([[2, 6, 7]]);
@@ -141,11 +154,11 @@ describe("toolbox", () => {
     const out = { plain: () => {}, orientation: () => {}, motion } as unknown as SlotWriter;
     [...world.overlays][0]?.write(tableOf(SMALL), out);
     expect(motion.mock.lastCall?.[3], "the pose received last").toEqual([9, 7, 0]);
-    tools.receivePose(pose(7, []));
+    poses.receive(pose(7, []));
     expect(shown()).toEqual([]);
-    tools.receivePose(pose(9, [3, 12]));
+    poses.receive(pose(9, [3, 12]));
     tools.detach();
-    tools.losePoses();
+    poses.clear();
     world.overlays.clear();
     tools.attach(view);
     expect(shown(), "another connection tells anew").toEqual([]);
@@ -166,13 +179,13 @@ describe("toolbox", () => {
   });
 
   it("a stroke goes to the tool that was chosen", () => {
-    const { tools, sent, draw } = setUp();
+    const { tools, sent, outline, draw } = setUp();
     draw(ring);
     expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_end"]);
     tools.choose("lasso");
     draw(ring);
     expect(kinds(sent.splice(0)).slice(3)).toEqual(["lasso"]);
-    expect(tools.outline.shown.value?.stage).toBe("growing");
+    expect(outline.shown.value?.stage).toBe("growing");
   });
 
   it("after a seed the brush is chosen again", () => {
@@ -182,7 +195,7 @@ describe("toolbox", () => {
     expect([sent, tools.chosen.value, toasts.list.value.length]).toEqual([[], "seed", 1]);
     draw([[300, 700]]);
     expect(sent).toEqual([{ kind: "plant_seed", position: [30, 0, 70] }]);
-    expect([tools.chosen.value, tools.seed.value]).toEqual(["brush", null]);
+    expect([tools.chosen.value, tools.made.value?.seed.place.value]).toEqual(["brush", null]);
   });
 
   it("a tool that changes ends its stroke", () => {
@@ -196,12 +209,12 @@ describe("toolbox", () => {
   });
 
   it("cancelling forgets an outline and ends a brush stroke", () => {
-    const { tools, sent, begin } = setUp();
+    const { tools, sent, outline, begin } = setUp();
     tools.choose("lasso");
     begin(ring);
     tools.cancel();
     tools.gesture({ kind: "stroke-end" });
-    expect([sent, tools.outline.shown.value, tools.drawing.value]).toEqual([[], null, false]);
+    expect([sent, outline.shown.value, tools.drawing.value]).toEqual([[], null, false]);
     tools.choose("brush");
     begin(ring);
     tools.cancel();
@@ -247,7 +260,7 @@ describe("toolbox", () => {
 
   it("a double tap goes to the shears, from the tools that draw growth", () => {
     const { tools, sent, toasts } = setUp();
-    const doubles = (["brush", "lasso", "seed", "bend", "width", "prune"] as const).filter((tool) => {
+    const doubles = TOOL_NAMES.filter((tool) => {
       tools.choose(tool);
       return tools.doubles();
     });
@@ -270,7 +283,7 @@ describe("toolbox", () => {
     expect(tools.drawing.value).toBe(false);
     tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 500, slop: 9 });
     tools.gesture({ kind: "grip-end", id: 1 });
-    expect([tools.drawing.value, tools.shaping.value?.width.chosen.value]).toEqual([false, 3]);
+    expect([tools.drawing.value, tools.made.value?.width.chosen.value]).toEqual([false, 3]);
     expect([tools.release(), tools.release()], "Escape takes the ring away first").toEqual([true, false]);
     world.ready = false;
     expect(tools.grip(500, 500)).toBeNull();

@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { followChoices } from "../page/language-and-theme";
 import type { Studio } from "../studio";
+import { descriptorOf } from "../tools/tools";
 import { say } from "../words/say";
 import { attachWorkspace } from "../workspace";
 import { DrawModeLegend } from "./bars/draw-mode-legend";
@@ -17,17 +18,17 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import { loadPartsWhenIdle, PANELS, SHAPING, SHEETS, SUN, TOUR } from "./parts";
+import { loadPartsWhenIdle, PANELS, PREDICTION, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useRoom } from "./workspace-size";
 
 /** The whole page: the workspace, around it as little as possible, and beside it the panel that is pulled down. */
 export function App({ studio }: { studio: Studio }) {
-  const sheet = studio.sheet.value;
+  const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
-  const bare = studio.bare.value;
-  const panel = bare ? null : studio.panel.value;
+  const bare = studio.layout.bare.value;
+  const panel = bare ? null : studio.layout.panel.value;
   return (
     <div
       class="app"
@@ -65,8 +66,9 @@ function Workspace({ studio }: { studio: Studio }) {
     }
     return attachWorkspace(studio, canvas.current);
   }, [studio]);
-  const shaping = useShaping(studio);
-  const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.panel.value === "background");
+  const tool = useToolViews(studio);
+  const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
+  const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.layout.panel.value === "background");
   return (
     <main
       class="workspace"
@@ -78,25 +80,23 @@ function Workspace({ studio }: { studio: Studio }) {
       <Seedlings studio={studio} />
       <OutlineOverlay studio={studio} />
       <BudMarker studio={studio} />
-      {shaping && <shaping.BendMarks studio={studio} />}
-      {shaping && <shaping.WidthRings studio={studio} />}
-      {shaping && <shaping.CutLineMark studio={studio} />}
-      {shaping && <shaping.PredictionMarks studio={studio} />}
+      {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
+      {prediction && <prediction.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
-      {shaping && <shaping.BranchHandle studio={studio} />}
-      {studio.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
+      {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
       {SunHandle && <SunHandle studio={studio} />}
-      {shaping && <shaping.PredictionBar studio={studio} />}
+      {prediction && <prediction.PredictionBar studio={studio} />}
       <HindranceCard studio={studio} />
     </main>
   );
 }
 
-/** What is shown while branches are shaped. */
-function useShaping(studio: Studio) {
-  const { chosen } = studio.tools;
-  const needed = !["brush", "lasso", "seed"].includes(chosen.value) || studio.branches.prediction.rows.value !== null;
-  return usePart(studio, SHAPING, needed && chosen.value);
+/** Options and marks of the chosen tool, and the tool; null until they are there. */
+function useToolViews(studio: Studio) {
+  const name = studio.tools.chosen.value;
+  const views = usePart(studio, TOOL_PARTS[name], descriptorOf(name).hasViews === true && name);
+  const made = studio.tools.made.value?.[name];
+  return views && made ? { views, made } : null;
 }
 
 /** A part that has no place for a sentence of its own, asked for whenever `need` becomes another; null until it is there. */
@@ -116,13 +116,16 @@ function usePart<Content>(studio: Studio, part: Part<Content>, need: string | bo
 
 /** What stands along the edges of the workspace. */
 function Bars({ studio }: { studio: Studio }) {
-  const shaping = SHAPING.content.value;
+  const name = studio.tools.chosen.value;
+  const Options = TOOL_PARTS[name].content.value?.Options;
+  const made = studio.tools.made.value?.[name];
+  const predicted = studio.branches.prediction.rows.value !== null;
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
   return (
     <>
       <ToolBar studio={studio} />
       <SideBar studio={studio} />
-      {shaping && <shaping.ToolOptions studio={studio} />}
+      {Options && made && !predicted && <Options tool={made} page={studio} />}
       <Status studio={studio} />
       <Hint studio={studio} />
       <div class="foot">

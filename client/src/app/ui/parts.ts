@@ -1,4 +1,7 @@
-import type { PanelName, SheetName, Studio } from "../studio";
+import type { PanelName, SheetName } from "../page/layout";
+import type { Studio } from "../studio";
+import type { ToolLater } from "../tools/descriptor";
+import { descriptorOf, laterOfAll, TOOL_NAMES, type ToolName } from "../tools/tools";
 import { laterWordsIn } from "../words/later-words";
 import { type Key, LANGUAGES } from "../words/say";
 import { Part } from "./part";
@@ -44,7 +47,10 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "46rem",
     // It is searched in every language.
     part: new Part(
-      async () => (await import("./sheets/help-sheet")).HelpSheet,
+      async () => {
+        const [{ helpSheet }, tools] = await Promise.all([import("./sheets/help-sheet"), laterOfAll()]);
+        return helpSheet(tools);
+      },
       () => Promise.all(LANGUAGES.map(laterWordsIn)),
     ),
   },
@@ -55,8 +61,13 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
   },
 };
 
-/** What lies over the picture and at its foot while grown branches are shaped. */
-export const SHAPING = new Part(() => import("./shaping-views"));
+/** What is shown while the tree is predicted. */
+export const PREDICTION = new Part(() => import("./bars/prediction-bar"));
+
+/** Options and marks of the tools, and what help says of them. */
+export const TOOL_PARTS = Object.fromEntries(
+  TOOL_NAMES.map((name) => [name, new Part(() => descriptorOf(name).later())]),
+) as Readonly<Record<ToolName, Part<ToolLater>>>;
 
 export const SUN = new Part(async () => (await import("./overlays/sun-handle")).SunHandle);
 
@@ -64,7 +75,8 @@ export const TOUR = new Part(async () => (await import("./notices/tour-card")).T
 
 /** All of them, those first that are needed first. */
 const ALL: readonly Part<unknown>[] = [
-  SHAPING,
+  PREDICTION,
+  ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),
   SUN,
   ...Object.values(SHEETS).map(({ part }) => part),

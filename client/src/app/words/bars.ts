@@ -1,35 +1,6 @@
 /** The side bar and the tool bar. */
 export const BARS = {
   "bars.tools": ["Tools", "Werkzeuge"],
-  "bars.brush": ["Brush", "Pinsel"],
-  "bars.brush.title": ["Brush: the tree grows into the stroke (B)", "Pinsel: Der Baum wächst in den Strich (B)"],
-  "bars.lasso": ["Lasso", "Lasso"],
-  "bars.lasso.title": [
-    "Lasso: draw the outline the tree grows to fill (L)",
-    "Lasso: den Umriss zeichnen, den der Baum ausfüllt (L)",
-  ],
-  "bars.bend": ["Bend", "Biegen"],
-  "bars.bend.title": [
-    "Bend: hold a branch's base and drag its end (N)",
-    "Biegen: den Astansatz halten und das Ende ziehen (N)",
-  ],
-  "bars.width": ["Width", "Dicke"],
-  "bars.width.title": [
-    "Width: pinch around a limb, or tap it (W)",
-    "Dicke: einen Ast zwischen zwei Finger nehmen oder antippen (W)",
-  ],
-  "bars.prune": ["Prune", "Schneiden"],
-  "bars.prune.title": [
-    "Prune: tap branches, or draw a line through them (X)",
-    "Schneiden: Äste antippen oder eine Linie hindurchziehen (X)",
-  ],
-  "bars.branch": ["Branch", "Ast"],
-  "bars.branch.title": [
-    "Branch: turn, move and copy whole branches (T)",
-    "Ast: ganze Äste drehen, versetzen und kopieren (T)",
-  ],
-  "bars.seed": ["Plant a seed", "Samen setzen"],
-  "bars.seed.title": ["Plant a seed: tap the ground (P)", "Samen setzen: auf den Boden tippen (P)"],
   "bars.all-tools": ["All tools", "Alle Werkzeuge"],
   "bars.undo": ["Undo", "Rückgängig"],
   "bars.undo.title": ["Undo (Ctrl Z)", "Rückgängig (Strg Z)"],

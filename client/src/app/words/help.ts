@@ -67,50 +67,6 @@ export const HELP = {
   "help.card.cut": ["Double tap, double click a branch", "Ast zweimal antippen oder doppelklicken"],
   "help.card.cut.text": ["Cut it off, without leaving the brush", "Schneidet ihn ab, ohne den Pinsel wegzulegen"],
 
-  "help.topic.depth": ["Begin on a branch", "Auf einem Ast beginnen"],
-  "help.topic.depth.text": ["Draw at that branch’s depth", "Zeichnet in der Tiefe dieses Astes"],
-  "help.topic.rest": ["Rest the finger", "Den Finger ruhen lassen"],
-  "help.topic.rest.text": ["Growth goes on under it", "Darunter wächst es weiter"],
-  "help.topic.sketch": ["Radius at the bottom", "Radius ganz unten"],
-  "help.topic.sketch.text": [
-    "Sketch: one limb, exactly along the stroke",
-    "Skizze: ein einzelner Ast, genau dem Strich nach",
-  ],
-  "help.topic.lasso": ["Lasso", "Lasso"],
-  "help.topic.lasso.text": [
-    "Draw an outline: the tree grows to fill it",
-    "Zeichne einen Umriss: Der Baum wächst hinein",
-  ],
-  "help.topic.seed": ["Plant a seed", "Samen setzen"],
-  "help.topic.seed.text": [
-    "Tap the ground; trees shade and crowd each other",
-    "Auf den Boden tippen; Bäume beschatten und bedrängen einander",
-  ],
-  "help.topic.bend": ["Bend", "Biegen"],
-  "help.topic.bend.text": [
-    "One finger holds the base, another drags the end, more between. With a mouse or pen drag a branch; click first where it shall bend from",
-    "Ein Finger hält den Ansatz, ein anderer zieht das Ende, weitere dazwischen. Mit Maus oder Stift am Ast ziehen; vorher anklicken, von wo an er sich biegen soll",
-  ],
-  "help.topic.width": ["Width", "Dicke"],
-  "help.topic.width.text": [
-    "Pinch around a limb, or tap it and pull the ring",
-    "Den Ast zwischen zwei Finger nehmen, oder antippen und am Ring ziehen",
-  ],
-  "help.topic.prune": ["Prune", "Schneiden"],
-  "help.topic.prune.text": [
-    "Tap a branch, or draw a line through many",
-    "Einen Ast antippen oder eine Linie durch mehrere ziehen",
-  ],
-  "help.topic.branch": ["Branch", "Ast"],
-  "help.topic.branch.text": [
-    "Drag turns it about its base, a second finger or the wheel twists; then move or copy it",
-    "Ziehen dreht ihn um seinen Ansatz, ein zweiter Finger oder das Rad um sich selbst; dann versetzen oder kopieren",
-  ],
-  "help.topic.what-if": ["What if?", "Was wäre, wenn?"],
-  "help.topic.what-if.text": [
-    "A ghost shows how the tree grows on without a branch",
-    "Ein Schemen zeigt, wie der Baum ohne einen Ast weiterwächst",
-  ],
   "help.topic.travel": ["Drag along the timeline", "An der Zeitleiste ziehen"],
   "help.topic.travel.text": [
     "Travel through growth and edits, back and forth",
@@ -148,12 +104,6 @@ export const HELP = {
     "Lässt nur den Baum stehen; das Auge in der Ecke holt alles zurück",
   ],
 
-  "help.topic.brush": ["Brush", "Pinsel"],
-  "help.topic.brush.text": [
-    "Draw upward: the tree grows into the stroke",
-    "Zeichne nach oben: Der Baum wächst in den Strich",
-  ],
-  "help.topic.brush.words": ["paint sketch stroke pen", "malen Strich Stift"],
   "help.topic.undo": ["Undo, redo", "Rückgängig, wiederholen"],
   "help.topic.undo.text": [
     "Takes back the last thing done, by whomever, and brings it again",
@@ -244,16 +194,6 @@ export const HELP = {
     "All das lässt sich durchsuchen; der Rundgang zeigt drei Gesten in einer halben Minute",
   ],
   "help.topic.help.words": ["first steps begin tutorial", "erste Schritte Anfang Einführung"],
-  "help.topic.depth.words": ["behind front", "hinten vorn"],
-  "help.topic.rest.words": ["wait hold still", "warten stillhalten"],
-  "help.topic.sketch.words": ["pencil thin limb", "Stift dünn einzelner Ast"],
-  "help.topic.lasso.words": ["outline fill shape topiary", "Umriss füllen Form"],
-  "help.topic.seed.words": ["plant several trees forest", "pflanzen mehrere Bäume Wald"],
-  "help.topic.bend.words": ["curve stretch form", "krümmen dehnen formen"],
-  "help.topic.width.words": ["thick girth diameter trunk", "dick Umfang Durchmesser Stamm"],
-  "help.topic.prune.words": ["cut remove delete shears", "abschneiden entfernen löschen Schere"],
-  "help.topic.branch.words": ["turn move copy graft rotate", "drehen versetzen kopieren pfropfen"],
-  "help.topic.what-if.words": ["predict ghost preview", "vorhersagen Vorschau Schemen"],
   "help.topic.travel.words": ["timeline history scrub film", "Zeitleiste Verlauf Geschichte"],
   "help.topic.sign.words": ["timeline operation", "Zeitleiste Arbeitsgang"],
   "help.topic.fork.words": ["futures branch of time", "Zukunft Zukünfte Gabel"],
@@ -265,8 +205,6 @@ export const HELP = {
   "help.topic.hide.words": ["fullscreen clean bare", "Vollbild leer nur Baum"],
 
   "help.key.radius": ["Narrower, wider", "Schmaler, breiter"],
-  "help.key.draw": ["Brush, lasso, plant a seed", "Pinsel, Lasso, Samen setzen"],
-  "help.key.shape": ["Bend, width, prune", "Biegen, Dicke, Schneiden"],
   "help.key.escape": ["Cancel, let go", "Abbrechen, loslassen"],
   "help.key.grow": ["Grow, ungrow while held", "Gehalten: wachsen, zurückwachsen"],
   "help.key.travel": [

@@ -2,6 +2,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import ts from "typescript";
 import { describe, expect, it } from "vitest";
+import { LANGUAGES } from "./languages";
 
 const APP = join(import.meta.dirname, "..");
 
@@ -22,6 +23,8 @@ const SHOWN = /(?:\btoasts\.show|\bnew Error|\bnew RequestFailed)$/;
 const WORD = /\p{L}{3,}/u;
 /** A literal that is a sentence or a heading wherever it stands. */
 const PROSE = /^\p{Lu}[\p{Ll}’']+[ ,.:…!?]/u;
+/** Where a tool says what it is, each text in all languages side by side (`Text`). */
+const OWN_TEXTS = /^tools\/\w+\/(descriptor|later)\.tsx$/;
 /** A literal that is a name within the program, as a class or a sheet's, and no text. */
 const NAME = /^[a-z0-9_-]*$/;
 
@@ -61,7 +64,8 @@ function literals(name: string, text: string): string[] {
       if (value && ts.isStringLiteral(value) && /\p{L}/u.test(value.text)) note(value, value.text);
       else if (value) check(value);
     }
-    if (ts.isStringLiteralLike(node) && PROSE.test(node.text) && !isLogged(node)) note(node, node.text);
+    if (ts.isStringLiteralLike(node) && PROSE.test(node.text) && !isLogged(node) && !isOwn(name, node))
+      note(node, node.text);
     const called = ts.isCallExpression(node) || ts.isNewExpression(node) ? node : null;
     const callee = called && `${ts.isNewExpression(called) ? "new " : ""}${called.expression.getText()}`;
     if (called && callee && SHOWN.test(callee)) called.arguments?.forEach(check);
@@ -69,6 +73,11 @@ function literals(name: string, text: string): string[] {
   };
   visit(source);
   return [...new Set(found)];
+}
+
+/** Whether it is one of a tool's own texts, with its translation beside it. */
+function isOwn(name: string, { parent }: ts.Node): boolean {
+  return OWN_TEXTS.test(name) && ts.isArrayLiteralExpression(parent) && parent.elements.length === LANGUAGES.length;
 }
 
 /** Whether it goes to the console, which is for programmers. */
@@ -93,6 +102,12 @@ describe("texts in the sources", () => {
       "Too far",
       "Two fingers",
     ]);
+  });
+
+  it("a tool's own stand beside their translations", () => {
+    const source = `const label = ["Cut it", "Ab damit"]; const alone = ["Cut all"];`;
+    expect(literals("tools/saw/descriptor.tsx", source)).toHaveLength(1);
+    expect(literals("tools/saw/saw-tool.ts", source)).toHaveLength(3);
   });
 
   it("none is left: each is in the table", () => {

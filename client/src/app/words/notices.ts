@@ -51,9 +51,6 @@ export const NOTICES = {
     "This device has dropped the picture and has not given it back. Reload the page; your strokes are kept.",
     "Dieses Gerät hat das Bild verworfen und nicht zurückgegeben. Lade die Seite neu; deine Striche bleiben erhalten.",
   ],
-  "notices.hint.seed": ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
-  "notices.hint.lasso": ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],
-  "notices.hint.brush": ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"],
   "notices.connecting": ["Connecting…", "Verbindet…"],
   "notices.reconnecting": ["Reconnecting… (try {attempt})", "Verbindet wieder… (Versuch {attempt})"],
   "notices.garbled": [

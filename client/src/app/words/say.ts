@@ -7,6 +7,8 @@ export { LANGUAGES, type Language };
 
 /** The name of a text. */
 export type Key = keyof typeof TABLE;
+/** A text in every language, in their order, as what stands beside its own code has it. */
+export type Text = readonly [english: string, german: string];
 
 const first: Readonly<Record<string, readonly string[]>> = FIRST;
 /** Texts of parts that were loaded, by language. */
@@ -16,13 +18,13 @@ const learnt = new Map<Language, Readonly<Record<string, string>>>();
 export const language = signal<Language>("en");
 
 /** A text in the present language; `{name}` in it stands for a value of that name. */
-export function say(key: Key, values: Readonly<Record<string, string | number>> = {}): string {
-  const text = textIn(language.value, key) ?? key;
+export function say(key: Key | Text, values: Readonly<Record<string, string | number>> = {}): string {
+  const text = textIn(language.value, key) ?? String(key);
   return text.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole));
 }
 
 /** A text in every language that is loaded, for searches. */
-export function inAll(key: Key): string {
+export function inAll(key: Key | Text): string {
   return LANGUAGES.map((language) => textIn(language, key) ?? "").join(" ");
 }
 
@@ -41,8 +43,9 @@ export function hasLearnt(language: Language): boolean {
   return learnt.has(language);
 }
 
-function textIn(language: Language, key: string): string | undefined {
-  return first[key]?.[LANGUAGES.indexOf(language)] ?? learnt.get(language)?.[key];
+function textIn(language: Language, key: Key | Text): string | undefined {
+  const column = LANGUAGES.indexOf(language);
+  return typeof key === "string" ? (first[key]?.[column] ?? learnt.get(language)?.[key]) : key[column];
 }
 
 /** The language among ours that a person's browser asks for first. */

@@ -201,7 +201,7 @@ describe("bending", () => {
     const { tool, sent, view, finger } = setUp();
     finger(1).down(9);
     finger(1).by(30, 0, 9);
-    tool.refused(1);
+    tool.refused(sent[0]!);
     finger(1).by(60, 0, 9);
     tool.tick();
     expect([kinds(sent), view.overlays.size]).toEqual([["bend_begin"], 0]);

@@ -228,7 +228,11 @@ export class BendTool implements GripTool {
   }
 
   /** The server would not have a bend. */
-  refused(number: number): void {
+  refused(command: Command): void {
+    if (!("bend" in command)) {
+      return;
+    }
+    const number = command.bend;
     if (this.#bending?.number === number) {
       this.abandon();
     }

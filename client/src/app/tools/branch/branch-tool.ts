@@ -182,6 +182,12 @@ export class BranchTool implements GripTool {
     }
   }
 
+  /** While a finger is down, the wheel turns the branch about its own axis, and does not zoom. */
+  zoom(factor: number): boolean {
+    this.twist(2 * Math.log(factor));
+    return true;
+  }
+
   /** Turns the branch about its own axis by so many radians, as the wheel does; false if none is held. */
   twist(radians: number): boolean {
     const hold = this.#hold;

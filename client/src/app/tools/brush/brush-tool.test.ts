@@ -36,6 +36,7 @@ function setUp() {
     pressureWidens: () => world.pressure,
     bud: () => world.bud,
     base: () => [0, 0, 2],
+    drawn: () => {},
   });
   const samples = (): StrokeSample[] =>
     sent.flatMap((command) => (command.kind === "stroke_move" ? command.samples : []));

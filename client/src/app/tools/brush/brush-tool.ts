@@ -7,8 +7,6 @@ import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "../tool";
 import { MAX_RADIUS } from "./brush-radius";
 import { SampleQueue } from "./sample-queue";
 
-/** How often the brush is sent while it is down, in milliseconds. */
-export const SEND_EVERY = 33;
 /** Messages that may be in progress; beyond it places gather for the next one. */
 const MAX_UNSETTLED = 8;
 
@@ -26,6 +24,8 @@ export interface BrushOptions {
   readonly bud: () => number | null;
   /** Where a stroke lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Vec3;
+  /** A stroke has ended. */
+  readonly drawn: () => void;
 }
 
 interface Stroke {
@@ -103,6 +103,12 @@ export class BrushTool implements Tool {
     this.#options.submit({ kind: "stroke_end", stroke: stroke.number });
     this.#stroke = null;
     this.#options.view.hideBrush();
+    this.#options.drawn();
+  }
+
+  /** What has grown stays. */
+  cancel(): void {
+    this.end();
   }
 
   /** Forgets the stroke without a command, for the server does not know it any more. */
@@ -122,6 +128,10 @@ export class BrushTool implements Tool {
     } else {
       this.#options.view.hideBrush();
     }
+  }
+
+  leave(): void {
+    this.#options.view.hideBrush();
   }
 
   /** Notes where the brush is under the finger, as the camera stands now, unless it is there already. */

@@ -7,7 +7,14 @@ import type { Point2 } from "./outline";
 /** A view turned a quarter: a pixel is a tenth of an internode, to the right is −z, up is y, from pixel 1000. */
 function setUp() {
   const sent: Command[] = [];
-  const world = { branch: null as Vec3 | null, bud: null as number | null, depth: 1, slips: 0, places: [] as Vec3[] };
+  const world = {
+    branch: null as Vec3 | null,
+    bud: null as number | null,
+    depth: 1,
+    slips: 0,
+    refusals: 0,
+    places: [] as Vec3[],
+  };
   const drawn: (readonly Point2[] | null)[] = [];
   const tool = new LassoTool({
     view: {
@@ -25,6 +32,9 @@ function setUp() {
     },
     tooSmall: () => {
       world.slips += 1;
+    },
+    refused: () => {
+      world.refusals += 1;
     },
   });
   const draw = (points: readonly (readonly [number, number])[]) => {
@@ -148,5 +158,15 @@ describe("lasso tool", () => {
     expect(points).toBeGreaterThan(1000);
     expect(points).toBeLessThanOrEqual(4096);
     expect(JSON.stringify(command).length).toBeLessThan(MAX_MESSAGE_BYTES / 2);
+  });
+
+  it("tells of an outline that is refused, and of no other command", () => {
+    const { tool, sent, world, draw } = setUp();
+    draw(square);
+    tool.end();
+    tool.refused({ kind: "undo" });
+    expect(world.refusals).toBe(0);
+    tool.refused(sent[0]!);
+    expect(world.refusals).toBe(1);
   });
 });

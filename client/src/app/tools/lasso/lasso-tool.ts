@@ -37,6 +37,8 @@ export interface LassoOptions {
   readonly sent: (outline: readonly Vec3[]) => void;
   /** A loop too small to grow into. */
   readonly tooSmall: () => void;
+  /** The server would not grow into an outline. */
+  readonly refused: () => void;
 }
 
 /** Turns a stroke into the outline of a crown. */
@@ -97,6 +99,12 @@ export class LassoTool implements Tool {
   abandon(): void {
     this.#outline = null;
     this.#options.draw(null);
+  }
+
+  refused({ kind }: Command): void {
+    if (kind === "lasso") {
+      this.#options.refused();
+    }
   }
 }
 

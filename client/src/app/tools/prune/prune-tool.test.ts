@@ -157,7 +157,9 @@ describe("shears", () => {
   it("what is refused comes back", () => {
     const { tool, looks } = setUp();
     tool.cutAt(700, 700);
-    tool.refused();
+    tool.refused({ kind: "undo" });
+    expect(looks(), "something else was refused").not.toEqual([]);
+    tool.refused({ kind: "prune", rows: [6] });
     expect(looks()).toEqual([]);
   });
 

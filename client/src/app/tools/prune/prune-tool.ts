@@ -148,7 +148,10 @@ export class PruneTool implements StrokeTool {
   }
 
   /** The server would not cut: what was hidden is there again. */
-  refused(): void {
+  refused({ kind }: Command): void {
+    if (kind !== "prune" && kind !== "prune_dim") {
+      return;
+    }
     for (const felled of this.#falling) {
       this.#options.view.removeOverlay(felled);
     }

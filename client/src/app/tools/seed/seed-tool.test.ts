@@ -1,5 +1,4 @@
 import { describe, expect, it } from "vitest";
-import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import { SeedTool } from "./seed-tool";
 
@@ -7,17 +6,13 @@ import { SeedTool } from "./seed-tool";
 function setUp() {
   const sent: Command[] = [];
   const calls: string[] = [];
-  let shown: Vec3 | null = null;
   const tool = new SeedTool({
     groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
     submit: (command) => sent.push(command),
-    show: (place) => {
-      shown = place;
-    },
     planted: () => calls.push("planted"),
     missed: () => calls.push("missed"),
   });
-  return { tool, sent, calls, shown: () => shown };
+  return { tool, sent, calls, shown: () => tool.place.value };
 }
 
 const at = (x: number, y: number) => ({ x, y, pressure: null });

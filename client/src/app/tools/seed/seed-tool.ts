@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
@@ -7,8 +8,6 @@ export interface SeedOptions {
   /** Where the ground is under a pixel; null where there is sky, or ground too far off to aim at. */
   readonly groundAt: (x: number, y: number) => Vec3 | null;
   readonly submit: (command: Command) => void;
-  /** Where the seed would lie, as long as the finger is down; null for nowhere. */
-  readonly show: (place: Vec3 | null) => void;
   readonly planted: () => void;
   /** The finger lifted where there is no ground. */
   readonly missed: () => void;
@@ -16,9 +15,10 @@ export interface SeedOptions {
 
 /** Plants a seed where the finger lifts. */
 export class SeedTool implements Tool {
+  /** Where the seed would lie; null for nowhere. */
+  readonly place = signal<Vec3 | null>(null);
   #options: SeedOptions;
   #active = false;
-  #place: Vec3 | null = null;
 
   constructor(options: SeedOptions) {
     this.#options = options;
@@ -32,8 +32,7 @@ export class SeedTool implements Tool {
   move(points: readonly StrokePoint[]): void {
     const last = points[points.length - 1];
     if (this.#active && last) {
-      this.#place = this.#options.groundAt(last.x, last.y);
-      this.#options.show(this.#place);
+      this.hover(last.x, last.y);
     }
   }
 
@@ -41,7 +40,7 @@ export class SeedTool implements Tool {
     if (!this.#active) {
       return;
     }
-    const place = this.#place;
+    const place = this.place.peek();
     this.abandon();
     if (place) {
       this.#options.submit({ kind: "plant_seed", position: withinReach(place) });
@@ -53,11 +52,14 @@ export class SeedTool implements Tool {
 
   abandon(): void {
     this.#active = false;
-    this.#place = null;
-    this.#options.show(null);
+    this.leave();
   }
 
   hover(x: number, y: number): void {
-    this.#options.show(this.#options.groundAt(x, y));
+    this.place.value = this.#options.groundAt(x, y);
+  }
+
+  leave(): void {
+    this.place.value = null;
   }
 }

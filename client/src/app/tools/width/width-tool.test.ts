@@ -1,7 +1,8 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
 import type { WidthOverlay } from "../../../scene/overlay/width-overlay";
-import type { Command } from "../../../wire/generated";
+import type { Command, WidthConstraint } from "../../../wire/generated";
+import { WidthList } from "./width-list";
 import { WidthTool } from "./width-tool";
 
 afterEach(() => vi.useRealTimers());
@@ -12,7 +13,9 @@ function setUp() {
   const view = frontView(table);
   const sent: Command[] = [];
   const world = { unsettled: 0 };
+  const widths = new WidthList();
   const tool = new WidthTool({
+    widths,
     table,
     view,
     submit: (command) => void sent.push(command),
@@ -23,7 +26,10 @@ function setUp() {
     placeOnGlass: (row) => view.glass(view.placeOf(row)),
   });
   const [x, y] = view.glass(view.placeOf(7));
-  return { table, view, tool, sent, world, x, y };
+  const receive = (set: WidthConstraint[]) => {
+    widths.all.value = set;
+  };
+  return { table, view, tool, sent, world, receive, x, y };
 }
 
 const diameters = (sent: Command[]) => sent.map((command) => (command.kind === "set_width" ? command.diameter : null));
@@ -132,27 +138,27 @@ describe("what is shown", () => {
   });
 
   it("a limb gets no slimmer than what it bears is held to be", () => {
-    const { tool, view } = setUp();
-    tool.receive([{ row: 8, diameter: 1.2, effective: 1.2 }]);
+    const { tool, view, receive } = setUp();
+    receive([{ row: 8, diameter: 1.2, effective: 1.2 }]);
     tool.choose(7);
     tool.type(0.2);
     expect(drawn(view.overlays)).toEqual([1.2]);
   });
 
   it("a width is removed, and one that was never set sends nothing", () => {
-    const { tool, sent } = setUp();
+    const { tool, sent, receive } = setUp();
     tool.choose(7);
     tool.remove();
     expect([tool.chosen.value, sent]).toEqual([null, []]);
-    tool.receive([{ row: 7, diameter: 1, effective: 1 }]);
+    receive([{ row: 7, diameter: 1, effective: 1 }]);
     tool.choose(7);
     tool.remove();
     expect(sent).toEqual([{ kind: "set_width", row: 7, diameter: null }]);
   });
 
   it("a width moves along the limb", () => {
-    const { tool, sent } = setUp();
-    tool.receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
+    const { tool, sent, receive } = setUp();
+    receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
     tool.choose(7);
     tool.shift(8);
     expect(sent).toMatchObject([
@@ -165,8 +171,8 @@ describe("what is shown", () => {
   });
 
   it("keys move a width along its own limb only", () => {
-    const { tool, sent, world } = setUp();
-    tool.receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
+    const { tool, sent, world, receive } = setUp();
+    receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
     tool.choose(7);
     expect(tool.place()).toEqual({ along: 2, of: 4 });
     tool.step(1);
@@ -183,12 +189,12 @@ describe("what is shown", () => {
   });
 
   it("a width that is given up is what it was before, in the same gesture", () => {
-    const { tool, sent } = setUp();
+    const { tool, sent, receive } = setUp();
     tool.take(7, 10);
     tool.pull(900, 400);
     tool.cancel();
     expect(sent).toEqual([]);
-    tool.receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
+    receive([{ row: 7, diameter: 1.5, effective: 1.5 }]);
     tool.take(7, 10);
     tool.pull(900, 400);
     tool.tick();

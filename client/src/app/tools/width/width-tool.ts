@@ -1,4 +1,4 @@
-import { computed, signal } from "@preact/signals";
+import { type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { type Girth, WidthOverlay } from "../../../scene/overlay/width-overlay";
 import { axisRows, pathUp } from "../../../scene/table/branch-rows";
 import { radiusOf, type TreeTable } from "../../../scene/table/tree-table";
@@ -6,6 +6,7 @@ import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../../wire/
 import type { Grip } from "../../input/gesture-recogniser";
 import type { ShapingView } from "../shaping-view";
 import { type GripTool, PICK_TOLERANCE } from "../tool";
+import type { WidthList } from "./width-list";
 
 /** The slimmest a limb can be made, in internodes. */
 export const LEAST_DIAMETER = 0.01;
@@ -26,6 +27,7 @@ export interface WidthOptions {
   readonly submit: (command: Command) => void;
   /** A number no other gesture of this client has. */
   readonly newGesture: () => number;
+  readonly widths: WidthList;
   /** How many `set_width` the server has not yet answered. */
   readonly unsettled: () => number;
   readonly girth: () => Girth;
@@ -61,12 +63,13 @@ interface Finger {
 /** Sets how thick a limb is: two fingers pinch around it, or one pulls the ring around the place it has tapped. */
 export class WidthTool implements GripTool {
   /** All widths that are set, as the server has them. */
-  readonly widths = signal<readonly WidthConstraint[]>([]);
+  readonly widths: Signal<readonly WidthConstraint[]>;
+  /** The rows whose width is set. */
+  readonly limits: ReadonlySignal<ReadonlySet<number>>;
   /** The place that has the ring. */
   readonly chosen = signal<number | null>(null);
   /** How thick the user wants it, until the server's rows have it. */
   readonly wanted = signal<number | null>(null);
-  readonly limits = computed<ReadonlySet<number>>(() => new Set(this.widths.value.map(({ row }) => row)));
 
   #options: WidthOptions;
   #fingers = new Map<number, Finger>();
@@ -77,6 +80,8 @@ export class WidthTool implements GripTool {
 
   constructor(options: WidthOptions) {
     this.#options = options;
+    this.widths = options.widths.all;
+    this.limits = options.widths.rows;
   }
 
   /** The diameter a row has in the table, in internodes. */
@@ -293,12 +298,10 @@ export class WidthTool implements GripTool {
   }
 
   /** The server would not have a width: the limb is as it was. */
-  refused(): void {
-    this.abandon();
-  }
-
-  receive(widths: readonly WidthConstraint[]): void {
-    this.widths.value = widths;
+  refused({ kind }: Command): void {
+    if (kind === "set_width") {
+      this.abandon();
+    }
   }
 
   /** Has the limb drawn as the server has it, once it has what was wanted. */

@@ -1,17 +1,8 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
+import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
-
-/** The brush itself, in small. */
-export function BrushSample({ studio }: { studio: Studio }) {
-  const radius = studio.settings.radius.value;
-  return (
-    <span class="brush-sample">
-      <i style={{ "--size": `${radius === 0 ? 5 : 8 + 24 * placeOf(radius)}px` }} data-sketch={radius === 0} />
-    </span>
-  );
-}
 
 /** A vertical slider for the brush's radius. */
 export function RadiusSlider({ studio }: { studio: Studio }) {
@@ -38,7 +29,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
   };
 
   return (
-    <div class="radius" data-idle={studio.tools.chosen.value !== "brush"}>
+    <div class="radius" data-idle={descriptorOf(studio.tools.chosen.value).usesRadius !== true}>
       <div class="radius-value" aria-hidden="true">
         {radiusLabel(radius)}
       </div>

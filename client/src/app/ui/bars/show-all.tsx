@@ -10,7 +10,9 @@ export function ShowAll({ studio }: { studio: Studio }) {
       class="tool show-all"
       aria-label={say("bars.show")}
       title={say("bars.show")}
-      onClick={() => studio.setBare(false)}
+      onClick={() => {
+        studio.layout.bare.value = false;
+      }}
     >
       <ShowIcon />
     </button>

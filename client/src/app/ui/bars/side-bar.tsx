@@ -1,31 +1,12 @@
-import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
 import type { Studio } from "../../studio";
-import type { ToolName } from "../../tools/toolbox";
-import { type Key, say } from "../../words/say";
-import { FrameIcon, LassoIcon, RedoIcon, SeedIcon, UndoIcon } from "../icons";
-import { BendIcon, PruneIcon, TurnIcon, WidthIcon } from "../timeline/timeline-icons";
+import { descriptorOf, TOOL_NAMES } from "../../tools/tools";
+import { say } from "../../words/say";
+import { FrameIcon, RedoIcon, UndoIcon } from "../icons";
 import { useDismissal } from "../use-dismissal";
 import { isSmall } from "../workspace-size";
 import { GrowJog } from "./grow-jog";
-import { BrushSample, RadiusSlider } from "./radius-slider";
-
-interface ToolButton {
-  readonly tool: ToolName;
-  readonly label: Key;
-  readonly title: Key;
-  readonly Icon: ComponentType<{ readonly studio: Studio }>;
-}
-
-const TOOLS: readonly ToolButton[] = [
-  { tool: "brush", label: "bars.brush", title: "bars.brush.title", Icon: BrushSample },
-  { tool: "lasso", label: "bars.lasso", title: "bars.lasso.title", Icon: LassoIcon },
-  { tool: "bend", label: "bars.bend", title: "bars.bend.title", Icon: BendIcon },
-  { tool: "width", label: "bars.width", title: "bars.width.title", Icon: WidthIcon },
-  { tool: "prune", label: "bars.prune", title: "bars.prune.title", Icon: PruneIcon },
-  { tool: "branch", label: "bars.branch", title: "bars.branch.title", Icon: TurnIcon },
-  { tool: "seed", label: "bars.seed", title: "bars.seed.title", Icon: SeedIcon },
-];
+import { RadiusSlider } from "./radius-slider";
 
 /** The tools, at the side of the user that does not draw. */
 export function SideBar({ studio }: { studio: Studio }) {
@@ -48,7 +29,7 @@ export function SideBar({ studio }: { studio: Studio }) {
           aria-label={say("bars.undo")}
           title={say("bars.undo.title")}
           aria-disabled={document?.can_undo !== true}
-          onClick={() => studio.undo()}
+          onClick={() => studio.submit({ kind: "undo" })}
         >
           <UndoIcon />
         </button>
@@ -58,7 +39,7 @@ export function SideBar({ studio }: { studio: Studio }) {
           aria-label={say("bars.redo")}
           title={say("bars.redo.title")}
           aria-disabled={document?.can_redo !== true}
-          onClick={() => studio.redo()}
+          onClick={() => studio.submit({ kind: "redo" })}
         >
           <RedoIcon />
         </button>
@@ -79,22 +60,25 @@ export function SideBar({ studio }: { studio: Studio }) {
 function Tools({ studio, chosen }: { studio: Studio; chosen?: () => void }) {
   return (
     <div class="side-tools">
-      {TOOLS.map(({ tool, label, title, Icon }) => (
-        <button
-          type="button"
-          class="tool"
-          key={tool}
-          aria-label={say(label)}
-          title={say(title)}
-          aria-pressed={studio.tools.chosen.value === tool}
-          onClick={() => {
-            studio.tools.choose(tool);
-            chosen?.();
-          }}
-        >
-          <Icon studio={studio} />
-        </button>
-      ))}
+      {TOOL_NAMES.map((tool) => {
+        const { label, title, key, Icon } = descriptorOf(tool);
+        return (
+          <button
+            type="button"
+            class="tool"
+            key={tool}
+            aria-label={say(label)}
+            title={`${say(title)} (${key})`}
+            aria-pressed={studio.tools.chosen.value === tool}
+            onClick={() => {
+              studio.tools.choose(tool);
+              chosen?.();
+            }}
+          >
+            <Icon settings={studio.settings} />
+          </button>
+        );
+      })}
     </div>
   );
 }
@@ -104,7 +88,7 @@ function ToolMenu({ studio }: { studio: Studio }) {
   const host = useRef<HTMLDivElement>(null);
   const [open, setOpen] = useState(false);
   useDismissal(host, open, () => setOpen(false));
-  const { Icon, label } = TOOLS.find(({ tool }) => tool === studio.tools.chosen.value) ?? TOOLS[0]!;
+  const { Icon, label } = descriptorOf(studio.tools.chosen.value);
   return (
     <div class="tool-menu" ref={host}>
       <button
@@ -115,7 +99,7 @@ function ToolMenu({ studio }: { studio: Studio }) {
         aria-expanded={open}
         onClick={() => setOpen(!open)}
       >
-        <Icon studio={studio} />
+        <Icon settings={studio.settings} />
       </button>
       {open && (
         <div class="panel flyout">

@@ -1,7 +1,8 @@
 import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
-import type { PlaceName } from "../../help/help-topics";
-import { PANEL_NAMES, type PanelName, type SheetName, type Studio } from "../../studio";
+import type { PlaceName } from "../../help/help-places";
+import { PANEL_NAMES, type PanelName, type SheetName } from "../../page/layout";
+import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import {
   ArchitectureIcon,
@@ -43,7 +44,7 @@ interface Deed {
 }
 
 const sheet = (name: SheetName) => (studio: Studio) => {
-  studio.sheet.value = name;
+  studio.layout.sheet.value = name;
 };
 
 /** What is done with the page and with a tree as a whole. */
@@ -53,7 +54,9 @@ const DEEDS: readonly Deed[] = [
     place: "hide",
     title: "bars.hide.title",
     Icon: HideIcon,
-    act: (studio) => studio.setBare(true),
+    act: (studio) => {
+      studio.layout.bare.value = true;
+    },
   },
   { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => void studio.newSession() },
   { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
@@ -77,8 +80,8 @@ export function ToolBar({ studio }: { studio: Studio }) {
             key={panel}
             aria-label={say(`panels.${panel}`)}
             title={say(`panels.${panel}`)}
-            aria-pressed={studio.panel.value === panel}
-            onClick={() => studio.togglePanel(panel)}
+            aria-pressed={studio.layout.panel.value === panel}
+            onClick={() => studio.layout.togglePanel(panel)}
           >
             <Icon />
           </button>

@@ -51,7 +51,7 @@ export function Chips({ studio }: { studio: Studio }) {
 
 function GrowthChip({ studio }: { studio: Studio }) {
   const pending = studio.document.value?.pending_steps ?? 0;
-  const outline = studio.tools.outline.shown.value?.stage === "growing";
+  const outline = studio.outline.shown.value?.stage === "growing";
   const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
   const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
   const shown = useLasting(growing && studio.link.phase.value === "connected");
@@ -70,7 +70,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <progress aria-label={text} max={1} value={share} />
       )}
       {text}
-      <button type="button" class="chip-stop" onClick={() => studio.stop()}>
+      <button type="button" class="chip-stop" onClick={() => studio.submit({ kind: "stop" })}>
         <StopIcon />
         {say("tools.growing.stop")}
       </button>

@@ -2,6 +2,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { explained } from "../../problems/explained";
 import { RequestFailed } from "../../requests/request";
 import type { Studio } from "../../studio";
+import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 
 /** What keeps the workspace from being used, and the way on. */
@@ -94,12 +95,10 @@ function hint(studio: Studio): string | null {
   if (!usable) {
     return null;
   }
-  if (tools.chosen.value === "seed") {
-    return say("notices.hint.seed");
-  }
-  if (tools.chosen.value === "lasso" && tools.outline.shown.value === null && !settings.hasOutlined.value) {
-    return say("notices.hint.lasso");
-  }
-  const untouched = !settings.hasDrawn.value && studio.document.value?.metamers === 0;
-  return tools.chosen.value === "brush" && untouched ? say("notices.hint.brush") : null;
+  const text = descriptorOf(tools.chosen.value).hint?.({
+    settings,
+    outlined: studio.outline.shown.value !== null,
+    empty: studio.document.value?.metamers === 0,
+  });
+  return text ? say(text) : null;
 }

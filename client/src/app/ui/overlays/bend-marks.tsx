@@ -1,18 +1,18 @@
 import { useRef } from "preact/hooks";
 import { pathUp } from "../../../scene/table/branch-rows";
-import type { Studio } from "../../studio";
+import type { BendTool } from "../../tools/bend/bend-tool";
+import type { ToolPage, ToolViewProps } from "../../tools/descriptor";
 import { useAnimationFrames } from "../use-animation-frames";
 
 /** What is held of a branch that is bent: its base, the places that stay put, and the way between them. */
-export function BendMarks({ studio }: { studio: Studio }) {
+export function BendMarks({ tool: bend, page }: ToolViewProps<BendTool>) {
   const host = useRef<SVGGElement>(null);
   const [casing, trace] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
-  const bend = studio.tools.chosen.value === "bend" ? studio.tools.shaping.value?.bend : undefined;
-  const base = bend?.base.value ?? null;
-  const held = bend?.held.value ?? [];
-  const handles = (bend?.handles.value ?? []).filter((row) => !held.includes(row));
+  const base = bend.base.value;
+  const held = bend.held.value;
+  const handles = bend.handles.value.filter((row) => !held.includes(row));
   // Each frame of rows may have moved the branch.
-  void studio.revision.value;
+  void page.revision.value;
   const [lowest = null] = held;
   const foot = base ?? (held.length > 1 ? lowest : null);
   const marks = [
@@ -21,16 +21,16 @@ export function BendMarks({ studio }: { studio: Studio }) {
     ...held.filter((row) => row !== foot).map((row) => ({ row, kind: "grip" })),
   ];
   useAnimationFrames(marks.length > 0, () => {
-    const project = studio.stage.projector();
+    const project = page.stage.projector();
     const place = (row: number) => {
-      const at = studio.stage.placeOf(row);
+      const at = page.stage.placeOf(row);
       return at ? project?.(at) : null;
     };
     for (const [i, { row }] of marks.entries()) {
       const at = place(row);
       host.current?.children[i]?.setAttribute("transform", at ? `translate(${at[0]} ${at[1]})` : "translate(-99 -99)");
     }
-    const way = foot === null ? [] : longest(studio, foot, [...held, ...handles]);
+    const way = foot === null ? [] : longest(page, foot, [...held, ...handles]);
     const points = way.flatMap((row) => {
       const at = place(row);
       return at ? [`${at[0].toFixed(1)} ${at[1].toFixed(1)}`] : [];
@@ -61,10 +61,10 @@ export function BendMarks({ studio }: { studio: Studio }) {
 }
 
 /** The longest way up from a row to any of some others. */
-function longest(studio: Studio, from: number, rows: readonly number[]): readonly number[] {
+function longest(page: ToolPage, from: number, rows: readonly number[]): readonly number[] {
   let way: readonly number[] = [];
   for (const row of rows) {
-    const path = row > from ? pathUp(studio.table, from, row) : null;
+    const path = row > from ? pathUp(page.table, from, row) : null;
     if (path && path.length > way.length) {
       way = path;
     }

@@ -1,8 +1,8 @@
 import type { ComponentChildren } from "preact";
 import { useMemo, useRef } from "preact/hooks";
 import { subtreeRows } from "../../../scene/table/branch-rows";
-import type { Studio } from "../../studio";
-import { RING } from "../../tools/branch/branch-tool";
+import { type BranchTool, RING } from "../../tools/branch/branch-tool";
+import type { ToolViewProps } from "../../tools/descriptor";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
 import { GraftIcon, PruneIcon, TimeIcon } from "../timeline/timeline-icons";
@@ -25,26 +25,26 @@ const CopyIcon = () => (
 );
 
 /** The ring at the base of the branch that is held, and what can be done with it. */
-export function BranchHandle({ studio }: { studio: Studio }) {
+export function BranchHandle({ page }: ToolViewProps<BranchTool>) {
   const [ring, menu] = [useRef<SVGGElement>(null), useRef<HTMLDivElement>(null)];
   const [casing, trace] = [useRef<SVGPathElement>(null), useRef<SVGPathElement>(null)];
-  const { held: branch } = studio.branches;
+  const { held: branch } = page.branches;
   const row = branch.row.value;
   const placing = branch.placing.value;
   // Each frame of rows may have moved it, or added to it.
-  const revision = studio.revision.value;
-  const predicted = studio.branches.prediction.rows.value !== null;
+  const revision = page.revision.value;
+  const predicted = page.branches.prediction.rows.value !== null;
   const menuShown = placing === null && !branch.turning.value;
-  const { table } = studio;
+  const { table } = page;
   const traced = useMemo(() => (row === null ? [] : subtreeRows(table, row, MOST_TRACED)), [row, table, revision]);
   useAnimationFrames(row !== null && !predicted, () => {
     const base = branch.base();
-    const project = studio.stage.projector();
+    const project = page.stage.projector();
     const place = base && project?.(base);
     let path = "";
     for (const metamer of traced) {
       const [from, to] = [table.parent[metamer] ?? -1, metamer].map((at) =>
-        project?.(studio.branches.ghosts.placeOf(at)),
+        project?.(page.branches.ghosts.placeOf(at)),
       );
       if (from && to) {
         path += `M${from[0].toFixed(1)} ${from[1].toFixed(1)}L${to[0].toFixed(1)} ${to[1].toFixed(1)}`;
@@ -82,28 +82,28 @@ export function BranchHandle({ studio }: { studio: Studio }) {
           <MenuButton
             label={say("tools.branch.move")}
             title={say("tools.branch.move.title")}
-            act={() => studio.branches.place("move")}
+            act={() => page.branches.place("move")}
           >
             <GraftIcon />
           </MenuButton>
           <MenuButton
             label={say("tools.branch.copy")}
             title={say("tools.branch.copy.title")}
-            act={() => studio.branches.place("copy")}
+            act={() => page.branches.place("copy")}
           >
             <CopyIcon />
           </MenuButton>
           <MenuButton
             label={say("tools.branch.cut")}
             title={say("tools.branch.cut.title")}
-            act={() => studio.branches.cut()}
+            act={() => page.branches.cut()}
           >
             <PruneIcon />
           </MenuButton>
           <MenuButton
             label={say("tools.what-if")}
             title={say("tools.branch.predict.title")}
-            act={() => studio.branches.predictCut()}
+            act={() => page.branches.predictCut()}
           >
             <TimeIcon />
           </MenuButton>

@@ -1,8 +1,9 @@
-import type { Studio } from "../../studio";
+import type { ToolViewProps } from "../../tools/descriptor";
+import type { PruneTool } from "../../tools/prune/prune-tool";
 
 /** The line that is drawn through what shall be cut. */
-export function CutLineMark({ studio }: { studio: Studio }) {
-  const line = studio.tools.shaping.value?.prune.line.value ?? null;
+export function CutLineMark({ tool }: ToolViewProps<PruneTool>) {
+  const line = tool.line.value;
   if (line === null || line.length < 2) {
     return null;
   }

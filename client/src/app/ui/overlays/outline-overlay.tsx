@@ -5,7 +5,7 @@ import { closedPath, useAnimationFrames } from "../use-animation-frames";
 /** The lasso's outline: on the screen while it is drawn, in the world while the tree grows into it. */
 export function OutlineOverlay({ studio }: { studio: Studio }) {
   const fill = useRef<SVGPathElement>(null);
-  const outline = studio.tools.outline.shown.value;
+  const outline = studio.outline.shown.value;
   const growing = outline?.stage === "growing" ? outline.places : null;
   useAnimationFrames(growing !== null, () => {
     const project = studio.stage.projector();

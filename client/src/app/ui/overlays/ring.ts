@@ -1,5 +1,5 @@
 import type { Vec3 } from "../../../scene/vector";
-import type { Studio } from "../../studio";
+import type { ToolPage } from "../../tools/descriptor";
 
 /** Corners of a ring. */
 const CORNERS = 36;
@@ -15,8 +15,11 @@ export interface Ring {
 }
 
 /** The ring around a limb as it is seen. */
-export function ringAt(studio: Studio, row: number, diameter: number): Ring | null {
-  const { stage, table } = studio;
+export function ringAt(
+  { stage, table }: Pick<ToolPage, "stage" | "table">,
+  row: number,
+  diameter: number,
+): Ring | null {
   const project = stage.projector();
   const axes = stage.screenAxes();
   const middle = stage.placeOf(row);

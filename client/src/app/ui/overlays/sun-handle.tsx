@@ -38,7 +38,7 @@ export function SunHandle({ studio }: { studio: Studio }) {
     studio.sunPinned.value = to;
   };
   // With everything hidden a sun that is pinned still goes round with the eye, only its handle is hidden.
-  const shown = pinned || (studio.panel.value === "background" && !studio.bare.value);
+  const shown = pinned || (studio.layout.panel.value === "background" && !studio.layout.bare.value);
   return shown ? <Sphere studio={studio} pinned={pinned} setPinned={setPinned} /> : null;
 }
 

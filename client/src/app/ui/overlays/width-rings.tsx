@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";
-import type { Studio } from "../../studio";
+import type { ToolPage, ToolViewProps } from "../../tools/descriptor";
 import { LEAST_DIAMETER, type WidthTool } from "../../tools/width/width-tool";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
@@ -17,23 +17,21 @@ const ALONG = 60;
 const WAYS: Record<string, -1 | 1> = { ArrowUp: 1, ArrowRight: 1, ArrowDown: -1, ArrowLeft: -1 };
 
 /** Rings around the limbs whose width is set, and the chosen one with its knobs. */
-export function WidthRings({ studio }: { studio: Studio }) {
-  const width = studio.tools.shaping.value?.width;
+export function WidthRings({ tool: width, page }: ToolViewProps<WidthTool>) {
   const drawn = useRef<SVGGElement>(null);
   const labels = useRef<HTMLDivElement>(null);
-  const shown = studio.tools.chosen.value === "width" && width !== undefined;
-  const chosen = width?.chosen.value ?? null;
-  const wanted = width?.wanted.value ?? null;
+  const chosen = width.chosen.value;
+  const wanted = width.wanted.value;
   // Each frame of rows may have moved a limb.
-  void studio.revision.value;
-  const set = width?.widths.value ?? [];
+  void page.revision.value;
+  const set = width.widths.value;
   // The chosen one comes last, over the others, and keeps its element and the focus wherever it is moved.
   const others = set.filter(({ row }) => row !== chosen);
-  const rings = shown ? [...others, ...(chosen === null ? [] : [{ row: chosen, diameter: 0, effective: 0 }])] : [];
-  const diameter = (row: number) => (row === chosen && wanted !== null ? wanted : (width?.diameterOf(row) ?? 0));
+  const rings = [...others, ...(chosen === null ? [] : [{ row: chosen, diameter: 0, effective: 0 }])];
+  const diameter = (row: number) => (row === chosen && wanted !== null ? wanted : width.diameterOf(row));
   useAnimationFrames(rings.length > 0, () => {
     for (const [i, { row }] of rings.entries()) {
-      const ring = ringAt(studio, row, diameter(row));
+      const ring = ringAt(page, row, diameter(row));
       const [back, casing, front] = [...(drawn.current?.children[i]?.children ?? [])];
       back?.setAttribute("d", ring?.back ?? "");
       casing?.setAttribute("d", ring?.front ?? "");
@@ -44,7 +42,7 @@ export function WidthRings({ studio }: { studio: Studio }) {
       }
     }
   });
-  if (!shown || rings.length === 0) {
+  if (rings.length === 0) {
     return null;
   }
   return (
@@ -63,7 +61,7 @@ export function WidthRings({ studio }: { studio: Studio }) {
       <div class="width-labels" ref={labels}>
         {rings.map((constraint) =>
           constraint.row === chosen ? (
-            <Widget key="chosen" studio={studio} width={width} row={chosen} diameter={diameter(chosen)} />
+            <Widget key="chosen" page={page} width={width} row={chosen} diameter={diameter(chosen)} />
           ) : (
             <div key={constraint.row} class="width-widget">
               <button
@@ -83,14 +81,14 @@ export function WidthRings({ studio }: { studio: Studio }) {
 }
 
 interface WidgetProps {
-  readonly studio: Studio;
+  readonly page: ToolPage;
   readonly width: WidthTool;
   readonly row: number;
   readonly diameter: number;
 }
 
 /** The held ring: a knob on either side, a dot to move it by, its width as a number, and a way to take it away. */
-function Widget({ studio, width, row, diameter }: WidgetProps) {
+function Widget({ page, width, row, diameter }: WidgetProps) {
   const set = width.limits.value.has(row);
   const place = width.place();
   type Press = PointerEvent & { readonly currentTarget: HTMLElement };
@@ -98,7 +96,7 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
     onPointerDown: (event: Press) => {
       if (event.button === 0) {
         event.currentTarget.setPointerCapture(event.pointerId);
-        width.take(row, awayFrom(studio, row, event));
+        width.take(row, awayFrom(page, row, event));
       }
     },
     onPointerMove: (event: Press) => {
@@ -159,9 +157,9 @@ function Widget({ studio, width, row, diameter }: WidgetProps) {
         }}
         onPointerMove={(event) => {
           if (event.currentTarget.hasPointerCapture(event.pointerId)) {
-            to.current = studio.stage.pickRow(...onCanvas(event), ALONG);
-            const at = to.current === null ? null : studio.stage.placeOf(to.current);
-            const spot = at && studio.stage.projector()?.(at);
+            to.current = page.stage.pickRow(...onCanvas(event), ALONG);
+            const at = to.current === null ? null : page.stage.placeOf(to.current);
+            const spot = at && page.stage.projector()?.(at);
             if (spot) {
               event.currentTarget.style.setProperty("--to-x", `${spot[0]}px`);
               event.currentTarget.style.setProperty("--to-y", `${spot[1]}px`);
@@ -254,9 +252,9 @@ function onCanvas(event: PointerEvent): [number, number] {
   return [event.clientX - (frame?.left ?? 0), event.clientY - (frame?.top ?? 0)];
 }
 
-function awayFrom(studio: Studio, row: number, event: PointerEvent): number {
-  const at = studio.stage.placeOf(row);
-  const spot = at && studio.stage.projector()?.(at);
+function awayFrom(page: ToolPage, row: number, event: PointerEvent): number {
+  const at = page.stage.placeOf(row);
+  const spot = at && page.stage.projector()?.(at);
   const [x, y] = onCanvas(event);
   return spot ? Math.hypot(x - spot[0], y - spot[1]) : 0;
 }

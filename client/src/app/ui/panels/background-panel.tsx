@@ -43,7 +43,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
             label: say(`background.sky.${value}`),
             picture: <SkyPicture sky={value} backdrop={backdrop} />,
           }))}
-          onCommit={(value) => studio.setAppearance(patch({ sky: value }))}
+          onCommit={(value) => studio.looks.commit(patch({ sky: value }))}
         />
         {sky === "studio" && (
           <ColourField
@@ -67,7 +67,7 @@ export function BackgroundPanel({ studio }: { studio: Studio }) {
             label: say(`background.ground.${value}`),
             picture: <GroundPicture ground={value} />,
           }))}
-          onCommit={(value) => studio.setAppearance(patch({ ground: value }))}
+          onCommit={(value) => studio.looks.commit(patch({ ground: value }))}
         />
       </Section>
       <ResetAll studio={studio} parts={["background"]} />

@@ -33,7 +33,7 @@ export function BranchesPanel({ studio }: { studio: Studio }) {
             label: say(`bark.kind.${value}`),
             picture: <BarkPicture kind={value} tint={bark.tint} />,
           }))}
-          onCommit={(kind) => studio.setAppearance({ bark: { kind } })}
+          onCommit={(kind) => studio.looks.commit({ bark: { kind } })}
         />
         <ColourField
           label={say("bark.tint")}

@@ -33,7 +33,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
         marks={
           <SeasonButtons
             season={leaves.season}
-            pick={(season) => studio.setAppearance(withNumber("leaves.season", season))}
+            pick={(season) => studio.looks.commit(withNumber("leaves.season", season))}
           />
         }
       />
@@ -58,7 +58,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
               </svg>
             ),
           }))}
-          onCommit={(shape) => studio.setAppearance({ leaves: { shape } })}
+          onCommit={(shape) => studio.looks.commit({ leaves: { shape } })}
         />
         <ColourField
           label={say("leaves.tint")}

@@ -21,7 +21,7 @@ export function Panel({ studio, title, children }: PanelProps) {
           aria-label={say("bars.close-panel", { panel: title })}
           title={say("bars.close-panel.title")}
           onClick={() => {
-            studio.panel.value = null;
+            studio.layout.panel.value = null;
           }}
         >
           <CloseIcon />

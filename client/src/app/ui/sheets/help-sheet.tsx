@@ -1,18 +1,24 @@
 import { useState } from "preact/hooks";
-import { helpGroups, type Subject, searched, type TopicGroup } from "../../help/help-topics";
+import { helpGroups, type Subject, searched, type ToolHelp, type TopicGroup } from "../../help/help-topics";
 import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import { Icon } from "../icons";
+import type { StudioView } from "../part-view";
 import { GestureSketch } from "./gesture-sketch";
 import { showSubject } from "./show-subject";
 
 /** What is only found by searching; the panels explain it where it stands. */
 const SEARCHED_ONLY: Key = "help.group.controls";
 
+/** The help, with what the tools say of themselves. */
+export function helpSheet(tools: ToolHelp): StudioView {
+  return ({ studio }) => <HelpSheet studio={studio} tools={tools} />;
+}
+
 /** Gestures, tools, panels and keys, and all parameters for who searches them. */
-export function HelpSheet({ studio }: { studio: Studio }) {
+function HelpSheet({ studio, tools }: { studio: Studio; tools: ToolHelp }) {
   const [query, setQuery] = useState("");
-  const groups = helpGroups();
+  const groups = helpGroups(tools);
   const searching = query.trim() !== "";
   const shown = searching ? searched(groups, query) : groups.filter(({ title }) => title !== SEARCHED_ONLY);
   const count = shown.reduce((sum, { topics }) => sum + topics.length, 0);
@@ -32,8 +38,8 @@ export function HelpSheet({ studio }: { studio: Studio }) {
           type="button"
           class="small"
           onClick={() => {
-            studio.sheet.value = null;
-            studio.setBare(false);
+            studio.layout.sheet.value = null;
+            studio.layout.bare.value = false;
             studio.tour.start();
           }}
         >

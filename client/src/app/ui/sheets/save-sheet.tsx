@@ -27,8 +27,8 @@ export function SaveSheet({ studio }: { studio: Studio }) {
       await saveTree({ session, name: trimmed, ...(thumbnail === undefined ? {} : { thumbnail }) });
       studio.toasts.show(say("sheets.save.done", { name: trimmed }));
       // The user may have closed the sheet meanwhile and opened another one.
-      if (studio.sheet.peek() === "save") {
-        studio.sheet.value = null;
+      if (studio.layout.sheet.peek() === "save") {
+        studio.layout.sheet.value = null;
       }
     } catch (error) {
       studio.toasts.show(sentence(error));

@@ -16,7 +16,7 @@ export function Sheet({ studio, title, wide = false, children }: SheetProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);
   const close = () => {
-    studio.sheet.value = null;
+    studio.layout.sheet.value = null;
   };
   return (
     <dialog

@@ -1,4 +1,5 @@
-import type { Control, PlaceName, Subject } from "../../help/help-topics";
+import type { PlaceName } from "../../help/help-places";
+import type { Control, Subject } from "../../help/help-topics";
 import type { Studio } from "../../studio";
 import { softly } from "../../words/joints";
 import { say } from "../../words/say";
@@ -12,8 +13,8 @@ const MOST_FRAMES = 30;
 
 /** Shows what help speaks of: opens it, takes it up, or points at it. */
 export function showSubject(studio: Studio, subject: Subject): void {
-  studio.sheet.value = "sheet" in subject ? subject.sheet : null;
-  studio.setBare(false);
+  studio.layout.sheet.value = "sheet" in subject ? subject.sheet : null;
+  studio.layout.bare.value = false;
   if ("tour" in subject) {
     studio.tour.start();
   } else if ("tool" in subject) {
@@ -30,7 +31,7 @@ export function showSubject(studio: Studio, subject: Subject): void {
     }
     point(() => placeNamed(subject.place));
   } else if ("panel" in subject) {
-    studio.panel.value = subject.panel;
+    studio.layout.panel.value = subject.panel;
     tab.value = subject.tab ?? tab.peek();
     if (subject.control?.section !== undefined) {
       unfold(subject.control.section);

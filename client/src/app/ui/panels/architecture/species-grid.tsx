@@ -64,9 +64,9 @@ export function SpeciesGrid({ studio }: WidgetProps) {
 /** Takes a species' growth and looks, all but what is around it, as one operation. */
 function pick(studio: Studio, { slug, parameters, appearance: { leaves, flowers, fruits, bark } }: Species): void {
   lastPicked.value = slug;
-  const gesture = studio.newGesture();
-  studio.setParameters(parameters, gesture);
-  studio.setAppearance({ leaves, flowers, fruits, bark }, gesture);
+  const gesture = studio.link.next;
+  studio.growing.commit(parameters, gesture);
+  studio.looks.commit({ leaves, flowers, fruits, bark }, gesture);
 }
 
 interface SpeciesCardProps {

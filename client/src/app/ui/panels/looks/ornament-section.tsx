@@ -27,7 +27,7 @@ export function FlowerSection({ studio }: { studio: Studio }) {
           label: say(`flowers.kind.${value}`),
           picture: <FlowerPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.setAppearance({ flowers: { kind: value } })}
+        onCommit={(value) => studio.looks.commit({ flowers: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="flowers" />}
     </Section>
@@ -50,7 +50,7 @@ export function FruitSection({ studio }: { studio: Studio }) {
           label: say(`fruits.kind.${value}`),
           picture: <FruitPicture kind={value} tint={tint} />,
         }))}
-        onCommit={(value) => studio.setAppearance({ fruits: { kind: value } })}
+        onCommit={(value) => studio.looks.commit({ fruits: { kind: value } })}
       />
       {kind !== "none" && <Borne studio={studio} part="fruits" />}
     </Section>
@@ -86,7 +86,7 @@ function Borne({ studio, part }: { studio: Studio; part: "flowers" | "fruits" })
           label: say(`leaves.place.${value}`),
           picture: <PlacePicture place={value} tint={now.tint} />,
         }))}
-        onCommit={(place) => studio.setAppearance({ [part]: { place } })}
+        onCommit={(place) => studio.looks.commit({ [part]: { place } })}
       />
       <LookSlider
         studio={studio}

@@ -30,12 +30,12 @@ export function ResetAll({ studio, parts, parameters = [] }: ResetAllProps) {
       class="reset-all"
       disabled={looks.length + grown.length === 0}
       onClick={() => {
-        const gesture = studio.newGesture();
+        const gesture = studio.link.next;
         if (looks.length > 0) {
-          studio.setAppearance(Object.fromEntries(looks.map((part) => [part, looksThen[part]])), gesture);
+          studio.looks.commit(Object.fromEntries(looks.map((part) => [part, looksThen[part]])), gesture);
         }
         if (grown.length > 0) {
-          studio.setParameters(Object.fromEntries(grown.map((name) => [name, grownThen[name]])), gesture);
+          studio.growing.commit(Object.fromEntries(grown.map((name) => [name, grownThen[name]])), gesture);
         }
       }}
     >

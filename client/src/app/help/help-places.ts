@@ -1,0 +1,11 @@
+/** Things on the page that are no panel, sheet or tool, and can be pointed at. */
+export type PlaceName =
+  | "undo"
+  | "grow"
+  | "radius"
+  | "rotation"
+  | "timeline"
+  | "draw-modes"
+  | "hide"
+  | "new"
+  | "download";

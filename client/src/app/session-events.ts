@@ -1,0 +1,133 @@
+import type { Signal } from "@preact/signals";
+import type { TreeTable } from "../scene/table/tree-table";
+import { FrameKind } from "../wire/envelope";
+import type { DocumentState, Parameters } from "../wire/generated";
+import { handle, type MessageHandlers } from "./connection/page-message";
+import type { SessionEvents, SessionLink } from "./connection/session-link";
+import type { LookDraft } from "./document/appearance/look-draft";
+import type { Draft } from "./document/draft";
+import type { GrowControl } from "./document/growth/grow-control";
+import { explained } from "./problems/explained";
+import { type RefusalTargets, refused } from "./problems/refusals";
+import type { SharedPoses } from "./tools/bend/shared-poses";
+import type { OutlineTrace } from "./tools/lasso/outline-trace";
+import type { WidthList } from "./tools/width/width-list";
+import type { FirstView } from "./view/first-view";
+import type { Stage } from "./view/stage";
+import { laterWords } from "./words/later-words";
+import { say } from "./words/say";
+
+/** The parts of a page that follow its session. */
+export interface SessionTargets extends RefusalTargets {
+  readonly link: Pick<SessionLink, "answered">;
+  readonly document: Signal<DocumentState | null>;
+  readonly growing: Draft<Parameters, null>;
+  readonly looks: LookDraft;
+  readonly growth: GrowControl;
+  readonly outline: OutlineTrace;
+  readonly widths: WidthList;
+  readonly poses: SharedPoses;
+  readonly table: TreeTable;
+  readonly rows: Signal<number>;
+  /** Counts the frames of rows that came in. */
+  readonly revision: Signal<number>;
+  readonly stage: Pick<Stage, "changed">;
+  readonly firstView: FirstView;
+}
+
+/** What a page does with the messages of the server: a row for each. */
+export function messageHandlers(page: SessionTargets): MessageHandlers {
+  return {
+    problem: ({ problem }) => refused(page, problem),
+    state: ({ state }) => {
+      page.document.value = state;
+      page.tools.changed();
+      page.outline.progressed(page.link.answered, state.pending_steps);
+    },
+    parameters: ({ parameters }) => page.growing.receive(parameters),
+    appearance: ({ appearance }) => page.looks.receive(appearance),
+    // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
+    obstacles: ({ obstacles }) => (obstacles.length === 0 ? page.obstacles.clear() : page.obstacles.receive(obstacles)),
+    timeline: (timeline) => page.time.receive(timeline),
+    widths: ({ widths }) => {
+      page.widths.all.value = widths;
+    },
+    notice: async ({ notice }) => {
+      await laterWords();
+      page.toasts.show(say(`problems.${notice.kind}`));
+    },
+  };
+}
+
+/** Hands each event of the session to the parts of a page that it concerns. */
+export function sessionEvents(page: SessionTargets): SessionEvents {
+  const handlers = messageHandlers(page);
+  return {
+    message: (message) => handle(handlers, message),
+    refused: (problem, command) => refused(page, problem, command),
+    opened: () => forget(page),
+    rows: () => followRows(page),
+    settled: (settled) => {
+      page.growing.settle(settled);
+      page.looks.settle(settled);
+      page.obstacles.settle(settled);
+      page.tools.changed();
+      page.outline.settled(settled);
+    },
+    aside: (aside) => {
+      if (aside.kind === FrameKind.Ghost) {
+        page.branches.prediction.receive(aside.frame);
+      } else {
+        page.poses.receive(aside.frame);
+      }
+    },
+    rekeyed: () => {
+      page.growing.letGo();
+      page.looks.letGo();
+      page.obstacles.letGo();
+      page.tools.abandon();
+      page.outline.clear();
+    },
+    lost: () => {
+      page.poses.clear();
+      page.branches.prediction.lost();
+    },
+    leaving: () => {
+      page.tools.end();
+      page.growth.release();
+    },
+    parted: () => page.toasts.show(say("notices.parted")),
+    failed: (error) => void explained(error).then((text) => page.toasts.show(text)),
+  };
+}
+
+/** Another session was opened: nothing of the one before counts. */
+function forget(page: SessionTargets): void {
+  page.document.value = null;
+  page.growing.clear();
+  page.looks.clear();
+  page.rows.value = 0;
+  page.bud.release();
+  page.tools.clear();
+  page.outline.clear();
+  page.poses.clear();
+  page.widths.all.value = [];
+  page.obstacles.forget();
+  page.time.clear();
+  page.branches.clear();
+  page.firstView.forget();
+  page.table.clear();
+  page.stage.changed();
+}
+
+function followRows(page: SessionTargets): void {
+  page.rows.value = page.table.rows;
+  page.revision.value += 1;
+  page.branches.held.keep();
+  page.tools.changed();
+  if (!page.bud.keep()) {
+    page.toasts.show(say("notices.bud-lost"));
+  }
+  page.stage.changed();
+  page.firstView.follow();
+}

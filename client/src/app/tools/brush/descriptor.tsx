@@ -1,0 +1,41 @@
+import type { Settings } from "../../page/settings";
+import type { ToolDescriptor } from "../descriptor";
+import { placeOf } from "./brush-radius";
+import { BrushTool } from "./brush-tool";
+
+export const BRUSH: ToolDescriptor<BrushTool> = {
+  key: "B",
+  label: ["Brush", "Pinsel"],
+  title: ["Brush: the tree grows into the stroke", "Pinsel: Der Baum wächst in den Strich"],
+  Icon: BrushSample,
+  group: "drawing",
+  choosesBranches: true,
+  usesRadius: true,
+  hint: ({ settings, empty }) =>
+    empty && !settings.hasDrawn.value ? ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"] : null,
+  make: ({ view, submit, next, unsettledMoves, settings, bud, base }) =>
+    new BrushTool({
+      view,
+      submit,
+      newStroke: next,
+      unsettledMoves,
+      radius: () => settings.radius.peek(),
+      pressureWidens: () => settings.pressureWidens.peek(),
+      bud: () => bud.row.peek(),
+      base,
+      drawn: () => {
+        settings.hasDrawn.value = true;
+      },
+    }),
+  later: () => import("./later"),
+};
+
+/** The brush itself, in small. */
+function BrushSample({ settings }: { settings: Settings }) {
+  const radius = settings.radius.value;
+  return (
+    <span class="brush-sample">
+      <i style={{ "--size": `${radius === 0 ? 5 : 8 + 24 * placeOf(radius)}px` }} data-sketch={radius === 0} />
+    </span>
+  );
+}

@@ -1,0 +1,30 @@
+import { LassoIcon } from "../../ui/icons";
+import type { ToolDescriptor } from "../descriptor";
+import { LassoTool } from "./lasso-tool";
+
+export const LASSO: ToolDescriptor<LassoTool> = {
+  key: "L",
+  label: ["Lasso", "Lasso"],
+  title: ["Lasso: draw the outline the tree grows to fill", "Lasso: den Umriss zeichnen, den der Baum ausfüllt"],
+  Icon: LassoIcon,
+  group: "drawing",
+  choosesBranches: true,
+  hint: ({ settings, outlined }) =>
+    outlined || settings.hasOutlined.value ? null : ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],
+  make: ({ view, submit, next, settings, bud, base, outline, say }) =>
+    new LassoTool({
+      view,
+      submit,
+      bud: () => bud.row.peek(),
+      base,
+      depth: () => settings.lassoDepth.peek(),
+      draw: (points) => outline.draw(points),
+      sent: (places) => {
+        settings.hasOutlined.value = true;
+        outline.grow(places, next() - 1);
+      },
+      tooSmall: () => say("tools.outline-small"),
+      refused: () => outline.clear(),
+    }),
+  later: () => import("./later"),
+};

@@ -1,0 +1,18 @@
+import { PruneIcon } from "../../ui/timeline/timeline-icons";
+import type { ToolDescriptor } from "../descriptor";
+import { PruneTool } from "./prune-tool";
+
+export const PRUNE: ToolDescriptor<PruneTool> = {
+  key: "X",
+  label: ["Prune", "Schneiden"],
+  title: [
+    "Prune: tap branches, or draw a line through them",
+    "Schneiden: Äste antippen oder eine Linie hindurchziehen",
+  ],
+  Icon: PruneIcon,
+  group: "shaping",
+  make: ({ table, view, submit, unsettled, widths, say, predict }) =>
+    new PruneTool({ table, view, submit, unsettled, limits: () => widths.rows.peek(), say, predict }),
+  hasViews: true,
+  later: () => import("./later"),
+};

@@ -1,0 +1,21 @@
+import { SeedIcon } from "../../ui/icons";
+import type { ToolDescriptor } from "../descriptor";
+import { SeedTool } from "./seed-tool";
+
+export const SEED: ToolDescriptor<SeedTool> = {
+  key: "P",
+  label: ["Plant a seed", "Samen setzen"],
+  title: ["Plant a seed: tap the ground", "Samen setzen: auf den Boden tippen"],
+  Icon: SeedIcon,
+  group: "drawing",
+  keepsObstacles: true,
+  hint: () => ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
+  make: ({ view, submit, say, done }) =>
+    new SeedTool({
+      groundAt: (x, y) => view.pointOnLevel(x, y, [0, 0, 0]),
+      submit,
+      planted: done,
+      missed: () => say("tools.ground-missed"),
+    }),
+  later: () => import("./later"),
+};

@@ -1,0 +1,13 @@
+import type { ToolTopic } from "../descriptor";
+
+export const HELP: readonly ToolTopic[] = [
+  {
+    name: "seed",
+    title: ["Plant a seed", "Samen setzen"],
+    text: [
+      "Tap the ground; trees shade and crowd each other",
+      "Auf den Boden tippen; Bäume beschatten und bedrängen einander",
+    ],
+    words: ["plant several trees forest", "pflanzen mehrere Bäume Wald"],
+  },
+];
