@@ -1,6 +1,6 @@
 import { type ESTree, type Plugin, Visitor } from "vite";
 
-/** Takes comments, indentation and empty lines out of shaders: texts of many lines in `src/scene` are nothing else. */
+/** Takes comments, indentation, empty lines and needless spaces out of shaders: texts of many lines in `src/scene` are nothing else. */
 export function leanShaders(): Plugin {
   return {
     name: "espalier-lean-shaders",
@@ -35,5 +35,7 @@ export function leanShader(text: string): string {
       .replace(/\/\/.*(?=\n)/g, "")
       .replace(/[ \t]+(?=\n)/g, "")
       .replace(/\n\s+/g, "\n")
+      // A preprocessor's lines need their spaces.
+      .replace(/\n(?!#).*/g, (line) => line.replace(/ ?([=*/,;<>{}()?:]) ?/g, "$1"))
   );
 }

@@ -15,7 +15,7 @@ describe("shaders of the built client", () => {
       }
     `;
     expect(leanShader(source)).toBe(
-      "\nfloat half(float x) {\n#ifdef WHOLE\nreturn x;\n#endif\nreturn 0.5 * x / 1.0;\n}\n",
+      "\nfloat half(float x){\n#ifdef WHOLE\nreturn x;\n#endif\nreturn 0.5*x/1.0;\n}\n",
     );
   });
 
