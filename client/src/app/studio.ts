@@ -118,7 +118,7 @@ export class Studio {
     newGesture: () => this.link.next,
     predict: (rows, steps) => this.link.predict(rows, steps),
     limits: () => this.widths.rows.peek(),
-    cut: (rows) => this.tools.made.peek()?.prune.cut(rows),
+    cut: (rows) => this.tools.made.peek()?.prune?.cut(rows),
     screen: () => this.stage.middle(),
     say: (text) => this.toasts.show(say(text)),
     busy: () => this.#busy(),
@@ -148,7 +148,7 @@ export class Studio {
     ready: () => this.link.open && this.hindrance.peek() === null,
     arranging: () => this.layout.panel.peek() === "scene",
     choose: (x, y) => chooseBud(this, x, y),
-    cutAt: (x, y) => this.tools.made.peek()?.prune.cutAt(x, y),
+    cutAt: (x, y) => this.tools.made.peek()?.prune?.cutAt(x, y),
   });
 
   readonly tour = new Tour({

@@ -40,7 +40,8 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly usesRadius?: boolean;
   /** What to do first, as long as the user has not done it. */
   readonly hint?: (facts: HintFacts) => Text | null;
-  readonly make: (kit: ToolKit) => Made;
+  /** A promise where the first picture does without the tool's code, which is then loaded when it is first needed. */
+  readonly make: (kit: ToolKit) => Made | Promise<Made>;
   /** `later` has options or marks, which are needed as soon as the tool is chosen. */
   readonly hasViews?: boolean;
   /** What the first picture does without. */

@@ -88,7 +88,7 @@ function setUp(table = new TreeTable()) {
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),
-    cutAt: (x, y) => tools.made.peek()?.prune.cutAt(x, y),
+    cutAt: (x, y) => tools.made.peek()?.prune?.cutAt(x, y),
   });
   tools.attach(view);
   const at = (x: number, y: number) => ({ x, y, pressure: null });
@@ -132,7 +132,7 @@ describe("toolbox", () => {
     const set = [{ row: 3, diameter: 0.5 }] as unknown as WidthConstraint[];
     widths.all.value = set;
     tools.attach(view);
-    expect(tools.made.value?.width.widths.value).toEqual(set);
+    expect(tools.made.value?.width?.widths.value).toEqual(set);
   });
 
   it("BE5: poses that come before the tools are not lost", () => {
@@ -195,7 +195,7 @@ describe("toolbox", () => {
     expect([sent, tools.chosen.value, toasts.list.value.length]).toEqual([[], "seed", 1]);
     draw([[300, 700]]);
     expect(sent).toEqual([{ kind: "plant_seed", position: [30, 0, 70] }]);
-    expect([tools.chosen.value, tools.made.value?.seed.place.value]).toEqual(["brush", null]);
+    expect([tools.chosen.value, tools.made.value?.seed?.place.value]).toEqual(["brush", null]);
   });
 
   it("a tool that changes ends its stroke", () => {
@@ -283,7 +283,7 @@ describe("toolbox", () => {
     expect(tools.drawing.value).toBe(false);
     tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 500, slop: 9 });
     tools.gesture({ kind: "grip-end", id: 1 });
-    expect([tools.drawing.value, tools.made.value?.width.chosen.value]).toEqual([false, 3]);
+    expect([tools.drawing.value, tools.made.value?.width?.chosen.value]).toEqual([false, 3]);
     expect([tools.release(), tools.release()], "Escape takes the ring away first").toEqual([true, false]);
     world.ready = false;
     expect(tools.grip(500, 500)).toBeNull();

@@ -8,7 +8,10 @@ import type { AnyTool, ToolKit, Workshop } from "./descriptor";
 import { ObstacleTool } from "./obstacle/obstacle-tool";
 import { pace } from "./pacing";
 import { PICK_TOLERANCE } from "./tool";
-import { descriptorOf, FIRST_TOOL, type MadeTools, TOOL_NAMES, TOOLS, type ToolName } from "./tools";
+import { descriptorOf, FIRST_TOOL, type MadeTools, type ToolName } from "./tools";
+
+/** The tools that are there with the first picture: what is drawn with, and the shears of a double tap. */
+const AT_ONCE: readonly ToolName[] = ["brush", "lasso", "prune", "seed"];
 
 /** How often a tool in progress is called, in milliseconds. */
 const TICK = 33;
@@ -39,11 +42,12 @@ export class Toolbox {
   readonly chosen = signal<ToolName>(FIRST_TOOL);
   readonly drawing = signal(false);
   readonly hold = signal<Hold | null>(null);
-  /** Each tool by its name; null without a view. */
+  /** Each tool by its name, once its code is there; null without a view. */
   readonly made = signal<MadeTools | null>(null);
 
   #options: ToolboxOptions;
-  #view: Viewport | null = null;
+  #kit: ToolKit | null = null;
+  #loading = new Map<ToolName, Promise<void>>();
   #mover: ObstacleTool | null = null;
   /** The tool that has the stroke in progress. */
   #active: AnyTool | null = null;
@@ -67,8 +71,12 @@ export class Toolbox {
       say: (text) => toasts.show(say(text)),
       done: () => this.choose(FIRST_TOOL),
     };
-    this.#view = view;
-    this.made.value = Object.fromEntries(TOOL_NAMES.map((name) => [name, TOOLS[name].make(kit)])) as MadeTools;
+    this.#kit = kit;
+    this.made.value = {};
+    for (const name of AT_ONCE) {
+      void this.load(name);
+    }
+    void this.load(this.chosen.peek());
     this.#mover = new ObstacleTool({
       view,
       poseOf: (id) => obstacles.poseOf(id),
@@ -83,7 +91,8 @@ export class Toolbox {
   detach(): void {
     this.end();
     this.made.value = null;
-    this.#view = null;
+    this.#kit = null;
+    this.#loading.clear();
     this.#mover = null;
   }
 
@@ -92,10 +101,33 @@ export class Toolbox {
     this.#tool?.leave?.();
     this.#tool?.release?.();
     this.chosen.value = tool;
+    void this.load(tool);
+  }
+
+  /** Makes a tool, once, and loads its code before that where it has to be; after a failure it is tried again. */
+  load(name: ToolName): Promise<void> {
+    const kit = this.#kit;
+    const loading = kit ? (this.#loading.get(name) ?? this.#make(name, kit)) : Promise.resolve();
+    this.#loading.set(name, loading);
+    return loading;
+  }
+
+  async #make(name: ToolName, kit: ToolKit): Promise<void> {
+    try {
+      const made = descriptorOf(name).make(kit);
+      const tool = made instanceof Promise ? await made : made;
+      if (this.#kit === kit) {
+        this.made.value = { ...this.made.peek(), [name]: tool };
+      }
+    } catch (error) {
+      console.warn("A tool could not be loaded:", error);
+      this.#loading.delete(name);
+      kit.say("notices.part-lost");
+    }
   }
 
   gesture(gesture: Gesture): void {
-    const view = this.#view;
+    const view = this.#kit?.view;
     switch (gesture.kind) {
       case "stroke-begin":
         this.#begin(gesture.point);
@@ -205,7 +237,7 @@ export class Toolbox {
     if (!this.doubles() || !ready() || this.#moves({ x, y, pressure: null })) {
       return false;
     }
-    return bud.row.peek() !== null || this.#view?.pick(x, y, PICK_TOLERANCE) != null;
+    return bud.row.peek() !== null || this.#kit?.view.pick(x, y, PICK_TOLERANCE) != null;
   }
 
   /** The stroke in progress ends where it is. */

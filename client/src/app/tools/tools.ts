@@ -19,7 +19,7 @@ export const TOOLS = {
 } as const;
 
 export type ToolName = keyof typeof TOOLS;
-export type MadeTools = { readonly [Name in ToolName]: ReturnType<(typeof TOOLS)[Name]["make"]> };
+export type MadeTools = { readonly [Name in ToolName]?: Awaited<ReturnType<(typeof TOOLS)[Name]["make"]>> };
 
 export const TOOL_NAMES = Object.keys(TOOLS) as ToolName[];
 export const FIRST_TOOL: ToolName = "brush";

@@ -82,16 +82,18 @@ const ALL: readonly Part<unknown>[] = [
   ...Object.values(SHEETS).map(({ part }) => part),
 ];
 
-/** Loads every part once the first tree is drawn and whenever the page is idle, so that none has to be waited for. */
+/** Loads every tool and part once the first tree is drawn and whenever the page is idle, so that none has to be waited for. */
 export function loadPartsWhenIdle(studio: Studio, canvas: HTMLCanvasElement): () => void {
   let left = false;
   const loadAll = async () => {
-    for (const part of ALL) {
+    const tools = TOOL_NAMES.map((name) => () => studio.tools.load(name));
+    const parts = ALL.map((part) => () => part.load());
+    for (const load of [...tools, ...parts]) {
       await idle();
       if (left) {
         return;
       }
-      await part.load();
+      await load();
     }
   };
   const drawn = new MutationObserver(() => {

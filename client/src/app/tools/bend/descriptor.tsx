@@ -1,8 +1,6 @@
-import { Bend } from "../../../scene/bend/bend";
 import { BendIcon } from "../../ui/timeline/timeline-icons";
 import type { ToolDescriptor } from "../descriptor";
-import { BendPoses } from "./bend-poses";
-import { BendTool } from "./bend-tool";
+import type { BendTool } from "./bend-tool";
 
 export const BEND: ToolDescriptor<BendTool> = {
   key: "N",
@@ -10,7 +8,12 @@ export const BEND: ToolDescriptor<BendTool> = {
   title: ["Bend: hold a branch's base and drag its end", "Biegen: den Astansatz halten und das Ende ziehen"],
   Icon: BendIcon,
   group: "shaping",
-  make: ({ table, view, submit, next, unsettled, settings, poses, say }) => {
+  make: async ({ table, view, submit, next, unsettled, settings, poses, say }) => {
+    const [{ Bend }, { BendPoses }, { BendTool }] = await Promise.all([
+      import("../../../scene/bend/bend"),
+      import("./bend-poses"),
+      import("./bend-tool"),
+    ]);
     const bend = new BendTool({
       table,
       view,

@@ -1,6 +1,6 @@
 import { TurnIcon } from "../../ui/timeline/timeline-icons";
 import type { ToolDescriptor } from "../descriptor";
-import { BranchTool } from "./branch-tool";
+import type { BranchTool } from "./branch-tool";
 
 export const BRANCH: ToolDescriptor<BranchTool> = {
   key: "T",
@@ -8,7 +8,7 @@ export const BRANCH: ToolDescriptor<BranchTool> = {
   title: ["Branch: turn, move and copy whole branches", "Ast: ganze Äste drehen, versetzen und kopieren"],
   Icon: TurnIcon,
   group: "shaping",
-  make: ({ view, branch, say }) => new BranchTool({ view, branch, say }),
+  make: async ({ view, branch, say }) => new (await import("./branch-tool")).BranchTool({ view, branch, say }),
   hasViews: true,
   later: () => import("./later"),
 };

@@ -1,7 +1,7 @@
 import { WidthIcon } from "../../ui/timeline/timeline-icons";
 import { scaleAt } from "../../view/places";
 import type { ToolDescriptor } from "../descriptor";
-import { WidthTool } from "./width-tool";
+import type { WidthTool } from "./width-tool";
 
 export const WIDTH: ToolDescriptor<WidthTool> = {
   key: "W",
@@ -9,8 +9,9 @@ export const WIDTH: ToolDescriptor<WidthTool> = {
   title: ["Width: pinch around a limb, or tap it", "Dicke: einen Ast zwischen zwei Finger nehmen oder antippen"],
   Icon: WidthIcon,
   group: "shaping",
-  make: ({ table, view, submit, next, unsettled, widths, girth }) =>
-    new WidthTool({
+  make: async ({ table, view, submit, next, unsettled, widths, girth }) => {
+    const { WidthTool } = await import("./width-tool");
+    return new WidthTool({
       table,
       view,
       submit,
@@ -20,7 +21,8 @@ export const WIDTH: ToolDescriptor<WidthTool> = {
       girth,
       scaleAt: (row) => scaleAt(view, view.placeOf(row)),
       placeOnGlass: (row) => view.projector()(view.placeOf(row)),
-    }),
+    });
+  },
   hasViews: true,
   later: () => import("./later"),
 };
