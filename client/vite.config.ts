@@ -1,4 +1,6 @@
+import { join } from "node:path";
 import { defineConfig } from "vitest/config";
+import { firstPictureChunk } from "./first-picture-chunk.ts";
 import { firstPictureBudget } from "./first-picture-plugin.ts";
 import { leanShaders } from "./shader-plugin.ts";
 import { shellWorker } from "./shell-plugin.ts";
@@ -13,7 +15,14 @@ export default defineConfig({
   plugins: [wordsByLanguage(), leanThree(), leanShaders(), firstPictureBudget(), shellWorker()],
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
   // `first-picture-plugin.ts` says how much may be loaded at once.
-  build: { target: "es2022", sourcemap: false, chunkSizeWarningLimit: 800 },
+  build: {
+    target: "es2022",
+    sourcemap: false,
+    chunkSizeWarningLimit: 800,
+    rolldownOptions: {
+      output: { codeSplitting: { groups: [{ name: firstPictureChunk(join(import.meta.dirname, "src/main.tsx")) }] } },
+    },
+  },
   // `/s/NAME` needs no proxy: Vite answers unknown paths with index.html, as the server does.
   server: { proxy: { "/api": { target: server, ws: true }, "/health": server } },
   test: {
