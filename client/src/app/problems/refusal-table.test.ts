@@ -9,13 +9,13 @@ const SERVER = join(import.meta.dirname, "../../../../server");
 
 /** Where the server makes problems, and where the errors are worded that it passes on. */
 const SOURCES = ["session/src", "src/http"];
-const PASSED_ON = ["growth/src/edits.rs", "src/live/registry.rs", "../proto/src/mesh.rs"];
+const PASSED_ON = ["growth/src/edit_error.rs", "src/live/registry.rs", "../proto/src/mesh.rs"];
 /** What the types of `proto` allow that a person can get wrong. */
 const OF_TYPES = ["1 to 1000", "0.01 to 100", "box, sphere or plane"];
 /** What `proto/src/reading.rs` puts together from a field and what stands there. */
 const OF_FIELDS = ["outline has 7 entries; allowed: a list of 7 to 7 entries"];
 const OF_FILES = ["import/src/lib.rs"];
-const OF_SHAPES = ["growth/src/obstacles/shape.rs"];
+const OF_SHAPES = ["growth/src/obstacles/checks.rs"];
 
 /** One place where a problem is worded. */
 interface Wording {
@@ -44,6 +44,7 @@ const BORROWED = new Set([
   // What is no problem but has such a name.
   "species.sentence.to_owned()",
   "ClientMessage::from_json(text)",
+  "transparent",
 ]);
 
 function rustOf(path: string): readonly (readonly [string, string])[] {
