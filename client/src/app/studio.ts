@@ -18,14 +18,13 @@ import { browserClock } from "./page/clock";
 import type { Hindrance } from "./page/hindrance";
 import { loadSettings } from "./page/settings";
 import { Toasts } from "./page/toasts";
-import { explained } from "./problems/explained";
+import { explained, plainWords } from "./problems/explained";
 import { refused } from "./problems/refusals";
 import { BranchWork } from "./tools/branch/branch-work";
 import { ChosenBud } from "./tools/chosen-bud";
 import { PICK_TOLERANCE } from "./tools/tool";
 import { Toolbox } from "./tools/toolbox";
 import { Stage } from "./view/stage";
-import { laterWords } from "./words/later-words";
 import { say } from "./words/say";
 
 /** Cards over the workspace, one at a time. */
@@ -305,10 +304,7 @@ export class Studio {
       },
       widths: (widths) => this.tools.receiveWidths(widths),
       timeline: (timeline) => this.time.receive(timeline),
-      notice: async ({ kind }) => {
-        await laterWords();
-        this.toasts.show(say(`problems.${kind}`));
-      },
+      notice: async (notice) => this.toasts.show((await plainWords()).noticed(notice)),
       problem: (problem, command) => refused(this, problem, command),
       rekeyed: () => {
         this.growing.letGo();
