@@ -14,9 +14,7 @@ describe("shaders of the built client", () => {
         return 0.5 * x / 1.0;
       }
     `;
-    expect(leanShader(source)).toBe(
-      "\nfloat half(float x){\n#ifdef WHOLE\nreturn x;\n#endif\nreturn 0.5*x/1.0;\n}\n",
-    );
+    expect(leanShader(source)).toBe("\nfloat half(float x){\n#ifdef WHOLE\nreturn x;\n#endif\nreturn 0.5*x/1.0;\n}\n");
   });
 
   it("keep a comment that a value is put into, and the space before a value", () => {

@@ -7,14 +7,13 @@ import type { SessionEvents, SessionLink } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
-import { explained } from "./problems/explained";
+import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
 import type { WidthList } from "./tools/width/width-list";
 import type { FirstView } from "./view/first-view";
 import type { Stage } from "./view/stage";
-import { laterWords } from "./words/later-words";
 import { say } from "./words/say";
 
 /** The parts of a page that follow its session. */
@@ -52,10 +51,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
-    notice: async ({ notice }) => {
-      await laterWords();
-      page.toasts.show(say(`problems.${notice.kind}`));
-    },
+    notice: async ({ notice }) => page.toasts.show((await plainWords()).noticed(notice)),
   };
 }
 
@@ -78,6 +74,8 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       if (aside.kind === FrameKind.Ghost) {
         page.branches.prediction.receive(aside.frame);
       } else {
+        // Someone else bends, so that the code which shows it is needed.
+        void page.tools.load("bend");
         page.poses.receive(aside.frame);
       }
     },

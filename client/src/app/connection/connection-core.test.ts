@@ -133,8 +133,9 @@ describe("handshake", () => {
     const { core, connect } = setUp();
     connect();
     core.effects();
-    core.message(1, { type: "notice", notice: { kind: "damaged", entry: 7 } });
-    expect(core.effects()).toEqual([{ kind: "notice", notice: { kind: "damaged", entry: 7 } }]);
+    const message = { type: "notice", notice: { kind: "damaged", entry: 7 } } as const;
+    core.message(1, message);
+    expect(core.effects()).toEqual([{ kind: "message", message }]);
   });
 
   it("HS4: a replaced client goes on under a fresh key", () => {

@@ -6,6 +6,8 @@ import { decodeServerFrame } from "../../wire/server-frame";
 import type { Clock } from "../page/clock";
 import type { Hindrance } from "../page/hindrance";
 import type { PageEvents } from "../page/page-life";
+import { explained } from "../problems/explained";
+import { RequestFailed } from "../requests/request";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { Connection, type ConnectionEvents, type Socket } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
@@ -232,8 +234,8 @@ export class SessionLink implements PageEvents {
           });
           events.settled(settled);
         },
-        cannotOpen: (sentence) => {
-          this.refusal.value = sentence;
+        cannotOpen: async (message) => {
+          this.refusal.value = await explained(new RequestFailed(409, { code: "refused", message }));
         },
         reload: () => {
           if (mayReload(page.store, Date.now())) {

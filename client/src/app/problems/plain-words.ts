@@ -1,4 +1,4 @@
-import type { Problem } from "../../wire/generated";
+import type { Notice, Problem } from "../../wire/generated";
 import { RequestFailed } from "../requests/request";
 import { type Key, language, say } from "../words/say";
 import { ALLOWED, REFUSALS } from "./refusal-table";
@@ -43,4 +43,9 @@ export function sentence(error: unknown): string {
     return plainly(error.problem);
   }
   return error instanceof Error ? error.message : String(error);
+}
+
+/** The sentence that a user reads about how the session was opened. */
+export function noticed({ kind }: Notice): string {
+  return say(`problems.${kind}`);
 }

@@ -16,7 +16,7 @@ import type { HeldBranch } from "./branch/held-branch";
 import { ChosenBud } from "./chosen-bud";
 import { OutlineTrace } from "./lasso/outline-trace";
 import { Toolbox } from "./toolbox";
-import { TOOL_NAMES } from "./tools";
+import { TOOL_NAMES, TOOLS } from "./tools";
 import { WidthList } from "./width/width-list";
 
 afterEach(() => vi.useRealTimers());
@@ -126,16 +126,17 @@ describe("toolbox", () => {
     expect(world.held).toBe(0);
   });
 
-  it("widths that come before the tools are not lost", () => {
+  it("widths that come before the tools are not lost", async () => {
     const { tools, view, widths } = setUp();
     tools.detach();
     const set = [{ row: 3, diameter: 0.5 }] as unknown as WidthConstraint[];
     widths.all.value = set;
     tools.attach(view);
+    await tools.load("width");
     expect(tools.made.value?.width?.widths.value).toEqual(set);
   });
 
-  it("BE5: poses that come before the tools are not lost", () => {
+  it("BE5: poses that come before the tools are not lost", async () => {
     const { tools, poses, view, world } = setUp(tableOf(SMALL));
     const pose = (bend: number, rows: number[], x = 0): PoseFrame => {
       const motions = rows.map((row): RowMotion => ({ row, rotation: [0, 0, 0, 1], to: [x, row, 0] }));
@@ -149,6 +150,7 @@ describe("toolbox", () => {
       poses.receive(frame);
     }
     tools.attach(view);
+    await tools.load("bend");
     expect(shown(), "only that which is not over").toEqual([[2, 6, 7]]);
     const motion = vi.fn();
     const out = { plain: () => {}, orientation: () => {}, motion } as unknown as SlotWriter;
@@ -272,10 +274,11 @@ describe("toolbox", () => {
     expect([sent, toasts.list.value.length], "what cannot be cut is explained").toEqual([[], 1]);
   });
 
-  it("a tool that takes hold gets its fingers, and the view what it leaves", () => {
+  it("a tool that takes hold gets its fingers, and the view what it leaves", async () => {
     const { tools, world } = setUp();
     expect(tools.grip(500, 500), "the brush draws").toBeNull();
     tools.choose("width");
+    await tools.load("width");
     expect(tools.grip(500, 500)).toBe("take");
     tools.gesture({ kind: "grip-begin", id: 1, x: 500, y: 500, slop: 9 });
     expect([tools.drawing.value, tools.grip(900, 500)]).toEqual([true, "leave"]);
@@ -287,6 +290,18 @@ describe("toolbox", () => {
     expect([tools.release(), tools.release()], "Escape takes the ring away first").toEqual([true, false]);
     world.ready = false;
     expect(tools.grip(500, 500)).toBeNull();
+  });
+
+  it("a tool whose code does not come is told, and loaded when it is chosen again", async () => {
+    const { tools, toasts } = setUp();
+    vi.spyOn(console, "warn").mockImplementation(() => {});
+    const make = vi.spyOn(TOOLS.branch, "make").mockRejectedValueOnce(new Error("offline"));
+    tools.choose("branch");
+    await tools.load("branch");
+    expect([tools.made.value?.branch, toasts.list.value.length]).toEqual([undefined, 1]);
+    await tools.load("branch");
+    expect([tools.made.value?.branch !== undefined, make.mock.calls.length]).toEqual([true, 2]);
+    vi.restoreAllMocks();
   });
 
   it("without a session nothing is drawn", () => {

@@ -1,6 +1,4 @@
-import { useEffect, useRef, useState } from "preact/hooks";
-import { explained } from "../../problems/explained";
-import { RequestFailed } from "../../requests/request";
+import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
@@ -14,11 +12,7 @@ export function HindranceCard({ studio }: { studio: Studio }) {
   return (
     <section class="panel hindrance" role="alert" data-hindrance={hindrance}>
       <h2>{say(`notices.${hindrance}`)}</h2>
-      {hindrance === "cannot-open" ? (
-        <Reason message={studio.link.refusal.value} />
-      ) : (
-        <p>{say(`notices.${hindrance}.text`)}</p>
-      )}
+      <p>{hindrance === "cannot-open" ? studio.link.refusal.value : say(`notices.${hindrance}.text`)}</p>
       {(hindrance === "unknown-session" || hindrance === "cannot-open") && (
         <button type="button" class="primary" onClick={() => studio.newSession()}>
           {say("notices.unknown-session.way")}
@@ -31,15 +25,6 @@ export function HindranceCard({ studio }: { studio: Studio }) {
       )}
     </section>
   );
-}
-
-/** Why the server cannot open a session, in the words of the page once they are loaded. */
-function Reason({ message }: { message: string }) {
-  const [text, setText] = useState("");
-  useEffect(() => {
-    void explained(new RequestFailed(409, { code: "refused", message })).then(setText);
-  }, [message]);
-  return <p>{text}</p>;
 }
 
 /** Short notes that go by themselves. */
