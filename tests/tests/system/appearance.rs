@@ -93,8 +93,8 @@ async fn bad_looks_are_refused_by_name_and_change_nothing() {
         (leaves(r#""season":1,"orientation":"up""#), "appearance.leaves.orientation", "-1 to 1"),
         (r#"{"leaves":null}"#.into(), "appearance.leaves", ""),
         (r#"{"petals":{}}"#.into(), "appearance.petals", ""),
-        (leaves(r#""season":1,"orientation":0,"smell":1"#), "appearance.leaves.smell", "`smell`"),
-        (r#"{"background":{"backdrop":[0,300,0]}}"#.into(), "appearance.background.backdrop", "0 to 255"),
+        (leaves(r#""season":1,"orientation":0,"smell":1"#), "appearance.leaves.smell", "shape, tint"),
+        (r#"{"background":{"backdrop":[0,300,0]}}"#.into(), "appearance.background.backdrop[1]", "0 to 255"),
     ];
     for (id, (looks, field, allowed)) in (1..).zip(&cases) {
         let command = format!(
