@@ -26,7 +26,7 @@ impl Principal {
         Self(VISITOR.into())
     }
 
-    /// Reads what [`Principal::to_string`] wrote.
+    /// Reads what a principal is written as (`Display`).
     pub fn parse(text: &str) -> Option<Self> {
         if text == VISITOR { Some(Self::visitor()) } else { Self::client(text) }
     }
