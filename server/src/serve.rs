@@ -92,7 +92,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
     // Nobody may be reading; the server works all the same.
     let _ = writeln!(io::stdout(), "{}", announce::text(bound, medium));
-    told_to_stop().await;
+    stop_requested().await;
 
     tracing::info!("stopping");
     stop.cancel();
@@ -110,7 +110,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
 }
 
 /// Ctrl+C, or SIGTERM as service managers send it.
-async fn told_to_stop() {
+async fn stop_requested() {
     #[cfg(unix)]
     let terminated = async {
         match signal::unix::signal(signal::unix::SignalKind::terminate()) {

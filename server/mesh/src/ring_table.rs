@@ -1,6 +1,6 @@
 //! The table of rings that clients mirror: one quantised row per metamer, in birth order.
 //!
-//! The table holds what clients were told. [`RingTable::sync`] compares it with the plant in one pass and says
+//! The table holds what clients were sent. [`RingTable::sync`] compares it with the plant in one pass and says
 //! what differs, so it does not matter what happened in between: growth, a slider, or a journey in time.
 //!
 //! Rows are held as the plant has them and quantised when they are read. So a chunk that stayed as it was is
@@ -46,9 +46,9 @@ pub struct RingTable {
     ends: Vec<Vec3>,
     /// Tips that are drawn.
     tips: Vec<u32>,
-    /// Light and vigor as they were told.
+    /// light and vigor as they were sent.
     looks: Vec<Appearance>,
-    /// Codes of radii as they were told, if width constraints held; empty otherwise.
+    /// Codes of radii as they were sent, if width constraints held; empty otherwise.
     radii: Vec<u16>,
     /// For each number of steps of growth, how many rows had been born by then.
     births: Vec<u32>,
@@ -139,8 +139,8 @@ impl RingTable {
         if is_constrained || !self.radii.is_empty() {
             pass.radii = pass.radii(&widths);
             if self.radii.is_empty() {
-                let told_style = pass.former.unwrap_or(style);
-                self.radii = self.tips.iter().map(|&tips| radius(tips, told_style)).collect();
+                let sent_style = pass.former.unwrap_or(style);
+                self.radii = self.tips.iter().map(|&tips| radius(tips, sent_style)).collect();
             }
         }
         let (count, births) = (plant.metamer_count(), plant.births());
@@ -177,8 +177,8 @@ impl RingTable {
         let steps = 0..births.len().max(self.births.len());
         let differing = steps.map(|step| (by_then(&self.births, step), by_then(births, step)));
         differing
-            .filter(|(held, told)| held != told)
-            .map(|(held, told)| held.min(told))
+            .filter(|(held, present)| held != present)
+            .map(|(held, present)| held.min(present))
             .next()
             .unwrap_or(known)
     }
@@ -186,14 +186,14 @@ impl RingTable {
     /// The first row of a chunk that has another link in the plant, or the chunk's end.
     fn match_links(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> usize {
         let (links, axes) = (&self.links[rows.clone()], &mut self.axes[rows.clone()]);
-        let told = pass.plant.columns(rows.clone());
+        let present = pass.plant.columns(rows.clone());
         let mut differs = u32::from(pass.renumbered);
-        for (link, parent) in links.iter().zip(told.parent) {
+        for (link, parent) in links.iter().zip(present.parent) {
             // The sign is kept, so that the link of a seed is halved to that of no parent.
             differs |= (*link as i32 >> 1) as u32 ^ parent.raw();
         }
-        for (axis, told) in axes.iter().zip(told.axis) {
-            differs |= axis.raw() ^ told.raw();
+        for (axis, present) in axes.iter().zip(present.axis) {
+            differs |= axis.raw() ^ present.raw();
         }
         if differs == 0 {
             return rows.end;
@@ -201,7 +201,7 @@ impl RingTable {
         let same = rows.clone().zip(links).take_while(|(row, link)| **link == pass.link(*row)).count();
         // The same wood may have axes of other numbers; then what follows cannot be known by its number.
         pass.renumbered = true;
-        axes[..same].copy_from_slice(&told.axis[..same]);
+        axes[..same].copy_from_slice(&present.axis[..same]);
         rows.start + same
     }
 
@@ -219,42 +219,42 @@ impl RingTable {
     }
 
     fn update_ends(&mut self, pass: &mut Pass<'_>, rows: Range<usize>) -> bool {
-        let (held, told) = (&mut self.ends[rows.clone()], pass.plant.columns(rows.clone()).end);
+        let (held, present) = (&mut self.ends[rows.clone()], pass.plant.columns(rows.clone()).end);
         let bits = |end: &Vec3| end.to_array().map(f32::to_bits);
         let mut differs = 0;
-        for (held, told) in held.iter().zip(told) {
-            let ([x, y, z], [told_x, told_y, told_z]) = (bits(held), bits(told));
-            differs |= (x ^ told_x) | (y ^ told_y) | (z ^ told_z);
+        for (held, present) in held.iter().zip(present) {
+            let ([x, y, z], [present_x, present_y, present_z]) = (bits(held), bits(present));
+            differs |= (x ^ present_x) | (y ^ present_y) | (z ^ present_z);
         }
         if differs == 0 {
             return false;
         }
         let before = pass.changes.position.len();
-        for ((row, held), told) in rows.zip(held).zip(told) {
-            if quantised(*held) != quantised(*told) {
+        for ((row, held), present) in rows.zip(held).zip(present) {
+            if quantised(*held) != quantised(*present) {
                 pass.changes.position.push(row as u32);
             }
-            *held = *told;
+            *held = *present;
         }
         pass.changes.position.len() > before
     }
 
     /// Marks those rows of a chunk that are drawn so differently that it should be told.
     fn drawn_otherwise(&self, plant: &Plant, rows: Range<usize>) -> [u8; CHUNK_ROWS] {
-        let told = plant.columns(rows.clone());
+        let present = plant.columns(rows.clone());
         let now = plant.step();
         let (mut drawn, mut differing) = ([0; CHUNK_ROWS], [0; CHUNK_ROWS]);
-        for (drawn, &parent) in drawn.iter_mut().zip(told.parent) {
+        for (drawn, &parent) in drawn.iter_mut().zip(present.parent) {
             *drawn = u8::from(parent != Columns::NO_PARENT);
         }
-        for (drawn, &death) in drawn.iter_mut().zip(told.death) {
+        for (drawn, &death) in drawn.iter_mut().zip(present.death) {
             *drawn &= u8::from(death > now);
         }
-        let tips = self.tips[rows.clone()].iter().zip(told.tips);
+        let tips = self.tips[rows.clone()].iter().zip(present.tips);
         for ((differs, drawn), (&held, &tips)) in differing.iter_mut().zip(drawn).zip(tips) {
             *differs = u8::from(held != if drawn != 0 { tips } else { NO_TIPS });
         }
-        let looks = self.looks[rows].iter().zip(told.appearance);
+        let looks = self.looks[rows].iter().zip(present.appearance);
         for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
             let light = look.light.abs_diff(held.light) >= LIGHT_HYSTERESIS;
             let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= VIGOR_HYSTERESIS;
@@ -278,8 +278,8 @@ impl RingTable {
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
             let (held, look) = (self.looks[row], pass.all.appearance[row]);
             // What is not drawn keeps its looks: a change would only cost bytes.
-            let steady = |held: u8, told: u8, hysteresis: u8| {
-                if tips == NO_TIPS || told.abs_diff(held) < hysteresis { held } else { told }
+            let steady = |held: u8, present: u8, hysteresis: u8| {
+                if tips == NO_TIPS || present.abs_diff(held) < hysteresis { held } else { present }
             };
             let light = steady(held.light, look.light, LIGHT_HYSTERESIS);
             let vigor = steady(held.vigor, look.vigor & VIGOR_BITS, VIGOR_HYSTERESIS);
@@ -303,8 +303,8 @@ impl RingTable {
         seen
     }
 
-    fn truncate(&mut self, kept: usize, told_style: &Style, generation: u32) {
-        self.leaves -= all_leaves(&self.tips[kept..], told_style);
+    fn truncate(&mut self, kept: usize, sent_style: &Style, generation: u32) {
+        self.leaves -= all_leaves(&self.tips[kept..], sent_style);
         self.links.truncate(kept);
         self.axes.truncate(kept);
         self.ends.truncate(kept);
@@ -328,8 +328,8 @@ impl RingTable {
         self.axes.extend_from_slice(new.axis);
         self.ends.extend_from_slice(new.end);
         self.tips.extend(rows.clone().map(|row| pass.tips(row)));
-        let told = |look: &Appearance| Appearance { light: look.light, vigor: look.vigor & VIGOR_BITS };
-        self.looks.extend(new.appearance.iter().map(told));
+        let present = |look: &Appearance| Appearance { light: look.light, vigor: look.vigor & VIGOR_BITS };
+        self.looks.extend(new.appearance.iter().map(present));
         self.leaves += all_leaves(&self.tips[rows.clone()], pass.style);
         if !rows.is_empty() {
             self.generations.truncate(rows.start / CHUNK_ROWS);

@@ -3,8 +3,8 @@
 use std::{collections::BTreeMap, sync::Arc};
 
 use crate::{
-    foresight::{Cancelled, Prediction},
     io::ClientId,
+    prediction::{Cancelled, Prediction},
     principal::Principal,
     to_proto::Held,
     window::Window,

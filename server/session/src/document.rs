@@ -7,11 +7,11 @@ mod futures;
 mod generators;
 mod growing;
 mod history;
+mod notifications;
 mod obstacles;
 mod pruning;
 mod settings;
 mod strokes;
-mod telling;
 #[cfg(test)]
 mod tests;
 mod travelling;
@@ -276,7 +276,7 @@ impl Document {
     }
 
     /// Ends all strokes where they are and gives bends up: whoever made them is not there any more.
-    pub fn lift_hands(&mut self) {
+    pub fn end_gestures(&mut self) {
         self.strokes.close_all();
         self.bends.close_all();
         self.simulation.drop_guidance();

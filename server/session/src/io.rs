@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 
-use crate::{foresight::Foresight, principal::Principal, work::Work};
+use crate::{prediction::PredictionRun, principal::Principal, work::Work};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -41,7 +41,7 @@ pub enum Input {
     /// A piece of work came back from the simulation pool.
     Worked(Box<Work>),
     /// A prediction is done.
-    Foreseen(Box<Foresight>),
+    Predicted(Box<PredictionRun>),
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
     /// Someone outside wants something done (an uploaded mesh placed).
@@ -66,9 +66,9 @@ pub enum Output {
     Journal(Vec<JournalEntry>),
     /// Run `work.run()` away from the network, then answer with `Worked`.
     Work(Box<Work>),
-    /// Call `foresight.run()` away from the network, beside any `Work`, until it says it is done; then answer with
-    /// `Foreseen`.
-    Foresee(Box<Foresight>),
+    /// Call `prediction.run()` away from the network, beside any `Work`, until it says it is done; then answer with
+    /// `Predicted`.
+    Predict(Box<PredictionRun>),
     /// Keep this snapshot; entries up to `through` need no replay any more.
     Snapshot {
         /// The last journal entry it contains.

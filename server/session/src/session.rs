@@ -24,11 +24,11 @@ use crate::{
     author::{Authors, LastCommand, note_last},
     clients::{Client, Clients},
     document::{Document, Figures, ObstaclesMark},
-    foresight::Prediction,
     form::read_command,
     io::{ClientId, Input, JournalEntry, Output, ReadId},
     journal::Journal,
     obstacle::Mesh,
+    prediction::Prediction,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
     window::MAX_UNREAD,
@@ -64,7 +64,7 @@ pub struct Session {
     /// Bends as clients are told them, by their numbers.
     poses: BTreeMap<u32, Posed>,
     /// Predictions that are being made.
-    foreseeing: usize,
+    predictions: usize,
     upkeep: Upkeep,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
@@ -142,7 +142,7 @@ impl Session {
         let mut document = Document::from_bytes(document)?;
         document.set_metamer_budget(metamer_budget);
         // Whoever was drawing or bending when the tree was saved does so elsewhere.
-        document.lift_hands();
+        document.end_gestures();
         Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document))
     }
 
@@ -179,7 +179,7 @@ impl Session {
             timeline: work.document.timeline(),
             widths: work.document.widths(),
             poses: poses.into_iter().map(|pose| (pose.bend, pose)).collect(),
-            foreseeing: 0,
+            predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
             notices: Vec::new(),
@@ -217,7 +217,7 @@ impl Session {
             Input::Journaled(through) => self.journaled(through),
             Input::JournalFailed(reason) => self.fail(&reason),
             Input::Worked(work) => self.worked(work),
-            Input::Foreseen(foresight) => self.foreseen(*foresight),
+            Input::Predicted(prediction) => self.finish_prediction(*prediction),
             Input::Read(read) => self.reads.push(read),
             Input::Act(act, principal, command) => self.act(act, &principal, *command),
             Input::Woken => self.upkeep.woken(),
@@ -245,7 +245,7 @@ impl Session {
     pub fn is_idle(&self) -> bool {
         let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
         let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
-        let answered = self.reads.is_empty() && self.acts.is_empty() && self.foreseeing == 0;
+        let answered = self.reads.is_empty() && self.acts.is_empty() && self.predictions == 0;
         self.clients.is_empty() && self.outputs.is_empty() && answered && settled && kept
     }
 

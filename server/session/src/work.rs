@@ -11,8 +11,8 @@ use espalier_proto::{Command, PlacedObstacle, PoseFrame, Problem, RowMotion};
 use crate::{
     author::{LastCommand, note_last},
     document::Document,
-    foresight::{Foresight, Question},
     io::{ActId, ClientId, ReadId},
+    prediction::{PredictionRun, Question},
     snapshot,
     stops::Stops,
     to_proto::{self, Held},
@@ -76,7 +76,7 @@ pub(crate) struct Report {
     /// New poses of open bends with their sequences, by bend; without a frame's motions a bend is over.
     pub(crate) poses: Vec<Posed>,
     /// Predictions to be made.
-    pub(crate) foresights: Vec<Foresight>,
+    pub(crate) runs: Vec<PredictionRun>,
     /// What became of commands from outside: the obstacle they placed.
     pub(crate) acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     /// The document as bytes with its living metamers, for each read.
@@ -228,7 +228,7 @@ impl Work {
     fn hand_out(&mut self) {
         for question in self.questions.drain(..) {
             let simulation = self.document.simulation().clone();
-            self.report.foresights.push(Foresight::new(question, simulation, self.style.clone(), self.epoch));
+            self.report.runs.push(PredictionRun::new(question, simulation, self.style.clone(), self.epoch));
         }
         if self.snapshot_wanted {
             self.snapshot_wanted = false;

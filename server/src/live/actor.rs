@@ -9,7 +9,7 @@ use std::{
 
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
-    ActId, ClientId, Foresight, Input, JournalEntry, Output, Principal, ReadId, Session, Work,
+    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadId, Session, Work,
 };
 use espalier_settings::ParameterValues;
 use tokio::{
@@ -64,7 +64,7 @@ enum Errand {
     Journaled(u64),
     JournalFailed(String),
     Worked(Box<Work>),
-    Foreseen(Box<Foresight>),
+    Predicted(Box<PredictionRun>),
     WorkFailed,
     SnapshotKept,
 }
@@ -127,7 +127,7 @@ impl SessionHandle {
 
 /// Everything a session needs from its surroundings.
 #[derive(Clone, Debug)]
-pub(super) struct Surroundings {
+pub(super) struct Services {
     pub(super) store: Arc<AnyStore>,
     pub(super) pool: SimulationPool,
     pub(super) stop: CancellationToken,
@@ -139,7 +139,7 @@ pub(super) struct Actor {
     session: Session,
     /// The right to write to the session.
     lease: Lease,
-    around: Surroundings,
+    services: Services,
     requests: mpsc::Receiver<Request>,
     errands: mpsc::UnboundedReceiver<Errand>,
     errand: mpsc::UnboundedSender<Errand>,
@@ -169,7 +169,7 @@ impl Actor {
         name: String,
         session: Session,
         lease: Lease,
-        around: Surroundings,
+        services: Services,
     ) -> (Self, SessionHandle) {
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (errand, errands) = mpsc::unbounded_channel();
@@ -178,7 +178,7 @@ impl Actor {
             name,
             session,
             lease,
-            around,
+            services,
             requests,
             errands,
             errand,
@@ -219,7 +219,7 @@ impl Actor {
                 "the last commands may not have been kept, or are in no snapshot"
             );
         }
-        self.around.store.release(self.lease).await;
+        self.services.store.release(self.lease).await;
     }
 
     async fn live(&mut self) -> Result<End, Failed> {
@@ -230,7 +230,7 @@ impl Actor {
             let idle_at = self.may_leave().then_some(self.empty_since + IDLE);
             let input = tokio::select! {
                 biased;
-                () = self.around.stop.cancelled() => return Ok(End::Stopping),
+                () = self.services.stop.cancelled() => return Ok(End::Stopping),
                 Some(errand) = self.errands.recv() => self.returned(errand)?,
                 Some(request) = self.requests.recv() => self.requested(request),
                 () = until(wake_at) => {
@@ -317,14 +317,14 @@ impl Actor {
             Errand::Journaled(through) => Ok(Some(Input::Journaled(through))),
             Errand::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
             Errand::Worked(work) => Ok(Some(Input::Worked(work))),
-            Errand::Foreseen(foresight) => Ok(Some(Input::Foreseen(foresight))),
+            Errand::Predicted(prediction) => Ok(Some(Input::Predicted(prediction))),
             Errand::WorkFailed => Err(Failed),
             Errand::SnapshotKept => Ok(None),
         }
     }
 
     fn handle(&mut self, input: Input) -> Result<(), Failed> {
-        let now = self.around.started.elapsed().as_millis() as u64;
+        let now = self.services.started.elapsed().as_millis() as u64;
         // A bug in a session must end this session only.
         catch_unwind(AssertUnwindSafe(|| self.session.handle(now, input))).map_err(|_| Failed)?;
         self.drain()
@@ -358,7 +358,7 @@ impl Actor {
             }
             Output::Journal(entries) => self.journal(entries),
             Output::Work(work) => self.work(work),
-            Output::Foresee(foresight) => self.foresee(foresight),
+            Output::Predict(prediction) => self.start_prediction(prediction),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
             Output::Document { read, bytes, metamers } => {
                 if let Some(answer) = self.reads.remove(&read.0) {
@@ -370,14 +370,14 @@ impl Actor {
                     let _ = answer.send(outcome);
                 }
             }
-            Output::WakeAt(at) => self.wake_at = Some(self.around.started + Duration::from_millis(at)),
+            Output::WakeAt(at) => self.wake_at = Some(self.services.started + Duration::from_millis(at)),
         }
     }
 
     fn journal(&mut self, entries: Vec<JournalEntry>) {
         let Some(last) = entries.last().map(|entry| entry.number) else { return };
         let (store, lease, errand) =
-            (Arc::clone(&self.around.store), self.lease.clone(), self.errand.clone());
+            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
@@ -392,7 +392,7 @@ impl Actor {
     }
 
     fn work(&mut self, mut work: Box<Work>) {
-        let (pool, errand) = (self.around.pool.clone(), self.errand.clone());
+        let (pool, errand) = (self.services.pool.clone(), self.errand.clone());
         self.under_way += 1;
         tokio::spawn(async move {
             let done = pool.run(move || {
@@ -404,18 +404,18 @@ impl Actor {
     }
 
     /// Makes a prediction slice by slice, so that the trees people work on have their turns between.
-    fn foresee(&mut self, mut foresight: Box<Foresight>) {
-        let (pool, errand) = (self.around.pool.clone(), self.errand.clone());
+    fn start_prediction(&mut self, mut prediction: Box<PredictionRun>) {
+        let (pool, errand) = (self.services.pool.clone(), self.errand.clone());
         self.under_way += 1;
         tokio::spawn(async move {
             loop {
                 let slice = pool.run(move || {
-                    let is_done = foresight.run();
-                    (foresight, is_done)
+                    let is_done = prediction.run();
+                    (prediction, is_done)
                 });
                 match slice.await {
-                    Ok((done, true)) => break errand.send(Errand::Foreseen(done)),
-                    Ok((rest, false)) => foresight = rest,
+                    Ok((done, true)) => break errand.send(Errand::Predicted(done)),
+                    Ok((rest, false)) => prediction = rest,
                     Err(_) => break errand.send(Errand::WorkFailed),
                 }
             }
@@ -424,7 +424,7 @@ impl Actor {
 
     fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
         let (store, lease, errand) =
-            (Arc::clone(&self.around.store), self.lease.clone(), self.errand.clone());
+            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
         let session = self.name.clone();
         let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes };
         self.under_way += 1;

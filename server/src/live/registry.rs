@@ -13,7 +13,7 @@ use tokio::{
 };
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
-use super::actor::{Actor, SessionHandle, Surroundings};
+use super::actor::{Actor, Services, SessionHandle};
 use crate::{
     SIMULATION_VERSION,
     pool::{Panicked, SimulationPool},
@@ -87,7 +87,7 @@ pub struct Sessions(Arc<Inner>);
 
 #[derive(Debug)]
 struct Inner {
-    around: Surroundings,
+    services: Services,
     slots: Mutex<BTreeMap<String, Arc<Slot>>>,
     /// Sessions and their sockets.
     tasks: TaskTracker,
@@ -97,9 +97,9 @@ struct Inner {
 impl Sessions {
     /// None are loaded yet. When `stop` is cancelled all of them end.
     pub fn new(store: Arc<AnyStore>, pool: SimulationPool, stop: CancellationToken) -> Self {
-        let around = Surroundings { store, pool, stop, started: Instant::now() };
+        let services = Services { store, pool, stop, started: Instant::now() };
         Self(Arc::new(Inner {
-            around,
+            services,
             slots: Mutex::default(),
             tasks: TaskTracker::new(),
             places: Arc::new(Semaphore::new(MAX_SOCKETS)),
@@ -109,7 +109,7 @@ impl Sessions {
     /// The session of this name, loaded if need be; nothing if there is none.
     pub async fn open(&self, name: &str) -> Result<Option<SessionHandle>, OpenError> {
         loop {
-            if self.0.around.stop.is_cancelled() {
+            if self.0.services.stop.is_cancelled() {
                 return Err(OpenError::Stopping);
             }
             let slot = Arc::clone(self.0.slots().entry(name.to_owned()).or_default());
@@ -145,16 +145,16 @@ impl Sessions {
     }
 
     async fn load(&self, name: &str, slot: &Arc<Slot>) -> Result<SessionHandle, Unloaded> {
-        let Inner { around, tasks, .. } = &*self.0;
-        let lease = around.store.acquire(name).await?;
-        let session = match restored(around, name, &lease).await {
+        let Inner { services, tasks, .. } = &*self.0;
+        let lease = services.store.acquire(name).await?;
+        let session = match restored(services, name, &lease).await {
             Ok(session) => session,
             Err(unloaded) => {
-                around.store.release(lease).await;
+                services.store.release(lease).await;
                 return Err(unloaded);
             }
         };
-        let (actor, handle) = Actor::new(name.to_owned(), session, lease, around.clone());
+        let (actor, handle) = Actor::new(name.to_owned(), session, lease, services.clone());
         let place = Place {
             sessions: Arc::downgrade(&self.0),
             name: name.to_owned(),
@@ -179,30 +179,30 @@ impl Sessions {
 }
 
 /// Restores a session from its newest snapshot, or from the one before if that is of no use.
-async fn restored(around: &Surroundings, name: &str, lease: &Lease) -> Result<Session, Unloaded> {
-    let stored = around.store.load_session(name, None).await?.ok_or(Unloaded::Unknown)?;
+async fn restored(services: &Services, name: &str, lease: &Lease) -> Result<Session, Unloaded> {
+    let stored = services.store.load_session(name, None).await?.ok_or(Unloaded::Unknown)?;
     let (through, passed_over) = (stored.through, stored.damage.clone());
-    match restore(around, name, lease, stored).await? {
+    match restore(services, name, lease, stored).await? {
         Ok(session) => Ok(session),
         // Going on from an older snapshot would grow another tree than the newer program did.
         Err(error @ RestoreError::Document(DocumentError::Later(_))) => Err(error.into()),
         Err(error) => {
             tracing::error!(session = name, %error, "the newest snapshot is of no use; trying the one before");
             // The first error is the one that tells.
-            let Ok(Some(mut older)) = around.store.load_session(name, Some(through)).await else {
+            let Ok(Some(mut older)) = services.store.load_session(name, Some(through)).await else {
                 return Err(error.into());
             };
             older
                 .damage
                 .extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
-            Ok(restore(around, name, lease, older).await?.map_err(|_| error)?)
+            Ok(restore(services, name, lease, older).await?.map_err(|_| error)?)
         }
     }
 }
 
 /// Makes a session of what was read of it, and puts aside what was damaged; nothing of that is done in silence.
 async fn restore(
-    around: &Surroundings,
+    services: &Services,
     name: &str,
     lease: &Lease,
     stored: StoredSession,
@@ -225,7 +225,7 @@ async fn restore(
     }
     let StoredSession { seed, snapshot, entries, damage, .. } = stored;
     let epoch = rand::random();
-    let made = around.pool.run({
+    let made = services.pool.run({
         let name = name.to_owned();
         move || Session::restore(name, epoch, snapshot.as_deref(), seed, entries)
     });
@@ -234,7 +234,7 @@ async fn restore(
         Err(error) => return Ok(Err(error)),
     };
     if !damage.is_empty() {
-        around.store.set_aside(lease, &damage).await?;
+        services.store.set_aside(lease, &damage).await?;
     }
     if !notices.is_empty() {
         session.notify(notices);

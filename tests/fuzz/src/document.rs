@@ -34,7 +34,7 @@ pub fn seeds() -> Vec<Vec<u8>> {
         let _ = read_command(line).and_then(|command| document.apply("someone", &command));
     }
     // What is being drawn or bent cannot be kept.
-    document.lift_hands();
+    document.end_gestures();
     let bytes = document.to_bytes();
     let snapshot = Session::first_snapshot(&bytes, METAMERS);
     [document.to_saved_bytes(), bytes].into_iter().chain(snapshot).collect()

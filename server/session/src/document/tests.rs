@@ -262,7 +262,7 @@ fn lifted_brushes_leave_operations_apart() {
     document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     let samples = vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)];
     document.apply("ann", &plain(Action::StrokeMove { stroke: 1, samples: list(samples) })).expect("open");
-    document.lift_hands();
+    document.end_gestures();
     let step = document.plant().step();
     grow(&mut document, 2, None);
     document.apply("bob", &plain(Action::Undo {})).expect("growth is an operation of its own");

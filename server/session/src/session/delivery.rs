@@ -25,15 +25,14 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, poses, foresights, acts, documents, snapshot } =
-            work.take_report();
+        let Report { delta, catch_ups, refused, poses, runs, acts, documents, snapshot } = work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }
         self.take_poses(poses);
-        self.outputs.extend(foresights.into_iter().map(|foresight| Output::Foresee(Box::new(foresight))));
+        self.outputs.extend(runs.into_iter().map(|prediction| Output::Predict(Box::new(prediction))));
         for refusal in refused {
             // The session's own commands have number 0, and nobody waits for their answer.
             let client = self.authors.get(&refusal.author).and_then(|author| author.client);
@@ -54,7 +53,7 @@ impl Session {
         self.take_figures(&work);
         self.home = Some(work);
         // Steps that were expected and not taken count as well: a refused command leaves no other trace.
-        self.upkeep.state_changed |= self.state() != self.upkeep.told;
+        self.upkeep.state_changed |= self.state() != self.upkeep.sent;
     }
 
     fn take_figures(&mut self, work: &Work) {

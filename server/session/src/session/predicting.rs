@@ -7,8 +7,8 @@ use espalier_proto::{GhostFrame, ServerMessage};
 use super::Session;
 use crate::{
     clients::Vision,
-    foresight::{Cancelled, Foresight, Prediction, Question},
     io::{ClientId, Output},
+    prediction::{Cancelled, Prediction, PredictionRun, Question},
     work::Work,
 };
 
@@ -61,21 +61,21 @@ impl Session {
         for (&client, state) in &mut self.clients {
             let Some(guest) = &mut state.guest else { continue };
             let vision = &mut guest.vision;
-            if self.foreseeing >= MAX_FORESEEING || vision.running.is_some() {
+            if self.predictions >= MAX_FORESEEING || vision.running.is_some() {
                 continue;
             }
             let Some(prediction) = vision.wanted.take() else { continue };
             let cancelled = Cancelled::default();
             vision.running = Some(Arc::clone(&cancelled));
-            self.foreseeing += 1;
+            self.predictions += 1;
             work.questions.push(Question { client, number: vision.number, prediction, cancelled });
         }
     }
 
     /// A prediction is done, or was given up.
-    pub(super) fn foreseen(&mut self, foresight: Foresight) {
-        self.foreseeing = self.foreseeing.saturating_sub(1);
-        let Foresight { question, answer, .. } = foresight;
+    pub(super) fn finish_prediction(&mut self, prediction: PredictionRun) {
+        self.predictions = self.predictions.saturating_sub(1);
+        let PredictionRun { question, answer, .. } = prediction;
         let Some(guest) = self.guest_mut(question.client) else { return };
         guest.vision.running = None;
         if question.number != guest.vision.number {

@@ -36,7 +36,7 @@ pub(super) struct Upkeep {
     /// Whether figures differ from what clients were told.
     pub(super) state_changed: bool,
     /// What clients were told last.
-    pub(super) told: DocumentState,
+    pub(super) sent: DocumentState,
     state_due: u64,
     /// Whether lines of time differ from what clients were told.
     pub(super) timeline_changed: bool,
@@ -63,7 +63,7 @@ impl Upkeep {
             absences: VecDeque::new(),
             overdue: BTreeSet::new(),
             state_changed: false,
-            told: DocumentState::default(),
+            sent: DocumentState::default(),
             state_due: 0,
             timeline_changed: false,
             timeline_due: 0,
@@ -149,8 +149,8 @@ impl Session {
         if self.upkeep.state_changed && self.now >= self.upkeep.state_due {
             self.upkeep.state_changed = false;
             self.upkeep.state_due = self.now + STATE_MS;
-            self.upkeep.told = self.state();
-            self.broadcast(&ServerMessage::State { state: self.upkeep.told.clone() });
+            self.upkeep.sent = self.state();
+            self.broadcast(&ServerMessage::State { state: self.upkeep.sent.clone() });
         }
         if self.upkeep.widths_changed && self.now >= self.upkeep.widths_due {
             self.upkeep.widths_changed = false;

@@ -8,7 +8,7 @@ use espalier_proto::{
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    ActId, ClientId, Document, Foresight, Input, JournalEntry, Output, ReadId, Session, Work,
+    ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, ReadId, Session, Work,
 };
 use serde_json::{Value, json};
 
@@ -51,7 +51,7 @@ pub struct World {
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
     pub working: Option<(u64, Box<Work>)>,
-    foreseeing: Vec<Foresight>,
+    predictions: Vec<PredictionRun>,
     wake_at: Option<u64>,
     /// How long the disk and a slice of work take.
     pub write_ms: u64,
@@ -84,7 +84,7 @@ impl World {
             acts: Vec::new(),
             writing: None,
             working: None,
-            foreseeing: Vec::new(),
+            predictions: Vec::new(),
             wake_at: None,
             write_ms: 5,
             work_ms: 3,
@@ -102,7 +102,7 @@ impl World {
         self.next_epoch += 1;
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);
-        self.foreseeing.clear();
+        self.predictions.clear();
     }
 
     pub fn handle(&mut self, input: Input) {
@@ -156,7 +156,7 @@ impl World {
                 assert!(self.working.is_none(), "there is one document");
                 self.working = Some((self.now + self.work_ms, work));
             }
-            Output::Foresee(foresight) => self.foreseeing.push(*foresight),
+            Output::Predict(prediction) => self.predictions.push(*prediction),
             Output::Snapshot { through, bytes } => {
                 let durable = self.disk.last().map_or(0, |entry| entry.number);
                 assert!(through <= durable, "a snapshot is never ahead of the journal");
@@ -176,10 +176,10 @@ impl World {
             self.let_peers_read();
             let write = self.writing.as_ref().map(|(due, _)| *due);
             let work = self.working.as_ref().map(|(due, _)| *due);
-            if let Some(mut foresight) = self.foreseeing.pop() {
-                match foresight.run() {
-                    true => self.handle(Input::Foreseen(Box::new(foresight))),
-                    false => self.foreseeing.push(foresight),
+            if let Some(mut prediction) = self.predictions.pop() {
+                match prediction.run() {
+                    true => self.handle(Input::Predicted(Box::new(prediction))),
+                    false => self.predictions.push(prediction),
                 }
                 continue;
             }

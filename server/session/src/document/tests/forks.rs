@@ -223,7 +223,7 @@ proptest! {
             if happen(&mut document, event).is_err() && !matches!(event, Event::Bend(_)) {
                 prop_assert_eq!(document.hash(), before, "{:?} is refused and changes something", event);
             }
-            document.lift_hands();
+            document.end_gestures();
             prop_assert_eq!(checks::all(document.plant()), Ok(()), "after {:?}", event);
             assert_light_and_space(&document);
         }

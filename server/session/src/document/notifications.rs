@@ -1,4 +1,4 @@
-//! What clients are told of a document beside its rows and figures: lines of time, width constraints, poses.
+//! What clients are notified of a document beside its rows and figures: lines of time, width constraints, poses.
 
 use std::collections::BTreeMap;
 
@@ -16,14 +16,14 @@ impl Document {
     /// The present line of time and all others (`TT1`).
     pub fn timeline(&self) -> Timeline {
         let mut people = People::default();
-        let operations = people.tell(&self.history.operations);
+        let operations = people.name(&self.history.operations);
         let mut futures: Vec<TimelineFuture> = (self.futures.all.iter())
             .map(|future| TimelineFuture {
                 future: future.line,
                 from: future.fork.step,
                 on: future.on,
                 steps: future.rows.steps(),
-                operations: people.tell(&future.operations),
+                operations: people.name(&future.operations),
             })
             .collect();
         futures.sort_by_key(|future| future.future);
@@ -43,24 +43,24 @@ impl Document {
             return Vec::new();
         }
         let girth = self.girth();
-        let told = |width: &widths::Width| WidthConstraint {
+        let entry = |width: &widths::Width| WidthConstraint {
             row: width.metamer.raw(),
             diameter: width.wanted,
             effective: width.effective,
         };
-        widths::in_force(self.plant(), &girth).iter().map(told).collect()
+        widths::in_force(self.plant(), &girth).iter().map(entry).collect()
     }
 
     /// Where each open bend that was moved stands, by its number (`BE5`).
     pub(crate) fn poses(&self) -> BTreeMap<u32, Vec<RowMotion>> {
         let pose = |bend: &super::bending::OpenBend| {
             let rows = bend.path.iter().zip(bend.solver.motions());
-            let told = rows.map(|(row, motion)| RowMotion {
+            let entry = rows.map(|(row, motion)| RowMotion {
                 row: row.raw(),
                 rotation: motion.rotation.to_array(),
                 to: motion.to.to_array(),
             });
-            (bend.id, told.collect())
+            (bend.id, entry.collect())
         };
         self.bends.open.iter().filter(|bend| bend.is_moved).map(pose).collect()
     }
@@ -76,11 +76,11 @@ impl Document {
 struct People<'a>(BTreeMap<&'a str, u32>);
 
 impl<'a> People<'a> {
-    fn tell(&mut self, operations: &'a [Operation]) -> Vec<TimelineOperation> {
-        operations.iter().map(|operation| self.tell_one(operation)).collect()
+    fn name(&mut self, operations: &'a [Operation]) -> Vec<TimelineOperation> {
+        operations.iter().map(|operation| self.name_one(operation)).collect()
     }
 
-    fn tell_one(&mut self, operation: &'a Operation) -> TimelineOperation {
+    fn name_one(&mut self, operation: &'a Operation) -> TimelineOperation {
         let next = self.0.len() as u32;
         let author = *self.0.entry(operation.author.as_str()).or_insert(next);
         let kind = match operation.kind {

@@ -42,9 +42,9 @@ pub(crate) struct Question {
     pub(crate) cancelled: Cancelled,
 }
 
-/// A prediction in the making. Owns all it needs: call [`Foresight::run`] on any thread until it is done.
+/// A prediction in the making. Owns all it needs: call [`PredictionRun::run`] on any thread until it is done.
 #[derive(Debug)]
-pub struct Foresight {
+pub struct PredictionRun {
     pub(crate) question: Question,
     epoch: u32,
     /// The plants to come; `None` when nothing is left to do.
@@ -56,7 +56,7 @@ pub struct Foresight {
     pub(crate) answer: Option<Result<Arc<[u8]>, Problem>>,
 }
 
-impl Foresight {
+impl PredictionRun {
     pub(crate) fn new(
         question: Question,
         simulation: Simulation<Generators>,
@@ -75,7 +75,7 @@ impl Foresight {
         }
     }
 
-    /// Does one slice; true when the prediction is done and goes back as [`crate::Input::Foreseen`].
+    /// Does one slice; true when the prediction is done and goes back as [`crate::Input::Predicted`].
     pub fn run(&mut self) -> bool {
         let Some(mut simulation) = self.simulation.take() else { return true };
         if !self.is_cut {
