@@ -51,7 +51,10 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
-    notice: async ({ notice }) => page.toasts.show((await plainWords()).noticed(notice)),
+    notice: async ({ notice }) => {
+      const words = await plainWords().catch(() => null);
+      page.toasts.show(words ? words.noticed(notice) : say("notices.unread"));
+    },
   };
 }
 

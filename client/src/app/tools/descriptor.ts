@@ -42,6 +42,8 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly hint?: (facts: HintFacts) => Text | null;
   /** A promise where the first picture does without the tool's code, which is then loaded when it is first needed. */
   readonly make: (kit: ToolKit) => Made | Promise<Made>;
+  /** Called once the tool is in use, which it may not become where the view has gone while its code was loaded. */
+  ready?(tool: Made, kit: ToolKit): void;
   /** `later` has options or marks, which are needed as soon as the tool is chosen. */
   readonly hasViews?: boolean;
   /** What the first picture does without. */

@@ -292,16 +292,31 @@ describe("toolbox", () => {
     expect(tools.grip(500, 500)).toBeNull();
   });
 
-  it("a tool whose code does not come is told, and loaded when it is chosen again", async () => {
+  it("a tool whose code does not come says so when it is chosen, and is loaded when it is chosen again", async () => {
     const { tools, toasts } = setUp();
     vi.spyOn(console, "warn").mockImplementation(() => {});
     const make = vi.spyOn(TOOLS.branch, "make").mockRejectedValueOnce(new Error("offline"));
+    await tools.load("branch");
+    await tools.load("branch");
+    expect([make.mock.calls.length, toasts.list.value.length], "nobody asked for it").toEqual([1, 0]);
     tools.choose("branch");
-    await tools.load("branch");
+    await vi.waitFor(() => expect(tools.chosen.value).toBe("brush"));
     expect([tools.made.value?.branch, toasts.list.value.length]).toEqual([undefined, 1]);
-    await tools.load("branch");
-    expect([tools.made.value?.branch !== undefined, make.mock.calls.length]).toEqual([true, 2]);
+    tools.choose("branch");
+    await vi.waitFor(() => expect(tools.made.value?.branch).toBeDefined());
+    expect([tools.chosen.value, make.mock.calls.length]).toEqual(["branch", 2]);
     vi.restoreAllMocks();
+  });
+
+  it("a stroke before the tool's code is there is answered", async () => {
+    const { tools, toasts, draw } = setUp();
+    tools.choose("width");
+    draw(ring);
+    expect(toasts.list.value.length).toBe(1);
+    await tools.load("width");
+    tools.detach();
+    tools.choose("bend");
+    expect(tools.made.value).toBeNull();
   });
 
   it("without a session nothing is drawn", () => {

@@ -4,7 +4,7 @@ import type { Command } from "../../wire/generated";
 import type { Gesture, Grip, StrokePoint } from "../input/gesture-recogniser";
 import { nearestBase } from "../view/places";
 import { say } from "../words/say";
-import type { AnyTool, ToolKit, Workshop } from "./descriptor";
+import type { AnyTool, ToolDescriptor, ToolKit, Workshop } from "./descriptor";
 import { ObstacleTool } from "./obstacle/obstacle-tool";
 import { pace } from "./pacing";
 import { PICK_TOLERANCE } from "./tool";
@@ -72,11 +72,12 @@ export class Toolbox {
       done: () => this.choose(FIRST_TOOL),
     };
     this.#kit = kit;
+    this.#loading.clear();
     this.made.value = {};
     for (const name of AT_ONCE) {
       void this.load(name);
     }
-    void this.load(this.chosen.peek());
+    void this.#open(this.chosen.peek());
     this.#mover = new ObstacleTool({
       view,
       poseOf: (id) => obstacles.poseOf(id),
@@ -101,28 +102,39 @@ export class Toolbox {
     this.#tool?.leave?.();
     this.#tool?.release?.();
     this.chosen.value = tool;
-    void this.load(tool);
+    void this.#open(tool);
   }
 
-  /** Makes a tool, once, and loads its code before that where it has to be; after a failure it is tried again. */
-  load(name: ToolName): Promise<void> {
+  /** Makes a tool, once, and loads its code before that where it has to be. After a failure only `choose` tries again. */
+  async load(name: ToolName): Promise<void> {
     const kit = this.#kit;
-    const loading = kit ? (this.#loading.get(name) ?? this.#make(name, kit)) : Promise.resolve();
+    if (!kit) {
+      return;
+    }
+    const loading = this.#loading.get(name) ?? this.#make(descriptorOf(name), name, kit);
     this.#loading.set(name, loading);
-    return loading;
+    await loading;
   }
 
-  async #make(name: ToolName, kit: ToolKit): Promise<void> {
-    try {
-      const made = descriptorOf(name).make(kit);
-      const tool = made instanceof Promise ? await made : made;
-      if (this.#kit === kit) {
-        this.made.value = { ...this.made.peek(), [name]: tool };
-      }
-    } catch (error) {
-      console.warn("A tool could not be loaded:", error);
+  async #make({ make, ready }: ToolDescriptor, name: ToolName, kit: ToolKit): Promise<void> {
+    const made = make(kit);
+    const tool = made instanceof Promise ? await made.catch((error) => lost(error)) : made;
+    if (tool && this.#kit === kit) {
+      this.made.value = { ...this.made.peek(), [name]: tool };
+      ready?.(tool, kit);
+    }
+  }
+
+  /** Loads the tool that was chosen; where it does not come, the first tool is chosen again, with a reason. */
+  async #open(name: ToolName): Promise<void> {
+    const kit = this.#kit;
+    await this.load(name);
+    if (kit && this.#kit === kit && !this.made.peek()?.[name]) {
       this.#loading.delete(name);
       kit.say("notices.part-lost");
+      if (this.chosen.peek() === name) {
+        this.choose(FIRST_TOOL);
+      }
     }
   }
 
@@ -332,6 +344,9 @@ export class Toolbox {
 
   #begin(point: StrokePoint): void {
     const tool = this.#moves(point) ? this.#mover : this.#tool;
+    if (!tool) {
+      this.#kit?.say("notices.part-loading");
+    }
     if (!tool || !("begin" in tool) || !this.#options.ready()) {
       return;
     }
@@ -353,4 +368,10 @@ export class Toolbox {
   get #all(): readonly AnyTool[] {
     return Object.values(this.made.peek() ?? {});
   }
+}
+
+/** Code that does not come is no reason to end the page: the tool is missing until it is chosen again. */
+function lost(error: unknown): null {
+  console.warn("A tool could not be loaded:", error);
+  return null;
 }

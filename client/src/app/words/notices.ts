@@ -31,6 +31,10 @@ export const NOTICES = {
     "This part of the page could not be loaded. Is the server still there?",
     "Dieser Teil der Seite ließ sich nicht laden. Ist der Server noch da?",
   ],
+  "notices.unread": [
+    "The server has a message about this tree, which could not be loaded. Load the page again to read it.",
+    "Der Server hat eine Nachricht zu diesem Baum, die sich nicht laden ließ. Lade die Seite neu, um sie zu lesen.",
+  ],
   "notices.part-again": ["Try again", "Noch einmal versuchen"],
   "notices.part-replaced": [
     "The server has a newer version of this page. Reload it; your strokes are kept.",

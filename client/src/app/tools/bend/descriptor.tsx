@@ -1,5 +1,6 @@
 import { BendIcon } from "../../ui/timeline/timeline-icons";
 import type { ToolDescriptor } from "../descriptor";
+import { BendPoses } from "./bend-poses";
 import type { BendTool } from "./bend-tool";
 
 export const BEND: ToolDescriptor<BendTool> = {
@@ -8,13 +9,9 @@ export const BEND: ToolDescriptor<BendTool> = {
   title: ["Bend: hold a branch's base and drag its end", "Biegen: den Astansatz halten und das Ende ziehen"],
   Icon: BendIcon,
   group: "shaping",
-  make: async ({ table, view, submit, next, unsettled, settings, poses, say }) => {
-    const [{ Bend }, { BendPoses }, { BendTool }] = await Promise.all([
-      import("../../../scene/bend/bend"),
-      import("./bend-poses"),
-      import("./bend-tool"),
-    ]);
-    const bend = new BendTool({
+  make: async ({ table, view, submit, next, unsettled, settings, say }) => {
+    const [{ Bend }, { BendTool }] = await Promise.all([import("../../../scene/bend/bend"), import("./bend-tool")]);
+    return new BendTool({
       table,
       view,
       submit,
@@ -25,9 +22,8 @@ export const BEND: ToolDescriptor<BendTool> = {
       solver: (nodes, radii, stretch) => new Bend(nodes, radii, stretch),
       say,
     });
-    poses.attach(new BendPoses(table, view, bend));
-    return bend;
   },
+  ready: (bend, { table, view, poses }) => poses.attach(new BendPoses(table, view, bend)),
   hasViews: true,
   later: () => import("./later"),
 };
