@@ -6,6 +6,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
 use espalier_settings::{ParameterValues, ParametersPatch};
 
+use crate::document::{FORMATS, Format};
+
 const EXAMPLES: &str = "\
 Examples:
   espalier                                   serve on port 7700; the tree is drawn in a browser
@@ -175,26 +177,14 @@ pub struct Export {
     pub format: Format,
 }
 
-/// A file format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// glTF binary.
-    Glb,
-    /// The skeleton as JSON.
-    Skeleton,
-    /// A picture as PNG.
-    Picture,
-}
-
 fn parse_export(path: &str) -> Result<Export, String> {
     let path = PathBuf::from(path);
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let format = match extension.as_deref() {
-        Some("glb") => Format::Glb,
-        Some("json") => Format::Skeleton,
-        Some("png") => Format::Picture,
-        _ => return Err("the name must end in .glb (triangles), .json (skeleton) or .png (picture)".into()),
-    };
+    let found = FORMATS.iter().find(|(_, ending, _)| extension.as_deref() == Some(*ending));
+    let &(format, ..) = found.ok_or_else(|| {
+        let all: Vec<_> = FORMATS.iter().map(|(_, ending, what)| format!(".{ending} ({what})")).collect();
+        format!("the name must end in one of: {}", all.join(", "))
+    })?;
     Ok(Export { path, format })
 }
 

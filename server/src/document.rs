@@ -8,8 +8,6 @@ use espalier_growth::species::Stand;
 use espalier_mesh::Style;
 use espalier_session::{Document, DocumentError, style_options};
 
-use crate::cli::Format;
-
 /// Pixels of a picture across and down.
 const PICTURE: (usize, usize) = (1000, 1000);
 
@@ -28,6 +26,24 @@ pub enum FileError {
 pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
     Ok(file(&mut Document::from_bytes(bytes)?, Stand::Ground, Format::Glb)?)
 }
+
+/// A file format for plants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// glTF binary.
+    Glb,
+    /// The skeleton as JSON.
+    Skeleton,
+    /// A picture as PNG.
+    Picture,
+}
+
+/// Each format, how the names of its files end, and what is in them.
+pub const FORMATS: &[(Format, &str, &str)] = &[
+    (Format::Glb, "glb", "triangles"),
+    (Format::Skeleton, "json", "skeleton"),
+    (Format::Picture, "png", "picture"),
+];
 
 /// The plants of a document in a file format, in a picture on such a stand.
 pub fn file(document: &mut Document, stand: Stand, format: Format) -> Result<Vec<u8>, ExportError> {

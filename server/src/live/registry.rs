@@ -192,6 +192,8 @@ async fn restored(services: &Services, name: &str, lease: &Lease) -> Result<Sess
             let Ok(Some(mut older)) = services.store.load_session(name, Some(through)).await else {
                 return Err(error.into());
             };
+            // Its row is what was written, but nothing can be made of it.
+            older.damage.push(Damage::Snapshot(through));
             older
                 .damage
                 .extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
@@ -484,6 +486,8 @@ mod tests {
         let (_, acknowledged, metamers) = house.visit_to("elm").await.welcome().await;
         assert_eq!(acknowledged, 1);
         assert!(metamers > tree.metamers, "the tree it began with, grown on");
+        let stored = house.store.load_session("elm", None).await.unwrap().unwrap();
+        assert_ne!(stored.snapshot.as_deref(), Some(b"damaged".as_slice()), "it is put aside");
     }
 
     #[tokio::test]

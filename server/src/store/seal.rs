@@ -84,7 +84,7 @@ pub(super) fn assemble(
         (stored.through, stored.newest_version) = (row.through, row.simulation_version);
         stored.snapshot = Some(row.bytes);
     }
-    let mut next = stored.through + 1;
+    let mut next = stored.through.saturating_add(1);
     for row in rows {
         let Some(entries) = Some(&row).filter(|row| row.first <= next).and_then(|row| row.open(session))
         else {

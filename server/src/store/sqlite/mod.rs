@@ -105,8 +105,24 @@ impl Store for SqliteStore {
 
 impl From<sqlx::Error> for StoreError {
     fn from(error: sqlx::Error) -> Self {
+        if is_damage(&error) {
+            tracing::error!(%error, "the database is damaged");
+            return Self::Damaged("its database is damaged".into());
+        }
         let words = in_words(&error).unwrap_or("its database failed");
         Self::Failed { words, cause: Box::new(error) }
+    }
+}
+
+/// Whether a page or a column is not what was once written, so that asking again is of no use.
+fn is_damage(error: &sqlx::Error) -> bool {
+    match error {
+        sqlx::Error::Database(error) => {
+            let code = error.code().and_then(|code| code.parse::<u32>().ok());
+            matches!(code.map(|code| code & 0xff), Some(11 | 26))
+        }
+        sqlx::Error::ColumnDecode { .. } | sqlx::Error::Decode(_) => true,
+        _ => false,
     }
 }
 

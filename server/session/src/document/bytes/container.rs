@@ -20,6 +20,8 @@ const HEADER: usize = 28;
 const ENTRY: usize = 28;
 /// No document has more sections.
 const MAX_SECTIONS: usize = 256;
+/// It carries along so many sections that this program does not know, so that there is room for its own.
+const MAX_UNKNOWN: usize = 64;
 /// No document unpacks to more: the budget's metamers with all their columns fit many times over.
 const MAX_UNPACKED: u64 = 4 << 30;
 
@@ -158,6 +160,9 @@ impl Container {
             sections.push(section);
         }
         reader.end()?;
+        if sections.iter().filter(|section| Kind::of(section.tag).is_none()).count() > MAX_UNKNOWN {
+            return Err(damaged(format!("it has more than {MAX_UNKNOWN} unknown sections")));
+        }
         Ok(Self { simulation, sections })
     }
 
