@@ -106,6 +106,7 @@ function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () =
       studio.tools.gesture(gesture);
     },
     doubles: () => studio.tools.doubles(),
+    loading: () => studio.tools.loading(),
     grip: (x, y) => studio.tools.grip(x, y),
     hover: (place) => studio.tools.hover(place),
     widen: (factor) => {

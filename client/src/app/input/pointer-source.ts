@@ -6,6 +6,7 @@ import {
   type PointerSample,
   wheelFactor,
 } from "./gesture-recogniser";
+import { PressQueue } from "./press-queue";
 
 export interface PointerHandlers {
   gesture(gesture: Gesture): void;
@@ -19,6 +20,8 @@ export interface PointerHandlers {
   holdable(x: number, y: number): boolean;
   /** Whether two taps mean something to the chosen tool. */
   doubles(): boolean;
+  /** Whether the chosen tool came, while its code is being loaded; null where it is there. */
+  loading(): Promise<boolean> | null;
   /** What the chosen tool does with one more finger at a place; null if it draws strokes. */
   grip(x: number, y: number): Grip | null;
 }
@@ -26,6 +29,7 @@ export interface PointerHandlers {
 /** Feeds a canvas' pointer events to a gesture recogniser; returns what ends it. */
 export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHandlers): () => void {
   const recogniser = new GestureRecogniser();
+  const queue = new PressQueue();
   let timer = 0;
   const stop = new AbortController();
 
@@ -73,23 +77,31 @@ export function listenToPointers(canvas: HTMLCanvasElement, handlers: PointerHan
     const at = sample(event);
     const { button, altKey: choose } = event;
     const pans = event.shiftKey || handlers.panHeld();
-    const holdable = button === 0 && !pans && handlers.holdable(at.x, at.y);
-    const grip = button === 0 && !pans ? handlers.grip(at.x, at.y) : null;
-    const doubles = handlers.doubles();
-    const press: PointerPress = { ...at, button, pans, choose, holdable, doubles, ...(grip ? { grip } : {}) };
-    deliver(recogniser.down(press));
+    const down = () => {
+      const holdable = button === 0 && !pans && handlers.holdable(at.x, at.y);
+      const grip = button === 0 && !pans ? handlers.grip(at.x, at.y) : null;
+      const doubles = handlers.doubles();
+      const press: PointerPress = { ...at, button, pans, choose, holdable, doubles, ...(grip ? { grip } : {}) };
+      deliver(recogniser.down(press));
+    };
+    queue.press(down, handlers.loading());
   });
   on("pointermove", (event) => {
     const coalesced = event.getCoalescedEvents?.() ?? [];
-    deliver(recogniser.move((coalesced.length > 0 ? coalesced : [event]).map(sample)));
+    const samples = (coalesced.length > 0 ? coalesced : [event]).map(sample);
+    queue.follow(() => deliver(recogniser.move(samples)));
     if (event.pointerType !== "touch") {
       handlers.hover(sample(event));
     }
   });
-  on("pointerup", (event) => deliver(recogniser.up(sample(event))));
-  on("pointercancel", (event) => deliver(recogniser.cancel(event.pointerId)));
+  on("pointerup", (event) => {
+    const at = sample(event);
+    queue.follow(() => deliver(recogniser.up(at)));
+  });
+  const cancel = ({ pointerId }: PointerEvent) => queue.follow(() => deliver(recogniser.cancel(pointerId)));
+  on("pointercancel", cancel);
   // A capture that is lost without an end (a dialog opens, say) must not leave a stroke running.
-  on("lostpointercapture", (event) => deliver(recogniser.cancel(event.pointerId)));
+  on("lostpointercapture", cancel);
   on("pointerleave", (event) => {
     if (event.pointerType !== "touch") {
       handlers.hover(null);

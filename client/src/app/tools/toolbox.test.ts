@@ -308,15 +308,17 @@ describe("toolbox", () => {
     vi.restoreAllMocks();
   });
 
-  it("a stroke before the tool's code is there is answered", async () => {
-    const { tools, toasts, draw } = setUp();
+  it("a press can wait for the code of its tool", async () => {
+    const { tools } = setUp();
+    expect(tools.loading(), "the brush is there").toBeNull();
     tools.choose("width");
-    draw(ring);
-    expect(toasts.list.value.length).toBe(1);
-    await tools.load("width");
-    tools.detach();
+    const loading = tools.loading();
+    expect(tools.made.value?.width).toBeUndefined();
+    expect([await loading, tools.loading()]).toEqual([true, null]);
     tools.choose("bend");
-    expect(tools.made.value).toBeNull();
+    const left = tools.loading();
+    tools.choose("brush");
+    expect(await left, "another tool has been chosen").toBe(false);
   });
 
   it("without a session nothing is drawn", () => {

@@ -13,6 +13,9 @@ import { descriptorOf, FIRST_TOOL, type MadeTools, type ToolName } from "./tools
 /** The tools that are there with the first picture: what is drawn with, and the shears of a double tap. */
 const AT_ONCE: readonly ToolName[] = ["brush", "lasso", "prune", "seed"];
 
+/** After so many milliseconds a press that waits for a tool's code is answered. */
+const LATE = 400;
+
 /** How often a tool in progress is called, in milliseconds. */
 const TICK = 33;
 
@@ -123,6 +126,19 @@ export class Toolbox {
       this.made.value = { ...this.made.peek(), [name]: tool };
       ready?.(tool, kit);
     }
+  }
+
+  /** Whether the chosen tool came, while its code is being loaded; null where it is there. */
+  loading(): Promise<boolean> | null {
+    const name = this.chosen.peek();
+    if (!this.#kit || this.#tool) {
+      return null;
+    }
+    const late = setTimeout(() => this.#kit?.say("notices.part-loading"), LATE);
+    return this.load(name).then(() => {
+      clearTimeout(late);
+      return this.#tool !== undefined && this.chosen.peek() === name;
+    });
   }
 
   /** Loads the tool that was chosen; where it does not come, the first tool is chosen again, with a reason. */
@@ -344,9 +360,6 @@ export class Toolbox {
 
   #begin(point: StrokePoint): void {
     const tool = this.#moves(point) ? this.#mover : this.#tool;
-    if (!tool) {
-      this.#kit?.say("notices.part-loading");
-    }
     if (!tool || !("begin" in tool) || !this.#options.ready()) {
       return;
     }
