@@ -15,7 +15,7 @@ fn upright() -> UnitRotation {
     UnitRotation::IDENTITY
 }
 
-/// A mesh is as large as its coordinates say unless told otherwise.
+/// A mesh is as large as its coordinates say unless a scale is given.
 fn full_size() -> Scale {
     Scale::nearest(1.0)
 }

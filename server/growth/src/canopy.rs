@@ -9,7 +9,7 @@ mod slots;
 mod waves;
 mod wood;
 
-use espalier_plant::{Appearance, AxisId, MetamerId, Plant, make_room};
+use espalier_plant::{AxisId, Condition, MetamerId, Plant, make_room};
 use espalier_settings::VigorModel;
 use glam::Vec3;
 use rayon::prelude::*;
@@ -60,7 +60,7 @@ pub(crate) struct Canopy {
     sizes: Vec<u32>,
     /// Where each metamer of the plant stands in the canopy.
     slots: Slots,
-    /// Nodes that have gone dark since appearance was last written.
+    /// Nodes that have gone dark since conditions were last written.
     darkened: Vec<MetamerId>,
     /// Whether living nodes have been left out.
     has_left_out: bool,
@@ -407,10 +407,10 @@ impl Canopy {
     }
 
     /// Hands light and vigor on to whoever draws the plant.
-    pub(crate) fn write_appearance(&mut self, plant: &mut Plant) {
+    pub(crate) fn write_conditions(&mut self, plant: &mut Plant) {
         let count = plant.metamer_count();
         for id in self.darkened.drain(..).filter(|id| id.index() < count) {
-            plant.set_appearance(id, Appearance { light: 0, vigor: 0 });
+            plant.set_condition(id, Condition { light: 0, vigor: 0 });
         }
         let per_tip = |plant: &Plant, id: MetamerId, flow: &Flow| {
             flow.vigor as f32 / plant.metamers().tips(id).max(1) as i32 as f32
@@ -426,8 +426,8 @@ impl Canopy {
             let vigor = per_tip(plant, id, flow) * scale;
             // Wood that bears only buds in the dark is drawn as what has been left out, which it soon will be.
             let light = if flow.light() > 0 { *light } else { 0.0 };
-            let appearance = Appearance { light: byte(light * 255.0), vigor: byte(vigor) };
-            plant.set_appearance(id, appearance);
+            let condition = Condition { light: byte(light * 255.0), vigor: byte(vigor) };
+            plant.set_condition(id, condition);
         }
     }
 }

@@ -121,7 +121,7 @@ impl Growth {
     }
 
     pub(crate) fn show(&mut self, scene: &mut Scene) {
-        self.canopy.write_appearance(&mut scene.plant);
+        self.canopy.write_conditions(&mut scene.plant);
     }
 
     pub(crate) fn take_in(&mut self, scene: &Scene, change: &Change) {

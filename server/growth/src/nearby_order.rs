@@ -1,4 +1,4 @@
-//! Rows in the order of their places, so that what lies together is told together.
+//! Rows in the order of their places, so that rows near each other are processed together.
 
 use glam::Vec3;
 

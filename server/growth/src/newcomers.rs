@@ -1,4 +1,4 @@
-//! The nodes of one flush, by place, until space is told of them.
+//! The nodes of one flush, by place, until they are entered in space.
 
 use espalier_plant::MetamerId;
 use glam::Vec3;

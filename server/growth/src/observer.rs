@@ -17,7 +17,7 @@ pub enum Phase {
     Girth,
 }
 
-/// Is told which phase begins.
+/// Receives each phase as it begins.
 pub trait Observer {
     /// A phase begins; the one before has ended.
     fn enter(&mut self, phase: Phase);

@@ -14,7 +14,7 @@ use crate::{
     space::{Bud, Space},
 };
 
-/// Metamers a scene may hold, dead ones included, unless told otherwise. What was undone does not count.
+/// Metamers a scene may hold, dead ones included, unless another limit is set. What was undone does not count.
 pub const DEFAULT_METAMER_BUDGET: u32 = 1_000_000;
 
 /// Plants among obstacles. Light and space are those of the plants as they stand, after every step, edit and move in

@@ -21,7 +21,7 @@ const MAX_PARTS: usize = 300_000;
 
 /// Where a node puts what it holds.
 #[derive(Clone, Copy)]
-struct Pose {
+struct Transform {
     linear: Mat3,
     offset: Vec3,
 }
@@ -29,15 +29,15 @@ struct Pose {
 /// All triangles of the scene the file opens with; of all nodes if it has no scene.
 pub(crate) fn triangles(file: &File<'_>, limits: Limits) -> Result<Triangles, ImportError> {
     let document = &file.document;
-    let here = Pose { linear: Mat3::IDENTITY, offset: Vec3::ZERO };
+    let here = Transform { linear: Mat3::IDENTITY, offset: Vec3::ZERO };
     // Last in, first out: put in backwards, nodes come in the order of the file.
-    let mut open: Vec<(usize, Pose)> = roots(file)?.into_iter().rev().map(|node| (node, here)).collect();
+    let mut open: Vec<(usize, Transform)> = roots(file)?.into_iter().rev().map(|node| (node, here)).collect();
     let mut welded = Welded { limits, numbers: BTreeMap::new(), triangles: Triangles::default() };
     let mut visited = 0;
     while let Some((number, parent)) = open.pop() {
         visited += 1;
         let node = document.nodes.get(number).ok_or_else(|| damaged(format!("there is no node {number}")))?;
-        let pose = parent.then(&Pose::of(node));
+        let transform = parent.then(&Transform::of(node));
         if let Some(mesh) = node.mesh {
             let mesh =
                 document.meshes.get(mesh).ok_or_else(|| damaged(format!("there is no mesh {mesh}")))?;
@@ -46,10 +46,10 @@ pub(crate) fn triangles(file: &File<'_>, limits: Limits) -> Result<Triangles, Im
                 return Err(too_many_parts());
             }
             for primitive in &mesh.primitives {
-                welded.add(file, primitive, &pose)?;
+                welded.add(file, primitive, &transform)?;
             }
         }
-        open.extend(node.children.iter().rev().map(|&child| (child, pose)));
+        open.extend(node.children.iter().rev().map(|&child| (child, transform)));
         if visited + open.len() > MAX_PARTS {
             return Err(too_many_parts());
         }
@@ -87,7 +87,12 @@ struct Welded {
 
 impl Welded {
     /// Adds the triangles of a primitive; points and lines have none.
-    fn add(&mut self, file: &File<'_>, primitive: &Primitive, pose: &Pose) -> Result<(), ImportError> {
+    fn add(
+        &mut self,
+        file: &File<'_>,
+        primitive: &Primitive,
+        transform: &Transform,
+    ) -> Result<(), ImportError> {
         let mode = primitive.mode.unwrap_or(TRIANGLES);
         let Some(positions) = primitive.attributes.position else { return Ok(()) };
         if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
@@ -101,7 +106,7 @@ impl Welded {
         if count > self.limits.triangles - self.triangles.corners.len() {
             return Err(ImportError::TooLarge(self.limits));
         }
-        let is_mirrored = pose.linear.determinant() < 0.0;
+        let is_mirrored = transform.linear.determinant() < 0.0;
         for i in 0..count {
             let [a, mut b, mut c] = match mode {
                 TRIANGLES => [3 * i, 3 * i + 1, 3 * i + 2],
@@ -115,7 +120,7 @@ impl Welded {
             let mut triangle = [0; 3];
             for (number, corner) in triangle.iter_mut().zip([a, b, c]) {
                 let corner = indices.as_ref().map_or(Ok(corner), |indices| indices.get(corner))?;
-                *number = self.vertex(pose.linear * positions.get(corner)? + pose.offset)?;
+                *number = self.vertex(transform.linear * positions.get(corner)? + transform.offset)?;
             }
             let [a, b, c] = triangle;
             if a != b && b != c && c != a {
@@ -144,8 +149,8 @@ impl Welded {
     }
 }
 
-impl Pose {
-    /// A node's own pose.
+impl Transform {
+    /// The transform of a node itself.
     fn of(node: &Node) -> Self {
         if let Some(m) = node.matrix {
             let column = |i: usize| Vec3::new(m[4 * i], m[4 * i + 1], m[4 * i + 2]);
@@ -164,7 +169,7 @@ impl Pose {
         }
     }
 
-    /// The pose of a child.
+    /// The transform of a child.
     fn then(&self, child: &Self) -> Self {
         Self { linear: self.linear * child.linear, offset: self.linear * child.offset + self.offset }
     }

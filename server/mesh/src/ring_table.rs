@@ -11,7 +11,7 @@ mod changes;
 
 use std::ops::Range;
 
-use espalier_plant::{Appearance, AxisId, Columns, MetamerId, Plant, Widths, make_room};
+use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, make_room};
 use glam::Vec3;
 
 pub use self::changes::Changes;
@@ -47,7 +47,7 @@ pub struct RingTable {
     /// Tips that are drawn.
     tips: Vec<u32>,
     /// light and vigor as they were sent.
-    looks: Vec<Appearance>,
+    looks: Vec<Condition>,
     /// Codes of radii as they were sent, if width constraints held; empty otherwise.
     radii: Vec<u16>,
     /// For each number of steps of growth, how many rows had been born by then.
@@ -239,7 +239,7 @@ impl RingTable {
         pass.changes.position.len() > before
     }
 
-    /// Marks those rows of a chunk that are drawn so differently that it should be told.
+    /// Marks those rows of a chunk that are drawn so differently that clients have to be sent them.
     fn drawn_otherwise(&self, plant: &Plant, rows: Range<usize>) -> [u8; CHUNK_ROWS] {
         let present = plant.columns(rows.clone());
         let now = plant.step();
@@ -254,7 +254,7 @@ impl RingTable {
         for ((differs, drawn), (&held, &tips)) in differing.iter_mut().zip(drawn).zip(tips) {
             *differs = u8::from(held != if drawn != 0 { tips } else { NO_TIPS });
         }
-        let looks = self.looks[rows].iter().zip(present.appearance);
+        let looks = self.looks[rows].iter().zip(present.condition);
         for ((differs, drawn), (held, look)) in differing.iter_mut().zip(drawn).zip(looks) {
             let light = look.light.abs_diff(held.light) >= LIGHT_HYSTERESIS;
             let vigor = (look.vigor & VIGOR_BITS).abs_diff(held.vigor) >= VIGOR_HYSTERESIS;
@@ -276,7 +276,7 @@ impl RingTable {
         let mut seen = false;
         for row in rows.map(|i| first + i) {
             let (held_tips, tips) = (self.tips[row], pass.tips(row));
-            let (held, look) = (self.looks[row], pass.all.appearance[row]);
+            let (held, look) = (self.looks[row], pass.all.condition[row]);
             // What is not drawn keeps its looks: a change would only cost bytes.
             let steady = |held: u8, present: u8, hysteresis: u8| {
                 if tips == NO_TIPS || present.abs_diff(held) < hysteresis { held } else { present }
@@ -290,7 +290,7 @@ impl RingTable {
             };
             let differ = [!is_as_wide, (held_leaves, held.vigor) != (leaves, vigor), held.light != light];
             self.tips[row] = tips;
-            self.looks[row] = Appearance { light, vigor };
+            self.looks[row] = Condition { light, vigor };
             self.leaves = self.leaves - u32::from(held_leaves) + u32::from(leaves);
             let Changes { radius, foliage, light, .. } = &mut pass.changes;
             for (column, differs) in [radius, foliage, light].into_iter().zip(differ) {
@@ -328,8 +328,8 @@ impl RingTable {
         self.axes.extend_from_slice(new.axis);
         self.ends.extend_from_slice(new.end);
         self.tips.extend(rows.clone().map(|row| pass.tips(row)));
-        let present = |look: &Appearance| Appearance { light: look.light, vigor: look.vigor & VIGOR_BITS };
-        self.looks.extend(new.appearance.iter().map(present));
+        let present = |look: &Condition| Condition { light: look.light, vigor: look.vigor & VIGOR_BITS };
+        self.looks.extend(new.condition.iter().map(present));
         self.leaves += all_leaves(&self.tips[rows.clone()], pass.style);
         if !rows.is_empty() {
             self.generations.truncate(rows.start / CHUNK_ROWS);

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use crate::{
     id::{AxisId, MetamerId},
-    metamers::Appearance,
+    metamers::Condition,
     plant::Plant,
 };
 
@@ -22,7 +22,7 @@ pub struct Columns<'a> {
     /// Twig tips each carries.
     pub tips: &'a [u32],
     /// How each looks.
-    pub appearance: &'a [Appearance],
+    pub condition: &'a [Condition],
     /// Steps of death, as far as any is known; who lives has none, or one that lies beyond the present step.
     pub death: &'a [u32],
 }
@@ -48,7 +48,7 @@ impl Plant {
             axis: &metamers.axis[rows.clone()],
             end: &metamers.end[rows.clone()],
             tips: &metamers.tips[rows.clone()],
-            appearance: &metamers.appearance[rows.clone()],
+            condition: &metamers.condition[rows.clone()],
             death: metamers.death.within(rows),
         }
     }

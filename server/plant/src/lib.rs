@@ -34,7 +34,7 @@ pub use future::{Future, FutureParts};
 pub use girth::Girth;
 pub use given_radius::{Given, GivenRadii};
 pub use id::{AxisId, MetamerId};
-pub use metamers::{Appearance, Metamers};
+pub use metamers::{Condition, Metamers};
 pub use motion::Motion;
 pub use parts::{BrokenPlant, PlantParts};
 pub use place::BadColumns;

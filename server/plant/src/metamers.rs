@@ -9,17 +9,17 @@ use crate::{
     room::make_room,
 };
 
-/// How a metamer looks beyond its form: written by whatever grows the plant, read by whatever draws it.
+/// Light and vigor of a metamer: written by whatever grows the plant, read by whatever draws it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Appearance {
+pub struct Condition {
     /// Light exposure, 0 dark to 255 full.
     pub light: u8,
     /// Vigor relative to the most vigorous bud, 0 to 255.
     pub vigor: u8,
 }
 
-impl Appearance {
-    /// What nobody has looked at yet is drawn as if in full light.
+impl Condition {
+    /// Wood whose light has not been read yet is drawn as if in full light.
     pub(crate) const NEW: Self = Self { light: 255, vigor: 255 };
 }
 
@@ -32,7 +32,7 @@ pub struct Metamers {
     pub(crate) end: Vec<Vec3>,
     pub(crate) normal: Vec<Vec3>,
     pub(crate) tips: Vec<u32>,
-    pub(crate) appearance: Vec<Appearance>,
+    pub(crate) condition: Vec<Condition>,
     /// The first lateral axis at each node, if it bears any; the others follow it.
     pub(crate) lateral: Vec<AxisId>,
     /// Only rows of the present have any: edits keep those of futures.
@@ -60,7 +60,7 @@ impl Metamers {
         self.end.push(row.end);
         self.normal.push(row.normal);
         self.tips.push(0);
-        self.appearance.push(Appearance::NEW);
+        self.condition.push(Condition::NEW);
         self.lateral.push(row.lateral);
         id
     }
@@ -73,7 +73,7 @@ impl Metamers {
         make_room(&mut self.end, 1);
         make_room(&mut self.normal, 1);
         make_room(&mut self.tips, 1);
-        make_room(&mut self.appearance, 1);
+        make_room(&mut self.condition, 1);
         make_room(&mut self.lateral, 1);
     }
 
@@ -86,7 +86,7 @@ impl Metamers {
             end: self.end.split_off(at),
             normal: self.normal.split_off(at),
             tips: self.tips.split_off(at),
-            appearance: self.appearance.split_off(at),
+            condition: self.condition.split_off(at),
             lateral: self.lateral.split_off(at),
             given_radius: GivenRadii::default(),
         }
@@ -100,7 +100,7 @@ impl Metamers {
         self.end.append(&mut more.end);
         self.normal.append(&mut more.normal);
         self.tips.append(&mut more.tips);
-        self.appearance.append(&mut more.appearance);
+        self.condition.append(&mut more.condition);
         self.lateral.append(&mut more.lateral);
     }
 
@@ -129,8 +129,8 @@ impl Metamers {
         self.tips[id.index()]
     }
 
-    /// How it looks.
-    pub fn appearance(&self, id: MetamerId) -> Appearance {
-        self.appearance[id.index()]
+    /// Its light and vigor.
+    pub fn condition(&self, id: MetamerId) -> Condition {
+        self.condition[id.index()]
     }
 }

@@ -11,7 +11,7 @@ use crate::{
     edits::Edit,
     given_radius::{GivenRadii, is_radius},
     id::{AxisId, MetamerId},
-    metamers::{Appearance, Metamers},
+    metamers::{Condition, Metamers},
     plant::Plant,
     timeline::{StepEnd, Timeline},
 };
@@ -103,7 +103,7 @@ impl Plant {
                 end: parts.end,
                 normal: parts.normal,
                 tips: vec![0; metamers],
-                appearance: vec![Appearance::NEW; metamers],
+                condition: vec![Condition::NEW; metamers],
                 lateral,
                 given_radius: GivenRadii::from_rows(&parts.given_radii),
             },

@@ -9,7 +9,7 @@ use crate::{
     deaths::ALIVE,
     hash::StableHash,
     id::{AxisId, MetamerId},
-    metamers::{Appearance, Metamers, Row},
+    metamers::{Condition, Metamers, Row},
     timeline::{StepEnd, Timeline},
 };
 
@@ -393,12 +393,12 @@ impl Plant {
         }
     }
 
-    /// Writes how a metamer looks.
-    pub fn set_appearance(&mut self, id: MetamerId, appearance: Appearance) {
-        self.metamers.appearance[id.index()] = appearance;
+    /// Writes how much light and vigor a metamer has.
+    pub fn set_condition(&mut self, id: MetamerId, condition: Condition) {
+        self.metamers.condition[id.index()] = condition;
     }
 
-    /// A hash of the present: equal plants, equal hash, on every machine. Appearance is not part of it.
+    /// A hash of the present: equal plants, equal hash, on every machine. Condition is not part of it.
     pub fn hash(&self) -> u64 {
         let mut hash = StableHash::default();
         hash.word(u64::from(self.timeline.now));

@@ -208,7 +208,7 @@ impl Plant {
         rows.filter(|id| self.metamers.death.of(id.index()) == step).collect()
     }
 
-    /// What a journey comes to: who came and went again need not be told.
+    /// What a journey comes to: rows that came and went again are left out.
     fn sum_up(&self, journey: Journey) -> TimeShift {
         let Journey { mut came, mut went, mut moved, axes, is_edited } = journey;
         if !came.is_empty() && !went.is_empty() {

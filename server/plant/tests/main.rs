@@ -238,17 +238,17 @@ proptest! {
             let before = living(&plant);
             let shift = plant.go_to(u32::from(step) % (plant.last_step() + 1));
             let after = living(&plant);
-            let mut told = before;
+            let mut positions = before;
             for (id, was) in &shift.metamers_out {
-                prop_assert_eq!(told.remove(id), Some(was.to_array()));
+                prop_assert_eq!(positions.remove(id), Some(was.to_array()));
             }
             for (id, was) in &shift.moved {
-                prop_assert_eq!(told.insert(*id, plant.metamers().end(*id).to_array()), Some(was.to_array()));
+                prop_assert_eq!(positions.insert(*id, plant.metamers().end(*id).to_array()), Some(was.to_array()));
             }
             for &id in &shift.metamers_in {
-                prop_assert_eq!(told.insert(id, plant.metamers().end(id).to_array()), None);
+                prop_assert_eq!(positions.insert(id, plant.metamers().end(id).to_array()), None);
             }
-            prop_assert_eq!(told, after);
+            prop_assert_eq!(positions, after);
         }
     }
 

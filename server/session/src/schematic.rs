@@ -27,7 +27,7 @@ pub fn schematic(wanted: &ParameterValues) -> Result<Schematic, Problem> {
         drawn.parents.push(places[parent.index()].unwrap_or(-1));
         drawn.radii.push(girth.radius(tips));
         drawn.orders.push(plant.axes().order(metamers.axis(id)));
-        let seen = metamers.appearance(id);
+        let seen = metamers.condition(id);
         drawn.vigor.push(f32::from(seen.vigor) / 255.0);
         drawn.light.push(f32::from(seen.light) / 255.0);
         drawn.leaves.push(if tips <= MOST_TIPS_WITH_LEAVES { leaves_per_node } else { 0 });

@@ -48,7 +48,7 @@ impl Shoot {
     pub(super) fn of(plant: &Plant, id: MetamerId) -> Self {
         let to = plant.metamers().end(id);
         let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
-        let seen = plant.metamers().appearance(id);
+        let seen = plant.metamers().condition(id);
         Self {
             heading: (to - from).normalize_or(Vec3::Y),
             vigor: f32::from(seen.vigor >> 4) / 15.0,

@@ -219,7 +219,7 @@ proptest! {
             plain.show();
             let looks = |simulation: &Simulation| -> Vec<_> {
                 let ids = living_nodes(simulation.plant());
-                ids.iter().map(|&id| simulation.plant().metamers().appearance(id)).collect()
+                ids.iter().map(|&id| simulation.plant().metamers().condition(id)).collect()
             };
             prop_assert_eq!(looks(&fast), looks(&plain));
         }

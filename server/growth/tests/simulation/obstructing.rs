@@ -57,7 +57,7 @@ fn mean_light(simulation: &Simulation) -> f32 {
     shown.show();
     let plant = shown.plant();
     let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
-    let light: Vec<f32> = living.map(|id| f32::from(plant.metamers().appearance(id).light)).collect();
+    let light: Vec<f32> = living.map(|id| f32::from(plant.metamers().condition(id).light)).collect();
     light.iter().sum::<f32>() / light.len() as f32 / 255.0
 }
 

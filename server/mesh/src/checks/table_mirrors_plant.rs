@@ -69,9 +69,9 @@ fn check_row(
     require(CHECK, table.foliage(row) & 0xf == leaves, || {
         format!("row {row} bears other than {leaves} leaves")
     })?;
-    let appearance = metamers.appearance(id);
-    let light_off = table.light(row).abs_diff(appearance.light);
-    let vigor_off = (table.foliage(row) >> 4).abs_diff(appearance.vigor >> 4);
+    let condition = metamers.condition(id);
+    let light_off = table.light(row).abs_diff(condition.light);
+    let vigor_off = (table.foliage(row) >> 4).abs_diff(condition.vigor >> 4);
     require(CHECK, !drawn || (light_off < 8 && vigor_off < 2), || format!("row {row} looks otherwise"))
 }
 

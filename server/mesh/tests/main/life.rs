@@ -1,6 +1,6 @@
 //! Random events in the life of a plant.
 
-use espalier_plant::{Appearance, AxisId, Internode, MetamerId, Motion, Plant};
+use espalier_plant::{AxisId, Condition, Internode, MetamerId, Motion, Plant};
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 
@@ -130,7 +130,7 @@ pub fn happen(plant: &mut Plant, event: &Event) {
 }
 
 pub fn look(plant: &mut Plant, row: usize, light: u8, vigor: u8) {
-    plant.set_appearance(MetamerId::new(row), Appearance { light, vigor });
+    plant.set_condition(MetamerId::new(row), Condition { light, vigor });
 }
 
 /// A seed and three upright metamers.

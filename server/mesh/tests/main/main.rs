@@ -27,7 +27,7 @@ proptest! {
     fn table_mirrors_the_plant_after_any_journey(events in events(), every in 1usize..6, styles in prop::array::uniform2(styles())) {
         let mut plant = Plant::new(Vec3::ZERO);
         let mut table = RingTable::new();
-        let mut told = ByChanges::default();
+        let mut held = ByChanges::default();
         let mut idle = ByGenerations::default();
         for (count, event) in events.iter().enumerate() {
             happen(&mut plant, event);
@@ -37,8 +37,8 @@ proptest! {
                 let sequence = count as u32 + 1;
                 let changes = table.sync(&plant, style, sequence);
                 prop_assert_eq!(checks::table(&table, &plant, style), Ok(()));
-                told.apply(&changes, &table, sequence);
-                prop_assert!(told.equals(&table));
+                held.apply(&changes, &table, sequence);
+                prop_assert!(held.equals(&table));
                 prop_assert!(table.sync(&plant, style, u32::MAX).is_empty());
             }
             if count % (3 * every) == 0 {

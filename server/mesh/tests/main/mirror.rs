@@ -29,7 +29,7 @@ pub fn all_rows(table: &RingTable) -> Vec<Row> {
     (0..table.rows() as u32).map(|index| row(table, index)).collect()
 }
 
-/// A client that is told every change and looks at nothing else.
+/// A client that is sent every change and reads nothing else.
 #[derive(Debug, Default)]
 pub struct ByChanges {
     rows: Vec<Row>,

@@ -1,4 +1,4 @@
-//! The table as it is defined: every row is made afresh and compared with the one that was told.
+//! The table as it is defined: every row is made afresh and compared with the one that changes were sent of.
 
 use espalier_mesh::{
     Changes, RingTable, Style, foliage,
@@ -21,9 +21,9 @@ impl PlainTable {
         let widths = Widths::of(plant, style.girth());
         let make = |id, held| row(plant, id, style, &widths, held);
         let mut changes = Changes::default();
-        let mut told = std::mem::take(&mut self.rows);
+        let mut sent = std::mem::take(&mut self.rows);
         for index in 0..count {
-            let held = told.get(index).copied();
+            let held = sent.get(index).copied();
             let row = make(MetamerId::new(index), held);
             let stays = |row: &Row| (row.parent, row.starts_axis, row.born);
             let same = held.filter(|held| stays(held) == stays(&row));
@@ -41,20 +41,20 @@ impl PlainTable {
                 self.rows.push(row);
                 continue;
             }
-            self.drop_from(index, &mut told, generation, &mut changes);
+            self.drop_from(index, &mut sent, generation, &mut changes);
             self.generations.truncate(index / CHUNK_ROWS);
             self.generations.push(generation);
             self.rows.push(make(MetamerId::new(index), None));
         }
-        self.drop_from(count, &mut told, generation, &mut changes);
-        changes.appended = changes.appended.start.max(told.len() as u32)..count as u32;
+        self.drop_from(count, &mut sent, generation, &mut changes);
+        changes.appended = changes.appended.start.max(sent.len() as u32)..count as u32;
         changes
     }
 
-    /// Nothing that was told from this row on holds any more.
-    fn drop_from(&mut self, kept: usize, told: &mut Vec<Row>, generation: u32, changes: &mut Changes) {
-        if told.len() > kept {
-            told.truncate(kept);
+    /// Nothing that was sent from this row on holds any more.
+    fn drop_from(&mut self, kept: usize, sent: &mut Vec<Row>, generation: u32, changes: &mut Changes) {
+        if sent.len() > kept {
+            sent.truncate(kept);
             changes.truncated = Some(kept as u32);
             self.generations.truncate(kept.div_ceil(CHUNK_ROWS));
             if !kept.is_multiple_of(CHUNK_ROWS) {
@@ -74,7 +74,7 @@ fn row(plant: &Plant, id: MetamerId, style: &Style, widths: &Widths<'_>, held: O
     let metamers = plant.metamers();
     let parent = metamers.parent(id);
     let is_drawn = parent.is_some() && plant.is_alive(id);
-    let look = metamers.appearance(id);
+    let look = metamers.condition(id);
     let (mut light, mut vigor) = (look.light, look.vigor >> 4);
     if let Some(held) = held {
         if !is_drawn || light.abs_diff(held.light) < 8 {

@@ -330,9 +330,9 @@ fn thick_wood_is_borne_by_wood_as_thick() {
     plant.set_width(MetamerId::new(3), Some(0.5));
     plant.set_width(MetamerId::new(4), Some(0.001));
     plant.end_step();
-    let told = in_force(&plant, &Girth::new(2.0, TWIG));
-    let told: Vec<_> = told.iter().map(|w| (w.metamer.raw(), w.wanted, w.effective)).collect();
-    assert_eq!(told, [(1, 0.2, 0.5), (3, 0.5, 0.5), (4, 0.001, TWIG)]);
+    let widths = in_force(&plant, &Girth::new(2.0, TWIG));
+    let widths: Vec<_> = widths.iter().map(|w| (w.metamer.raw(), w.wanted, w.effective)).collect();
+    assert_eq!(widths, [(1, 0.2, 0.5), (3, 0.5, 0.5), (4, 0.001, TWIG)]);
 }
 
 #[test]

@@ -119,7 +119,7 @@ fn dim_branches(plant: &Plant, exposure: f32) -> Vec<MetamerId> {
     for index in (0..count).rev() {
         let id = MetamerId::new(index);
         if plant.is_alive(id) && !plant.is_seed(id) {
-            lightest[index] = lightest[index].max(plant.metamers().appearance(id).light);
+            lightest[index] = lightest[index].max(plant.metamers().condition(id).light);
             if let Some(parent) = plant.metamers().parent(id) {
                 lightest[parent.index()] = lightest[parent.index()].max(lightest[index]);
             }

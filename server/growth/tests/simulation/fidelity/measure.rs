@@ -185,5 +185,5 @@ pub fn is_inside(outline: &[Vec2], p: Vec2) -> bool {
 
 /// Mean light at the nodes, 0 to 1.
 pub fn light(plant: &Plant) -> f32 {
-    mean(wood(plant).map(|id| f32::from(plant.metamers().appearance(id).light) / 255.0))
+    mean(wood(plant).map(|id| f32::from(plant.metamers().condition(id).light) / 255.0))
 }
