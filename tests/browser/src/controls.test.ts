@@ -1,46 +1,10 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import { SMALL, type Tab, type Tablet } from "./tablet";
-import { unfolded } from "./visits";
+import { SMALL, type Tablet } from "./tablet";
+import { openPart, PARTS } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
-
-/** A panel with all that can be in it. */
-interface Part {
-  readonly panel: string;
-  readonly tab?: Tab;
-  /** What is picked so that more controls appear. */
-  readonly picks?: readonly string[];
-  /** How many controls there are at least. */
-  readonly least: number;
-}
-
-const PARTS: readonly Part[] = [
-  { panel: "Architecture", tab: "Form", least: 14 },
-  { panel: "Architecture", tab: "Growth", least: 16 },
-  { panel: "Architecture", tab: "Growth", picks: ["Priority"], least: 16 },
-  { panel: "Brush", least: 6 },
-  { panel: "Leaves", picks: ["Rosette", "Cone"], least: 19 },
-  { panel: "Branches", least: 8 },
-  { panel: "Background", picks: ["Studio"], least: 7 },
-];
-
-/** Pulls down a panel with all its sections open and everything in it that depends on a choice. */
-async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part): Promise<void> {
-  const { page } = tablet;
-  const shown = page.getByRole("region", { name: panel, exact: true });
-  if (!(await shown.isVisible())) await tablet.tap(panel);
-  await shown.waitFor();
-  if (tab) await tablet.turnTo(tab);
-  await unfolded(tablet);
-  for (const pick of picks) {
-    await page.getByRole("radio", { name: pick, exact: true }).tap();
-    await page.getByRole("radio", { name: pick, exact: true, checked: true }).waitFor();
-    await unfolded(tablet);
-  }
-  await tablet.untilSettled();
-}
 
 /** The names of all fields of the panel, and what is wrong with what can be used in it. */
 function survey(tablet: Tablet): Promise<{ readonly names: string[]; readonly faults: string[] }> {

@@ -45,6 +45,8 @@ export interface Screen {
   readonly detail: number;
   /** Whether the picture is drawn all the time, and not only while one is taken of it: for tests of the drawing itself. */
   readonly watched?: boolean;
+  /** Whether it has a mouse and no touch. */
+  readonly mouse?: boolean;
 }
 
 /** A tab of the panel of architecture. */
@@ -123,9 +125,14 @@ export class Tablet {
   }
 
   static async open(browser: Browser, darkroom: Darkroom, address: string, screen = COARSE): Promise<Tablet> {
-    const { width, height, detail, watched = false } = screen;
+    const { width, height, detail, watched = false, mouse = false } = screen;
     const viewport = { width, height };
-    const context = await browser.newContext({ viewport, hasTouch: true, isMobile: true, deviceScaleFactor: detail });
+    const context = await browser.newContext({
+      viewport,
+      hasTouch: !mouse,
+      isMobile: !mouse,
+      deviceScaleFactor: detail,
+    });
     // Who tests knows the gestures; a test of the tour says otherwise and loads the page again.
     await context.addInitScript(() => {
       if (localStorage.getItem("espalier.tour") === null) localStorage.setItem("espalier.tour", "true");
@@ -137,6 +144,11 @@ export class Tablet {
     await page.goto(address);
     await tablet.untilReady();
     return tablet;
+  }
+
+  /** Whether it is used with fingers, and not with a mouse. */
+  get touches(): boolean {
+    return this.#screen.mouse !== true;
   }
 
   async close(): Promise<void> {
@@ -367,7 +379,7 @@ export class Tablet {
 
   /** Shows one of the tabs of the panel of architecture, with all that is on it. */
   async turnTo(tab: Tab): Promise<void> {
-    await this.page.getByRole("tab", { name: tab }).tap();
+    await this.page.getByRole("tab", { name: tab }).click();
     await this.page.getByRole("tab", { name: tab, selected: true }).waitFor();
   }
 

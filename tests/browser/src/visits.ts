@@ -1,5 +1,5 @@
 import { until } from "./server";
-import { loop, type Point, type Tablet, way } from "./tablet";
+import { loop, type Point, type Tab, type Tablet, way } from "./tablet";
 import { SEED } from "./workshop";
 
 export const PANELS = ["Architecture", "Brush", "Leaves", "Branches", "Background", "Scene"];
@@ -26,6 +26,42 @@ export async function unfolded(tablet: Tablet): Promise<void> {
     }
   });
   await until("every section is open", async () => (await closed.count()) === 0);
+}
+
+/** A panel with all that can be in it. */
+export interface Part {
+  readonly panel: string;
+  readonly tab?: Tab;
+  /** What is picked so that more controls appear. */
+  readonly picks?: readonly string[];
+  /** How many controls there are at least. */
+  readonly least: number;
+}
+
+export const PARTS: readonly Part[] = [
+  { panel: "Architecture", tab: "Form", least: 14 },
+  { panel: "Architecture", tab: "Growth", least: 16 },
+  { panel: "Architecture", tab: "Growth", picks: ["Priority"], least: 16 },
+  { panel: "Brush", least: 6 },
+  { panel: "Leaves", picks: ["Rosette", "Cone"], least: 19 },
+  { panel: "Branches", least: 8 },
+  { panel: "Background", picks: ["Studio"], least: 7 },
+];
+
+/** Pulls down a panel with all its sections open and everything in it that depends on a choice. */
+export async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part): Promise<void> {
+  const { page } = tablet;
+  const shown = page.getByRole("region", { name: panel, exact: true });
+  if (!(await shown.isVisible())) await page.getByRole("button", { name: panel, exact: true }).first().click();
+  await shown.waitFor();
+  if (tab) await tablet.turnTo(tab);
+  await unfolded(tablet);
+  for (const pick of picks) {
+    await page.getByRole("radio", { name: pick, exact: true }).click();
+    await page.getByRole("radio", { name: pick, exact: true, checked: true }).waitFor();
+    await unfolded(tablet);
+  }
+  await tablet.untilSettled();
 }
 
 /** A place on the stem that was sketched. */

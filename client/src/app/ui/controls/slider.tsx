@@ -21,7 +21,7 @@ export interface SliderProps {
   readonly inWords?: (value: number) => string;
   /** Another way to write the value down, and to read what was typed. */
   readonly notation?: Notation | undefined;
-  /** Pictures under the track, from its least end to its most. */
+  /** Words, or buttons that go there, under the track, from its least end to its most. */
   readonly marks?: ComponentChildren;
   /** Another colouring of the track. */
   readonly track?: string;
@@ -119,11 +119,7 @@ export function Slider(props: SliderProps) {
             }}
             onPointerCancel={commit}
           />
-          {marks && (
-            <div class="slider-marks" aria-hidden="true">
-              {marks}
-            </div>
-          )}
+          {marks && <div class="slider-marks">{marks}</div>}
         </div>
       )}
     </Field>

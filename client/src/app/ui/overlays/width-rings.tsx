@@ -10,6 +10,8 @@ import { type Ring, ringAt } from "./ring";
 
 /** Room between a ring and its knobs. */
 const KNOB_GAP = 26;
+/** A finger needs so much for a knob, and as much for the dot between two. */
+const TARGET = 44;
 /** How near to a limb a ring that is dragged along it has to be kept, in pixels. */
 const ALONG = 60;
 
@@ -267,13 +269,15 @@ function place(label: HTMLElement, ring: Ring | null): void {
   const [[ax, ay], [bx, by]] = ring.ends;
   const length = Math.hypot(bx - ax, by - ay) || 1;
   const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
+  const [x, y] = ring.middle;
+  const away = Math.max(length / 2 + KNOB_GAP, TARGET);
   const values = {
-    x: ring.middle[0],
-    y: ring.middle[1],
-    "left-x": ax - KNOB_GAP * ux,
-    "left-y": ay - KNOB_GAP * uy,
-    "right-x": bx + KNOB_GAP * ux,
-    "right-y": by + KNOB_GAP * uy,
+    x,
+    y,
+    "left-x": x - away * ux,
+    "left-y": y - away * uy,
+    "right-x": x + away * ux,
+    "right-y": y + away * uy,
   };
   for (const [name, value] of Object.entries(values)) {
     label.style.setProperty(`--${name}`, `${value.toFixed(1)}px`);

@@ -22,6 +22,8 @@ const BOLD = 1.6;
 const RETRY_AFTER = 1000;
 /** The length of the arrow, as a share of the frame's height, and at most in pixels. */
 const ARROW = { share: 0.36, most: 84 };
+/** A finger takes its tip so far around it, in pixels, which the frame has to show. */
+const GRIP_RADIUS = 22;
 
 /** A small flat tree that the server grows as the user changes what trees grow by, and on it the arrow of tropism. */
 export function SchematicTree({ studio }: WidgetProps) {
@@ -70,7 +72,7 @@ interface ArrowProps extends WidgetProps {
 
 /** The arrow of the set-point angle θ, from the middle of the crown on; it holds for the other side mirrored. */
 function Arrow({ studio, now: { setpoint_angle: theta }, width, height }: ArrowProps) {
-  const length = Math.min(ARROW.most, ARROW.share * height);
+  const length = Math.min(ARROW.most, ARROW.share * height, height / 2 - GRIP_RADIUS);
   const from: Place = { x: width / 2, y: height * 0.5 };
   const tip = away(from, theta, length);
   const neck = away(from, theta, length - 13);

@@ -1,0 +1,114 @@
+import { expect, test } from "vitest";
+import { misses } from "./hits";
+import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
+import { atWork, openPart, PARTS, SHEETS } from "./visits";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.forThisFile();
+
+/** Nothing is looked at here: the fewer pixels the sooner. */
+const DETAIL = 0.2;
+const SCREENS = {
+  landscape: { ...LANDSCAPE, detail: DETAIL },
+  portrait: { width: 834, height: 1194, detail: DETAIL },
+  phone: { width: 390, height: 844, detail: DETAIL },
+} as const satisfies Record<string, Screen>;
+
+const CASES = Object.entries(SCREENS).flatMap(([name, screen]) => [
+  { name, pointer: "a finger", screen },
+  { name, pointer: "a mouse", screen: { ...screen, mouse: true } },
+]);
+
+/** A page with a tree, which one that was saved stands beside in the library. */
+async function grown(screen: Screen): Promise<Tablet> {
+  const { tablet, address } = await workshop.fresh(screen);
+  await workshop.act(address, [{ kind: "grow", steps: 4 }]);
+  await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+  await tablet.untilQuiet();
+  await tablet.page.evaluate(async () => {
+    const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
+    const body = JSON.stringify({ session, name: "A tree that was saved" });
+    await fetch("/api/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
+  });
+  return tablet;
+}
+
+/** Presses a button of the tool bar, in its menu where it is folded. */
+async function press(tablet: Tablet, name: string): Promise<void> {
+  const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
+  if ((await button.count()) === 0) await tablet.page.getByRole("button", { name: "More", exact: true }).click();
+  await button.click();
+}
+
+test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", async ({ screen }) => {
+  const tablet = await grown(screen);
+  const { page } = tablet;
+  const found: string[] = [];
+  const look = async (where: string, within?: string) => void found.push(...(await misses(tablet, where, within)));
+  /** Opens what a button unfolds, looks, and closes it. */
+  const unfold = async (name: RegExp, within: string) => {
+    const button = page.getByRole("button", { name, expanded: false });
+    if ((await button.count()) === 0) return;
+    await button.click();
+    await look(`${name}`, within);
+    await page.keyboard.press("Escape");
+  };
+  await look("the page");
+  await page.getByRole("button", { name: /timeline$/ }).click();
+  await look("the line of time, otherwise", ".foot");
+  await unfold(/^All tools/, ".flyout");
+  await unfold(/^Way of drawing/, ".draw-modes");
+  await unfold(/^More$/, ".menu");
+  for (const key of ["l", "n", "w", "x", "t", "p", "b"]) {
+    await page.keyboard.press(key);
+    await tablet.untilSettled();
+    if ((await page.locator(".tool-options button").count()) > 0) await look(`the options of ${key}`, ".tool-options");
+  }
+  await page.keyboard.press("d");
+  await look("a legend", ".workspace");
+  await page.keyboard.press("Shift+d");
+  for (const part of PARTS) {
+    await openPart(tablet, part);
+    await look(`${part.panel} ${part.tab ?? ""}`, ".drawer");
+  }
+  await openPart(tablet, { panel: "Architecture", tab: "Species", least: 0 });
+  await look("Architecture Species", ".drawer");
+  await openPart(tablet, { panel: "Scene", least: 0 });
+  await look("Scene", ".drawer");
+  for (const thing of ["Box", "Sphere", "Plane"]) {
+    await page.locator(".kinds").getByRole("button", { name: thing, exact: true }).click();
+    await page.locator(".obstacles [aria-expanded=true]", { hasText: thing }).waitFor();
+    await look(`Scene with ${thing}`, ".drawer");
+  }
+  await page
+    .locator(".drawer")
+    .getByRole("button", { name: /^Close/ })
+    .click();
+  for (const sheet of SHEETS) {
+    await press(tablet, sheet);
+    await page.getByRole("dialog").waitFor();
+    await tablet.untilSettled();
+    await look(sheet, "dialog");
+    if (sheet === "Library") {
+      for (const act of ["Rename", "Delete"]) {
+        const card = page.locator("dialog .card").first();
+        await card.getByRole("button", { name: `${act} A tree that was saved` }).click();
+        await look(`${act} in the library`, "dialog .card:first-child");
+        await (act === "Rename" ? page.keyboard.press("Escape") : card.getByRole("button", { name: "Keep" }).click());
+        await card.locator(".card-foot").waitFor();
+      }
+    }
+    await page.keyboard.press("Escape");
+    await page.getByRole("dialog").waitFor({ state: "detached" });
+  }
+  await page.keyboard.press("h");
+  await look("everything hidden", ".workspace");
+  expect(found).toEqual([]);
+});
+
+test("every control is hit where it is drawn while tools are at work", async () => {
+  const { tablet } = await workshop.stem(SCREENS.landscape);
+  const found: string[] = [];
+  await atWork(tablet, async (where) => void found.push(...(await misses(tablet, where, ".workspace", false))));
+  expect(found).toEqual([]);
+});
