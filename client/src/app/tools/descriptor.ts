@@ -36,6 +36,8 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly choosesBranches?: boolean;
   /** It keeps a finger on an obstacle, which otherwise moves the obstacle while the scene is arranged. */
   readonly keepsObstacles?: boolean;
+  /** The tree grows while it draws. */
+  readonly growsIntoStrokes?: boolean;
   /** It works with the brush's radius. */
   readonly usesRadius?: boolean;
   /** What to do first, as long as the user has not done it. */

@@ -279,6 +279,13 @@ export class Toolbox {
     tool.end();
   }
 
+  /** Ends the stroke in progress if the tree grows into it. */
+  endGrowth(): void {
+    if (descriptorOf(this.chosen.peek()).growsIntoStrokes === true) {
+      this.end();
+    }
+  }
+
   /** Takes the stroke in progress back. */
   cancel(): void {
     const tool = this.#active;

@@ -40,6 +40,7 @@ export const TOOLS = {
   "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
   "tools.growing.stop": ["Stop", "Anhalten"],
+  "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
 } as const;
 
 /** Options of the tools that shape what has grown, and what is done with a branch that is held. */

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
 import type { Command } from "../../../wire/generated";
-import { GrowPacer, growthRate } from "./grow-pacer";
+import { type Backlog, GrowPacer } from "./grow-pacer";
 
 export interface GrowControlOptions {
   /** Sends a command, if there is a server to take it. */
@@ -10,6 +10,7 @@ export interface GrowControlOptions {
   readonly newGesture: () => number;
   /** Grow and ungrow commands that are not yet answered. */
   readonly unsettled: () => number;
+  /** Steps accepted but not yet run, whoever asked for them. */
   readonly pendingSteps: () => number;
   /** The branch that alone may grow, as a row (`SG1`). */
   readonly bud: () => number | null;
@@ -30,35 +31,50 @@ export class GrowControl {
     this.#options = options;
   }
 
+  /** Whether a hand or a key has it. */
+  get isHeld(): boolean {
+    return this.#loop !== 0;
+  }
+
   to(deflection: number): void {
     this.deflection.value = deflection;
-    if (this.#loop === 0) {
+    if (!this.isHeld) {
       this.#pacer.press(this.#options.newGesture());
       this.#loop = requestAnimationFrame(this.#beat);
       this.#letGo = this.#options.hold();
     }
   }
 
+  /** Growth ends with the step that is under way. */
   release(): void {
-    if (this.#loop !== 0) {
+    if (this.isHeld) {
       this.#letGo();
+      if (this.#pacer.grows) {
+        this.#options.submit({ kind: "stop" });
+      }
     }
     cancelAnimationFrame(this.#loop);
     this.#loop = 0;
     this.deflection.value = 0;
   }
 
+  /** The server told how things stand. */
+  told(): void {
+    this.#pacer.told(this.#backlog());
+  }
+
+  #backlog(): Backlog {
+    const { unsettled, pendingSteps } = this.#options;
+    return { unsettled: unsettled(), pendingSteps: pendingSteps() };
+  }
+
   #beat = (now: number) => {
     this.#loop = requestAnimationFrame(this.#beat);
-    const { ready, unsettled, pendingSteps, bud, submit } = this.#options;
+    const { ready, bud, submit } = this.#options;
     if (!ready()) {
       return;
     }
-    const deflection = this.deflection.peek();
-    const command = this.#pacer.tick(now, deflection, {
-      unsettled: unsettled(),
-      pendingSteps: growthRate(deflection) > 0 ? pendingSteps() : 0,
-    });
+    const command = this.#pacer.tick(now, this.deflection.peek(), this.#backlog());
     const row = bud();
     if (command) {
       submit(command.kind === "grow" && row !== null ? { ...command, bud: row } : command);

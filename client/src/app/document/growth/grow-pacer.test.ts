@@ -1,9 +1,14 @@
 import { describe, expect, it } from "vitest";
-import { deflectionFor, GrowPacer, growthRate, KEY_RATE } from "./grow-pacer";
+import { type Backlog, deflectionFor, GrowPacer, growthRate, KEY_RATE } from "./grow-pacer";
 
 const free = { unsettled: 0, pendingSteps: 0 };
+const asked = { unsettled: 1, pendingSteps: 0 };
+const running = { unsettled: 0, pendingSteps: 1 };
 
-/** Holds the control for a while; gives the steps asked for, ungrown ones negative. */
+/**
+ * Holds the control for a while, with a server that does each step within a frame; gives the steps asked for, ungrown
+ * ones negative.
+ */
 function hold(deflection: (time: number) => number, milliseconds: number, backlog = free): number[] {
   const pacer = new GrowPacer();
   pacer.press(1);
@@ -12,6 +17,7 @@ function hold(deflection: (time: number) => number, milliseconds: number, backlo
     const command = pacer.tick(time, deflection(time), backlog);
     if (command?.kind === "grow") steps.push(command.steps);
     if (command?.kind === "ungrow") steps.push(-command.steps);
+    pacer.told(backlog);
   }
   return steps;
 }
@@ -48,24 +54,56 @@ describe("grow pacer", () => {
   });
 
   it("waits for the server", () => {
-    expect(hold(() => 1, 1000, { unsettled: 2, pendingSteps: 0 })).toEqual([]);
-    expect(hold(() => 1, 1000, { unsettled: 0, pendingSteps: 100 })).toEqual([]);
+    expect(hold(() => 1, 1000, asked)).toEqual([]);
+    expect(hold(() => 1, 1000, running)).toEqual([]);
   });
 
-  it("does not make up for steps the server had no time for", () => {
+  it.each([1, -1])("asks for one step, and for the next when the server has told that it is done", (push) => {
     const pacer = new GrowPacer();
     pacer.press(1);
-    for (let time = 0; time < 5000; time += 16) {
-      pacer.tick(time, 1, { unsettled: 2, pendingSteps: 0 });
-    }
-    const command = pacer.tick(5000, 1, free);
-    expect(command?.kind === "grow" ? command.steps : 0).toBeLessThanOrEqual(2);
+    expect(pacer.tick(0, push, free)).toMatchObject({ steps: 1 });
+    const none = (from: number, to: number, backlog: Backlog) => {
+      for (let time = from; time < to; time += 16) expect(pacer.tick(time, push, backlog)).toBeNull();
+    };
+    none(16, 300, asked);
+    // It was taken on, and what the page knows of the server is older than that.
+    none(300, 600, free);
+    pacer.told(running);
+    none(600, 3000, running);
+    // What was told before the step was taken on says nothing of it.
+    pacer.told(asked);
+    none(3000, 3100, free);
+    pacer.told(free);
+    expect(pacer.tick(3100, push, free)).toMatchObject({ steps: 1 });
+  });
+
+  it("goes on after a step of which nothing was told, for it came to nothing", () => {
+    const pacer = new GrowPacer();
+    pacer.press(1);
+    pacer.tick(0, -1, free);
+    const times = Array.from({ length: 100 }, (_, i) => 16 * (i + 1));
+    expect(times.find((time) => pacer.tick(time, -1, free) !== null)).toBeGreaterThan(300);
+  });
+
+  it("knows whether growth that was asked for may still go on", () => {
+    const pacer = new GrowPacer();
+    pacer.press(1);
+    expect(pacer.grows).toBe(false);
+    pacer.tick(0, 1, free);
+    expect(pacer.grows).toBe(true);
+    pacer.told(running);
+    expect(pacer.grows).toBe(true);
+    pacer.told(free);
+    expect(pacer.grows).toBe(false);
+    pacer.tick(16, -1, free);
+    expect(pacer.grows, "backwards there is nothing to stop").toBe(false);
   });
 
   it("CM5: all steps of one push carry one gesture", () => {
     const pacer = new GrowPacer();
     pacer.press(77);
     expect(pacer.tick(0, 1, free)).toEqual({ kind: "grow", steps: 1, gesture: 77 });
+    pacer.told(free);
     expect(pacer.tick(200, 1, free)).toMatchObject({ gesture: 77 });
   });
 });

@@ -7,10 +7,8 @@ export const FASTEST = 8;
 export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
-/** Commands that may be in progress. */
-const MAX_UNSETTLED = 2;
-/** How much of a second's steps may wait on the server before more are asked for. */
-const BACKLOG_SECONDS = 0.3;
+/** After so many milliseconds in which the server has nothing to do, a step of which it told nothing has come to nothing. */
+const UNTOLD = 400;
 
 /** What the server has still to do. */
 export interface Backlog {
@@ -31,12 +29,28 @@ export function deflectionFor(rate: number): number {
   return DEAD_ZONE + ((1 - DEAD_ZONE) * Math.log(rate / SLOWEST)) / Math.log(FASTEST / SLOWEST);
 }
 
-/** Turns a held control into `grow` and `ungrow` commands, no faster than the server follows. */
+/** Turns a held control into `grow` and `ungrow` commands of one step: each waits until the one before is done. */
 export class GrowPacer {
   #gesture = 0;
   #owed = 0;
   #time: number | null = null;
   #rate = 0;
+  /** The step asked for that is not known to be done. */
+  #open: "grow" | "ungrow" | null = null;
+  /** Since when the server has had nothing to do. */
+  #idleSince: number | null = null;
+
+  /** Whether a step of growth was asked for that may still be done. */
+  get grows(): boolean {
+    return this.#open === "grow";
+  }
+
+  /** The server told how things stand, after everything that is answered. */
+  told({ unsettled, pendingSteps }: Backlog): void {
+    if (unsettled === 0 && pendingSteps === 0) {
+      this.#open = null;
+    }
+  }
 
   /** The control is taken; all growth until it is released is one operation for undo. */
   press(gesture: number): void {
@@ -58,14 +72,26 @@ export class GrowPacer {
     this.#rate = rate;
     const elapsed = (now - (this.#time ?? now)) / 1000;
     this.#time = now;
-    const allowed = Math.max(1, speed * BACKLOG_SECONDS);
     // Steps that could not be asked for in time are forgone, so that growth stops when the user does.
-    this.#owed = Math.min(this.#owed + elapsed * speed, allowed);
-    const steps = Math.floor(this.#owed + 1e-9);
-    if (steps < 1 || backlog.unsettled >= MAX_UNSETTLED || backlog.pendingSteps >= allowed) {
+    this.#owed = Math.min(this.#owed + elapsed * speed, 1);
+    if (!this.#isFree(now, backlog) || this.#owed < 1 - 1e-9) {
       return null;
     }
-    this.#owed -= steps;
-    return rate > 0 ? { kind: "grow", steps, gesture: this.#gesture } : { kind: "ungrow", steps };
+    this.#owed = 0;
+    this.#idleSince = null;
+    this.#open = rate > 0 ? "grow" : "ungrow";
+    return rate > 0 ? { kind: "grow", steps: 1, gesture: this.#gesture } : { kind: "ungrow", steps: 1 };
+  }
+
+  #isFree(now: number, { unsettled, pendingSteps }: Backlog): boolean {
+    if (unsettled > 0 || pendingSteps > 0) {
+      this.#idleSince = null;
+      return false;
+    }
+    this.#idleSince ??= now;
+    if (now - this.#idleSince >= UNTOLD) {
+      this.#open = null;
+    }
+    return this.#open === null;
   }
 }

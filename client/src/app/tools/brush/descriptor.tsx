@@ -10,6 +10,7 @@ export const BRUSH: ToolDescriptor<BrushTool> = {
   Icon: BrushSample,
   group: "drawing",
   choosesBranches: true,
+  growsIntoStrokes: true,
   usesRadius: true,
   hint: ({ settings, empty }) =>
     empty && !settings.hasDrawn.value ? ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"] : null,

@@ -54,7 +54,8 @@ export function GrowJog({ studio }: { studio: Studio }) {
         }
       }}
       onPointerMove={(event) => {
-        if (held.current === event.pointerId) {
+        // Who stops growth meanwhile takes the lever out of the hand.
+        if (held.current === event.pointerId && studio.growth.isHeld) {
           follow(event);
         }
       }}

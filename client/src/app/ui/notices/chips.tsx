@@ -1,14 +1,15 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import { GrowthShare } from "../../document/growth/growth-share";
+import { isGrowing, stopGrowth } from "../../document/growth/under-way";
 import type { Transfer } from "../../requests/transfer";
 import type { Studio } from "../../studio";
 import { language, say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
 
-/** Growth that is done sooner is not worth a word. */
+/** What is done sooner is not worth a word. */
 const WORTH_A_WORD = 200;
-/** So many steps are, whatever the user is doing. */
-const LONG_GROWTH = 20;
+/** A word stays so long after its cause, which may be about to come back: strokes grow in many short spurts. */
+const STAYS = 300;
 
 /** What is in progress and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
 export function Chips({ studio }: { studio: Studio }) {
@@ -52,9 +53,7 @@ export function Chips({ studio }: { studio: Studio }) {
 function GrowthChip({ studio }: { studio: Studio }) {
   const pending = studio.document.value?.pending_steps ?? 0;
   const outline = studio.outline.shown.value?.stage === "growing";
-  const handsFree = !studio.tools.drawing.value && studio.growth.deflection.value === 0;
-  const growing = outline || pending >= LONG_GROWTH || (pending > 0 && handsFree);
-  const shown = useLasting(growing && studio.link.phase.value === "connected");
+  const shown = useLasting(isGrowing(studio) && studio.link.phase.value === "connected");
   const share = useRef(new GrowthShare()).current.of(pending);
   if (!shown) {
     return null;
@@ -70,7 +69,12 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <progress aria-label={text} max={1} value={share} />
       )}
       {text}
-      <button type="button" class="chip-stop" onClick={() => studio.submit({ kind: "stop" })}>
+      <button
+        type="button"
+        class="chip-stop"
+        title={say("tools.growing.stop.title")}
+        onClick={() => stopGrowth(studio)}
+      >
         <StopIcon />
         {say("tools.growing.stop")}
       </button>
@@ -114,16 +118,12 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
   );
 }
 
-/** Whether something has been so for a while. */
+/** Whether something has been so for a while, or was until just now. */
 function useLasting(now: boolean): boolean {
   const [lasting, setLasting] = useState(false);
   useEffect(() => {
-    if (!now) {
-      setLasting(false);
-      return undefined;
-    }
-    const timer = setTimeout(() => setLasting(true), WORTH_A_WORD);
+    const timer = setTimeout(() => setLasting(now), now ? WORTH_A_WORD : STAYS);
     return () => clearTimeout(timer);
   }, [now]);
-  return now && lasting;
+  return lasting;
 }

@@ -1,0 +1,75 @@
+import { afterEach, beforeEach, expect, it } from "vitest";
+import type { Command } from "../../../wire/generated";
+import { GrowControl } from "./grow-control";
+
+let beat: FrameRequestCallback | null = null;
+beforeEach(() => {
+  globalThis.requestAnimationFrame = (callback) => {
+    beat = callback;
+    return 1;
+  };
+  globalThis.cancelAnimationFrame = () => {
+    beat = null;
+  };
+});
+afterEach(() => {
+  Reflect.deleteProperty(globalThis, "requestAnimationFrame");
+  Reflect.deleteProperty(globalThis, "cancelAnimationFrame");
+});
+
+/** A server that takes commands on and does them when it is told to. */
+function held(bud: number | null = null) {
+  const sent: Command[] = [];
+  const backlog = { unsettled: 0, pending: 0 };
+  const growth = new GrowControl({
+    submit: (command) => {
+      sent.push(command);
+      backlog.unsettled += command.kind === "stop" ? 0 : 1;
+    },
+    ready: () => true,
+    newGesture: () => 9,
+    unsettled: () => backlog.unsettled,
+    pendingSteps: () => backlog.pending,
+    bud: () => bud,
+    hold: () => () => {},
+  });
+  const frames = (from: number, to: number) => {
+    for (let time = from; time < to; time += 16) beat?.(time);
+  };
+  return { sent, backlog, growth, frames };
+}
+
+it("asks for one step at a time, and stops it when it is released", () => {
+  const { sent, backlog, growth, frames } = held();
+  growth.to(1);
+  frames(0, 5000);
+  expect(sent, "the server has not answered").toEqual([{ kind: "grow", steps: 1, gesture: 9 }]);
+  [backlog.unsettled, backlog.pending] = [0, 1];
+  growth.told();
+  frames(5000, 9000);
+  expect(sent, "the step is not done").toHaveLength(1);
+  backlog.pending = 0;
+  growth.told();
+  frames(9000, 9020);
+  expect(sent).toHaveLength(2);
+  growth.release();
+  expect(sent.slice(2)).toEqual([{ kind: "stop" }]);
+  expect([growth.isHeld, growth.deflection.value]).toEqual([false, 0]);
+});
+
+it("has nothing to stop where nothing is under way, or the tree grows back", () => {
+  const { sent, backlog, growth, frames } = held(4);
+  growth.to(1);
+  frames(0, 32);
+  backlog.unsettled = 0;
+  growth.told();
+  growth.release();
+  growth.to(-1);
+  frames(32, 64);
+  growth.release();
+  growth.release();
+  expect(sent).toEqual([
+    { kind: "grow", steps: 1, gesture: 9, bud: 4 },
+    { kind: "ungrow", steps: 1 },
+  ]);
+});

@@ -1,0 +1,89 @@
+import { expect, test } from "vitest";
+import { middle, SMALL, type Tablet, way } from "./tablet";
+import { seedling } from "./visits";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.withItsOwnServer();
+const { server } = workshop;
+
+/** Ways to have the tree grow as long as one likes: each begins it, and gives what ends it. */
+const HOLDS = {
+  "the lever at its end": async (tablet: Tablet) => {
+    const lever = await tablet.boxOf(tablet.page.getByLabel("Grow", { exact: true }));
+    await tablet.lead([way(middle(lever), { x: middle(lever).x, y: lever.y + 4 }, 4)]);
+    return () => tablet.touch("touchEnd", []);
+  },
+  "the key G": async (tablet: Tablet) => {
+    await tablet.page.keyboard.down("g");
+    return () => tablet.page.keyboard.up("g");
+  },
+};
+
+test.each(Object.entries(HOLDS))("growth ends within a step of letting go: %s", async (_, hold) => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  await workshop.act(address, [{ kind: "grow", steps: 8 }]);
+  await tablet.untilQuiet();
+  const begun = (await tablet.facts()).step;
+  const release = await hold(tablet);
+  await tablet.until("it grows on", ({ step }) => step >= begun + 3);
+  // The server falls behind, and the hand does not know.
+  server.pause();
+  await tablet.until("a step is asked for", ({ sent, acknowledged }) => sent > acknowledged);
+  const { step, sent, acknowledged } = await tablet.facts();
+  for (let frame = 0; frame < 60; frame++) await tablet.frames();
+  expect((await tablet.facts()).sent - acknowledged, "and no other before it is done").toBe(1);
+  await release();
+  await tablet.until("it is told to stop", (facts) => facts.sent === sent + 1);
+  server.resume();
+  const rested = await tablet.untilQuiet();
+  expect(rested.step).toBeGreaterThanOrEqual(step);
+  expect(rested.step).toBeLessThanOrEqual(step + 1);
+  await tablet.tap("Undo");
+  await tablet.until("it is one operation", (facts) => facts.step === begun);
+});
+
+const STOPS = {
+  "the button": (tablet: Tablet) => tablet.page.getByRole("button", { name: "Stop", exact: true }).tap(),
+  Escape: (tablet: Tablet) => tablet.page.keyboard.press("Escape"),
+};
+
+test.each(Object.entries(STOPS))("growth that someone else began can be stopped with %s", async (_, stop) => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  await workshop.act(address, [{ kind: "grow", steps: 1000 }]);
+  await tablet.page.getByRole("button", { name: "Stop", exact: true }).waitFor();
+  await stop(tablet);
+  const { step } = await tablet.untilQuiet();
+  expect(step).toBeLessThan(1000);
+  expect(await tablet.page.locator(".note.full").count(), "nor did it end of itself").toBe(0);
+  await tablet.page.getByRole("button", { name: "Stop", exact: true }).waitFor({ state: "detached" });
+});
+
+test("a lever that is stopped leaves the finger that holds it", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const lever = await tablet.boxOf(tablet.page.getByLabel("Grow", { exact: true }));
+  await tablet.lead([way(middle(lever), { x: middle(lever).x, y: lever.y + 4 }, 4)]);
+  await tablet.page.getByRole("button", { name: "Stop", exact: true }).waitFor();
+  await tablet.page.keyboard.press("Escape");
+  const { step } = await tablet.untilQuiet();
+  await tablet.touch("touchMove", [{ x: middle(lever).x, y: lever.y + 8 }]);
+  await tablet.frames();
+  expect((await tablet.untilQuiet()).step).toBe(step);
+  await tablet.touch("touchEnd", []);
+});
+
+test("a stroke that is stopped is over, though the finger goes on", async () => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  const seed = await seedling(tablet);
+  const rise = way(seed, { x: seed.x, y: seed.y - 260 }, 40);
+  await tablet.lead([rise.slice(0, 20)]);
+  // Long growth of someone else keeps the button there.
+  await workshop.act(address, [{ kind: "grow", steps: 1000 }]);
+  const stop = tablet.page.getByRole("button", { name: "Stop", exact: true });
+  await stop.waitFor();
+  await stop.evaluate((button: HTMLElement) => button.click());
+  const { sent } = await tablet.untilQuiet();
+  for (const point of rise.slice(20)) await tablet.touch("touchMove", [point]);
+  await tablet.frames();
+  expect((await tablet.untilQuiet()).sent).toBe(sent);
+  await tablet.touch("touchEnd", []);
+});
