@@ -10,7 +10,9 @@ use ts_rs::{Config, TS};
 
 use crate::{
     reading::NotAllowed,
-    version::{MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER},
+    version::{
+        MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER,
+    },
 };
 
 /// The least and the most of a number.
@@ -144,6 +146,8 @@ macro_rules! bounded {
 bounded! {
     /// Simulation steps of one command (`LM3`).
     Steps: u32 from 1, to MAX_STEPS_PER_COMMAND, read deserialize_u32;
+    /// An age in a programme, in steps of growth (`LM13`).
+    Age: u32 from 0, to MAX_AGE, read deserialize_u32;
     /// Simulation steps of a prediction (`LM10`).
     PredictedSteps: u32 from 0, to MAX_PREDICTED_STEPS, read deserialize_u32;
     /// The radius of the brush, in internode lengths (`LM2`).
@@ -171,6 +175,12 @@ impl<T, const LEAST: usize, const MOST: usize> List<T, LEAST, MOST> {
             0 => format!("a list of up to {MOST} entries"),
             least => format!("a list of {least} to {MOST} entries"),
         }
+    }
+}
+
+impl<T, const MOST: usize> Default for List<T, 0, MOST> {
+    fn default() -> Self {
+        Self(Vec::new())
     }
 }
 

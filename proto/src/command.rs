@@ -6,10 +6,11 @@ use serde_json::Value;
 use ts_rs::TS;
 
 use crate::{
-    bounded::{BrushRadius, Depth, Diameter, List, Share, Steps, Touches},
+    bounded::{Age, BrushRadius, Depth, Diameter, List, Share, Steps, Touches},
     obstacle::{Obstacle, Pose, SimpleShape},
     place::{DrawingPlane, PlanePoint, Position, UnitRotation},
     problem::Problem,
+    programme::{ParameterName, Programme},
     reading::{self, tagged_enum},
     version::{
         MAX_BEND_TOUCHES, MAX_OUTLINE_POINTS, MAX_PRUNED_ROWS, MAX_STROKE_SAMPLES, MIN_OUTLINE_POINTS,
@@ -67,6 +68,9 @@ pub struct StrokeSample {
     pub radius: BrushRadius,
 }
 
+/// More names than there are parameters.
+const MAX_NAMES: usize = 64;
+
 /// A lasso is as deep as it is wide unless it says otherwise.
 fn whole_depth() -> Depth {
     Depth::MOST
@@ -99,10 +103,14 @@ tagged_enum! {
             /// The number given in `stroke_begin`.
             stroke: u32,
         },
-        /// Grow on without guidance.
+        /// Grow on alone, by the programme if there is one (`PG2`).
         Grow {
             /// 1 to 1000 simulation steps.
             steps: Steps,
+            /// Growth ends at this age, however many steps are left (`PG2`).
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[ts(optional)]
+            until: Option<Age>,
             /// The row of a metamer: only the buds at its node and above grow (`SG1`).
             #[serde(default, skip_serializing_if = "Option::is_none")]
             #[ts(optional)]
@@ -145,6 +153,20 @@ tagged_enum! {
         SetParameters {
             /// The fields to change.
             parameters: ParametersPatch,
+        },
+        /// Grow by a programme from here on, or by the present parameters alone (`PG3`).
+        SetProgramme {
+            /// The programme; `null` for none.
+            programme: Option<Programme>,
+            /// Whether parameters that were set by hand stay as they are.
+            #[serde(default)]
+            #[ts(as = "Option<bool>", optional)]
+            keep: bool,
+        },
+        /// Let parameters that were set by hand follow the programme again (`PG4`).
+        FollowProgramme {
+            /// Their names; none for all of them.
+            parameters: List<ParameterName, 0, MAX_NAMES>,
         },
         /// Change how the tree and its surroundings look (`AP1`).
         SetAppearance {

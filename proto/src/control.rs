@@ -11,6 +11,7 @@ use crate::{
     envelope::FrameKind,
     obstacle::PlacedObstacle,
     problem::Problem,
+    programme::Programme,
     reading::{self, tagged_enum},
     timeline::{Timeline, WidthConstraint},
     version::MAX_PRUNED_ROWS,
@@ -119,6 +120,8 @@ impl ClientMessage {
 pub struct DocumentState {
     /// The simulation step reached.
     pub step: u32,
+    /// The age of the plants, by which a programme goes (`PG1`).
+    pub age: u32,
     /// Living metamers.
     pub metamers: u32,
     /// Living axes with at least one metamer.
@@ -206,6 +209,13 @@ pub enum ServerMessage {
     Parameters {
         /// The parameters in force.
         parameters: Box<ParameterValues>,
+    },
+    /// The programme, and what overrides it: after the welcome if there is one, and when it changes (`PG5`).
+    Programme {
+        /// The programme in force.
+        programme: Option<Box<Programme>>,
+        /// The names of the parameters that were set by hand and do not follow it.
+        by_hand: Vec<String>,
     },
     /// How the tree looks: after the welcome, and when it changes (`AP3`).
     Appearance {

@@ -18,6 +18,7 @@ pub mod obstacle;
 pub mod place;
 pub mod pose;
 pub mod problem;
+pub mod programme;
 pub mod protocol_tables;
 pub mod reading;
 pub mod schematic;
@@ -28,7 +29,7 @@ pub mod varint;
 pub mod version;
 
 pub use bounded::{
-    BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
+    Age, BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{ClientMessage, DocumentState, Notice, Resume, ServerMessage, Unreadable};
@@ -40,6 +41,7 @@ pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleSha
 pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
 pub use pose::{PoseFrame, RowMotion};
 pub use problem::{Problem, ProblemCode};
+pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reading::NotAllowed;
 pub use schematic::Schematic;
 pub use timeline::{OperationKind, Timeline, TimelineFuture, TimelineOperation, WidthConstraint};

@@ -1,10 +1,12 @@
 //! Species as a picker offers them.
 
-use espalier_settings::{Appearance, ParameterValues};
+use espalier_settings::Appearance;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// A set of parameters and an appearance with a name, from `GET /api/species`.
+use crate::programme::Programme;
+
+/// A programme and an appearance with a name, from `GET /api/species`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Species {
@@ -16,8 +18,8 @@ pub struct Species {
     pub botanical: String,
     /// What tells it from others, in one sentence.
     pub sentence: String,
-    /// What `set_parameters` is given when it is picked.
-    pub parameters: ParameterValues,
+    /// What `set_programme` is given when it is picked.
+    pub programme: Programme,
     /// What it looks like: all but the background is what `set_appearance` is given when it is picked.
     pub appearance: Appearance,
 }

@@ -7,8 +7,8 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    command, control, envelope, frame, library, obstacle, place, problem, schematic, species, timeline,
-    version,
+    command, control, envelope, frame, library, obstacle, place, problem, programme, schematic, species,
+    timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -29,6 +29,8 @@ pub fn declarations() -> String {
     constant("MAX_DIAMETER", version::MAX_DIAMETER.to_string());
     constant("MAX_PRUNED_ROWS", version::MAX_PRUNED_ROWS.to_string());
     constant("MAX_PREDICTED_STEPS", version::MAX_PREDICTED_STEPS.to_string());
+    constant("MAX_STAGES", version::MAX_STAGES.to_string());
+    constant("MAX_AGE", version::MAX_AGE.to_string());
     constant("MAX_FUTURES", version::MAX_FUTURES.to_string());
     constant("MAX_OBSTACLES", version::MAX_OBSTACLES.to_string());
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
@@ -91,6 +93,8 @@ pub fn declarations() -> String {
         settings::BackgroundPatch::decl(&config),
         Appearance::decl(&config),
         settings::AppearancePatch::decl(&config),
+        programme::Stage::decl(&config),
+        programme::Programme::decl(&config),
         command::Command::decl(&config),
         schematic::Schematic::decl(&config),
         species::Species::decl(&config),

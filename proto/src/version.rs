@@ -36,6 +36,12 @@ pub const MAX_PREDICTED_STEPS: u32 = 100;
 /// The most lines of time that are kept beside the present one (`LM11`).
 pub const MAX_FUTURES: usize = 64;
 
+/// The most stages of a programme (`LM13`).
+pub const MAX_STAGES: usize = 128;
+
+/// The greatest age that a stage of a programme can have (`LM13`).
+pub const MAX_AGE: u32 = 10_000;
+
 /// The most obstacles in a scene (`LM6`).
 pub const MAX_OBSTACLES: usize = 64;
 

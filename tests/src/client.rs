@@ -4,7 +4,7 @@ use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
     ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, PoseFrame, Problem,
-    ServerMessage, Timeline, WidthConstraint,
+    Programme, ServerMessage, Timeline, WidthConstraint,
 };
 use espalier_settings::{Appearance, ParameterValues};
 use futures_util::{SinkExt, StreamExt};
@@ -48,6 +48,8 @@ pub struct Client {
     pub state: DocumentState,
     /// The newest parameters.
     pub parameters: ParameterValues,
+    /// The programme, and what was set by hand.
+    pub programme: Option<(Programme, Vec<String>)>,
     /// The newest looks.
     pub appearance: Appearance,
     /// How often the looks were told.
@@ -165,6 +167,7 @@ impl Client {
             table: Table::new(epoch),
             state,
             parameters: *parameters,
+            programme: None,
             appearance: Appearance::default(),
             appearances: 0,
             obstacles: Vec::new(),
@@ -360,7 +363,8 @@ impl Client {
                 assert_eq!(epoch, self.table.epoch, "RS1: only the same epoch can be resumed");
                 self.resumed = resumed;
                 self.parameters = *parameters;
-                // Lists follow if there are any (`OB3`, `WI2`).
+                // These follow if there are any (`PG5`, `OB3`, `WI2`).
+                self.programme = None;
                 self.obstacles.clear();
                 self.widths.clear();
                 self.state = state;
@@ -374,6 +378,9 @@ impl Client {
             ServerMessage::Problem { problem } => self.problems.push(problem),
             ServerMessage::State { state } => self.state = state,
             ServerMessage::Parameters { parameters } => self.parameters = *parameters,
+            ServerMessage::Programme { programme, by_hand } => {
+                self.programme = programme.map(|it| (*it, by_hand))
+            }
             ServerMessage::Obstacles { obstacles } => self.obstacles = obstacles,
             ServerMessage::Timeline(timeline) => self.timeline = *timeline,
             ServerMessage::Widths { widths } => self.widths = widths,

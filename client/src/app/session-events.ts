@@ -7,6 +7,7 @@ import type { SessionEvents, SessionLink } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
+import type { ProgrammeControl } from "./document/growth/programme-control";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
@@ -21,6 +22,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly link: Pick<SessionLink, "answered">;
   readonly document: Signal<DocumentState | null>;
   readonly growing: Draft<Parameters, null>;
+  readonly programme: Pick<ProgrammeControl, "receive">;
   readonly looks: LookDraft;
   readonly growth: GrowControl;
   readonly outline: OutlineTrace;
@@ -45,6 +47,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.outline.progressed(page.link.answered, state.pending_steps);
     },
     parameters: ({ parameters }) => page.growing.receive(parameters),
+    programme: ({ programme, by_hand }) => page.programme.receive(programme, by_hand),
     appearance: ({ appearance }) => page.looks.receive(appearance),
     // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
     obstacles: ({ obstacles }) => (obstacles.length === 0 ? page.obstacles.clear() : page.obstacles.receive(obstacles)),
@@ -108,6 +111,7 @@ function forget(page: SessionTargets): void {
   page.document.value = null;
   page.growing.clear();
   page.looks.clear();
+  page.programme.receive(null, []);
   page.rows.value = 0;
   page.bud.release();
   page.tools.clear();

@@ -8,6 +8,7 @@ import { LookDraft } from "./document/appearance/look-draft";
 import { Draft, type GrowthAhead } from "./document/draft";
 import { GrowControl } from "./document/growth/grow-control";
 import { growthAhead } from "./document/growth/growth-ahead";
+import { ProgrammeControl } from "./document/growth/programme-control";
 import { ObstacleList } from "./document/obstacles/obstacle-list";
 import { TimelineControl } from "./document/timeline/timeline-control";
 import { Tour } from "./help/tour";
@@ -39,12 +40,18 @@ export class Studio {
   /** What trees grow by, as it is set here and by others. */
   readonly growing = new Draft<Parameters, null>({
     none: null,
-    submit: (parameters, gesture) => this.submit({ kind: "set_parameters", parameters, ...joined(gesture) }),
+    submit: (parameters, gesture) => this.submit({ ...this.programme.setting(parameters), ...joined(gesture) }),
     newGesture: () => this.link.next,
     ahead: () => this.#ahead(),
     clock: browserClock,
   });
   readonly parameters = this.growing.value;
+  /** The programme that growth goes by. */
+  readonly programme: ProgrammeControl = new ProgrammeControl({
+    submit: (command) => this.submit(command),
+    age: () => this.document.peek()?.age ?? null,
+    grownUp: () => this.toasts.show(say("notices.grown-up")),
+  });
   /** How the tree looks, as it is set here and by others. */
   readonly looks = new LookDraft({
     submit: (appearance, gesture) => this.submit({ kind: "set_appearance", appearance, ...joined(gesture) }),
@@ -96,7 +103,7 @@ export class Studio {
     failed: (error) => void this.#explain(error),
   });
   readonly growth = new GrowControl({
-    submit: (command) => this.submit(command),
+    submit: (command) => this.submit(this.programme.paced(command)),
     ready: () => this.link.connected,
     newGesture: () => this.link.next,
     unsettled: () => this.link.unsettled("grow") + this.link.unsettled("ungrow"),

@@ -11,6 +11,8 @@ export const MIN_DIAMETER = 0.01;
 export const MAX_DIAMETER = 100;
 export const MAX_PRUNED_ROWS = 1024;
 export const MAX_PREDICTED_STEPS = 100;
+export const MAX_STAGES = 128;
+export const MAX_AGE = 10000;
 export const MAX_FUTURES = 64;
 export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
@@ -949,6 +951,50 @@ bark?: BarkPatch,
  */
 background?: BackgroundPatch, };
 
+export type Stage = { "kind": "change", 
+/**
+ * The age at which it begins.
+ */
+age: number, 
+/**
+ * Those parameters.
+ */
+parameters: ParametersPatch, } | { "kind": "seed", 
+/**
+ * The age at which it is.
+ */
+age: number, 
+/**
+ * Where, on the ground, in internode lengths.
+ */
+position: [number, number, number], } | { "kind": "stroke", 
+/**
+ * The age at which it begins.
+ */
+age: number, 
+/**
+ * 1 to 256 places, in the order the brush goes through them.
+ */
+samples: Array<StrokeSample>, };
+
+export type Programme = { 
+/**
+ * The species it is of, by its short name; for whoever shows it.
+ */
+species?: string, 
+/**
+ * The parameters where no stage has others; those left out have their defaults.
+ */
+parameters: ParametersPatch, 
+/**
+ * Up to 128 stages, in order of their ages.
+ */
+stages: Array<Stage>, 
+/**
+ * The age at which a tree is grown up.
+ */
+age: number, };
+
 export type Command = { 
 /**
  * Commands of one client that follow each other with the same gesture can be one operation for undo; `AP2`,
@@ -980,6 +1026,10 @@ stroke: number, } | { "kind": "grow",
  */
 steps: number, 
 /**
+ * Growth ends at this age, however many steps are left (`PG2`).
+ */
+until?: number, 
+/**
  * The row of a metamer: only the buds at its node and above grow (`SG1`).
  */
 bud?: number, } | { "kind": "lasso", 
@@ -1006,7 +1056,19 @@ steps: number, } | { "kind": "undo", } | { "kind": "redo", } | { "kind": "set_pa
 /**
  * The fields to change.
  */
-parameters: ParametersPatch, } | { "kind": "set_appearance", 
+parameters: ParametersPatch, } | { "kind": "set_programme", 
+/**
+ * The programme; `null` for none.
+ */
+programme: Programme | null, 
+/**
+ * Whether parameters that were set by hand stay as they are.
+ */
+keep?: boolean, } | { "kind": "follow_programme", 
+/**
+ * Their names; none for all of them.
+ */
+parameters: Array<string>, } | { "kind": "set_appearance", 
 /**
  * The sections to change, each as a whole.
  */
@@ -1173,9 +1235,9 @@ botanical: string,
  */
 sentence: string, 
 /**
- * What `set_parameters` is given when it is picked.
+ * What `set_programme` is given when it is picked.
  */
-parameters: Parameters, 
+programme: Programme, 
 /**
  * What it looks like: all but the background is what `set_appearance` is given when it is picked.
  */
@@ -1302,6 +1364,10 @@ export type DocumentState = {
  * The simulation step reached.
  */
 step: number, 
+/**
+ * The age of the plants, by which a programme goes (`PG1`).
+ */
+age: number, 
 /**
  * Living metamers.
  */
@@ -1448,7 +1514,15 @@ state: DocumentState, } | { "type": "parameters",
 /**
  * The parameters in force.
  */
-parameters: Parameters, } | { "type": "appearance", 
+parameters: Parameters, } | { "type": "programme", 
+/**
+ * The programme in force.
+ */
+programme: Programme | null, 
+/**
+ * The names of the parameters that were set by hand and do not follow it.
+ */
+by_hand: Array<string>, } | { "type": "appearance", 
 /**
  * The appearance in force.
  */

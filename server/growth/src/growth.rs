@@ -61,7 +61,8 @@ impl Growth {
         growth
     }
 
-    pub(crate) fn parameters(&self) -> &Parameters {
+    /// The parameters in force.
+    pub fn parameters(&self) -> &Parameters {
         self.parameters.scene()
     }
 
@@ -69,7 +70,8 @@ impl Growth {
         self.markers.as_slice()
     }
 
-    pub(crate) fn set_parameters(&mut self, scene: &mut Scene, parameters: Parameters) {
+    /// Changes the parameters; growth from here on uses them.
+    pub fn set_parameters(&mut self, scene: &mut Scene, parameters: Parameters) {
         let same_shadows = self.parameters().casts_like(&parameters);
         self.parameters = ParameterTable::new(parameters);
         if !same_shadows {
@@ -78,7 +80,8 @@ impl Growth {
         self.start_over(scene);
     }
 
-    pub(crate) fn drop_guidance(&mut self) {
+    /// Forgets what guided growth so far: markers and strokes.
+    pub fn drop_guidance(&mut self) {
         self.markers.remove_all();
         self.guides.clear();
     }
@@ -106,11 +109,18 @@ impl Growth {
         self.markers.remove(MarkerSource::Lasso);
     }
 
-    pub(crate) fn end_stroke(&mut self, stroke: StrokeId) {
+    /// The strokes that guide growth.
+    pub fn strokes(&self) -> impl Iterator<Item = StrokeId> + '_ {
+        self.guides.keys().copied()
+    }
+
+    /// Forgets the path of one stroke.
+    pub fn end_stroke(&mut self, stroke: StrokeId) {
         self.guides.remove(&stroke);
     }
 
-    pub(crate) fn has_guidance(&self, scene: &Scene) -> bool {
+    /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
+    pub fn has_guidance(&self, scene: &Scene) -> bool {
         let is_blocked = |place| scene.obstacles.blocks(place, place, CLEARANCE);
         let is_led = |guide: &Guide| {
             guide.leader.is_some_and(|leader| {

@@ -117,6 +117,11 @@ impl Plant {
         self.timeline.ends.len() as u32 - 1
     }
 
+    /// Steps of growth up to the present; edits are none.
+    pub fn growths(&self) -> u32 {
+        self.timeline.growths_at(self.timeline.now)
+    }
+
     /// The step in which a metamer of the present was born.
     pub fn birth(&self, id: MetamerId) -> u32 {
         self.timeline.step_of(|end| end.metamers, id.raw())
@@ -134,7 +139,7 @@ impl Plant {
 
     /// Steps of growth that a metamer of the present has lived through; edits take no time.
     pub fn age(&self, id: MetamerId) -> u32 {
-        self.timeline.growths_at(self.timeline.now) - self.timeline.growths_at(self.birth(id))
+        self.growths() - self.timeline.growths_at(self.birth(id))
     }
 
     /// For each number of steps of growth from 0 up, how many metamers had been born when so many had been taken; edits
@@ -158,6 +163,12 @@ impl Plant {
     /// Whether a metamer is a seed: a point where a trunk begins.
     pub fn is_seed(&self, id: MetamerId) -> bool {
         self.metamers.parent[id.index()] == MetamerId::NONE
+    }
+
+    /// Whether a living seed lies at a place.
+    pub fn has_seed_at(&self, place: Vec3) -> bool {
+        let all = (0..self.metamer_count()).map(MetamerId::new);
+        all.filter(|&id| self.is_seed(id)).any(|id| self.is_alive(id) && self.metamers.end(id) == place)
     }
 
     /// Unit direction of a metamer; its trunk's first direction for a seed.

@@ -101,7 +101,7 @@ fn scrub(tree: &mut Followed) {
         let row = path[path.len() * (round + 1) / 6].raw();
         tree.act(&Action::TurnBranch { row, rotation: UnitRotation::nearest(rotation) });
         tree.act(&Action::SetWidth { row, diameter: Some(Diameter::nearest(0.5)) });
-        tree.act(&Action::Grow { steps: Steps::nearest(1), bud: None });
+        tree.act(&Action::Grow { steps: Steps::nearest(1), until: None, bud: None });
     }
     let last = tree.document.plant().step();
     let first = top.saturating_sub(6);

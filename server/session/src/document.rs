@@ -9,6 +9,7 @@ mod growing;
 mod history;
 mod notifications;
 mod obstacles;
+mod programmes;
 mod pruning;
 mod settings;
 mod strokes;
@@ -40,7 +41,7 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::cause::Cause;
+use crate::{cause::Cause, habit::Habit};
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
@@ -67,6 +68,8 @@ pub struct Document {
 pub struct Figures {
     /// The present simulation step.
     pub step: u32,
+    /// The age of the plants.
+    pub age: u32,
     /// Living metamers.
     pub metamers: u32,
     /// Living axes with wood.
@@ -99,13 +102,15 @@ impl Document {
     fn of(seed: u32, parameters: Parameters) -> Self {
         let obstacles = Obstacles::default();
         let appearance = Arc::new(Appearance::default());
+        let habit = Arc::new(Habit::plain(parameters.clone()));
         let initial = Setting {
-            parameters: Arc::new(parameters.clone()),
+            habit: Arc::clone(&habit),
             obstacles: Arc::clone(&obstacles.standing),
             appearance: Arc::clone(&appearance),
         };
         Self {
-            simulation: Simulation::new(seed, parameters).grown_by(Generators::from),
+            simulation: Simulation::new(seed, parameters)
+                .grown_by(|growth| Generators::new(growth, habit, 0)),
             history: History::new(initial),
             futures: Futures::default(),
             strokes: OpenStrokes::default(),
@@ -144,7 +149,7 @@ impl Document {
                 self.pending.push_back(Pending::Settle { stroke, left, chosen });
                 Ok(())
             }
-            Action::Grow { steps, bud } => self.begin_growth(cause, *steps, *bud),
+            Action::Grow { steps, until, bud } => self.begin_growth(cause, *steps, *until, *bud),
             Action::Lasso { outline, plane, depth, bud } => {
                 self.begin_lasso(cause, outline, plane, *depth, *bud)
             }
@@ -154,6 +159,8 @@ impl Document {
             Action::Undo {} => self.undo(),
             Action::Redo {} => self.redo(),
             Action::SetParameters { parameters } => self.set_parameters(cause, parameters),
+            Action::SetProgramme { programme, keep } => self.set_programme(cause, programme.as_ref(), *keep),
+            Action::FollowProgramme { parameters } => self.follow_programme(cause, parameters),
             Action::SetAppearance { appearance } => self.set_appearance(cause, appearance),
             Action::PlantSeed { position } => self.plant_seed(cause, *position),
             Action::PlaceObstacle { obstacle } => self.place_obstacle(cause, obstacle),
@@ -193,6 +200,7 @@ impl Document {
         let plant = self.simulation.plant();
         Figures {
             step: plant.step(),
+            age: self.age(),
             metamers: plant.living_count(),
             axes: plant.living_axes_count(),
             metamer_budget: self.simulation.scene().metamer_budget(),
@@ -247,6 +255,7 @@ impl Document {
         for value in settings::to_words(self.simulation.parameters().values()) {
             hash.word(value);
         }
+        self.hash_habit(&mut hash);
         for value in settings::to_words(&*self.appearance) {
             hash.word(value);
         }

@@ -3,7 +3,7 @@
 use espalier_proto::{Action, Command, Problem};
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-use crate::{appearance::AppearanceChange, obstacle::Obstacle};
+use crate::{appearance::AppearanceChange, habit::Plan, obstacle::Obstacle};
 
 // The wire lets nothing stand outside the world that growth keeps to.
 const _: () = assert!(espalier_growth::WORLD_EXTENT == espalier_proto::place::FARTHEST);
@@ -23,6 +23,9 @@ pub fn read_command(text: &str) -> Result<Command, Problem> {
 pub(crate) fn check(action: &Action) -> Result<(), Problem> {
     match action {
         Action::SetParameters { parameters } => check_finite(parameters),
+        Action::SetProgramme { programme: Some(programme), .. } => {
+            Plan::new(programme.clone()).map(drop).map_err(|problem| problem.within("programme"))
+        }
         Action::SetAppearance { appearance } => AppearanceChange::parse(appearance).map(drop),
         Action::PlaceObstacle { obstacle } => Obstacle::of(obstacle).map(drop),
         _ => Ok(()),

@@ -7,7 +7,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-use espalier_growth::{NoObserver, Simulation, StepInput};
+use espalier_growth::{NoObserver, Simulation};
 use espalier_mesh::{RingTable, Style};
 use espalier_proto::{GhostFrame, Problem};
 
@@ -89,8 +89,7 @@ impl PredictionRun {
             if self.question.cancelled.load(Ordering::Relaxed) {
                 return true;
             }
-            let input = StepInput { autonomous: true, ..StepInput::default() };
-            simulation.step(&Step::Growth(input), &mut NoObserver);
+            simulation.step(&Step::Age { chosen: None, until: u32::MAX }, &mut NoObserver);
             self.left = if simulation.is_out_of_budget() { 0 } else { self.left - 1 };
         }
         if self.left > 0 {

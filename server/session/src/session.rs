@@ -14,8 +14,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, ProblemCode, ServerMessage, Timeline,
-    Unreadable, WidthConstraint,
+    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, ProblemCode, Programme, ServerMessage,
+    Timeline, Unreadable, WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -57,6 +57,7 @@ pub struct Session {
     figures: Figures,
     leaves: u32,
     parameters: ParameterValues,
+    programme: ProgrammeInForce,
     appearance: Appearance,
     scenery: Scenery,
     timeline: Timeline,
@@ -70,6 +71,30 @@ pub struct Session {
     notices: Vec<Notice>,
     failed: bool,
     outputs: VecDeque<Output>,
+}
+
+/// The programme as clients are told it (`PG5`).
+#[derive(Debug, PartialEq)]
+struct ProgrammeInForce {
+    programme: Option<Arc<Programme>>,
+    by_hand: Vec<&'static str>,
+}
+
+impl ProgrammeInForce {
+    fn of(document: &Document) -> Self {
+        Self { programme: document.programme().cloned(), by_hand: document.set_by_hand().collect() }
+    }
+
+    fn is_there(&self) -> bool {
+        self.programme.is_some()
+    }
+
+    fn message(&self) -> ServerMessage {
+        ServerMessage::Programme {
+            programme: self.programme.as_deref().cloned().map(Box::new),
+            by_hand: self.by_hand.iter().map(|&name| name.to_owned()).collect(),
+        }
+    }
 }
 
 /// The obstacles as clients are told them.
@@ -174,6 +199,7 @@ impl Session {
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
+            programme: ProgrammeInForce::of(&work.document),
             appearance: *work.document.appearance(),
             scenery: Scenery::of(&work.document),
             timeline: work.document.timeline(),

@@ -1,53 +1,65 @@
-//! Species as scripts and on the wire: the actions that grow a tree of a species from seed, and what a picker shows.
+//! Species as programmes and on the wire: what a picker shows and sets, and the actions that grow a tree from seed.
 
 use espalier_growth::{
     BrushSample,
-    species::{Species, Stage},
+    species::{self, Species},
 };
-use espalier_proto::{Action, BrushRadius, List, Position, Steps, StrokeSample, species as wire};
-use espalier_settings::{Appearance, ParameterValues};
+use espalier_proto::{
+    Action, Age, BrushRadius, List, Position, Programme, Slug, Stage, Steps, StrokeSample, species as wire,
+};
 use glam::Vec3;
 
-use crate::appearance::AppearanceChange;
+use crate::{appearance::AppearanceChange, habit::Plan};
 
-/// The number of a stroke of a schedule; each ends before the next begins.
-const STROKE: u32 = 1;
-
-/// What makes a seedling a tree of this species: its parameters and looks, then its schedule.
+/// What a picker does, and growth from seed until the tree is grown up.
 pub fn script(species: &Species) -> Vec<Action> {
-    let mut actions = vec![choose(&species.parameters), set_looks(&species.appearance)];
+    let programme = programme_of(species);
+    let until = programme.age;
+    vec![
+        Action::SetProgramme { programme: Some(programme), keep: false },
+        Action::SetAppearance { appearance: AppearanceChange::of_tree(&species.appearance) },
+        Action::Grow { steps: Steps::nearest(until.get()), until: Some(until), bud: None },
+    ]
+}
+
+/// The life of a species by age.
+pub(crate) fn programme_of(species: &Species) -> Programme {
+    let mut age = 0;
+    let mut values = &species.parameters;
+    let mut stages = Vec::new();
     for stage in &species.schedule {
         match stage {
-            &Stage::Grow(steps) => actions.push(Action::Grow { steps: Steps::nearest(steps), bud: None }),
-            Stage::Change(values) => actions.push(choose(values)),
-            &Stage::Sow(x, z) => {
-                actions.push(Action::PlantSeed { position: Position::nearest(Vec3::new(x, 0.0, z)) })
+            species::Stage::Grow(steps) => age += steps,
+            species::Stage::Change(now) => {
+                values = now;
+                let parameters = species.parameters.change_to(now);
+                stages.push(Stage::Change { age: Age::nearest(age), parameters });
             }
-            Stage::Brush(places) => {
-                actions.push(Action::StrokeBegin { stroke: STROKE, bud: None });
-                let moved = |place: &BrushSample| Action::StrokeMove {
-                    stroke: STROKE,
-                    samples: List::of(StrokeSample {
-                        position: Position::nearest(place.position),
-                        radius: BrushRadius::nearest(place.radius),
-                    }),
-                };
-                actions.extend(places.iter().map(moved));
-                actions.push(Action::StrokeEnd { stroke: STROKE });
+            &species::Stage::Sow(x, z) => {
+                let position = Position::nearest(Vec3::new(x, 0.0, z));
+                stages.push(Stage::Seed { age: Age::nearest(age), position });
+            }
+            species::Stage::Brush(places) => {
+                stages.extend(stroke(age, places));
+                age += Plan::span_of(places, values);
             }
         }
     }
-    actions
+    Programme {
+        species: Slug::try_from(species.slug.to_owned()).ok(),
+        parameters: species.parameters.clone().into(),
+        stages: List::try_from(stages).unwrap_or_default(),
+        age: Age::nearest(age),
+    }
 }
 
-/// What a picker does: sets all parameters at once.
-fn choose(values: &ParameterValues) -> Action {
-    Action::SetParameters { parameters: values.clone().into() }
-}
-
-/// The looks of a species; what surrounds it stays.
-fn set_looks(looks: &Appearance) -> Action {
-    Action::SetAppearance { appearance: AppearanceChange::of_tree(looks) }
+fn stroke(age: u32, places: &[BrushSample]) -> Option<Stage> {
+    let sample = |place: &BrushSample| StrokeSample {
+        position: Position::nearest(place.position),
+        radius: BrushRadius::nearest(place.radius),
+    };
+    let samples = List::try_from(places.iter().map(sample).collect::<Vec<_>>()).ok()?;
+    Some(Stage::Stroke { age: Age::nearest(age), samples })
 }
 
 /// A species as it travels.
@@ -57,7 +69,7 @@ pub fn wire_species(species: &Species) -> wire::Species {
         name: species.name.to_owned(),
         botanical: species.botanical.to_owned(),
         sentence: species.sentence.to_owned(),
-        parameters: species.parameters.clone(),
+        programme: programme_of(species),
         appearance: species.appearance,
     }
 }

@@ -101,6 +101,7 @@ pub(crate) fn catch_up(table: &RingTable, held: &Held, epoch: u32, sequence: u32
 pub(crate) fn state(figures: &Figures, leaves: u32, queued: u32, people: usize) -> DocumentState {
     DocumentState {
         step: figures.step,
+        age: figures.age,
         metamers: figures.metamers,
         axes: figures.axes,
         leaves,

@@ -134,6 +134,12 @@ macro_rules! settings {
                 Ok(())
             }
 
+            /// What makes other values of these.
+            #[must_use]
+            pub fn change_to(&self, other: &Self) -> $patch {
+                $patch { $($name: (self.$name != other.$name).then_some(other.$name),)+ }
+            }
+
             /// These values with the patch's fields put in.
             #[must_use]
             pub fn patched(&self, patch: &$patch) -> Self {
@@ -144,6 +150,27 @@ macro_rules! settings {
         impl Default for $values {
             fn default() -> Self {
                 Self { $($name: $default,)+ }
+            }
+        }
+
+        impl $patch {
+            /// This patch with the fields of a later one put in.
+            #[must_use]
+            pub fn patched(&self, later: &Self) -> Self {
+                Self { $($name: later.$name.or(self.$name),)+ }
+            }
+
+            /// The same patch with those fields only that are wanted, by their names.
+            #[must_use]
+            pub fn only(&self, is_wanted: impl Fn(&str) -> bool) -> Self {
+                Self { $($name: self.$name.filter(|_| is_wanted(stringify!($name))),)+ }
+            }
+
+            /// The names of the fields it sets.
+            pub fn names(&self) -> impl Iterator<Item = &'static str> + use<> {
+                [$((stringify!($name), self.$name.is_some())),+]
+                    .into_iter()
+                    .filter_map(|(name, is_set)| is_set.then_some(name))
             }
         }
 

@@ -178,7 +178,9 @@ mod tests {
 
     fn grown(steps: u32) -> Bench {
         let mut bench = Bench::new(Document::new(3));
-        bench.act("me", &Action::Grow { steps: Steps::nearest(steps), bud: None }.into()).unwrap();
+        bench
+            .act("me", &Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into())
+            .unwrap();
         bench
     }
 
@@ -196,7 +198,7 @@ mod tests {
     #[test]
     fn without_deltas_the_same_grows() {
         let mut alone = Bench::new(Document::new(3)).unfollowed();
-        alone.act("me", &Action::Grow { steps: Steps::nearest(12), bud: None }.into()).unwrap();
+        alone.act("me", &Action::Grow { steps: Steps::nearest(12), until: None, bud: None }.into()).unwrap();
         let (alone, followed) = (alone.stats(), grown(12).stats());
         assert_eq!((alone.delta_bytes, alone.seconds.delta), (0, 0.0));
         assert!(followed.delta_bytes > 0 && followed.seconds.delta > 0.0);

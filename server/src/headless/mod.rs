@@ -107,7 +107,10 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         };
         let wanted = options.metamers.unwrap_or(0);
         // One operation for undo, however many steps it takes.
-        let step = Command { gesture: Some(1), ..Action::Grow { steps: Steps::LEAST, bud: None }.into() };
+        let step = Command {
+            gesture: Some(1),
+            ..Action::Grow { steps: Steps::LEAST, until: None, bud: None }.into()
+        };
         let (mut most, mut idle) = (0, 0);
         while bench.document().metamers() < wanted {
             let alive = bench.document().metamers();

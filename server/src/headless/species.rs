@@ -35,21 +35,19 @@ pub fn species(options: &cli::Species) -> Result<(), HeadlessError> {
     }
 }
 
-/// Grows a tree through its species' schedule; the patches hold in every stage of it.
+/// Grows a tree through its species' programme; the patches hold at every age.
 pub(super) fn raise(
     bench: &mut Bench,
     species: &Species,
     patches: &[ParametersPatch],
 ) -> Result<(), HeadlessError> {
+    // All at once: weights that are changed one by one do not sum to 1 in between.
+    let parameters = patches.iter().fold(ParametersPatch::default(), |all, patch| all.patched(patch));
+    let by_hand = Action::SetParameters { parameters };
     for action in script(species) {
-        let is_choice = matches!(action, Action::SetParameters { .. });
-        bench.act(AUTHOR, &action.into()).map_err(HeadlessError::Parameters)?;
-        if is_choice && !patches.is_empty() {
-            // All at once: weights that are changed one by one do not sum to 1 in between.
-            let chosen = bench.document().parameters();
-            let wanted = patches.iter().fold(chosen, |all, patch| all.patched(patch));
-            let choice = Action::SetParameters { parameters: wanted.into() };
-            bench.act(AUTHOR, &choice.into()).map_err(HeadlessError::Parameters)?;
+        let grows = matches!(action, Action::Grow { .. });
+        for action in grows.then(|| by_hand.clone()).into_iter().chain([action]) {
+            bench.act(AUTHOR, &action.into()).map_err(HeadlessError::Parameters)?;
         }
     }
     Ok(())

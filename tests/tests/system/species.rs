@@ -57,7 +57,7 @@ fn pictures_and_sheets_are_png_files() {
 }
 
 #[tokio::test]
-async fn a_picked_species_becomes_the_parameters() {
+async fn pg5_a_picked_species_is_told_and_grows_up_as_on_the_command_line() {
     let scratch = Scratch::new();
     let server = Server::start(&scratch.path("trees.db"));
     let answer = http::send(server.port(), "GET", "/api/species", None).expect("the server answers");
@@ -66,7 +66,24 @@ async fn a_picked_species_becomes_the_parameters() {
     let willow = all.iter().find(|species| species.slug == "weeping-willow").expect("there is a willow");
     let session = server.new_session(7);
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
-    client.send(json!({ "kind": "set_parameters", "parameters": willow.parameters })).await;
+    let programme = &willow.programme;
+    client.send(json!({ "kind": "set_programme", "programme": programme })).await;
     client.until_settled().await;
-    assert_eq!(client.parameters, willow.parameters);
+    assert_eq!(client.parameters.setpoint_angle, 40.0, "a young willow");
+    let until = programme.age;
+    client.send(json!({ "kind": "grow", "steps": 1000, "until": until })).await;
+    client.until_settled().await;
+    assert_eq!(client.parameters.setpoint_angle, 180.0, "an old willow");
+    assert_eq!(client.state.age, until.get());
+    let grown = grown(&["--species", "weeping-willow", "--seed", "7"]);
+    assert_eq!(grown["metamers_alive"], client.state.metamers);
+    client.send(json!({ "kind": "set_parameters", "parameters": { "max_shoot_length": 3 } })).await;
+    client.until_settled().await;
+    let mut guest = Client::connect(server.port(), &session, "browser-2").await;
+    guest.until("PG5: the programme", |guest| guest.programme.is_some()).await;
+    assert_eq!(guest.programme, client.programme);
+    assert_eq!(guest.programme, Some((programme.clone(), vec!["max_shoot_length".to_owned()])));
+    client.send(json!({ "kind": "set_programme", "programme": null })).await;
+    client.until_settled().await;
+    assert_eq!((client.programme, client.parameters.max_shoot_length), (None, 3));
 }

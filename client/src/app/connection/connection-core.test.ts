@@ -13,6 +13,7 @@ const state: DocumentState = {
   can_redo: false,
   pending_steps: 0,
   people: 1,
+  age: 0,
 };
 const parameters = {} as Parameters;
 const undo: Command = { kind: "undo" };

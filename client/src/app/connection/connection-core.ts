@@ -351,7 +351,8 @@ export class ConnectionCore {
     const messages: readonly PageMessage[] = [
       { type: "parameters", parameters: welcome.parameters },
       { type: "state", state: welcome.state },
-      // The lists follow only if there is something on them.
+      // These follow only if there is something to tell.
+      { type: "programme", programme: null, by_hand: [] },
       { type: "obstacles", obstacles: [] },
       { type: "widths", widths: [] },
     ];

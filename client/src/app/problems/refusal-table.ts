@@ -17,6 +17,7 @@ export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
   [/nothing can grow into this/, "problems.outline"],
   [/^outline has \d+ entries/, "problems.outline-points"],
   [/(?<limit>\d+) may be; remove some first/, "problems.widths"],
+  [/there is no programme that/, "problems.no-programme"],
   [/places of wood that was moved/, "problems.places"],
   [/metamers, its budget is|more metamers than its budget/, "problems.full"],
   [/^(?<limit>\d+) strokes are in progress/, "problems.strokes"],

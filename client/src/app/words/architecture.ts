@@ -16,8 +16,8 @@ export const ARCHITECTURE = {
   "architecture.choose-species": ["Species: {name}. Choose another one", "Art: {name}. Eine andere wählen"],
 
   "architecture.species.note": [
-    "What grows from now on follows the species you pick; what has grown stays.",
-    "Was von nun an wächst, folgt der gewählten Art; was gewachsen ist, bleibt.",
+    "What grows from now on follows the species you pick; a seedling becomes the tree of its picture.",
+    "Was von nun an wächst, folgt der gewählten Art; aus einem Sämling wird der Baum ihres Bildes.",
   ],
   "architecture.species.search": ["Find a species", "Art suchen"],
   "architecture.species.none": ["No species is called “{words}”.", "Keine Art heißt „{words}“."],
@@ -74,6 +74,33 @@ export const ARCHITECTURE = {
     "The inner circle is a bud’s own; in the cone it looks for room, shown as dots, and grows to where they are.",
     "Der innere Kreis gehört der Knospe; im Kegel sucht sie Raum, die Punkte, und wächst dorthin.",
   ],
+
+  "architecture.programme": ["Programme over age", "Programm über das Alter"],
+  "architecture.programme.none": [
+    "The tree grows by the same parameters at every age. A programme changes them with its age.",
+    "Der Baum wächst in jedem Alter nach denselben Parametern. Ein Programm ändert sie mit seinem Alter.",
+  ],
+  "architecture.programme.begin": ["Begin a programme", "Programm beginnen"],
+  "architecture.programme.parameter": ["Parameter whose course is shown", "Parameter, dessen Verlauf gezeigt wird"],
+  "architecture.programme.stage": ["{name} from age {age}", "{name} ab Alter {age}"],
+  "architecture.programme.now": ["age {age}", "Alter {age}"],
+  "architecture.programme.from": ["From age", "Ab Alter"],
+  "architecture.programme.age": ["Age at which the stage begins", "Alter, in dem die Stufe beginnt"],
+  "architecture.programme.add": ["Add a stage at age {age}", "Stufe im Alter {age} einfügen"],
+  "architecture.programme.remove": ["Remove the stage", "Stufe entfernen"],
+  "architecture.programme.reset": ["As {name} has it", "Wie bei: {name}"],
+  "architecture.programme.drop": ["Without a programme", "Ohne Programm"],
+  "architecture.programme.followed": ["All parameters follow the programme.", "Alle Parameter folgen dem Programm."],
+  "architecture.programme.by-hand": [
+    "Set by hand, and so the same at every age:",
+    "Von Hand gesetzt und darum in jedem Alter gleich:",
+  ],
+  "architecture.programme.follow": ["Follow", "Folgen"],
+  "architecture.programme.follow-one": [
+    "Let {name} follow the programme again",
+    "{name} wieder dem Programm folgen lassen",
+  ],
+  "architecture.programme.follow-all": ["Let all follow the programme again", "Alle wieder dem Programm folgen lassen"],
 
   "architecture.section.vigor": ["Vigor", "Wuchskraft"],
   "architecture.section.sharing": ["How vigor is shared", "Verteilung der Kraft"],

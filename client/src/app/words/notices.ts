@@ -5,6 +5,10 @@ export const NOTICES = {
     "The chosen branch is gone; every branch grows again.",
     "Den gewählten Ast gibt es nicht mehr; alle Äste wachsen wieder.",
   ],
+  "notices.grown-up": [
+    "Grown up, as its species has it. Push again to let it grow on.",
+    "Ausgewachsen, wie es die Art vorsieht. Noch einmal drücken lässt weiterwachsen.",
+  ],
   "notices.stroke-ended": [
     "The tree went back in time; your stroke ended there.",
     "Der Baum ging in der Zeit zurück; dein Strich endete dort.",

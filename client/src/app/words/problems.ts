@@ -41,6 +41,10 @@ export const PROBLEMS = {
     "The history holds as much moved wood as it can. Undo something first.",
     "Die Vorgeschichte fasst nicht mehr bewegtes Holz. Nimm zuerst etwas zurück.",
   ],
+  "problems.no-programme": [
+    "The tree has no programme any more that a parameter could follow.",
+    "Der Baum hat kein Programm mehr, dem ein Parameter folgen könnte.",
+  ],
   "problems.full": [
     "The tree has all the growth this document holds.",
     "Der Baum ist so groß, wie dieses Dokument es erlaubt.",

@@ -28,7 +28,8 @@ impl Scene {
     }
 
     /// Records one edit, in which nothing grows older.
-    pub(crate) fn record_edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
+    /// Records an edit as a step of its own.
+    pub fn record_edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
         self.plant.begin_edit();
         Recording::run(self, edit)
     }

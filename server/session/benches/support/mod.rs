@@ -48,7 +48,7 @@ impl Followed {
         let style = Style::new(style_options(&document.parameters()));
         let mut followed = Self { document, table: RingTable::new(), style, sequence: 0 };
         while followed.document.metamers() < metamers {
-            followed.act(&Action::Grow { steps: Steps::nearest(1), bud: None });
+            followed.act(&Action::Grow { steps: Steps::nearest(1), until: None, bud: None });
         }
         followed
     }

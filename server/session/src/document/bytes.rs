@@ -6,12 +6,13 @@ mod fields;
 mod format_4;
 mod gestures;
 mod growth;
+mod programmes;
 mod sections;
 mod settings;
 mod times;
 mod wood;
 
-use std::collections::VecDeque;
+use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Simulation, simulation_version};
 use espalier_plant::{Plant, PlantParts};
@@ -23,6 +24,7 @@ pub(crate) use self::{
 };
 use self::{sections::Kind, settings::Pool};
 use super::{Document, Generators, futures::Futures, obstacles::Obstacles};
+use crate::habit::Habit;
 
 /// Bytes are not a document that this program reads.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -89,6 +91,11 @@ impl Document {
         });
         let pool = Pool::of(&self.history, futures, &self.setting());
         add(&sections::PARAMETERS, &|out| pool.write_parameters(out));
+        if pool.has_programmes() || programmes::has_ages(&self.history, futures) {
+            add(&sections::PROGRAMMES, &|out| {
+                programmes::write(out, &pool, self.habit(), &self.history, futures);
+            });
+        }
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
         add(&sections::OBSTACLES, &|out| pool.write_obstacles(out, &self.obstacles));
         add(&sections::HISTORY, &|out| times::write_history(out, &self.history, &pool));
@@ -121,26 +128,34 @@ impl Document {
         growth::check(&state, &plant)?;
 
         let all_parameters = container.require(&sections::PARAMETERS, settings::read_parameters)?;
+        let programmes = container.read(&sections::PROGRAMMES, programmes::read)?.unwrap_or_default();
         let (all_looks, look) =
             container.require(&sections::LOOKS, |r| Ok((settings::read_looks(r)?, r.u32()?)))?;
         let (all_sets, standing, placed) = container
             .require(&sections::OBSTACLES, |r| Ok((settings::read_obstacles(r)?, r.u32()?, r.u32()?)))?;
-        let pool = Pool::new(all_parameters, all_looks, all_sets);
+        let pool = Pool::new(programmes.habits(&all_parameters)?, all_looks, all_sets);
         let obstacles = Obstacles { standing: pool.standing(standing)?, placed };
         if obstacles.standing.last().is_some_and(|last| last.id > obstacles.placed) {
             return Err(damaged("an obstacle was never placed"));
         }
         state.obstacles = Obstacles::solids(&obstacles.standing);
 
-        let history = container.require(&sections::HISTORY, |r| times::read_history(r, &pool))?;
+        let mut history = container.require(&sections::HISTORY, |r| times::read_history(r, &pool))?;
         times::check_history(&history, &plant)?;
         let futures = container.read(&sections::FUTURES, |r| times::read_futures(r, &pool))?;
-        let futures = futures.unwrap_or_default();
+        let mut futures = futures.unwrap_or_default();
+        let habit = match programmes.present {
+            Some(number) => pool.habit(number)?,
+            None => Arc::new(Habit::plain(state.parameters.clone())),
+        };
+        programmes.tell_ages(&mut history, &mut futures)?;
         times::check_futures(&futures, &history, &plant)?;
         let (strokes, bends) = container.read(&sections::GESTURES, gestures::read)?.unwrap_or_default();
         gestures::check(&strokes, &bends, &plant)?;
+        let ahead = history.ahead_at(plant.step());
+        let simulation = Simulation::from_state(plant, state);
         Ok(Self {
-            simulation: Simulation::from_state(plant, state).grown_by(Generators::from),
+            simulation: simulation.grown_by(|growth| Generators::new(growth, habit, ahead)),
             history,
             futures,
             strokes,

@@ -10,7 +10,7 @@ use espalier_proto::{Problem, ProblemCode, version::MAX_FUTURES};
 
 use super::{
     Document,
-    history::{Before, Kind, Operation, Setting, hash_operations},
+    history::{AgeMark, Before, Kind, Operation, Setting, hash_operations},
     refused,
 };
 use crate::cause::Cause;
@@ -31,6 +31,8 @@ pub(super) struct Future {
     pub fork: Fork,
     /// What is done on it, the operation that it cuts in two first.
     pub operations: Vec<Operation>,
+    /// Where plants became older on it without a step of growth.
+    pub ages: Vec<AgeMark>,
     pub rows: Rows,
 }
 
@@ -137,7 +139,7 @@ impl Document {
         let present = self.setting();
         let line = self.history.setting().clone();
         let alone = Cause { gesture: None, ..cause };
-        let is_same = present.parameters == line.parameters;
+        let is_same = present.habit == line.habit;
         if !is_same || present.appearance != line.appearance {
             let kind = if is_same { Kind::Appearance } else { Kind::Parameters };
             let after = Setting { obstacles: line.obstacles.clone(), ..present.clone() };
@@ -169,6 +171,7 @@ impl Document {
             self.futures.newest -= 1;
         } else {
             self.history.operations.truncate(before.done);
+            self.history.hand_ages_down();
         }
         self.history.done = before.done;
         self.history.latest = before.latest;
@@ -199,10 +202,11 @@ impl Document {
         }
         history.latest = None;
         let fork = Fork { shared, step: now };
+        let ages = history.cut_ages(fork, &operations);
         let line = self.futures.present;
         self.futures.hand_over(fork, line);
         let rows = self.simulation.stash_future();
-        self.futures.all.push(Future { line, on: None, fork, operations, rows });
+        self.futures.all.push(Future { line, on: None, fork, operations, ages, rows });
         self.futures.newest += 1;
         self.futures.present = self.futures.newest;
         Some(line)
@@ -210,7 +214,9 @@ impl Document {
 
     /// Takes the future up again that was left last, right here.
     fn return_to_future(&mut self) {
-        let Some(Future { line, fork, operations, rows, .. }) = self.futures.all.pop() else { return };
+        let Some(Future { line, fork, operations, ages, rows, .. }) = self.futures.all.pop() else { return };
+        self.history.cut_ages(fork, &operations);
+        self.history.ages.extend(ages);
         self.history.operations.truncate(fork.shared);
         self.history.operations.extend(operations);
         self.futures.take_over(line);
@@ -242,14 +248,16 @@ impl Document {
         let Some(at) = self.futures.position(line) else { return Ok(()) };
         let fork = self.futures.all[at].fork;
         self.travel(fork.step);
-        let Future { operations, rows, .. } = self.futures.all.remove(at);
+        let Future { operations, ages, rows, .. } = self.futures.all.remove(at);
         let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
+        let left_ages = self.history.cut_ages(fork, if left.is_empty() { &operations } else { &left });
         let left_rows = self.simulation.stash_future();
         let is_left = !left.is_empty() || left_rows.steps() > 0;
         if is_left {
             let present = self.futures.present;
             self.futures.hand_over(fork, present);
-            let future = Future { line: present, on: None, fork, operations: left, rows: left_rows };
+            let future =
+                Future { line: present, on: None, fork, operations: left, ages: left_ages, rows: left_rows };
             self.futures.all.push(future);
         }
         self.history.done = self.history.operations.len();
@@ -263,6 +271,7 @@ impl Document {
         self.futures.take_over(line);
         self.futures.present = line;
         self.history.operations.extend(operations);
+        self.history.ages.extend(ages);
         self.history.done = self.history.done_at(fork.step);
         Ok(())
     }

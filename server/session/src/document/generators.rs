@@ -1,15 +1,26 @@
 //! What grows a document's scene. Another generator is a field here and a kind of [`Step`]; its state is written in
 //! `bytes`.
 
-use espalier_growth::{Change, Generator, Growth, Observer, Scene, StepInput, StepOutcome};
+use std::sync::Arc;
+
+use espalier_growth::{Change, Generator, Growth, Observer, Scene, StepInput, StepOutcome, StrokeId};
+use espalier_plant::MetamerId;
 
 #[cfg(test)]
 use super::tests::forks::Forks;
+use crate::habit::{Deed, Habit, is_of_programme};
 
-/// All generators of a document, on one scene.
+/// Steps in a row in which the brush of a programme finds nothing to do.
+const PATIENCE: u32 = 64;
+
+/// All generators of a document, on one scene, and the habit by which growth goes.
 #[derive(Clone, Debug)]
 pub(crate) struct Generators {
     growth: Growth,
+    habit: Arc<Habit>,
+    /// By how much the plants are older than the steps of growth they have taken: a programme goes on where its
+    /// brush finds nothing to do.
+    ahead: u32,
     #[cfg(test)]
     forks: Forks,
 }
@@ -17,11 +28,28 @@ pub(crate) struct Generators {
 /// One step of one of them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Step {
-    /// Buds grow into free space.
+    /// Buds grow into free space, guided or not.
     Growth(StepInput),
+    /// The plants grow older by the programme, or on their own where there is none, but not beyond an age.
+    Age { chosen: Option<MetamerId>, until: u32 },
     /// Every bud becomes a fork.
     #[cfg(test)]
     Fork,
+}
+
+impl Step {
+    /// Whether plants of an age are too old for it.
+    pub(super) fn is_over(&self, age: u32) -> bool {
+        matches!(self, Self::Age { until, .. } if age >= *until)
+    }
+
+    /// The same, but not beyond an age.
+    pub(super) fn up_to(&self, age: u32) -> Self {
+        match self {
+            &Self::Age { chosen, until } => Self::Age { chosen, until: until.min(age) },
+            other => other.clone(),
+        }
+    }
 }
 
 impl Generator for Generators {
@@ -29,20 +57,20 @@ impl Generator for Generators {
 
     /// Who has not made the step itself follows it.
     fn step(&mut self, scene: &mut Scene, input: &Step, observer: &mut impl Observer) -> StepOutcome {
-        match input {
-            Step::Growth(input) => {
-                let outcome = self.growth.step(scene, input, observer);
-                #[cfg(test)]
-                self.forks.follow(scene, &Change::Edited);
-                outcome
-            }
+        let outcome = match input {
+            Step::Growth(input) => self.growth.step(scene, input, observer),
+            &Step::Age { chosen, until } => self.grow_older(scene, chosen, until, observer),
             #[cfg(test)]
             Step::Fork => {
                 let outcome = self.forks.step(scene, &(), observer);
                 self.growth.follow(scene, &Change::Edited);
-                outcome
+                return outcome;
             }
-        }
+        };
+        self.keep_habit(scene);
+        #[cfg(test)]
+        self.forks.follow(scene, &Change::Edited);
+        outcome
     }
 
     fn follow(&mut self, scene: &Scene, change: &Change) {
@@ -52,20 +80,122 @@ impl Generator for Generators {
     }
 }
 
+impl Generators {
+    /// Growth by a habit, on plants that are older than their steps by so much.
+    pub(crate) fn new(growth: Growth, habit: Arc<Habit>, ahead: u32) -> Self {
+        Self {
+            growth,
+            habit,
+            ahead,
+            #[cfg(test)]
+            forks: Forks::default(),
+        }
+    }
+
+    /// The habit in force.
+    pub(crate) fn habit(&self) -> &Arc<Habit> {
+        &self.habit
+    }
+
+    /// The age of the plants.
+    pub(crate) fn age(&self, scene: &Scene) -> u32 {
+        scene.plant().growths().saturating_add(self.ahead)
+    }
+
+    /// By how much the plants are older than the steps of growth they have taken.
+    pub(crate) fn ahead(&self) -> u32 {
+        self.ahead
+    }
+
+    /// Another habit, or another age; [`Document::keep_habit`](super::Document::keep_habit) puts it in force.
+    pub(crate) fn turn_to(&mut self, habit: &Arc<Habit>, ahead: u32) {
+        self.habit = Arc::clone(habit);
+        self.ahead = ahead;
+    }
+
+    /// Makes the parameters those of the habit at the present age.
+    fn keep_habit(&mut self, scene: &mut Scene) {
+        let wanted = self.habit.at(self.age(scene));
+        if **wanted != *self.growth.parameters() {
+            self.growth.set_parameters(scene, (**wanted).clone());
+        }
+    }
+
+    /// What the programme does next that changes anything (`PG2`).
+    fn grow_older(
+        &mut self,
+        scene: &mut Scene,
+        chosen: Option<MetamerId>,
+        until: u32,
+        observer: &mut impl Observer,
+    ) -> StepOutcome {
+        let mut outcome = StepOutcome::default();
+        let step = scene.plant().step();
+        for _ in 0..PATIENCE {
+            let age = self.age(scene);
+            if age >= until || scene.plant().step() != step {
+                break;
+            }
+            let deed = self.begin_deed(scene, age);
+            self.end_other_strokes(&deed);
+            let is_used_up = matches!(deed, Deed::Settle(..)) && !self.growth.has_guidance(scene);
+            outcome = if is_used_up {
+                StepOutcome::default()
+            } else {
+                self.growth.step(scene, &StepInput { chosen, ..deed.input() }, observer)
+            };
+            match deed {
+                // What does not grow on its own now does not do so at another age either.
+                Deed::Alone => break,
+                Deed::Follow(_) => self.be_at_least(scene, age + 1),
+                Deed::Settle(stroke, end) => {
+                    // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
+                    self.be_at_least(scene, if outcome == StepOutcome::default() { end } else { age + 1 });
+                    if self.age(scene) >= end {
+                        self.end_stroke(stroke);
+                    }
+                }
+            }
+            self.keep_habit(scene);
+        }
+        outcome
+    }
+
+    /// Sows what is to be sown at an age; what is to be done then.
+    fn begin_deed(&mut self, scene: &mut Scene, age: u32) -> Deed {
+        let Some(plan) = self.habit.plan().cloned() else { return Deed::Alone };
+        for place in plan.seeds_at(age) {
+            if !scene.plant().has_seed_at(place) && !scene.is_solid(place) {
+                scene.record_edit(|step| step.sow(place));
+                self.growth.follow(scene, &Change::Edited);
+            }
+        }
+        plan.deed_at(age)
+    }
+
+    fn be_at_least(&mut self, scene: &Scene, age: u32) {
+        self.ahead += age.saturating_sub(self.age(scene));
+    }
+
+    fn end_stroke(&mut self, stroke: StrokeId) {
+        self.growth.end_stroke(stroke);
+        if self.growth.strokes().next().is_none() {
+            self.growth.drop_guidance();
+        }
+    }
+
+    /// Strokes of a programme that the hand has overtaken are over.
+    fn end_other_strokes(&mut self, deed: &Deed) {
+        let is_over = |stroke: &_| is_of_programme(*stroke) && Some(*stroke) != deed.stroke();
+        let over: Vec<_> = self.growth.strokes().filter(is_over).collect();
+        over.into_iter().for_each(|stroke| self.growth.end_stroke(stroke));
+    }
+}
+
 #[cfg(test)]
 impl Generators {
     pub(super) fn forks(&self) -> &Forks {
         &self.forks
-    }
-}
-
-impl From<Growth> for Generators {
-    fn from(growth: Growth) -> Self {
-        Self {
-            growth,
-            #[cfg(test)]
-            forks: Forks::default(),
-        }
     }
 }
 

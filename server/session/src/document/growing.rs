@@ -2,7 +2,7 @@
 
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
-use espalier_proto::{Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
+use espalier_proto::{Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
 use glam::Vec2;
 
 use super::{Document, generators::Step, history::Kind, refused};
@@ -16,8 +16,8 @@ const MAX_LASSO_STEPS: u32 = 400;
 pub(super) enum Pending {
     /// One step of brushing.
     Brush(StepInput),
-    /// So many steps alike, without guidance.
-    Steps { left: u32, step: Step },
+    /// So many steps alike, without guidance by hand; whether any of them has changed anything so far.
+    Steps { left: u32, has_grown: bool, step: Step },
     /// At most so many steps, while the markers of a lasso make anything grow.
     Lasso { left: u32, chosen: Option<MetamerId> },
     /// At most so many steps for a lifted brush, while buds find what it left.
@@ -38,11 +38,16 @@ impl Document {
                 self.resume_stroke();
                 self.step(&Step::Growth(input), observer);
             }
-            Pending::Steps { left, step } => {
-                if !self.is_stopped() {
-                    self.step(&step, observer);
-                    if left > 1 && !self.simulation.is_out_of_budget() {
-                        self.pending.push_front(Pending::Steps { left: left - 1, step });
+            Pending::Steps { left, has_grown, step } => {
+                let (now, age) = (self.plant().step(), self.age());
+                // What was asked for is growth: only then does it end at an age.
+                let last = if has_grown { age.saturating_add(left) } else { u32::MAX };
+                if !self.is_stopped() && !step.is_over(age) {
+                    self.step(&step.up_to(last), observer);
+                    let left = left.saturating_sub((self.age() - age).max(1));
+                    let has_grown = has_grown || self.plant().step() != now;
+                    if left > 0 && !self.simulation.is_out_of_budget() {
+                        self.pending.push_front(Pending::Steps { left, has_grown, step });
                     }
                 }
             }
@@ -138,11 +143,12 @@ impl Document {
         &mut self,
         cause: Cause<'_>,
         steps: Steps,
+        until: Option<Age>,
         bud: Option<u32>,
     ) -> Result<(), Problem> {
         let chosen = self.chosen(bud)?;
-        let input = StepInput { autonomous: true, chosen, ..StepInput::default() };
-        self.begin_steps(cause, steps.get(), Step::Growth(input))
+        let until = until.map_or(u32::MAX, Age::get);
+        self.begin_steps(cause, steps.get(), Step::Age { chosen, until })
     }
 
     /// So many steps of one generator become pending, as one operation.
@@ -153,7 +159,7 @@ impl Document {
         if self.strokes.is_empty() && !continues {
             self.record(Kind::Growth, cause);
         }
-        self.pending.push_back(Pending::Steps { left: steps, step });
+        self.pending.push_back(Pending::Steps { left: steps, has_grown: false, step });
         Ok(())
     }
 
@@ -209,7 +215,9 @@ impl Document {
 
     fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
         self.steps_begun = self.steps_begun.wrapping_add(1);
-        self.simulation.step(step, observer)
+        let outcome = self.simulation.step(step, observer);
+        self.note_age();
+        outcome
     }
 
     fn is_stopped(&self) -> bool {

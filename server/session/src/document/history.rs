@@ -2,13 +2,15 @@
 
 use std::sync::Arc;
 
-use espalier_growth::Parameters;
 use espalier_plant::hash::StableHash;
 use espalier_settings::Appearance;
 use glam::Quat;
 
-use super::obstacles::{Standings, stand_alike};
-use crate::cause::Cause;
+use super::{
+    futures::Fork,
+    obstacles::{Standings, stand_alike},
+};
+use crate::{cause::Cause, habit::Habit};
 
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,7 +66,7 @@ impl Kind {
 /// What growth works with, and what is seen of it, as far as an operation may change that.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setting {
-    pub parameters: Arc<Parameters>,
+    pub habit: Arc<Habit>,
     pub obstacles: Standings,
     pub appearance: Arc<Appearance>,
 }
@@ -96,6 +98,17 @@ pub(super) struct Latest {
     pub rotation: Option<Quat>,
 }
 
+/// From a step on plants are older than the steps of growth they have taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct AgeMark {
+    /// The step.
+    pub step: u32,
+    /// Operations in force when they became so; the mark goes with the last of them.
+    pub done: u32,
+    /// By how much they are older.
+    pub ahead: u32,
+}
+
 /// What there was before the last operation was recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Before {
@@ -122,13 +135,15 @@ pub(super) struct History {
     /// The setting before the first of them.
     pub initial: Setting,
     pub latest: Option<Latest>,
+    /// Where plants became older without a step of growth (`PG2`), in order.
+    pub ages: Vec<AgeMark>,
     /// How to take back that the last operation was recorded; none once something else has happened.
     pub before: Option<Before>,
 }
 
 impl History {
     pub fn new(initial: Setting) -> Self {
-        Self { operations: Vec::new(), done: 0, initial, latest: None, before: None }
+        Self { operations: Vec::new(), done: 0, initial, latest: None, ages: Vec::new(), before: None }
     }
 
     /// The last operation in force.
@@ -154,8 +169,8 @@ impl History {
     pub fn push(&mut self, kind: Kind, cause: Cause<'_>, now: u32, mut after: Setting) {
         debug_assert_eq!(self.done, self.operations.len(), "what lay ahead is a future by now");
         // Most operations change no parameters: they share one set.
-        if self.setting().parameters == after.parameters {
-            after.parameters = Arc::clone(&self.setting().parameters);
+        if self.setting().habit == after.habit {
+            after.habit = Arc::clone(&self.setting().habit);
         }
         if self.setting().appearance == after.appearance {
             after.appearance = Arc::clone(&self.setting().appearance);
@@ -191,10 +206,41 @@ impl History {
         self.done == self.operations.len() && self.current().is_some_and(idle)
     }
 
-    /// Takes the last operation off, which is in force.
+    /// Takes the last operation off, which is in force. What it made older without growth stays so.
     pub fn pop(&mut self) {
         self.operations.pop();
         self.done = self.done.min(self.operations.len());
+        self.hand_ages_down();
+    }
+
+    /// What an operation has made older that is gone belongs to the last one that is there.
+    pub fn hand_ages_down(&mut self) {
+        let done = self.operations.len() as u32;
+        self.ages.iter_mut().for_each(|mark| mark.done = mark.done.min(done));
+    }
+
+    /// By how much plants are older at a step than the steps of growth they have taken.
+    pub fn ahead_at(&self, step: u32) -> u32 {
+        let is_past = |mark: &&AgeMark| mark.step <= step && mark.done as usize <= self.done;
+        self.ages.iter().rev().find(is_past).map_or(0, |mark| mark.ahead)
+    }
+
+    /// At a step, the last of the line, plants are older by so much.
+    pub fn note_ahead(&mut self, step: u32, ahead: u32) {
+        if self.ahead_at(step) != ahead {
+            let done = self.done as u32;
+            self.ages.retain(|mark| (mark.step, mark.done) < (step, done));
+            self.ages.push(AgeMark { step, done, ahead });
+        }
+    }
+
+    /// Takes off what was noted on the line from the place on where it is left with these operations.
+    pub fn cut_ages(&mut self, Fork { shared, step }: Fork, left: &[Operation]) -> Vec<AgeMark> {
+        let is_in_part = left.first().is_some_and(|operation| operation.first < step);
+        let operations = shared + usize::from(is_in_part);
+        let stays = |mark: &AgeMark| mark.step <= step && mark.done as usize <= operations;
+        let first = self.ages.iter().position(|mark| !stays(mark)).unwrap_or(self.ages.len());
+        self.ages.split_off(first)
     }
 
     /// The operation in progress has left things so.
@@ -214,10 +260,10 @@ impl History {
     /// Whether the last operation has left the setting as it was before.
     pub fn changes_nothing(&self) -> bool {
         let Some(last) = self.operations.last() else { return false };
-        let Setting { parameters, obstacles, appearance } = &last.after;
+        let Setting { habit, obstacles, appearance } = &last.after;
         let former = self.former();
         Arc::ptr_eq(obstacles, &former.obstacles)
-            && *parameters == former.parameters
+            && *habit == former.habit
             && *appearance == former.appearance
     }
 

@@ -157,9 +157,7 @@ impl Document {
 
     /// Puts a setting in force; what is the same stays untouched.
     pub(super) fn set(&mut self, setting: &Setting) {
-        if *setting.parameters != *self.simulation.parameters() {
-            self.simulation.set_parameters((*setting.parameters).clone());
-        }
+        self.turn_to(&setting.habit);
         if !Arc::ptr_eq(&setting.obstacles, &self.obstacles.standing) {
             self.obstacles.standing = Arc::clone(&setting.obstacles);
             self.simulation.set_obstacles(Obstacles::solids(&setting.obstacles));
@@ -169,7 +167,7 @@ impl Document {
 
     pub(super) fn setting(&self) -> Setting {
         Setting {
-            parameters: Arc::new(self.simulation.parameters().clone()),
+            habit: Arc::clone(self.habit()),
             obstacles: Arc::clone(&self.obstacles.standing),
             appearance: Arc::clone(&self.appearance),
         }

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use espalier_growth::Parameters;
 use espalier_proto::Problem;
 use espalier_settings::{Appearance, AppearancePatch, ParametersPatch};
 use serde::Serialize;
@@ -24,12 +23,8 @@ impl Document {
         cause: Cause<'_>,
         patch: &ParametersPatch,
     ) -> Result<(), Problem> {
-        let wanted =
-            Parameters::new(self.parameters().patched(patch)).map_err(|error| error.within("parameters"))?;
-        if wanted != *self.simulation.parameters() {
-            let setting = Setting { parameters: Arc::new(wanted), ..self.setting() };
-            self.change_setting(Kind::Parameters, cause, setting);
-        }
+        let wanted = self.habit().with(patch, self.age()).map_err(|problem| problem.within("parameters"))?;
+        self.change_habit(cause, wanted);
         Ok(())
     }
 

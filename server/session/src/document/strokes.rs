@@ -5,11 +5,10 @@ use espalier_plant::{MetamerId, hash::StableHash};
 use espalier_proto::{Problem, ProblemCode, StrokeSample};
 
 use super::refused;
+use crate::stroke_pieces::pieces;
 
 /// Strokes open at once; more fingers than this on one tree are a mistake or an attack.
 const MAX_OPEN: usize = 32;
-/// Steps one message runs at most (`CM6`).
-const MAX_STEPS: u32 = 16;
 
 /// One stroke between its begin and its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,15 +84,13 @@ impl OpenStrokes {
         let new = samples.iter().map(|s| BrushSample { position: s.position.get(), radius: s.radius.get() });
         let path: Vec<BrushSample> = stroke.last.into_iter().chain(new).collect();
         stroke.last = path.last().copied();
-        let length: f32 = path.windows(2).map(|pair| pair[0].position.distance(pair[1].position)).sum();
-        let steps = ((length / longest as f32).ceil() as u32).clamp(1, MAX_STEPS);
         let (id, chosen) = (stroke.id, stroke.chosen);
         let piece = |samples| StepInput {
             pieces: vec![BrushPiece { stroke: id, samples }],
             autonomous: false,
             chosen,
         };
-        Ok(cut(&path, length, steps).into_iter().map(piece).collect())
+        Ok(pieces(path, longest).into_iter().map(piece).collect())
     }
 
     pub fn hash(&self, hash: &mut StableHash) {
@@ -120,34 +117,6 @@ fn unknown(number: u32) -> Problem {
         allowed: Some("the number of a stroke in progress".to_owned()),
         message: format!("there is no stroke {number} in progress"),
     }
-}
-
-/// Cuts a path into `parts` pieces of equal length; each begins where the one before ends.
-fn cut(path: &[BrushSample], length: f32, parts: u32) -> Vec<Vec<BrushSample>> {
-    let mut pieces = Vec::with_capacity(parts as usize);
-    let mut piece = vec![path[0]];
-    let mut gone = 0.0;
-    for pair in path.windows(2) {
-        let (from, to) = (pair[0], pair[1]);
-        let span = from.position.distance(to.position);
-        loop {
-            let border = length * (pieces.len() + 1) as f32 / parts as f32;
-            if pieces.len() as u32 + 1 >= parts || gone + span < border || span <= 0.0 {
-                break;
-            }
-            let t = ((border - gone) / span).clamp(0.0, 1.0);
-            let at = BrushSample {
-                position: from.position.lerp(to.position, t),
-                radius: from.radius + (to.radius - from.radius) * t,
-            };
-            piece.push(at);
-            pieces.push(std::mem::replace(&mut piece, vec![at]));
-        }
-        gone += span;
-        piece.push(to);
-    }
-    pieces.push(piece);
-    pieces
 }
 
 #[cfg(test)]

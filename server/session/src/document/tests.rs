@@ -5,6 +5,7 @@ mod damage;
 pub(super) mod forks;
 mod histories;
 mod looks;
+mod programmes;
 mod shaping;
 mod times;
 
@@ -58,7 +59,10 @@ fn stroke(document: &mut Document, number: u32) {
 
 fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
     document
-        .apply("ann", &in_gesture(gesture, Action::Grow { steps: Steps::nearest(steps), bud: None }))
+        .apply(
+            "ann",
+            &in_gesture(gesture, Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }),
+        )
         .expect("there is room to grow");
 }
 
@@ -75,7 +79,7 @@ fn patch_in(gesture: Option<u32>, apical_control: f32) -> Command {
 fn tree() -> Document {
     let mut document = Document::new(5);
     document
-        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(9), bud: None }))
+        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(9), until: None, bud: None }))
         .expect("there is room");
     document
 }
@@ -359,7 +363,7 @@ fn growth_beyond_the_budget_is_refused() {
     assert_eq!(document.pending_steps(), 0);
     assert_eq!(document.plant().metamer_count(), 300);
     let problem = document
-        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), bud: None }))
+        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }))
         .expect_err("full");
     assert!(problem.message.contains("300"));
 }

@@ -54,9 +54,7 @@ impl Document {
     pub(super) fn strays(&self) -> bool {
         let line = self.history.setting();
         let is_placed = Arc::ptr_eq(&line.obstacles, &self.obstacles.standing);
-        !is_placed
-            || *line.parameters != *self.simulation.parameters()
-            || *line.appearance != *self.appearance
+        !is_placed || line.habit != *self.habit() || *line.appearance != *self.appearance
     }
 
     /// Puts the line's setting in force.
@@ -72,5 +70,7 @@ impl Document {
         self.history.latest = None;
         self.history.before = None;
         self.simulation.go_to(step);
+        let habit = Arc::clone(self.habit());
+        self.turn_to(&habit);
     }
 }

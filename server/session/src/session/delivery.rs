@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{DocumentState, Problem, ServerMessage};
 
-use super::{Scenery, Session};
+use super::{ProgrammeInForce, Scenery, Session};
 use crate::{
     clients::{Guest, View},
     io::{ClientId, Output},
@@ -62,6 +62,11 @@ impl Session {
         if parameters != self.parameters {
             self.parameters = parameters.clone();
             self.broadcast(&ServerMessage::Parameters { parameters: Box::new(parameters) });
+        }
+        let programme = ProgrammeInForce::of(&work.document);
+        if programme != self.programme {
+            self.programme = programme;
+            self.broadcast(&self.programme.message());
         }
         let appearance = *work.document.appearance();
         if appearance != self.appearance {

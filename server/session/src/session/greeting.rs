@@ -83,6 +83,9 @@ impl Session {
             state: self.state(),
         };
         self.send(client, &welcome);
+        if self.programme.is_there() {
+            self.send(client, &self.programme.message());
+        }
         self.send(client, &self.appearance_message());
         if !self.scenery.obstacles.is_empty() {
             self.send(client, &self.obstacles_message());

@@ -128,7 +128,9 @@ fn deed() -> impl Strategy<Value = Deed> {
 /// A tree whose rows fill a window, as the first snapshot of a session.
 static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut document = Document::new(3);
-    document.apply("birch-01", &Action::Grow { steps: Steps::nearest(18), bud: None }.into()).unwrap();
+    document
+        .apply("birch-01", &Action::Grow { steps: Steps::nearest(18), until: None, bud: None }.into())
+        .unwrap();
     Session::first_snapshot(&document.to_bytes(), 1_000_000).unwrap()
 });
 

@@ -14,11 +14,18 @@ fn commands() -> Vec<Value> {
     set_appearance["kind"] = "set_appearance".into();
     let parameters = espalier_session::Document::new(1).parameters();
     let mesh = json!({ "kind": "mesh", "mesh": tetrahedron().to_base64(), "scale": 1 });
+    let stages = json!([
+        { "kind": "change", "age": 0, "parameters": { "shedding_threshold": 0.5, "trunk_upward": true } },
+        { "kind": "seed", "age": 3, "position": [1, 0, 2] },
+        { "kind": "stroke", "age": 4, "samples": [{ "position": [0, 1, 0], "radius": 4 }] },
+    ]);
+    let programme =
+        json!({ "species": "oak", "parameters": { "branching_angle": 40 }, "stages": stages, "age": 20 });
     vec![
         json!({ "kind": "stroke_begin", "stroke": 1, "bud": 0 }),
         json!({ "kind": "stroke_move", "stroke": 1, "samples": [{ "position": [0, 1, 0], "radius": 4 }] }),
         json!({ "kind": "stroke_end", "stroke": 1 }),
-        json!({ "kind": "grow", "steps": 3, "gesture": 4, "bud": 7 }),
+        json!({ "kind": "grow", "steps": 3, "until": 9, "gesture": 4, "bud": 7 }),
         json!({
             "kind": "lasso", "outline": [[0, 0], [1, 0], [1, 1]], "depth": 0.5, "bud": 1,
             "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
@@ -28,6 +35,8 @@ fn commands() -> Vec<Value> {
         json!({ "kind": "undo" }),
         json!({ "kind": "redo" }),
         json!({ "kind": "set_parameters", "parameters": parameters, "gesture": 1 }),
+        json!({ "kind": "set_programme", "programme": programme, "keep": true, "gesture": 1 }),
+        json!({ "kind": "follow_programme", "parameters": ["apical_control"], "gesture": 1 }),
         set_appearance,
         json!({ "kind": "plant_seed", "position": [1, 0, 2] }),
         json!({ "kind": "place_obstacle", "obstacle": { "shape": mesh, "pose": pose }, "gesture": 1 }),

@@ -1,9 +1,9 @@
-//! What tells species from one another, measured on whole trees grown by their schedules.
+//! What tells species from one another, measured on whole trees grown by their programmes.
 
 mod form;
 
 use espalier_growth::species;
-use espalier_proto::Action;
+use espalier_proto::{Action, Steps};
 use espalier_session::{Document, script, wire_species};
 
 use crate::form::Form;
@@ -17,13 +17,13 @@ fn form(slug: &str) -> Form {
 fn raised(species: &species::Species) -> Document {
     let mut document = Document::new(1);
     for action in script(species) {
-        document.apply("gardener", &action.into()).expect("a schedule can be done");
+        document.apply("gardener", &action.into()).expect("a programme can be done");
     }
     document
 }
 
 #[test]
-fn every_schedule_ends_in_a_tree() {
+fn every_programme_ends_in_a_tree() {
     for species in species::all() {
         let document = raised(species);
         let metamers = document.metamers();
@@ -32,13 +32,31 @@ fn every_schedule_ends_in_a_tree() {
     }
 }
 
+/// However it is asked for: at once, step by step as a lever does, or by a document that was put away meanwhile.
 #[test]
-fn picking_sets_what_the_wire_says() {
+fn pg2_growth_by_hand_gives_the_tree_of_the_contact_sheet() {
     for species in species::all() {
-        let mut document = Document::new(1);
-        let patch = wire_species(species).parameters.into();
-        document.apply("gardener", &Action::SetParameters { parameters: patch }.into()).expect("in range");
-        assert_eq!(document.parameters(), wire_species(species).parameters, "{}", species.slug);
+        let whole = raised(species);
+        let programme = wire_species(species).programme;
+        let (until, wish) = (Some(programme.age), programme.age.get());
+        let mut lever = Document::new(1);
+        let step = |steps| Action::Grow { steps: Steps::nearest(steps), until, bud: None };
+        let pick = Action::SetProgramme { programme: Some(programme), keep: false };
+        lever.apply("gardener", &pick.into()).expect("it can be picked");
+        for beat in 0.. {
+            if lever.age() == wish {
+                break;
+            }
+            assert!(beat < 1000 && lever.age() < wish, "{} is {} old", species.slug, lever.age());
+            lever.apply("gardener", &step(1 + beat % 3).into()).expect("it grows");
+            if beat % 20 == 7 {
+                lever = Document::from_bytes(&lever.to_bytes()).expect("a document");
+            }
+        }
+        assert_eq!(lever.plant().hash(), whole.plant().hash(), "{}", species.slug);
+        assert_eq!((lever.age(), lever.parameters()), (whole.age(), whole.parameters()), "{}", species.slug);
+        lever.apply("gardener", &step(9).into()).expect("a command that comes to nothing");
+        assert_eq!(lever.plant().hash(), whole.plant().hash(), "{} is grown up", species.slug);
     }
 }
 

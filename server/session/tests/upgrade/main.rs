@@ -75,7 +75,9 @@ impl Travels {
 }
 
 fn grow(document: &mut Document, steps: u32) {
-    document.apply("ann", &Action::Grow { steps: Steps::nearest(steps), bud: None }.into()).unwrap();
+    document
+        .apply("ann", &Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into())
+        .unwrap();
 }
 
 #[test]

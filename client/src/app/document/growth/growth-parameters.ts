@@ -61,6 +61,11 @@ export const NUMBERS = Object.fromEntries(ALL.filter(isNumber).map((one) => [one
   readonly [Name in NumberName]: NumberParameter;
 };
 
+/** The parameter with a name. */
+export function parameterOf(name: ParameterName): GrowthParameter {
+  return ALL.find((one) => one.name === name)!;
+}
+
 /** The parameters of a group: those named here first, then all others in the order of the table. */
 function group(wanted: Group, ...first: readonly ParameterName[]): readonly GrowthParameter[] {
   const all = ALL.filter((one) => one.group === wanted);

@@ -4,14 +4,14 @@ import { DEFAULT_APPEARANCE, type Species } from "../../../wire/generated";
 import { language } from "../../words/say";
 import { SPECIES } from "../../words/species";
 import { DEFAULTS } from "../growth/growth-parameters";
-import { foundSpecies, kinOf, speciesName, speciesSentence } from "./species-choice";
+import { foundSpecies, kinByProgramme, kinOf, parametersOf, speciesName, speciesSentence } from "./species-choice";
 
 const species = (slug: string, name: string, botanical: string, parameters: object): Species => ({
   slug,
   name,
   botanical,
   sentence: `${name}.`,
-  parameters: { ...DEFAULTS, ...parameters },
+  programme: { species: slug, parameters: { ...DEFAULTS, ...parameters }, stages: [], age: 20 },
   appearance: DEFAULT_APPEARANCE,
 });
 const oak = species("oak", "Oak", "Quercus robur", { branching_angle: 65, max_shoot_length: 3, apical_control: 0.46 });
@@ -23,23 +23,35 @@ afterEach(() => {
   language.value = "en";
 });
 
+describe("the species of a programme", () => {
+  const { programme } = oak;
+
+  it("is the one it says, changed once something is set by hand or edited", () => {
+    const found = (inForce: Parameters<typeof kinByProgramme>[1]) => kinByProgramme(all, inForce, DEFAULT_APPEARANCE);
+    expect(found({ programme, byHand: [] })).toEqual({ species: oak, changed: false });
+    expect(found({ programme, byHand: ["leaf_size"] })).toEqual({ species: oak, changed: true });
+    expect(found({ programme: { ...programme, age: 21 }, byHand: [] })?.changed).toBe(true);
+    expect(found({ programme: { ...programme, species: "triffid" }, byHand: [] })).toBeNull();
+  });
+});
+
 describe("the species in force", () => {
   it("is the one whose parameters they are, as 32-bit floats", () => {
-    const sent = { ...oak.parameters, apical_control: Math.fround(0.46) };
+    const sent = { ...parametersOf(oak.programme), apical_control: Math.fround(0.46) };
     expect(kinOf(all, sent, DEFAULT_APPEARANCE)).toEqual({ species: oak, changed: false });
   });
 
   it("is changed once a parameter is another", () => {
-    const now = { ...birch.parameters, deflection_angle: 20 };
+    const now = { ...parametersOf(birch.programme), deflection_angle: 20 };
     expect(kinOf(all, now, null)).toEqual({ species: birch, changed: true });
   });
 
   it("is changed once its leaves are others, not with the sky", () => {
     const { leaves, background } = DEFAULT_APPEARANCE;
     const autumn = { ...DEFAULT_APPEARANCE, leaves: { ...leaves, season: 2 } };
-    expect(kinOf(all, oak.parameters, autumn)?.changed).toBe(true);
+    expect(kinOf(all, parametersOf(oak.programme), autumn)?.changed).toBe(true);
     const evening = { ...DEFAULT_APPEARANCE, background: { ...background, sun_elevation: 3 } };
-    expect(kinOf(all, oak.parameters, evening)?.changed).toBe(false);
+    expect(kinOf(all, parametersOf(oak.programme), evening)?.changed).toBe(false);
   });
 
   it("is the one that looks so, else the last picked, where several grow alike", () => {
@@ -47,7 +59,8 @@ describe("the species in force", () => {
     const [first, second] = ["first", "second"].map((slug) => ({ ...oak, slug }));
     const third = { ...oak, slug: "third", appearance: golden };
     const alike = [first!, second!, third];
-    const found = (looks: typeof golden, picked?: string) => kinOf(alike, oak.parameters, looks, picked)?.species.slug;
+    const found = (looks: typeof golden, picked?: string) =>
+      kinOf(alike, parametersOf(oak.programme), looks, picked)?.species.slug;
     expect(found(DEFAULT_APPEARANCE, "second")).toBe("second");
     expect(found(DEFAULT_APPEARANCE)).toBe("first");
     expect(found(golden, "second")).toBe("third");
@@ -55,7 +68,7 @@ describe("the species in force", () => {
 
   it("is none as a session begins, and none for a tree of one's own", () => {
     expect(kinOf(all, DEFAULTS, null)).toBeNull();
-    const numbers = Object.entries(oak.parameters).map(([name, value]) => [
+    const numbers = Object.entries(parametersOf(oak.programme)).map(([name, value]) => [
       name,
       typeof value === "number" ? value + 0.01 : value,
     ]);

@@ -1,8 +1,9 @@
-import type { Appearance, Parameters, Species } from "../../../wire/generated";
+import type { Appearance, Parameters, Programme, Species } from "../../../wire/generated";
 import { language } from "../../words/say";
 import { SPECIES } from "../../words/species";
 import { alike } from "../draft";
 import { DEFAULTS } from "../growth/growth-parameters";
+import type { ProgrammeInForce } from "../growth/programme-control";
 
 /** A species that the parameters in force come from. */
 export interface Kin {
@@ -13,6 +14,23 @@ export interface Kin {
 
 /** So many of a species' parameters may differ, and it is still that species, changed. */
 const MOST_CHANGES = 12;
+
+/** The species that a programme is of, if it says so and the server knows it. */
+export function kinByProgramme(
+  species: readonly Species[],
+  { programme, byHand }: ProgrammeInForce,
+  looks: Appearance | null,
+): Kin | null {
+  const one = species.find(({ slug }) => slug === programme.species);
+  if (one === undefined) {
+    return null;
+  }
+  const looksAlike = looks === null || looksLike(one, looks);
+  return { species: one, changed: byHand.length > 0 || !looksAlike || !alike(programme, one.programme) };
+}
+
+/** The parameters that are a species' own when its tree is left alone. */
+export const parametersOf = ({ parameters }: Programme): Parameters => ({ ...DEFAULTS, ...parameters });
 
 /**
  * The species that parameters come from: the one they differ from in the fewest places, if those are few and fewer
@@ -28,7 +46,7 @@ export function kinOf(
   const most = Math.min(MOST_CHANGES, changes(DEFAULTS, parameters) - 1);
   const ranked = species
     .map((one) => {
-      const differing = changes(one.parameters, parameters);
+      const differing = changes(parametersOf(one.programme), parameters);
       const looksAlike = looks === null || looksLike(one, looks);
       // Looks count less than any parameter, the last pick less than looks.
       const rank = differing + (looksAlike ? 0 : 0.5) + (one.slug === picked ? 0 : 0.25);

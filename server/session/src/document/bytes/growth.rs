@@ -16,7 +16,7 @@ pub(super) fn write(out: &mut Writer, state: &SimulationState) {
     out.u32(state.seed);
     out.u32(state.metamer_budget);
     out.u32(state.tick);
-    settings::write_set(out, &state.parameters);
+    settings::write_json(out, state.parameters.values());
     out.list(&state.markers, |out, marker| {
         out.vector(marker.position);
         out.u32(marker.born);

@@ -54,6 +54,8 @@ pub(super) const GIVEN_RADII: Kind = first(*b"RADI", "given radii");
 pub(super) const GROWTH: Kind = first(*b"GROW", "growth");
 /// Every set of parameters that an operation holds.
 pub(super) const PARAMETERS: Kind = first(*b"PARA", "parameters");
+/// Programmes, which parameters belong to which, and the ages they have led to; none if it is not there.
+pub(super) const PROGRAMMES: Kind = first(*b"PROG", "programmes");
 /// Every look that an operation holds, and the present one.
 pub(super) const LOOKS: Kind = first(*b"LOOK", "looks");
 /// Meshes, every set of obstacles that an operation holds, and the present one.
@@ -67,13 +69,14 @@ pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
 
-const ALL: [&Kind; 12] = [
+const ALL: [&Kind; 13] = [
     &PLANT,
     &TIMELINE,
     &WIDTHS,
     &GIVEN_RADII,
     &GROWTH,
     &PARAMETERS,
+    &PROGRAMMES,
     &LOOKS,
     &OBSTACLES,
     &HISTORY,

@@ -4,6 +4,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use espalier_growth::Parameters;
 use espalier_settings::{Appearance, AppearancePatch, ParameterValues, ParametersPatch};
+use serde::{Serialize, de::DeserializeOwned};
 
 use super::{
     DocumentError, damaged,
@@ -17,13 +18,14 @@ use crate::{
         history::{History, Setting},
         obstacles::{Obstacles, Standings},
     },
+    habit::Habit,
     obstacle::{Form, Mesh, Obstacle, Pose, Standing},
 };
 
 /// All sets of parameters, looks, meshes and sets of obstacles of a document, by number.
 #[derive(Debug, Default)]
 pub(super) struct Pool {
-    parameters: Vec<Arc<Parameters>>,
+    habits: Vec<Arc<Habit>>,
     looks: Vec<Arc<Appearance>>,
     meshes: Vec<Arc<Mesh>>,
     sets: Vec<Standings>,
@@ -36,9 +38,12 @@ impl Pool {
         let ahead = futures.all.iter().flat_map(|future| &future.operations);
         let settings = history.operations.iter().chain(ahead).map(|operation| &operation.after);
         for setting in std::iter::once(&history.initial).chain(settings) {
-            add(&mut pool.parameters, &setting.parameters);
+            add(&mut pool.habits, &setting.habit);
             add(&mut pool.looks, &setting.appearance);
             pool.add_set(&setting.obstacles);
+        }
+        if present.habit.programme().is_some() {
+            add(&mut pool.habits, &present.habit);
         }
         add(&mut pool.looks, &present.appearance);
         pool.add_set(&present.obstacles);
@@ -54,23 +59,32 @@ impl Pool {
     }
 
     /// A pool of what was read.
-    pub(super) fn new(
-        parameters: Vec<Arc<Parameters>>,
-        looks: Vec<Arc<Appearance>>,
-        sets: Vec<Standings>,
-    ) -> Self {
-        Self { parameters, looks, meshes: Vec::new(), sets }
+    pub(super) fn new(habits: Vec<Arc<Habit>>, looks: Vec<Arc<Appearance>>, sets: Vec<Standings>) -> Self {
+        Self { habits, looks, meshes: Vec::new(), sets }
     }
 
+    /// What each habit sets: all parameters, or those that go before its programme.
     pub(super) fn write_parameters(&self, out: &mut Writer) {
-        out.list(&self.parameters, |out, set| write_set(out, set));
+        out.list(&self.habits, |out, habit| write_json(out, habit.by_hand()));
+    }
+
+    /// All habits.
+    pub(super) fn habits(&self) -> &[Arc<Habit>] {
+        &self.habits
+    }
+
+    pub(super) fn has_programmes(&self) -> bool {
+        self.habits.iter().any(|habit| habit.programme().is_some())
+    }
+
+    /// The habit with this number.
+    pub(super) fn habit(&self, number: u32) -> Result<Arc<Habit>, DocumentError> {
+        numbered(&self.habits, number, "parameters")
     }
 
     /// All looks, and the number of the present ones.
     pub(super) fn write_looks(&self, out: &mut Writer, present: &Arc<Appearance>) {
-        // Plain numbers and names always have a JSON form.
-        let text = |looks: &Appearance| serde_json::to_string(looks).unwrap_or_default();
-        out.list(&self.looks, |out, looks| out.text(&text(looks)));
+        out.list(&self.looks, |out, looks| write_json(out, &**looks));
         out.u32(number(&self.looks, present));
     }
 
@@ -83,14 +97,14 @@ impl Pool {
     }
 
     pub(super) fn write_setting(&self, out: &mut Writer, setting: &Setting) {
-        out.u32(number(&self.parameters, &setting.parameters));
+        out.u32(number(&self.habits, &setting.habit));
         out.u32(number(&self.sets, &setting.obstacles));
         out.u32(number(&self.looks, &setting.appearance));
     }
 
     pub(super) fn read_setting(&self, reader: &mut Reader<'_>) -> Result<Setting, DocumentError> {
         Ok(Setting {
-            parameters: numbered(&self.parameters, reader.u32()?, "parameters")?,
+            habit: self.habit(reader.u32()?)?,
             obstacles: self.standing(reader.u32()?)?,
             appearance: self.look(reader.u32()?)?,
         })
@@ -129,24 +143,25 @@ impl Pool {
     }
 }
 
-/// One set of parameters, as JSON: what a document does not name has its default.
-pub(super) fn write_set(out: &mut Writer, set: &Parameters) {
-    // Plain numbers and switches always have a JSON form.
-    out.text(&serde_json::to_string(set.values()).unwrap_or_default());
+/// A value as JSON.
+pub(super) fn write_json(out: &mut Writer, value: &impl Serialize) {
+    // Plain numbers, switches and names always have a JSON form.
+    out.text(&serde_json::to_string(value).unwrap_or_default());
 }
 
+/// One set of parameters, as JSON: what a document does not name has its default.
 pub(super) fn read_set(reader: &mut Reader<'_>) -> Result<Parameters, DocumentError> {
-    let patch: ParametersPatch = serde_json::from_str(reader.text()?).map_err(|error| unreadable(&error))?;
+    let patch = read_json(reader)?;
     Parameters::new(ParameterValues::default().patched(&patch)).map_err(|error| damaged(error.to_string()))
 }
 
-pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<Arc<Parameters>>, DocumentError> {
-    reader.list(|r| read_set(r).map(Arc::new))
+pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<ParametersPatch>, DocumentError> {
+    reader.list(read_json)
 }
 
 pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>, DocumentError> {
     reader.list(|r| {
-        let patch: AppearancePatch = serde_json::from_str(r.text()?).map_err(|error| unreadable(&error))?;
+        let patch: AppearancePatch = read_json(r)?;
         let change = AppearanceChange::parse(&patch).map_err(|problem| damaged(problem.message))?;
         Ok(Arc::new(change.applied_to(&Appearance::default())))
     })
@@ -195,11 +210,13 @@ fn read_standing(
     Ok(Standing { id, obstacle: obstacle.map_err(|problem| damaged(problem.message))? })
 }
 
-/// Names in a JSON text that are not known are those of a later version: parameters and looks are added without
+/// A value from JSON. Names that are not known are those of a later version: parameters and looks are added without
 /// another version of their section.
-fn unreadable(error: &serde_json::Error) -> DocumentError {
-    let sentence = error.to_string();
-    if sentence.starts_with("unknown ") { later(sentence) } else { damaged(sentence) }
+pub(super) fn read_json<T: DeserializeOwned>(reader: &mut Reader<'_>) -> Result<T, DocumentError> {
+    serde_json::from_str(reader.text()?).map_err(|error| {
+        let sentence = error.to_string();
+        if sentence.starts_with("unknown ") { later(sentence) } else { damaged(sentence) }
+    })
 }
 
 /// Adds a value unless it, the very same, is there; whether it was added.
@@ -213,7 +230,7 @@ fn add<T>(pool: &mut Vec<Arc<T>>, value: &Arc<T>) -> bool {
 }
 
 /// The number of a value in the pool; everything looked for was put there before.
-fn number<T>(pool: &[Arc<T>], value: &Arc<T>) -> u32 {
+pub(super) fn number<T>(pool: &[Arc<T>], value: &Arc<T>) -> u32 {
     pool.iter().rposition(|there| Arc::ptr_eq(there, value)).unwrap_or(0) as u32
 }
 

@@ -121,7 +121,7 @@ fn ob2_what_comes_between_parts_a_gesture() {
         ("ann", push(1, 5.0, None)),
         ("bob", push(1, 6.0, Some(2))),
         ("ann", push(1, 7.0, Some(2))),
-        ("ann", in_gesture(Some(2), Action::Grow { steps: Steps::nearest(1), bud: None })),
+        ("ann", in_gesture(Some(2), Action::Grow { steps: Steps::nearest(1), until: None, bud: None })),
         ("ann", push(1, 8.0, Some(2))),
     ] {
         let operations = document.timeline().operations.len();

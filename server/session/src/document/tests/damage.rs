@@ -102,7 +102,7 @@ fn a_missing_section_is_named_unless_it_stands_for_nothing() {
         let mut without = container();
         without.sections.retain(|other| other.tag != name);
         let read = Document::from_bytes(&without.to_bytes());
-        if [*b"WIDT", *b"FUTU", *b"GEST"].contains(&name) {
+        if [*b"WIDT", *b"FUTU", *b"GEST", *b"PROG"].contains(&name) {
             assert!(read.is_ok(), "{}", name.escape_ascii());
         } else {
             let error = read.expect_err("it cannot do without").to_string();
@@ -208,7 +208,7 @@ proptest! {
         if let Ok(mut read) = Document::from_bytes(&container.to_bytes()) {
             // Whatever it is, it is a document: it can be gone through and grows on.
             while read.apply("ann", &plain(Action::Undo {})).is_ok() {}
-            let _full = read.apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), bud: None }));
+            let _full = read.apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }));
             prop_assert!(Document::from_bytes(&read.to_bytes()).is_ok());
         }
     }

@@ -138,7 +138,9 @@ fn happen(document: &mut Document, event: &Event) -> Result<(), Problem> {
             *document = again;
             return Ok(());
         }
-        Event::Grow(steps) => vec![plain(Action::Grow { steps: Steps::nearest(steps), bud: None })],
+        Event::Grow(steps) => {
+            vec![plain(Action::Grow { steps: Steps::nearest(steps), until: None, bud: None })]
+        }
         Event::Ungrow(steps) => vec![plain(Action::Ungrow { steps: Steps::nearest(steps) })],
         Event::Undo => vec![plain(Action::Undo {})],
         Event::Redo => vec![plain(Action::Redo {})],

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::{
     arranging::{place_in, pose, slab, sphere, swell},
-    *,
+    programmes, *,
 };
 
 /// Something that happens. Rows are any numbers, from which a living metamer is found.
@@ -58,6 +58,9 @@ pub(super) enum Event {
     GoTo(u32),
     Take(u32),
     GrowOn(u32, u32),
+    /// One of a few programmes, or none.
+    Programme(u32, bool, Option<u32>),
+    Follow(Option<u32>),
 }
 
 pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
@@ -100,6 +103,8 @@ pub(super) fn events() -> impl Strategy<Value = Vec<Event>> {
         4 => any::<u32>().prop_map(Event::GoTo),
         4 => any::<u32>().prop_map(Event::Take),
         2 => (1u32..4, 0u32..2).prop_map(|(steps, gesture)| Event::GrowOn(steps, gesture)),
+        4 => (0u32..4, any::<bool>(), gesture()).prop_map(|(which, keep, g)| Event::Programme(which, keep, g)),
+        1 => gesture().prop_map(Event::Follow),
     ];
     prop::collection::vec(event, 1..40)
 }
@@ -156,9 +161,9 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
             return;
         }
         Event::Stroke => return stroke(document, 1000 + number as u32),
-        Event::Grow(steps) => plain(Action::Grow { steps: Steps::nearest(*steps), bud: None }),
+        Event::Grow(steps) => plain(Action::Grow { steps: Steps::nearest(*steps), until: None, bud: None }),
         Event::GrowOn(steps, gesture) => {
-            in_gesture(Some(*gesture), Action::Grow { steps: Steps::nearest(*steps), bud: None })
+            in_gesture(Some(*gesture), Action::Grow { steps: Steps::nearest(*steps), until: None, bud: None })
         }
         Event::Ungrow(steps) => plain(Action::Ungrow { steps: Steps::nearest(*steps) }),
         Event::Undo => plain(Action::Undo {}),
@@ -177,7 +182,7 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
         }
         Event::End(stroke) => plain(Action::StrokeEnd { stroke: *stroke }),
         Event::Lasso(w, h) => lasso(*w, *h),
-        Event::Choose(row) => plain(Action::Grow { steps: Steps::nearest(2), bud: Some(*row) }),
+        Event::Choose(row) => plain(Action::Grow { steps: Steps::nearest(2), until: None, bud: Some(*row) }),
         Event::Ball(x, radius, gesture) => place_in(*gesture, &sphere(*radius), *x),
         Event::Mesh(x, gesture) => place_in(*gesture, &slab(), *x),
         Event::Push(id, x, gesture) => in_gesture(*gesture, Action::MoveObstacle { id: *id, pose: pose(*x) }),
@@ -207,6 +212,12 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
             rotation: UnitRotation::nearest(turned(*angle)),
             keep: *keep,
         }),
+        Event::Programme(which, keep, gesture) => {
+            in_gesture(*gesture, Action::SetProgramme { programme: programmes::some(*which), keep: *keep })
+        }
+        Event::Follow(gesture) => {
+            in_gesture(*gesture, Action::FollowProgramme { parameters: List::default() })
+        }
         Event::GoTo(step) => plain(Action::GoTo { step: step % (document.plant().last_step() + 2) }),
         Event::Take(any) => {
             let futures = document.timeline().futures;
@@ -222,11 +233,12 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
     }
 }
 
-/// What undoing and redoing leads to: the plant's hash, what it grows by, what stands in its way, its looks.
-pub(super) type Form = (u64, ParameterValues, Vec<espalier_proto::PlacedObstacle>, Appearance);
+/// What undoing and redoing leads to: the plant's hash and age, what it grows by, what stands in its way, its looks.
+pub(super) type Form = ((u64, u32), ParameterValues, Vec<espalier_proto::PlacedObstacle>, Appearance);
 
 pub(super) fn form(document: &Document) -> Form {
-    (document.plant().hash(), document.parameters(), document.obstacles(), *document.appearance())
+    let plant = (document.plant().hash(), document.age());
+    (plant, document.parameters(), document.obstacles(), *document.appearance())
 }
 
 fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
@@ -243,6 +255,8 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     let mut afresh = Simulation::from_state(parts, document.simulation.state());
     for _ in 0..2 {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
+        let habit = Habit::plain(grown.parameters().clone());
+        grown.generator_mut().turn_to(&Arc::new(habit), 0);
         grown.step(&Step::Growth(input.clone()), &mut espalier_growth::NoObserver);
         afresh.step(&input, &mut espalier_growth::NoObserver);
     }

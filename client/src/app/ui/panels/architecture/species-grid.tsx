@@ -62,10 +62,10 @@ export function SpeciesGrid({ studio }: WidgetProps) {
 }
 
 /** Takes a species' growth and looks, all but what is around it, as one operation. */
-function pick(studio: Studio, { slug, parameters, appearance: { leaves, flowers, fruits, bark } }: Species): void {
+function pick(studio: Studio, { slug, programme, appearance: { leaves, flowers, fruits, bark } }: Species): void {
   lastPicked.value = slug;
   const gesture = studio.link.next;
-  studio.growing.commit(parameters, gesture);
+  studio.programme.set(programme, { gesture });
   studio.looks.commit({ leaves, flowers, fruits, bark }, gesture);
 }
 

@@ -2,8 +2,9 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { type Appearance, DEFAULT_APPEARANCE, type Parameters, type Species } from "../../../../wire/generated";
 import { DEFAULTS } from "../../../document/growth/growth-parameters";
+import { valuesAt } from "../../../document/growth/programme-control";
 import { listSpecies } from "../../../document/species/species-api";
-import { type Kin, kinOf } from "../../../document/species/species-choice";
+import { type Kin, kinByProgramme, kinOf, parametersOf } from "../../../document/species/species-choice";
 import { SpeciesSource } from "../../../document/species/species-source";
 import { browserClock } from "../../../page/clock";
 import { sentence } from "../../../problems/plain-words";
@@ -26,17 +27,29 @@ let last: { readonly about: readonly unknown[]; readonly kin: Kin | null } = { a
 /** The species that what is set now comes from, if it is near enough to one. */
 export function kinNow(studio: Studio): Kin | null {
   const [species, parameters, looks] = [source.known.value, studio.parameters.value, studio.appearance.value];
-  const picked = lastPicked.value;
-  const about = [species, parameters, looks, picked];
+  const [picked, programme] = [lastPicked.value, studio.programme.inForce.value];
+  const about = [species, parameters, looks, picked, programme];
   if (about.some((one, i) => one !== last.about[i])) {
-    last = { about, kin: species === null || parameters === null ? null : kinOf(species, parameters, looks, picked) };
+    last = { about, kin: kinOfAll() };
   }
   return last.kin;
+
+  function kinOfAll(): Kin | null {
+    if (species === null || parameters === null) {
+      return null;
+    }
+    return programme === null ? kinOf(species, parameters, looks, picked) : kinByProgramme(species, programme, looks);
+  }
 }
 
-/** What a reset goes back to: the species' own values, else those a session begins with. */
+/** What a reset goes back to: what the programme has at this age, the species' own values, or the first ones. */
 export function standardOf(studio: Studio): Parameters {
-  return kinNow(studio)?.species.parameters ?? DEFAULTS;
+  const programme = studio.programme.inForce.value?.programme;
+  if (programme) {
+    return valuesAt(programme, studio.document.value?.age ?? 0);
+  }
+  const kin = kinNow(studio);
+  return kin ? parametersOf(kin.species.programme) : DEFAULTS;
 }
 
 /** The same of looks; what is around a tree is no species' own. */

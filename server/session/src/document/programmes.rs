@@ -1,0 +1,96 @@
+//! The habit of a document: its programme, what was set by hand, and the age by which it goes (`PG`).
+
+use std::sync::Arc;
+
+use espalier_plant::hash::StableHash;
+use espalier_proto::{ParameterName, Problem, Programme};
+
+use super::{
+    Document,
+    history::{Kind, Setting},
+    settings::to_words,
+};
+use crate::{
+    cause::Cause,
+    habit::{Habit, Plan},
+};
+
+impl Document {
+    /// The programme in force.
+    pub fn programme(&self) -> Option<&Arc<Programme>> {
+        self.habit().programme()
+    }
+
+    /// The names of the parameters that do not follow the programme; none without one.
+    pub fn set_by_hand(&self) -> impl Iterator<Item = &'static str> + use<> {
+        let has_programme = self.programme().is_some();
+        self.habit().by_hand().names().filter(move |_| has_programme)
+    }
+
+    /// The age of the plants.
+    pub fn age(&self) -> u32 {
+        self.simulation.generator().age(self.simulation.scene())
+    }
+
+    pub(super) fn habit(&self) -> &Arc<Habit> {
+        self.simulation.generator().habit()
+    }
+
+    pub(super) fn set_programme(
+        &mut self,
+        cause: Cause<'_>,
+        programme: Option<&Programme>,
+        keep: bool,
+    ) -> Result<(), Problem> {
+        let plan = programme.map(|programme| Plan::new(programme.clone()).map(Arc::new)).transpose();
+        let wanted = plan.and_then(|plan| self.habit().replaced(plan, keep, self.age()));
+        self.change_habit(cause, wanted.map_err(|problem| problem.within("programme"))?);
+        Ok(())
+    }
+
+    pub(super) fn follow_programme(
+        &mut self,
+        cause: Cause<'_>,
+        names: &[ParameterName],
+    ) -> Result<(), Problem> {
+        if self.programme().is_none() {
+            return Err(super::refused("there is no programme that parameters could follow"));
+        }
+        let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
+        let wanted = self.habit().without(&names)?;
+        self.change_habit(cause, wanted);
+        Ok(())
+    }
+
+    pub(super) fn change_habit(&mut self, cause: Cause<'_>, wanted: Habit) {
+        if wanted != **self.habit() {
+            let setting = Setting { habit: Arc::new(wanted), ..self.setting() };
+            self.change_setting(Kind::Parameters, cause, setting);
+        }
+    }
+
+    /// Grows by a habit from here on, at the age that the line has at the present step.
+    pub(super) fn turn_to(&mut self, habit: &Arc<Habit>) {
+        let ahead = self.history.ahead_at(self.plant().step());
+        self.simulation.generator_mut().turn_to(habit, ahead);
+        let wanted = habit.at(self.age());
+        if **wanted != *self.simulation.parameters() {
+            self.simulation.set_parameters((**wanted).clone());
+        }
+    }
+
+    /// Notes the age that the plants have come to.
+    pub(super) fn note_age(&mut self) {
+        self.history.note_ahead(self.plant().step(), self.simulation.generator().ahead());
+    }
+
+    pub(super) fn hash_habit(&self, hash: &mut StableHash) {
+        if let Some(programme) = self.programme() {
+            to_words(&**programme).into_iter().for_each(|word| hash.word(word));
+            to_words(self.habit().by_hand()).into_iter().for_each(|word| hash.word(word));
+        }
+        for mark in &self.history.ages {
+            hash.word(u64::from(mark.step) | u64::from(mark.ahead) << 32);
+        }
+    }
+}
