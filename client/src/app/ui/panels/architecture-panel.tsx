@@ -6,6 +6,7 @@ import { type Key, say } from "../../words/say";
 import { Section } from "../controls/section";
 import { ForkWidget } from "./architecture/fork-widget";
 import { PerceptionWidget } from "./architecture/perception-widget";
+import { ProgrammeSection } from "./architecture/programme-section";
 import { SchematicTree } from "./architecture/schematic-tree";
 import { SidesWidget } from "./architecture/sides-widget";
 import { SpeciesGrid } from "./architecture/species-grid";
@@ -119,6 +120,9 @@ function Growth({ studio }: { studio: Studio }) {
     ));
   return (
     <>
+      <Section name="architecture.programme" title={say("architecture.programme")} open>
+        <ProgrammeSection studio={studio} />
+      </Section>
       {controls(first)}
       {others.map((section) => (
         <Section name={section.title} title={say(section.title as Key)} key={section.title}>
