@@ -251,6 +251,25 @@ mod tests {
         }
     }
 
+    #[tokio::test]
+    async fn a_page_goes_on_behind_a_tree_that_is_gone() {
+        let server = server(authority::may).await;
+        let page = async |query: &str| {
+            let request = Request::builder().uri(format!("/api/trees?limit=9{query}"));
+            let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
+            let bytes = axum::body::to_bytes(answer.into_body(), 10_000).await.unwrap();
+            String::from_utf8(bytes.to_vec()).unwrap()
+        };
+        let behind = |id, millisecond| format!("&behind={id}&saved_at=2026-05-01T09:00:00.{millisecond}Z");
+        for (gone, found) in
+            [(behind("elm", "000"), true), (behind("aa", "001"), true), (behind("aa", "000"), false)]
+        {
+            let page = page(&gone).await;
+            assert_eq!(page.contains("\"ash\""), found, "{gone}: {page}");
+        }
+        assert!(page("&behind=ash").await.contains("saved_at is missing"));
+    }
+
     #[test]
     fn the_protocol_lists_every_address() {
         let protocol = include_str!("../../../proto/PROTOCOL.md");

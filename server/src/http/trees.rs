@@ -24,7 +24,7 @@ use crate::{
     SIMULATION_VERSION,
     authority::{Action, Object},
     name,
-    store::{NewTree, Store, StoredTree, TreeDocument},
+    store::{NewTree, Store, StoredTree, TreeDocument, TreeKey},
 };
 
 const MAX_NAME_CHARACTERS: usize = 80;
@@ -37,8 +37,28 @@ const MAX_TREES: u32 = 500;
 pub(super) struct Page {
     /// How many at most.
     limit: Option<u32>,
-    /// The last tree of the page before.
+    /// The last tree of the page before, which may be gone by now,
     behind: Option<String>,
+    /// and when it was saved.
+    saved_at: Option<String>,
+}
+
+impl Page {
+    /// The place that the page begins behind.
+    fn key(self) -> Result<Option<TreeKey>, Problem> {
+        let missing = |field: &str| Problem {
+            code: ProblemCode::Malformed,
+            field: Some(field.into()),
+            allowed: Some("as the last tree of the page before has it".into()),
+            message: format!("{field} is missing: a page begins behind the id and the time of a tree"),
+        };
+        match (self.behind, self.saved_at) {
+            (None, None) => Ok(None),
+            (Some(id), Some(saved_at)) => Ok(Some(TreeKey { saved_at, id })),
+            (Some(_), None) => Err(missing("saved_at")),
+            (None, Some(_)) => Err(missing("behind")),
+        }
+    }
 }
 
 pub(super) async fn list(
@@ -55,13 +75,7 @@ pub(super) async fn list(
     if !(1..=MAX_TREES).contains(&limit) {
         return Err(Problem::out_of_range("limit", limit, format!("1 to {MAX_TREES}")).into());
     }
-    let behind = match &page.behind {
-        None => None,
-        Some(id) => match shared.store.tree(id).await? {
-            Some(tree) => Some(tree.key),
-            None => return Ok(Json(Vec::new())),
-        },
-    };
+    let behind = page.key()?;
     let trees = shared.store.trees(limit, behind.as_ref()).await?;
     Ok(Json(trees.into_iter().map(to_proto).collect()))
 }
