@@ -15,6 +15,8 @@ use crate::{
 pub(crate) struct Client {
     /// Control messages sent and not yet written to the socket (`FL3`).
     pub(crate) unread: usize,
+    /// Of those, how many are to be written until it has had the notices; none if it is sent none.
+    pub(crate) notified_after: Option<usize>,
     /// Who it is; nobody before its hello.
     pub(crate) guest: Option<Guest>,
 }

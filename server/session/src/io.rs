@@ -48,7 +48,12 @@ pub enum Input {
     Act(ActId, Principal, Box<Command>),
     /// The time asked for by `WakeAt` has come.
     Woken,
-    /// The session is to be put away: as soon as all commands are done, keep a snapshot that contains them.
+    /// The snapshot through this entry is kept.
+    SnapshotKept(u64),
+    /// A snapshot could not be kept. What it was to contain must be replayed, and another one is made soon.
+    SnapshotFailed,
+    /// The session is to be put away: growth ends as by `stop`, nobody waits for predictions any more, and as soon as
+    /// all commands are done there is a snapshot that contains them.
     /// It can be dropped when nothing it asked for is under way any more.
     Stopping,
 }
@@ -69,13 +74,16 @@ pub enum Output {
     /// Call `prediction.run()` away from the network, beside any `Work`, until it says it is done; then answer with
     /// `Predicted`.
     Predict(Box<PredictionRun>),
-    /// Keep this snapshot; entries up to `through` need no replay any more.
+    /// Keep this snapshot; answer with `SnapshotKept` or `SnapshotFailed`. Once it is kept, entries up to `through` need
+    /// no replay any more. There is one on the way at a time.
     Snapshot {
         /// The last journal entry it contains.
         through: u64,
         /// The session as bytes, for [`crate::Session::restore`].
         bytes: Vec<u8>,
     },
+    /// Somebody has had the notices of [`crate::Session::notify`]: they need not be kept any longer.
+    Notified,
     /// The document's bytes for a `Read`.
     Document {
         /// Whose answer this is.

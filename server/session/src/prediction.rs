@@ -78,6 +78,9 @@ impl PredictionRun {
     /// Does one slice; true when the prediction is done and goes back as [`crate::Input::Predicted`].
     pub fn run(&mut self) -> bool {
         let Some(mut simulation) = self.simulation.take() else { return true };
+        if self.question.cancelled.load(Ordering::Relaxed) {
+            return true;
+        }
         if !self.is_cut {
             self.is_cut = true;
             if let Err(problem) = prune_simulation(&mut simulation, &self.question.prediction.rows) {

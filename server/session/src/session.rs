@@ -235,11 +235,7 @@ impl Session {
             Input::Text(client, text) => self.read(client, &text),
             Input::Binary(client) => self.read_binary(client),
             Input::Disconnected(client) => self.forget(client),
-            Input::Written(client, count) => {
-                if let Some(client) = self.clients.get_mut(&client) {
-                    client.unread = client.unread.saturating_sub(count);
-                }
-            }
+            Input::Written(client, count) => self.written(client, count),
             Input::Journaled(through) => self.journaled(through),
             Input::JournalFailed(reason) => self.fail(&reason),
             Input::Worked(work) => self.worked(work),
@@ -247,7 +243,9 @@ impl Session {
             Input::Read(read) => self.reads.push(read),
             Input::Act(act, principal, command) => self.act(act, &principal, *command),
             Input::Woken => self.upkeep.woken(),
-            Input::Stopping => self.upkeep.keep_through(self.journal.last()),
+            Input::SnapshotKept(through) => self.upkeep.snapshot_kept(through),
+            Input::SnapshotFailed => self.upkeep.snapshot_failed(self.now),
+            Input::Stopping => self.stop(),
         }
         if !self.failed {
             self.answer_acts();
@@ -267,10 +265,16 @@ impl Session {
         self.failed
     }
 
+    /// Whether all that was done is durable and in a snapshot, so that nothing is left to be replayed.
+    pub fn is_kept(&self) -> bool {
+        let last = self.journal.last();
+        self.journal.durable() == last && self.upkeep.holds(last)
+    }
+
     /// Whether nobody is here and nothing is left to do or to keep: it can be dropped and restored later.
     pub fn is_idle(&self) -> bool {
         let settled = self.home.as_ref().is_some_and(|work| !work.is_needed());
-        let kept = self.journal.durable() == self.journal.last() && self.upkeep.is_done(self.journal.last());
+        let kept = self.is_kept() && self.upkeep.is_done();
         let answered = self.reads.is_empty() && self.acts.is_empty() && self.predictions == 0;
         self.clients.is_empty() && self.outputs.is_empty() && answered && settled && kept
     }
@@ -325,6 +329,17 @@ impl Session {
                 self.take(client, &key, id, Err(problem));
             }
             Err(Unreadable { id: None, problem }) => self.send(client, &ServerMessage::Problem { problem }),
+        }
+    }
+
+    /// So many control messages more have gone out to a client.
+    fn written(&mut self, client: ClientId, count: usize) {
+        let Some(client) = self.clients.get_mut(&client) else { return };
+        client.unread = client.unread.saturating_sub(count);
+        let Some(left) = client.notified_after else { return };
+        client.notified_after = left.checked_sub(count).filter(|&left| left > 0);
+        if client.notified_after.is_none() {
+            self.outputs.push_back(Output::Notified);
         }
     }
 

@@ -66,7 +66,9 @@ enum Errand {
     Worked(Box<Work>),
     Predicted(Box<PredictionRun>),
     WorkFailed,
-    SnapshotKept,
+    SnapshotKept(u64),
+    SnapshotFailed,
+    NoticesForgotten,
 }
 
 /// Reaches a live session.
@@ -213,7 +215,8 @@ impl Actor {
                 );
             }
         }
-        if end != End::Failed && !matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(()))) {
+        let finished = end != End::Failed && matches!(timeout(LAST_WRITES, self.finish()).await, Ok(Ok(())));
+        if end != End::Failed && !(finished && self.session.is_kept()) {
             tracing::warn!(
                 session = self.name,
                 "the last commands may not have been kept, or are in no snapshot"
@@ -319,7 +322,9 @@ impl Actor {
             Errand::Worked(work) => Ok(Some(Input::Worked(work))),
             Errand::Predicted(prediction) => Ok(Some(Input::Predicted(prediction))),
             Errand::WorkFailed => Err(Failed),
-            Errand::SnapshotKept => Ok(None),
+            Errand::SnapshotKept(through) => Ok(Some(Input::SnapshotKept(through))),
+            Errand::SnapshotFailed => Ok(Some(Input::SnapshotFailed)),
+            Errand::NoticesForgotten => Ok(None),
         }
     }
 
@@ -360,6 +365,7 @@ impl Actor {
             Output::Work(work) => self.work(work),
             Output::Predict(prediction) => self.start_prediction(prediction),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
+            Output::Notified => self.forget_notices(),
             Output::Document { read, bytes, metamers } => {
                 if let Some(answer) = self.reads.remove(&read.0) {
                     let _ = answer.send(DocumentBytes { bytes, metamers });
@@ -429,11 +435,27 @@ impl Actor {
         let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes };
         self.under_way += 1;
         tokio::spawn(async move {
-            // Without it the next start replays more, that is all.
-            if let Err(error) = store.keep_snapshot(&lease, snapshot).await {
-                tracing::warn!(session, %error, "a snapshot could not be kept");
+            let _ = errand.send(match store.keep_snapshot(&lease, snapshot).await {
+                Ok(()) => Errand::SnapshotKept(through),
+                Err(error) => {
+                    tracing::error!(session, %error, "a snapshot could not be kept; the journal holds what was done");
+                    Errand::SnapshotFailed
+                }
+            });
+        });
+    }
+
+    fn forget_notices(&mut self) {
+        let (store, lease, errand) =
+            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
+        let session = self.name.clone();
+        self.under_way += 1;
+        tokio::spawn(async move {
+            // Without this they are told once more.
+            if let Err(error) = store.forget_notices(&lease).await {
+                tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
             }
-            let _ = errand.send(Errand::SnapshotKept);
+            let _ = errand.send(Errand::NoticesForgotten);
         });
     }
 

@@ -3,8 +3,10 @@
 mod actor;
 mod outbox;
 mod registry;
+mod restoring;
 mod socket;
 
 pub use actor::{Ended, SessionHandle};
-pub use registry::{OpenError, Sessions};
+pub use registry::Sessions;
+pub use restoring::OpenError;
 pub use socket::{REFUSED_MESSAGE_BYTES, serve, turn_away};

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
 use super::{
@@ -10,13 +11,23 @@ use super::{
 };
 
 /// A store whose parts can be damaged behind its back.
-pub(super) trait Breakable: Store {
+pub trait Breakable: Store {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
+    /// Deletes the row of the journal that begins with an entry.
+    async fn lose_journal(&self, session: &str, first: u64);
+    /// Changes the version of the simulation that a row of the journal was made by.
+    async fn break_version(&self, session: &str, first: u64);
+    /// Changes the seed of a session.
+    async fn break_session(&self, session: &str);
+    /// Deletes a snapshot.
+    async fn lose_snapshot(&self, session: &str, through: u64);
     /// Changes a byte of a snapshot.
     async fn break_snapshot(&self, session: &str, through: u64);
     /// Changes a byte of a document.
     async fn break_tree(&self, id: &str);
+    /// Changes the name of a tree.
+    async fn break_name(&self, id: &str);
     /// How many parts of a session are kept aside.
     async fn set_aside_parts(&self, session: &str) -> usize;
 }
@@ -39,6 +50,11 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         leases_end_when_another_begins,
         damaged_entries_are_named_and_kept,
         damaged_snapshots_are_passed_over,
+        lost_entries_are_noticed,
+        lost_snapshots_are_noticed,
+        versions_are_covered,
+        a_session_row_is_covered,
+        notices_are_kept_until_somebody_has_had_them,
         trees_are_listed_newest_first,
         pages_hold_each_tree_once,
         trees_come_back_whole,
@@ -94,7 +110,9 @@ async fn snapshot(store: &impl Store, lease: &Lease, through: u64) {
 
 async fn sessions_begin_empty(store: &impl Store) {
     with_oak(store).await;
-    let expected = StoredSession { seed: u32::MAX, newest_version: 3, ..StoredSession::default() };
+    let written_by = Some(env!("CARGO_PKG_VERSION").into());
+    let expected =
+        StoredSession { seed: u32::MAX, newest_version: 3, written_by, ..StoredSession::default() };
     assert_eq!(load(store).await, expected);
     assert!(store.has_session("oak").await.unwrap());
     assert!(!store.has_session("elm").await.unwrap());
@@ -176,7 +194,7 @@ async fn leases_end_when_another_begins(store: &impl Store) {
     fenced(store.append(&first, 3, &entries(2..=2)).await);
     let late = NewSnapshot { through: 1, simulation_version: 3, bytes: vec![1] };
     fenced(store.keep_snapshot(&first, late).await);
-    fenced(store.set_aside(&first, &[Damage::Journal(1)]).await);
+    fenced(store.set_aside(&first, &[Damage::Journal(1)], &[]).await);
     // Giving back what one has no longer takes nothing from who has it now.
     store.release(first).await;
     store.append(&second, 3, &entries(2..=2)).await.unwrap();
@@ -196,7 +214,7 @@ async fn damaged_entries_are_named_and_kept(store: &impl Breakable) {
     let stored = load(store).await;
     assert_eq!((&stored.entries, &stored.damage), (&entries(1..=2), &vec![Damage::Journal(3)]));
     assert_eq!(load(store).await, stored, "looking changes nothing");
-    store.set_aside(&lease, &stored.damage).await.unwrap();
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
     assert_eq!(store.set_aside_parts("oak").await, 2);
     store.append(&lease, 3, &entries(3..=3)).await.unwrap();
     let stored = load(store).await;
@@ -213,7 +231,7 @@ async fn damaged_snapshots_are_passed_over(store: &impl Breakable) {
     let stored = load(store).await;
     assert_eq!((&stored.snapshot, &stored.entries), (&Some(vec![1]), &entries(2..=2)));
     assert_eq!(stored.damage, [Damage::Snapshot(2)]);
-    store.set_aside(&lease, &stored.damage).await.unwrap();
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
     assert_eq!(load(store).await.damage, []);
     // A snapshot of the same moment takes its place again.
     snapshot(store, &lease, 2).await;
@@ -222,6 +240,81 @@ async fn damaged_snapshots_are_passed_over(store: &impl Breakable) {
     store.break_snapshot("oak", 2).await;
     let refused = store.load_session("oak", None).await;
     assert!(matches!(refused, Err(StoreError::Damaged(_))), "nothing is made up");
+}
+
+async fn lost_entries_are_noticed(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    for numbers in [1..=2, 3..=4, 5..=5] {
+        store.append(&lease, 3, &entries(numbers)).await.unwrap();
+    }
+    store.lose_journal("oak", 5).await;
+    let stored = load(store).await;
+    assert_eq!((&stored.entries, &stored.damage), (&entries(1..=4), &vec![Damage::Journal(5)]));
+    store.lose_journal("oak", 3).await;
+    snapshot(store, &lease, 2).await;
+    let stored = load(store).await;
+    assert_eq!((stored.through, &stored.damage), (2, &vec![Damage::Journal(3)]));
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
+    assert_eq!(load(store).await.damage, [], "it is noticed once");
+    store.append(&lease, 3, &entries(3..=3)).await.unwrap();
+    assert_eq!(load(store).await.entries, entries(3..=3));
+}
+
+async fn lost_snapshots_are_noticed(store: &impl Breakable) {
+    store.create_session(oak(Some(b"start"))).await.unwrap();
+    let lease = store.acquire("oak").await.unwrap();
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    snapshot(store, &lease, 1).await;
+    store.lose_snapshot("oak", 1).await;
+    let stored = load(store).await;
+    assert_eq!((&stored.snapshot, &stored.entries), (&Some(b"start".to_vec()), &entries(1..=1)));
+    assert_eq!(stored.damage, [Damage::Snapshot(1)]);
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
+    assert_eq!(load(store).await.damage, []);
+    store.lose_snapshot("oak", 0).await;
+    let refused = store.load_session("oak", None).await;
+    assert!(matches!(refused, Err(StoreError::Damaged(_))), "no other tree grows in its place");
+}
+
+async fn versions_are_covered(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    store.break_version("oak", 1).await;
+    let stored = load(store).await;
+    assert_eq!((stored.newest_version, stored.damage), (3, vec![Damage::Journal(1)]));
+}
+
+async fn a_session_row_is_covered(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=2)).await.unwrap();
+    store.break_session("oak").await;
+    let refused = store.load_session("oak", None).await;
+    assert!(matches!(refused, Err(StoreError::Damaged(_))), "another seed grows another tree");
+    let unsure = store.append(&lease, 3, &entries(3..=3)).await;
+    assert!(matches!(unsure, Err(StoreError::Damaged(_))));
+
+    store.create_session(NewSession { name: "elm".into(), ..oak(Some(b"start")) }).await.unwrap();
+    let lease = store.acquire("elm").await.unwrap();
+    store.append(&lease, 3, &entries(1..=2)).await.unwrap();
+    store.break_session("elm").await;
+    let stored = store.load_session("elm", None).await.unwrap().unwrap();
+    assert_eq!(stored.entries, entries(1..=2), "a snapshot needs no seed");
+    assert_eq!(stored.damage, [Damage::Journal(3)], "but nobody knows what else there was");
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
+    store.append(&lease, 3, &entries(3..=3)).await.unwrap();
+    let stored = store.load_session("elm", None).await.unwrap().unwrap();
+    assert_eq!((stored.entries, stored.damage), (entries(1..=3), vec![]));
+}
+
+async fn notices_are_kept_until_somebody_has_had_them(store: &impl Store) {
+    let lease = with_oak(store).await;
+    let (damaged, regrown) = (Notice::Damaged { entry: 4 }, Notice::Regrown { from: 1, to: 2 });
+    store.set_aside(&lease, &[], std::slice::from_ref(&damaged)).await.unwrap();
+    store.set_aside(&lease, &[], &[damaged.clone(), regrown.clone()]).await.unwrap();
+    store.append(&lease, 3, &entries(1..=1)).await.unwrap();
+    assert_eq!(load(store).await.notices, [damaged, regrown]);
+    store.forget_notices(&lease).await.unwrap();
+    assert_eq!(load(store).await.notices, []);
 }
 
 async fn ids(store: &impl Store, limit: u32, behind: Option<&TreeKey>) -> Vec<String> {
@@ -278,6 +371,12 @@ async fn trees_come_back_whole(store: &impl Breakable) {
     store.break_tree("birch").await;
     assert!(matches!(store.tree_document("birch").await, Err(StoreError::Damaged(_))));
     assert!(store.tree_document("ash").await.is_ok(), "the others are whole");
+    store.rename_tree("ash", "Old ash").await.unwrap();
+    assert!(store.tree_document("ash").await.is_ok(), "it is whole under its new name");
+    store.break_name("ash").await;
+    assert!(matches!(store.tree_document("ash").await, Err(StoreError::Damaged(_))));
+    store.rename_tree("ash", "Ash").await.unwrap();
+    assert!(store.tree_document("ash").await.is_err(), "another name mends nothing");
 }
 
 async fn changes_say_whether_there_was_a_tree(store: &impl Store) {

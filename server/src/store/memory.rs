@@ -5,13 +5,14 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
+use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
     Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError,
     StoredSession, StoredTree, TreeDocument, TreeKey,
     lease::Leases,
-    seal::{JournalRow, SnapshotRow, assemble, snapshot_sum, tree_sum},
+    seal::{Found, JournalRow, SessionRow, SnapshotRow, tree_sum},
 };
 
 /// A store in memory.
@@ -30,19 +31,11 @@ struct Kept {
 
 #[derive(Debug)]
 struct Session {
-    seed: u32,
-    simulation_version: u32,
+    row: SessionRow,
     journal: Vec<JournalRow>,
     /// In order of what they contain.
     snapshots: Vec<SnapshotRow>,
     aside: usize,
-}
-
-impl Session {
-    fn last(&self) -> u64 {
-        let through = self.snapshots.last().map_or(0, |row| row.through);
-        self.journal.last().map_or(0, |row| row.last).max(through)
-    }
 }
 
 impl MemoryStore {
@@ -59,9 +52,26 @@ impl MemoryStore {
         lease: &Lease,
         change: impl FnOnce(&mut Session) -> Result<T, StoreError>,
     ) -> Result<T, StoreError> {
+        self.mend(lease, |session| {
+            if !session.row.is_whole(&lease.session) {
+                return Err(StoreError::Damaged("the row of the session is damaged".into()));
+            }
+            change(session)
+        })
+    }
+
+    /// Changes a session whose own row may be damaged.
+    fn mend<T>(
+        &self,
+        lease: &Lease,
+        change: impl FnOnce(&mut Session) -> Result<T, StoreError>,
+    ) -> Result<T, StoreError> {
         let mut kept = self.writing()?;
         self.leases.check(lease)?;
-        change(kept.sessions.get_mut(&lease.session).ok_or_else(unknown)?)
+        let session = kept.sessions.get_mut(&lease.session).ok_or_else(unknown)?;
+        let changed = change(session)?;
+        session.row = session.row.clone().sealed(&lease.session);
+        Ok(changed)
     }
 }
 
@@ -75,19 +85,10 @@ impl Store for MemoryStore {
         if kept.sessions.contains_key(&new.name) {
             return Err(StoreError::Damaged("there is such a session".into()));
         }
-        let snapshot = |bytes: Vec<u8>| SnapshotRow {
-            through: 0,
-            checksum: Some(snapshot_sum(&new.name, 0, &bytes)),
-            bytes,
-            simulation_version: new.simulation_version,
-        };
-        let session = Session {
-            seed: new.seed,
-            simulation_version: new.simulation_version,
-            journal: Vec::new(),
-            snapshots: new.snapshot.map(snapshot).into_iter().collect(),
-            aside: 0,
-        };
+        let row = SessionRow::new(&new);
+        let snapshot = |bytes| SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes);
+        let snapshots = new.snapshot.map(snapshot).into_iter().collect();
+        let session = Session { row, journal: Vec::new(), snapshots, aside: 0 };
         kept.sessions.insert(new.name, session);
         Ok(())
     }
@@ -111,37 +112,54 @@ impl Store for MemoryStore {
     ) -> Result<Option<StoredSession>, StoreError> {
         let kept = self.kept();
         let Some(session) = kept.sessions.get(name) else { return Ok(None) };
-        let mut damage = Vec::new();
+        let mut passed_over = Vec::new();
         let mut snapshot = None;
         let candidates = session.snapshots.iter().rev();
-        let mut candidates = candidates.filter(|row| before.is_none_or(|entry| row.through < entry));
-        for row in candidates.by_ref() {
+        for row in candidates.filter(|row| before.is_none_or(|entry| row.through < entry)) {
             if row.is_whole(name) {
                 snapshot = Some(row.clone());
                 break;
             }
-            damage.push(Damage::Snapshot(row.through));
-        }
-        if snapshot.is_none() && (before.is_some() || !damage.is_empty()) {
-            return Err(StoreError::Damaged(format!("no snapshot of session {name} is whole")));
+            passed_over.push(Damage::Snapshot(row.through));
         }
         let through = snapshot.as_ref().map_or(0, |row| row.through);
         let rows = session.journal.iter().filter(|row| row.last > through).cloned().collect();
-        let mut stored = assemble(name, session.seed, session.simulation_version, snapshot, rows);
-        stored.damage.splice(0..0, damage);
-        Ok(Some(stored))
+        let found = Found { row: session.row.clone(), passed_over, snapshot, rows };
+        found.assemble(name, before).map(Some)
     }
 
-    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError> {
-        self.change(lease, |session| {
-            let before = session.journal.len() + session.snapshots.len();
+    async fn set_aside(
+        &self,
+        lease: &Lease,
+        damage: &[Damage],
+        notices: &[Notice],
+    ) -> Result<(), StoreError> {
+        self.mend(lease, |session| {
             for part in damage {
                 match *part {
-                    Damage::Snapshot(through) => session.snapshots.retain(|row| row.through != through),
-                    Damage::Journal(from) => session.journal.retain(|row| row.last < from),
+                    Damage::Snapshot(through) => {
+                        session.aside +=
+                            session.snapshots.extract_if(.., |row| row.through == through).count();
+                    }
+                    Damage::Journal(from) => {
+                        let rows: Vec<_> = session.journal.extract_if(.., |row| row.last >= from).collect();
+                        session.aside += rows.len();
+                        session
+                            .journal
+                            .extend(rows.iter().filter_map(|row| row.before(&lease.session, from)));
+                        session.row.last_entry = from - 1;
+                    }
                 }
             }
-            session.aside += before - session.journal.len() - session.snapshots.len();
+            session.row.last_snapshot = session.snapshots.last().map(|row| row.through);
+            session.row.keep_notices(notices);
+            Ok(())
+        })
+    }
+
+    async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError> {
+        self.change(lease, |session| {
+            session.row.notices = None;
             Ok(())
         })
     }
@@ -157,10 +175,11 @@ impl Store for MemoryStore {
         }
         let row = JournalRow::seal(&lease.session, simulation_version, entries)?;
         self.change(lease, |session| {
-            let last = session.last();
+            let last = session.row.last_entry;
             if row.first != last + 1 {
                 return Err(StoreError::OutOfOrder { last, found: row.first });
             }
+            session.row.last_entry = row.last;
             session.journal.push(row);
             Ok(())
         })
@@ -168,11 +187,13 @@ impl Store for MemoryStore {
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
         let NewSnapshot { through, simulation_version, bytes } = snapshot;
-        let checksum = Some(snapshot_sum(&lease.session, through, &bytes));
+        let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes);
         self.change(lease, |session| {
             session.snapshots.retain(|row| row.through != through);
-            session.snapshots.push(SnapshotRow { through, bytes, checksum, simulation_version });
+            session.snapshots.push(row);
             session.snapshots.sort_by_key(|row| row.through);
+            session.row.last_snapshot = session.snapshots.last().map(|row| row.through);
+            session.row.last_entry = session.row.last_entry.max(through);
             let surplus = session.snapshots.len().saturating_sub(KEPT_SNAPSHOTS);
             session.snapshots.drain(..surplus);
             if session.snapshots.len() == KEPT_SNAPSHOTS {
@@ -186,15 +207,22 @@ impl Store for MemoryStore {
     async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         let key = TreeKey { saved_at: tree.saved_at.clone(), id: tree.id.clone() };
-        let checksum = tree_sum(&tree.id, &tree.document.bytes);
+        let checksum = tree_sum(&tree);
         kept.trees.insert(key, (tree, checksum));
         Ok(())
     }
 
     async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
-        let tree = kept.trees.values_mut().find(|(tree, _)| tree.id == id);
-        Ok(tree.map(|(tree, _)| tree.name = name.to_owned()).is_some())
+        let Some((tree, checksum)) = kept.trees.values_mut().find(|(tree, _)| tree.id == id) else {
+            return Ok(false);
+        };
+        let is_whole = *checksum == tree_sum(tree);
+        tree.name = name.to_owned();
+        if is_whole {
+            *checksum = tree_sum(tree);
+        }
+        Ok(true)
     }
 
     async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
@@ -221,8 +249,8 @@ impl Store for MemoryStore {
         let Some((tree, checksum)) = kept.trees.values().find(|(tree, _)| tree.id == id) else {
             return Ok(None);
         };
-        if *checksum != tree_sum(id, &tree.document.bytes) {
-            return Err(StoreError::Damaged(format!("the document of tree {id} is damaged")));
+        if *checksum != tree_sum(tree) {
+            return Err(StoreError::Damaged(format!("the tree {id} is damaged")));
         }
         Ok(Some(tree.document.clone()))
     }
@@ -256,6 +284,26 @@ impl super::contract::Breakable for MemoryStore {
         }
     }
 
+    async fn lose_journal(&self, session: &str, first: u64) {
+        let mut kept = self.kept();
+        kept.sessions.get_mut(session).unwrap().journal.retain(|row| row.first != first);
+    }
+
+    async fn break_version(&self, session: &str, first: u64) {
+        let mut kept = self.kept();
+        let mut rows = kept.sessions.get_mut(session).unwrap().journal.iter_mut();
+        rows.find(|row| row.first == first).unwrap().simulation_version += 1;
+    }
+
+    async fn break_session(&self, session: &str) {
+        self.kept().sessions.get_mut(session).unwrap().row.seed ^= 1;
+    }
+
+    async fn lose_snapshot(&self, session: &str, through: u64) {
+        let mut kept = self.kept();
+        kept.sessions.get_mut(session).unwrap().snapshots.retain(|row| row.through != through);
+    }
+
     async fn break_snapshot(&self, session: &str, through: u64) {
         let mut kept = self.kept();
         let rows = kept.sessions.get_mut(session).into_iter().flat_map(|session| &mut session.snapshots);
@@ -268,6 +316,12 @@ impl super::contract::Breakable for MemoryStore {
         let mut kept = self.kept();
         for (tree, _) in kept.trees.values_mut().filter(|(tree, _)| tree.id == id) {
             tree.document.bytes[0] ^= 1;
+        }
+    }
+
+    async fn break_name(&self, id: &str) {
+        for (tree, _) in self.kept().trees.values_mut().filter(|(tree, _)| tree.id == id) {
+            tree.name.push('!');
         }
     }
 

@@ -13,10 +13,11 @@ mod sqlite;
 
 use std::error::Error;
 
+use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 #[cfg(test)]
-pub use self::memory::MemoryStore;
+pub use self::{contract::Breakable, memory::MemoryStore};
 pub use self::{
     lease::Lease,
     sqlite::{OpenError, SqliteStore},
@@ -47,8 +48,13 @@ pub trait Store {
         before: Option<u64>,
     ) -> Result<Option<StoredSession>, StoreError>;
 
-    /// Puts damaged parts of a session aside, where they no longer count; nothing is deleted.
-    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError>;
+    /// Puts damaged parts of a session aside, where they no longer count; nothing is deleted. What is whole before a
+    /// damaged entry stays. At once it keeps notices, until [`Store::forget_notices`].
+    async fn set_aside(&self, lease: &Lease, damage: &[Damage], notices: &[Notice])
+    -> Result<(), StoreError>;
+
+    /// Forgets the notices of a session: somebody has had them.
+    async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError>;
 
     /// Writes entries that follow the last one, made under a version of the simulation.
     async fn append(
@@ -100,6 +106,9 @@ pub enum StoreError {
     /// What was read is not what was once written.
     #[error("{0}")]
     Damaged(String),
+    /// A newer program wrote it, in a form that this one does not know.
+    #[error("{0}")]
+    Later(String),
     /// Somebody else writes to this session now.
     #[error("the session has been taken over")]
     Fenced,
@@ -122,6 +131,7 @@ impl StoreError {
         match self {
             Self::Failed { words, .. } => words,
             Self::Damaged(_) => "its database is damaged",
+            Self::Later(_) => "a newer program wrote to its database",
             Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
             Self::Closed => "it is stopping",
         }
@@ -167,8 +177,12 @@ pub struct StoredSession {
     pub newest_version: u32,
     /// The least version that any of the entries was made by; none without entries.
     pub oldest_entries: Option<u32>,
-    /// What of it is damaged.
+    /// What of it is damaged or missing.
     pub damage: Vec<Damage>,
+    /// What nobody has been notified of yet.
+    pub notices: Vec<Notice>,
+    /// The version of the program that wrote to it last, if it is known.
+    pub written_by: Option<String>,
 }
 
 /// A part of a session that is not what was once written.
@@ -178,6 +192,16 @@ pub enum Damage {
     Snapshot(u64),
     /// The journal from this entry on: it is damaged or missing, and what follows does not count without it.
     Journal(u64),
+}
+
+impl Damage {
+    /// The last entry of the snapshot, if it is one.
+    fn snapshot(self) -> Option<u64> {
+        match self {
+            Self::Snapshot(through) => Some(through),
+            Self::Journal(_) => None,
+        }
+    }
 }
 
 /// A picture as it was handed in.
@@ -283,8 +307,17 @@ impl Store for AnyStore {
         delegate!(self.load_session(name, before))
     }
 
-    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError> {
-        delegate!(self.set_aside(lease, damage))
+    async fn set_aside(
+        &self,
+        lease: &Lease,
+        damage: &[Damage],
+        notices: &[Notice],
+    ) -> Result<(), StoreError> {
+        delegate!(self.set_aside(lease, damage, notices))
+    }
+
+    async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError> {
+        delegate!(self.forget_notices(lease))
     }
 
     async fn append(

@@ -1,12 +1,34 @@
 //! Rows with a checksum, and what of a session is whole.
 //!
 //! A checksum is over the row's key and its contents, so that a row in another's place is noticed as well. Rows of
-//! the first release have none.
+//! the first release have none, and get none: nobody can say whether they are whole. They are read entry by entry,
+//! as far as each can be read, until a snapshot has taken their place.
 
-use espalier_session::{JournalEntry, Principal};
+use espalier_proto::Notice;
+use espalier_session::{JournalEntry, Principal, read_command};
 use flate2::Crc;
+use serde_json::Value;
 
-use super::{Damage, StoreError, StoredSession};
+use super::{Damage, NewSession, NewTree, StoreError, StoredSession};
+
+/// This program, as it is named in what it writes.
+const PROGRAM: &str = env!("CARGO_PKG_VERSION");
+
+/// What is kept of a session beside its journal and its snapshots.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct SessionRow {
+    pub(super) seed: u32,
+    pub(super) simulation_version: u32,
+    /// The last entry there was.
+    pub(super) last_entry: u64,
+    /// The last entry of the newest snapshot there was.
+    pub(super) last_snapshot: Option<u64>,
+    /// A JSON array of notices that nobody has had yet.
+    pub(super) notices: Option<String>,
+    pub(super) written_by: Option<String>,
+    /// None for rows of the first release.
+    pub(super) checksum: Option<u32>,
+}
 
 /// Consecutive entries as they are kept.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,6 +52,63 @@ pub(super) struct SnapshotRow {
     pub(super) simulation_version: u32,
 }
 
+impl SessionRow {
+    pub(super) fn new(new: &NewSession) -> Self {
+        let row = Self {
+            seed: new.seed,
+            simulation_version: new.simulation_version,
+            last_entry: 0,
+            last_snapshot: new.snapshot.as_ref().map(|_| 0),
+            notices: None,
+            written_by: None,
+            checksum: None,
+        };
+        row.sealed(&new.name)
+    }
+
+    /// The same as this program writes it.
+    pub(super) fn sealed(mut self, session: &str) -> Self {
+        self.written_by = Some(PROGRAM.into());
+        self.checksum = Some(self.sum(session));
+        self
+    }
+
+    /// Notices that are kept until somebody has had them.
+    pub(super) fn keep_notices(&mut self, notices: &[Notice]) {
+        let mut all = self.notices();
+        for notice in notices {
+            if !all.contains(notice) {
+                all.push(notice.clone());
+            }
+        }
+        self.notices = (!all.is_empty()).then(|| serde_json::to_string(&all).unwrap_or_default());
+    }
+
+    fn notices(&self) -> Vec<Notice> {
+        // A newer program may keep notices that this one has no words for.
+        self.notices.as_deref().and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default()
+    }
+
+    pub(super) fn is_whole(&self, session: &str) -> bool {
+        self.checksum.is_none_or(|checksum| checksum == self.sum(session))
+    }
+
+    fn sum(&self, session: &str) -> u32 {
+        let snapshot = self.last_snapshot.unwrap_or(u64::MAX);
+        sum(&[
+            session.as_bytes(),
+            &[0],
+            &self.seed.to_le_bytes(),
+            &self.simulation_version.to_le_bytes(),
+            &self.last_entry.to_le_bytes(),
+            &snapshot.to_le_bytes(),
+            self.written_by.as_deref().unwrap_or_default().as_bytes(),
+            &[0],
+            self.notices.as_deref().unwrap_or_default().as_bytes(),
+        ])
+    }
+}
+
 impl JournalRow {
     /// Seals entries, of which there is at least one.
     pub(super) fn seal(
@@ -44,74 +123,161 @@ impl JournalRow {
         let entry = |entry: &JournalEntry| (entry.principal.to_string(), entry.id, entry.command.clone());
         let entries = serde_json::to_string(&entries.iter().map(entry).collect::<Vec<_>>())
             .map_err(|error| StoreError::Damaged(error.to_string()))?;
-        let checksum = Some(journal_sum(session, first, last, &entries));
-        Ok(Self { first, last, entries, checksum, simulation_version })
+        Ok(Self { first, last, entries, checksum: None, simulation_version }.with_sum(session))
     }
 
-    /// The entries, unless the row is not what was written.
-    fn open(&self, session: &str) -> Option<Vec<JournalEntry>> {
-        let sum = || journal_sum(session, self.first, self.last, &self.entries);
-        if self.checksum.is_some_and(|checksum| checksum != sum()) {
-            return None;
-        }
-        let entries: Vec<(String, u32, String)> = serde_json::from_str(&self.entries).ok()?;
-        if self.first.checked_add(entries.len() as u64)? != self.last.checked_add(1)? {
-            return None;
-        }
-        let entry = |(number, (principal, id, command)): (u64, (String, u32, String))| {
-            Some(JournalEntry { number, principal: Principal::parse(&principal)?, id, command })
+    pub(super) fn with_sum(mut self, session: &str) -> Self {
+        self.checksum = Some(self.sum(session));
+        self
+    }
+
+    fn sum(&self, session: &str) -> u32 {
+        let version = self.simulation_version.to_le_bytes();
+        let (first, last) = (self.first.to_le_bytes(), self.last.to_le_bytes());
+        sum(&[session.as_bytes(), &[0], &version, &first, &last, self.entries.as_bytes()])
+    }
+
+    /// The entries up to the first that is not what was written.
+    ///
+    /// # Errors
+    ///
+    /// The row is whole, but in a form that this program does not know.
+    fn open(&self, session: &str) -> Result<Vec<JournalEntry>, StoreError> {
+        let Some(checksum) = self.checksum else {
+            return Ok(self.read(|entry| read_command(&entry.command).is_ok()));
         };
-        (self.first..).zip(entries).map(entry).collect()
+        if checksum != self.sum(session) {
+            return Ok(Vec::new());
+        }
+        let entries = self.read(|_| true);
+        if entries.len() as u64 == self.count() {
+            return Ok(entries);
+        }
+        Err(StoreError::Later(format!(
+            "its journal entry {} has a later form",
+            self.first + entries.len() as u64
+        )))
+    }
+
+    /// The entries before the first that cannot be read or is not wanted.
+    fn read(&self, is_wanted: impl Fn(&JournalEntry) -> bool) -> Vec<JournalEntry> {
+        let values: Vec<Value> = serde_json::from_str(&self.entries).unwrap_or_default();
+        if values.len() as u64 > self.count() {
+            return Vec::new();
+        }
+        let entry = |(number, value): (u64, Value)| {
+            let (principal, id, command): (String, u32, String) = serde_json::from_value(value).ok()?;
+            Some(JournalEntry { number, principal: Principal::parse(&principal)?, id, command })
+                .filter(&is_wanted)
+        };
+        (self.first..).zip(values).map_while(entry).collect()
+    }
+
+    fn count(&self) -> u64 {
+        (self.last - self.first.min(self.last)).saturating_add(1)
+    }
+
+    /// What is whole of it before an entry, if anything is.
+    pub(super) fn before(&self, session: &str, entry: u64) -> Option<Self> {
+        let mut entries = self.open(session).unwrap_or_default();
+        entries.retain(|one| one.number < entry);
+        Self::seal(session, self.simulation_version, &entries).ok()
     }
 }
 
 impl SnapshotRow {
+    pub(super) fn seal(session: &str, through: u64, simulation_version: u32, bytes: Vec<u8>) -> Self {
+        let checksum = Some(snapshot_sum(session, simulation_version, through, &bytes));
+        Self { through, bytes, checksum, simulation_version }
+    }
+
     pub(super) fn is_whole(&self, session: &str) -> bool {
-        self.checksum.is_none_or(|checksum| checksum == snapshot_sum(session, self.through, &self.bytes))
+        let sum = || snapshot_sum(session, self.simulation_version, self.through, &self.bytes);
+        self.checksum.is_none_or(|checksum| checksum == sum())
     }
 }
 
-/// Puts a session together from the snapshot it goes on from and the rows behind that, as far as they are whole.
-pub(super) fn assemble(
-    session: &str,
-    seed: u32,
-    made_by: u32,
-    snapshot: Option<SnapshotRow>,
-    rows: Vec<JournalRow>,
-) -> StoredSession {
-    let mut stored = StoredSession { seed, newest_version: made_by, ..StoredSession::default() };
-    if let Some(row) = snapshot {
-        (stored.through, stored.newest_version) = (row.through, row.simulation_version);
-        stored.snapshot = Some(row.bytes);
-    }
-    let mut next = stored.through.saturating_add(1);
-    for row in rows {
-        let Some(entries) = Some(&row).filter(|row| row.first <= next).and_then(|row| row.open(session))
-        else {
-            stored.damage.push(Damage::Journal(next));
-            break;
+/// What was found of a session.
+#[derive(Debug)]
+pub(super) struct Found {
+    pub(super) row: SessionRow,
+    /// Damaged snapshots, newest first.
+    pub(super) passed_over: Vec<Damage>,
+    /// The newest whole one.
+    pub(super) snapshot: Option<SnapshotRow>,
+    /// Rows that hold entries after it.
+    pub(super) rows: Vec<JournalRow>,
+}
+
+impl Found {
+    /// Puts a session together as far as it is whole, from a snapshot before an entry if one is given.
+    pub(super) fn assemble(self, session: &str, before: Option<u64>) -> Result<StoredSession, StoreError> {
+        let Self { row, passed_over, snapshot, rows } = self;
+        let is_whole = row.is_whole(session);
+        let newest = passed_over.iter().filter_map(|part| part.snapshot()).max();
+        let newest = newest.max(snapshot.as_ref().map(|row| row.through));
+        let expected = row.last_snapshot.filter(|last| is_whole && before.is_none_or(|entry| *last < entry));
+        let lost = expected.filter(|_| expected > newest).map(Damage::Snapshot);
+        let mut stored = StoredSession {
+            seed: row.seed,
+            newest_version: row.simulation_version,
+            notices: row.notices(),
+            written_by: row.written_by.clone(),
+            damage: lost.into_iter().chain(passed_over).collect(),
+            ..StoredSession::default()
         };
-        stored.entries.extend(entries.into_iter().filter(|entry| entry.number >= next));
-        next = next.max(row.last + 1);
-        stored.newest_version = stored.newest_version.max(row.simulation_version);
-        let oldest = stored.oldest_entries.map_or(row.simulation_version, |v| v.min(row.simulation_version));
-        stored.oldest_entries = Some(oldest);
+        match snapshot {
+            Some(snapshot) => {
+                (stored.through, stored.newest_version) = (snapshot.through, snapshot.simulation_version);
+                stored.snapshot = Some(snapshot.bytes);
+            }
+            // The journal alone is no way back: what came before the oldest snapshot may be gone, or a saved tree.
+            None if before.is_some() || !stored.damage.is_empty() => {
+                return Err(StoreError::Damaged(format!("no snapshot of session {session} is whole")));
+            }
+            None if !is_whole => {
+                return Err(StoreError::Damaged(format!("the row of session {session} is damaged")));
+            }
+            None => {}
+        }
+        let mut next = stored.through.saturating_add(1);
+        for journal in rows {
+            let entries = if journal.first <= next { journal.open(session)? } else { Vec::new() };
+            let end = journal.first.saturating_add(entries.len() as u64);
+            stored.entries.extend(entries.into_iter().filter(|entry| entry.number >= next));
+            if end > next {
+                next = end;
+                let version = journal.simulation_version;
+                stored.newest_version = stored.newest_version.max(version);
+                stored.oldest_entries =
+                    Some(stored.oldest_entries.map_or(version, |oldest| oldest.min(version)));
+            }
+            if next <= journal.last {
+                stored.damage.push(Damage::Journal(next));
+                return Ok(stored);
+            }
+        }
+        // Where the session's row is damaged, nobody knows what else there was.
+        if next <= row.last_entry || !is_whole {
+            stored.damage.push(Damage::Journal(next));
+        }
+        Ok(stored)
     }
-    stored
 }
 
-/// Of a snapshot.
-pub(super) fn snapshot_sum(session: &str, through: u64, bytes: &[u8]) -> u32 {
-    sum(&[session.as_bytes(), &[0], &through.to_le_bytes(), bytes])
+/// Of a saved tree.
+pub(super) fn tree_sum(tree: &NewTree) -> u32 {
+    let NewTree { id, name, document, .. } = tree;
+    tree_sum_of(id, name, document.simulation_version, &document.bytes)
 }
 
-/// Of a saved tree's document.
-pub(super) fn tree_sum(id: &str, document: &[u8]) -> u32 {
-    sum(&[id.as_bytes(), &[0], document])
+/// The same from its parts.
+pub(super) fn tree_sum_of(id: &str, name: &str, simulation_version: u32, document: &[u8]) -> u32 {
+    sum(&[id.as_bytes(), &[0], name.as_bytes(), &[0], &simulation_version.to_le_bytes(), document])
 }
 
-fn journal_sum(session: &str, first: u64, last: u64, entries: &str) -> u32 {
-    sum(&[session.as_bytes(), &[0], &first.to_le_bytes(), &last.to_le_bytes(), entries.as_bytes()])
+fn snapshot_sum(session: &str, simulation_version: u32, through: u64, bytes: &[u8]) -> u32 {
+    sum(&[session.as_bytes(), &[0], &simulation_version.to_le_bytes(), &through.to_le_bytes(), bytes])
 }
 
 /// CRC-32.

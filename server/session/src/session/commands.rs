@@ -132,9 +132,8 @@ impl Session {
     /// A command in good form, read back from the very text the journal will hold, so that a replay cannot differ.
     pub(super) fn check(&self, mut command: Command) -> Result<(Command, String), Problem> {
         form::check(&command.action)?;
-        if let Action::Stop { tick } = &mut command.action {
-            // The slice under way began at the figures known here, so growth cannot be beyond this when it returns.
-            *tick = Some(self.figures.steps_begun.saturating_add(SLICE_STEPS));
+        if let Action::Stop { .. } = command.action {
+            command.action = self.stop_now();
         }
         let text = serde_json::to_string(&command)
             .map_err(|error| Problem::new(ProblemCode::Malformed, error.to_string()))?;
@@ -148,6 +147,12 @@ impl Session {
             return Err(Problem::new(ProblemCode::TooMany, message));
         }
         Ok((command, text))
+    }
+
+    /// A stop of all growth under way (`ST1`).
+    pub(super) fn stop_now(&self) -> Action {
+        // The slice under way began at the figures known here, so growth cannot be beyond this when it returns.
+        Action::Stop { tick: Some(self.figures.steps_begun.saturating_add(SLICE_STEPS)) }
     }
 
     /// Gives a command its place in the order; the number of its journal entry.

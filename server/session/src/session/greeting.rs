@@ -96,8 +96,12 @@ impl Session {
         self.send(client, &ServerMessage::Timeline(Box::new(self.timeline.clone())));
         // Who resumes has been notified before, for the epoch is the same (`OP3`).
         let notices = if resumed { Vec::new() } else { self.notices.clone() };
+        let is_notified = !notices.is_empty();
         for notice in notices {
             self.send(client, &ServerMessage::Notice { notice });
+        }
+        if let Some(client) = self.clients.get_mut(&client).filter(|_| is_notified) {
+            client.notified_after = Some(client.unread);
         }
         self.upkeep.state_changed = true;
     }

@@ -8,7 +8,10 @@ use std::{
 use espalier_proto::{Action, DocumentState, ServerMessage, version::CloseCode};
 
 use super::{Session, text_of};
-use crate::io::{ClientId, Output};
+use crate::{
+    io::{ClientId, Output},
+    principal::Principal,
+};
 
 /// How long the strokes of a client that went away stay open, in milliseconds (`CM5`).
 const ABSENCE_MS: u64 = 30_000;
@@ -22,6 +25,9 @@ const SNAPSHOT_COMMANDS: u64 = 512;
 const SNAPSHOT_METAMERS: u64 = 50;
 /// After a pause of so many milliseconds a snapshot is made.
 const SNAPSHOT_PAUSE_MS: u64 = 30_000;
+
+/// A snapshot that could not be kept is made anew after so many milliseconds.
+const SNAPSHOT_RETRY_MS: u64 = 5_000;
 
 /// Deadlines and what they are about.
 #[derive(Debug)]
@@ -45,9 +51,12 @@ pub(super) struct Upkeep {
     pub(super) widths_changed: bool,
     widths_due: u64,
     pub(super) last_command_at: u64,
-    /// The last entry in a snapshot that was handed out.
+    /// The last entry in a snapshot that is kept.
     snapshotted: u64,
+    /// Whether a snapshot is being made, waits for the journal, or is on its way to the disk.
     snapshot_asked: bool,
+    /// When the next one is made after one that could not be kept.
+    retry_at: Option<u64>,
     /// When the document contains this entry a snapshot is made, without waiting for a pause.
     keep_through: Option<u64>,
     /// A snapshot whose entries are not all durable yet, with the last of them.
@@ -72,6 +81,7 @@ impl Upkeep {
             last_command_at: 0,
             snapshotted,
             snapshot_asked: false,
+            retry_at: None,
             keep_through: None,
             snapshot: None,
             wake_at: None,
@@ -83,6 +93,11 @@ impl Upkeep {
         self.wake_at = None;
     }
 
+    /// When a snapshot is made of what is in none, if nothing else asks for it.
+    fn next_snapshot(&self) -> u64 {
+        self.retry_at.unwrap_or(self.last_command_at + SNAPSHOT_PAUSE_MS)
+    }
+
     /// A snapshot is wanted as soon as the document contains this entry.
     pub(super) fn keep_through(&mut self, entry: u64) {
         self.keep_through = Some(entry);
@@ -90,13 +105,30 @@ impl Upkeep {
 
     /// The document came home with a snapshot.
     pub(super) fn snapshot_made(&mut self, through: u64, bytes: Vec<u8>) {
-        self.snapshot_asked = false;
         self.snapshot = Some((through, bytes));
     }
 
-    /// Whether nothing waits for the clock and a snapshot holds everything up to `last`.
-    pub(super) fn is_done(&self, last: u64) -> bool {
-        self.absences.is_empty() && self.overdue.is_empty() && self.snapshotted == last
+    /// The snapshot that was handed out is kept.
+    pub(super) fn snapshot_kept(&mut self, through: u64) {
+        self.snapshot_asked = false;
+        self.retry_at = None;
+        self.snapshotted = self.snapshotted.max(through);
+    }
+
+    /// It is not: the journal it was to cover is all there is.
+    pub(super) fn snapshot_failed(&mut self, now: u64) {
+        self.snapshot_asked = false;
+        self.retry_at = Some(now + SNAPSHOT_RETRY_MS);
+    }
+
+    /// Whether a snapshot holds everything up to `last`.
+    pub(super) fn holds(&self, last: u64) -> bool {
+        self.snapshotted == last
+    }
+
+    /// Whether nothing waits for the clock.
+    pub(super) fn is_done(&self) -> bool {
+        self.absences.is_empty() && self.overdue.is_empty()
     }
 }
 
@@ -129,6 +161,21 @@ impl Session {
             self.upkeep.absences.push_back((until, Arc::clone(key)));
         }
         self.authors.leave(key);
+    }
+
+    /// The session is to be put away: what would take long ends, and what was done is kept.
+    pub(super) fn stop(&mut self) {
+        for guest in self.clients.values_mut().filter_map(|client| client.guest.as_mut()) {
+            guest.vision.cancel();
+            guest.vision.wanted = None;
+        }
+        if self.state().pending_steps > 0 {
+            let action = self.stop_now();
+            if let Ok(text) = serde_json::to_string(&action) {
+                self.accept(Principal::visitor().name(), 0, action.into(), text, None);
+            }
+        }
+        self.upkeep.keep_through(self.journal.last());
     }
 
     /// Does all that is due now.
@@ -191,10 +238,10 @@ impl Session {
     pub(super) fn snapshot_due(&mut self, applied: u64) -> bool {
         let since = applied - self.upkeep.snapshotted;
         let many = SNAPSHOT_COMMANDS.max(u64::from(self.figures.metamers) / SNAPSHOT_METAMERS);
-        let pause = self.now >= self.upkeep.last_command_at + SNAPSHOT_PAUSE_MS;
-        let asked = self.upkeep.snapshot_asked || self.upkeep.snapshot.is_some();
+        let asked = self.upkeep.snapshot_asked;
         let there = self.upkeep.keep_through.is_some_and(|entry| applied >= entry);
-        let due = !asked && (since >= many || since > 0 && (pause || there));
+        let many = self.upkeep.retry_at.is_none() && since >= many;
+        let due = !asked && (many || since > 0 && (there || self.now >= self.upkeep.next_snapshot()));
         self.upkeep.snapshot_asked |= due;
         self.upkeep.keep_through.take_if(|_| there && !asked);
         due
@@ -204,7 +251,6 @@ impl Session {
     fn hand_out_snapshot(&mut self) {
         let durable = self.journal.durable();
         if let Some((through, bytes)) = self.upkeep.snapshot.take_if(|(through, _)| *through <= durable) {
-            self.upkeep.snapshotted = through;
             self.outputs.push_back(Output::Snapshot { through, bytes });
         }
     }
@@ -215,9 +261,8 @@ impl Session {
         let state = upkeep.state_changed.then_some(upkeep.state_due);
         let timeline = upkeep.timeline_changed.then_some(upkeep.timeline_due);
         let widths = upkeep.widths_changed.then_some(upkeep.widths_due);
-        let unkept =
-            self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked && upkeep.snapshot.is_none();
-        let pause = (unkept && self.home.is_some()).then_some(upkeep.last_command_at + SNAPSHOT_PAUSE_MS);
+        let unkept = self.journal.last() > upkeep.snapshotted && !upkeep.snapshot_asked;
+        let pause = (unkept && self.home.is_some()).then(|| upkeep.next_snapshot());
         let hello = upkeep.hellos.front().map(|(due, _)| *due);
         let absence = upkeep.absences.front().map(|(due, _)| *due);
         let earliest = [state, timeline, widths, pause, hello, absence].into_iter().flatten().min();

@@ -163,22 +163,63 @@ fn undo_reaches_behind_a_restart() {
 }
 
 #[test]
-fn a_session_that_is_put_away_keeps_a_snapshot_of_everything() {
+fn op2_a_session_that_is_put_away_stops_growing_and_keeps_a_snapshot_of_everything() {
     let mut world = World::new();
     let client = world.join("birch-01");
-    world.command(client, 1, grow(40));
-    world.command(client, 2, grow(3));
+    world.command(client, 1, grow(3));
+    world.command(client, 2, grow(1000));
     world.pass(10);
     assert!(world.working.is_some(), "it is still growing");
     world.handle(Input::Stopping);
     world.settle();
-    assert_eq!(world.snapshot.as_ref().map(|(through, _)| *through), Some(2));
-    assert_eq!((world.disk.len(), world.document().figures().step), (2, 43));
+    let step = world.document().figures().step;
+    assert!((3..30).contains(&step), "growth goes no further than its next slice: {step}");
+    assert_eq!(world.snapshot.as_ref().map(|(through, _)| *through), Some(3));
+    assert!(world.session.is_kept());
+    assert!(world.disk[2].command.contains("stop"), "a replay ends there as well");
     // What a snapshot holds already needs no other.
     let before = world.snapshots;
     world.handle(Input::Stopping);
     world.settle();
-    assert_eq!(world.snapshots, before);
+    assert_eq!((world.snapshots, world.disk.len()), (before, 3));
+    restart_and_compare(&mut world);
+}
+
+#[test]
+fn op2_predictions_end_when_the_session_is_put_away() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, grow(3));
+    world.settle();
+    world.send(client, &json!({ "type": "predict", "rows": [], "steps": 40 }));
+    world.handle(Input::Stopping);
+    world.settle();
+    world.pass(100);
+    assert!(world.peer(client).ghosts.is_empty(), "nobody waits for it");
+    assert!(world.session.is_kept());
+}
+
+#[test]
+fn a_snapshot_that_was_not_kept_covers_nothing_and_is_made_again_soon() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.is_full = true;
+    world.command(client, 1, grow(2));
+    world.pass(31_000);
+    assert_eq!((world.snapshots, world.session.is_kept()), (1, false));
+    assert_eq!(world.peer(client).acknowledged(), [1], "the journal holds it");
+    world.pass(4_000);
+    assert_eq!(world.snapshots, 1, "not at once");
+    world.pass(2_000);
+    assert_eq!(world.snapshots, 2);
+    world.leave(client);
+    world.pass(31_000);
+    assert!(!world.session.is_idle(), "nothing holds what was done but the journal");
+    world.is_full = false;
+    world.pass(6_000);
+    assert!(world.session.is_kept() && world.session.is_idle());
+    assert_eq!(world.snapshot.as_ref().unwrap().0, 1);
+    restart_and_compare(&mut world);
 }
 
 #[test]
@@ -199,7 +240,18 @@ fn op3_everybody_is_notified_once_of_how_the_session_was_opened() {
             })
             .collect()
     };
-    let (first, second) = (world.join("birch-01"), world.join("birch-02"));
+    world.pass(100);
+    assert_eq!(world.notified, 0, "nobody is here");
+    let deaf = world.connect();
+    world.peer_mut(deaf).deaf = true;
+    world.hello(deaf, "birch-03", None);
+    world.pass(100);
+    assert_eq!(world.notified, 0, "they have not gone out");
+    world.leave(deaf);
+    let first = world.join("birch-01");
+    world.pass(100);
+    assert_eq!(world.notified, 1);
+    let second = world.join("birch-02");
     world.settle();
     assert_eq!(notices(&world, first), sent);
     assert_eq!(notices(&world, second), sent);
@@ -284,7 +336,11 @@ fn a_clean_stop_leaves_no_tail() {
     world.leave(client);
     world.handle(Input::Stopping);
     world.pass(100);
-    assert_eq!(world.snapshot.as_ref().unwrap().0, 2, "what waited was done, and a snapshot holds it");
+    assert_eq!(
+        world.snapshot.as_ref().unwrap().0,
+        3,
+        "what waited ended or was done, and a snapshot holds it"
+    );
     let hash = world.document().hash();
     world.disk.clear();
     world.crash();

@@ -47,6 +47,11 @@ pub struct World {
     /// The saved tree the session was opened with.
     origin: Option<Vec<u8>>,
     pub snapshots: usize,
+    /// Whether snapshots find no room on the disk.
+    pub is_full: bool,
+    /// How often somebody has had the notices.
+    pub notified: usize,
+    answers: Vec<Input>,
     pub documents: Vec<(ReadId, Vec<u8>, u32)>,
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
@@ -80,6 +85,9 @@ impl World {
             disk: Vec::new(),
             snapshot: None,
             snapshots: 0,
+            is_full: false,
+            notified: 0,
+            answers: Vec::new(),
             documents: Vec::new(),
             acts: Vec::new(),
             writing: None,
@@ -103,6 +111,7 @@ impl World {
         self.peers.clear();
         (self.writing, self.working, self.wake_at) = (None, None, None);
         self.predictions.clear();
+        self.answers.clear();
     }
 
     pub fn handle(&mut self, input: Input) {
@@ -160,9 +169,15 @@ impl World {
             Output::Snapshot { through, bytes } => {
                 let durable = self.disk.last().map_or(0, |entry| entry.number);
                 assert!(through <= durable, "a snapshot is never ahead of the journal");
-                self.snapshot = Some((through, bytes));
                 self.snapshots += 1;
+                if self.is_full {
+                    self.answers.push(Input::SnapshotFailed);
+                } else {
+                    self.snapshot = Some((through, bytes));
+                    self.answers.push(Input::SnapshotKept(through));
+                }
             }
+            Output::Notified => self.notified += 1,
             Output::Acted { act, outcome } => self.acts.push((act, outcome)),
             Output::Document { read, bytes, metamers } => self.documents.push((read, bytes, metamers)),
             Output::WakeAt(at) => self.wake_at = Some(at),
@@ -174,6 +189,10 @@ impl World {
         let end = self.now + ms;
         loop {
             self.let_peers_read();
+            if let Some(answer) = self.answers.pop() {
+                self.handle(answer);
+                continue;
+            }
             let write = self.writing.as_ref().map(|(due, _)| *due);
             let work = self.working.as_ref().map(|(due, _)| *due);
             if let Some(mut prediction) = self.predictions.pop() {

@@ -6,6 +6,7 @@ mod sessions;
 mod trees;
 mod writer;
 
+use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 #[cfg(test)]
@@ -15,7 +16,7 @@ use self::{sessions::SessionWrite, trees::TreeWrite, writer::Write};
 use super::{
     Damage, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError, StoredSession, StoredTree,
     TreeDocument, TreeKey,
-    seal::{JournalRow, SnapshotRow, snapshot_sum},
+    seal::{JournalRow, SnapshotRow},
 };
 
 impl Store for SqliteStore {
@@ -44,9 +45,18 @@ impl Store for SqliteStore {
         sessions::load(&self.readers, name, before).await
     }
 
-    async fn set_aside(&self, lease: &Lease, damage: &[Damage]) -> Result<(), StoreError> {
-        let write = SessionWrite::SetAside(lease.clone(), damage.to_vec());
+    async fn set_aside(
+        &self,
+        lease: &Lease,
+        damage: &[Damage],
+        notices: &[Notice],
+    ) -> Result<(), StoreError> {
+        let write = SessionWrite::SetAside(lease.clone(), damage.to_vec(), notices.to_vec());
         self.writer.write(Write::Session(write)).await.map(drop)
+    }
+
+    async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError> {
+        self.writer.write(Write::Session(SessionWrite::ForgetNotices(lease.clone()))).await.map(drop)
     }
 
     async fn append(
@@ -64,8 +74,7 @@ impl Store for SqliteStore {
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
         let NewSnapshot { through, simulation_version, bytes } = snapshot;
-        let checksum = Some(snapshot_sum(&lease.session, through, &bytes));
-        let row = SnapshotRow { through, bytes, checksum, simulation_version };
+        let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes);
         self.writer.write(Write::Session(SessionWrite::Snapshot(lease.clone(), row))).await.map(drop)
     }
 
@@ -162,6 +171,27 @@ mod tests {
             .await;
         }
 
+        async fn lose_journal(&self, session: &str, first: u64) {
+            self.sql(format!("DELETE FROM journal WHERE session = '{session}' AND first = {first}")).await;
+        }
+
+        async fn break_version(&self, session: &str, first: u64) {
+            self.sql(format!(
+                "UPDATE journal SET simulation_version = simulation_version + 1
+                 WHERE session = '{session}' AND first = {first}"
+            ))
+            .await;
+        }
+
+        async fn break_session(&self, session: &str) {
+            self.sql(format!("UPDATE sessions SET seed = 5 WHERE name = '{session}'")).await;
+        }
+
+        async fn lose_snapshot(&self, session: &str, through: u64) {
+            self.sql(format!("DELETE FROM snapshots WHERE session = '{session}' AND through = {through}"))
+                .await;
+        }
+
         async fn break_snapshot(&self, session: &str, through: u64) {
             self.sql(format!(
                 "UPDATE snapshots SET bytes = x'ff' WHERE session = '{session}' AND through = {through}"
@@ -171,6 +201,10 @@ mod tests {
 
         async fn break_tree(&self, id: &str) {
             self.sql(format!("UPDATE trees SET document = x'ff' WHERE id = '{id}'")).await;
+        }
+
+        async fn break_name(&self, id: &str) {
+            self.sql(format!("UPDATE trees SET name = 'Elm' WHERE id = '{id}'")).await;
         }
 
         async fn set_aside_parts(&self, session: &str) -> usize {

@@ -1,5 +1,6 @@
 //! Sessions in SQLite.
 
+use espalier_proto::Notice;
 use sqlx::Row as _;
 use sqlx::{
     SqlitePool,
@@ -9,7 +10,7 @@ use sqlx::{
 use super::super::{
     Damage, KEPT_SNAPSHOTS, Lease, NewSession, StoreError, StoredSession,
     lease::Leases,
-    seal::{JournalRow, SnapshotRow, assemble, snapshot_sum},
+    seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
 
 #[derive(Debug)]
@@ -17,7 +18,8 @@ pub(super) enum SessionWrite {
     Create(NewSession),
     Append(Lease, JournalRow),
     Snapshot(Lease, SnapshotRow),
-    SetAside(Lease, Vec<Damage>),
+    SetAside(Lease, Vec<Damage>, Vec<Notice>),
+    ForgetNotices(Lease),
 }
 
 pub(super) async fn exists(readers: &SqlitePool, name: &str) -> Result<bool, StoreError> {
@@ -35,42 +37,63 @@ pub(super) async fn load(
 ) -> Result<Option<StoredSession>, StoreError> {
     // One transaction sees one state: a snapshot and a deletion may come in between otherwise.
     let mut transaction = readers.begin().await?;
-    let Some((seed, made_by)) =
-        sqlx::query_as::<_, (u32, u32)>("SELECT seed, simulation_version FROM sessions WHERE name = ?")
-            .bind(name)
-            .fetch_optional(&mut *transaction)
-            .await?
-    else {
-        return Ok(None);
-    };
-    let mut damage = Vec::new();
-    let mut before = before;
+    let Some(row) = session_row(&mut transaction, name).await? else { return Ok(None) };
+    let made_by = row.simulation_version;
+    let mut passed_over = Vec::new();
+    let mut earlier = before;
     let snapshot = loop {
-        let Some(row) = newest_snapshot(&mut transaction, name, before, made_by).await? else { break None };
+        let Some(row) = newest_snapshot(&mut transaction, name, earlier, made_by).await? else { break None };
         if row.is_whole(name) {
             break Some(row);
         }
-        damage.push(Damage::Snapshot(row.through));
-        before = Some(row.through);
+        passed_over.push(Damage::Snapshot(row.through));
+        earlier = Some(row.through);
     };
-    // The journal alone is no way back: what came before the oldest snapshot may be gone, or a saved tree.
-    if snapshot.is_none() && before.is_some() {
-        return Err(StoreError::Damaged(format!("no snapshot of session {name} is whole")));
-    }
     let through = snapshot.as_ref().map_or(0, |row| row.through);
-    let rows = sqlx::query(
-        "SELECT first, last, entries, checksum, coalesce(simulation_version, ?3) AS version
-         FROM journal WHERE session = ?1 AND last > ?2 ORDER BY first",
+    let rows = journal_rows(&mut transaction, name, through.saturating_add(1), made_by).await?;
+    Found { row, passed_over, snapshot, rows }.assemble(name, before).map(Some)
+}
+
+async fn session_row(
+    connection: &mut SqliteConnection,
+    name: &str,
+) -> Result<Option<SessionRow>, sqlx::Error> {
+    let row = sqlx::query(
+        "SELECT seed, simulation_version, last_entry, last_snapshot, notices, written_by, checksum
+         FROM sessions WHERE name = ?",
     )
     .bind(name)
-    .bind(through.cast_signed())
-    .bind(made_by)
-    .fetch_all(&mut *transaction)
+    .fetch_optional(connection)
     .await?;
-    let rows = rows.iter().map(journal_row).collect::<Result<_, _>>()?;
-    let mut stored = assemble(name, seed, made_by, snapshot, rows);
-    stored.damage.splice(0..0, damage);
-    Ok(Some(stored))
+    let Some(row) = row else { return Ok(None) };
+    Ok(Some(SessionRow {
+        seed: row.try_get("seed")?,
+        simulation_version: row.try_get("simulation_version")?,
+        last_entry: row.try_get::<i64, _>("last_entry")?.cast_unsigned(),
+        last_snapshot: row.try_get::<Option<i64>, _>("last_snapshot")?.map(i64::cast_unsigned),
+        notices: row.try_get("notices")?,
+        written_by: row.try_get("written_by")?,
+        checksum: row.try_get("checksum")?,
+    }))
+}
+
+/// The rows that hold an entry or one after it.
+async fn journal_rows(
+    connection: &mut SqliteConnection,
+    session: &str,
+    from: u64,
+    made_by: u32,
+) -> Result<Vec<JournalRow>, sqlx::Error> {
+    let rows = sqlx::query(
+        "SELECT first, last, entries, checksum, coalesce(simulation_version, ?3) AS version
+         FROM journal WHERE session = ?1 AND last >= ?2 ORDER BY first",
+    )
+    .bind(session)
+    .bind(from.cast_signed())
+    .bind(made_by)
+    .fetch_all(connection)
+    .await?;
+    rows.iter().map(journal_row).collect()
 }
 
 async fn newest_snapshot(
@@ -114,30 +137,77 @@ impl SessionWrite {
         connection: &mut SqliteConnection,
         leases: &Leases,
     ) -> Result<u64, StoreError> {
-        match self {
-            Self::Create(new) => create(connection, new).await,
-            Self::Append(lease, row) => {
-                leases.check(lease)?;
-                append(connection, &lease.session, row).await
-            }
-            Self::Snapshot(lease, row) => {
-                leases.check(lease)?;
-                insert_snapshot(connection, &lease.session, row).await?;
-                drop_what_nobody_needs(connection, &lease.session).await
-            }
-            Self::SetAside(lease, damage) => {
-                leases.check(lease)?;
-                for part in damage {
-                    set_aside(connection, &lease.session, *part).await?;
-                }
-                Ok(damage.len() as u64)
-            }
+        let (lease, change) = match self {
+            Self::Create(new) => return create(connection, new).await,
+            Self::Append(lease, row) => (lease, Change::Append(row)),
+            Self::Snapshot(lease, row) => (lease, Change::Snapshot(row)),
+            Self::SetAside(lease, damage, notices) => (lease, Change::SetAside(damage, notices)),
+            Self::ForgetNotices(lease) => (lease, Change::ForgetNotices),
+        };
+        leases.check(lease)?;
+        let name = &*lease.session;
+        let Some(mut session) = session_row(connection, name).await? else {
+            return Err(StoreError::Damaged("there is no such session".into()));
+        };
+        let is_mending = matches!(change, Change::SetAside(..));
+        if !is_mending && !session.is_whole(name) {
+            return Err(StoreError::Damaged(format!("the row of session {name} is damaged")));
         }
+        change.apply(connection, name, &mut session).await?;
+        update(connection, name, &session.sealed(name)).await
+    }
+}
+
+/// A change to a session that there is.
+enum Change<'a> {
+    Append(&'a JournalRow),
+    Snapshot(&'a SnapshotRow),
+    SetAside(&'a [Damage], &'a [Notice]),
+    ForgetNotices,
+}
+
+impl Change<'_> {
+    async fn apply(
+        self,
+        connection: &mut SqliteConnection,
+        name: &str,
+        session: &mut SessionRow,
+    ) -> Result<(), StoreError> {
+        match self {
+            Self::Append(row) => {
+                let last = session.last_entry;
+                if row.first != last + 1 {
+                    return Err(StoreError::OutOfOrder { last, found: row.first });
+                }
+                insert_journal(connection, name, row).await?;
+                session.last_entry = row.last;
+            }
+            Self::Snapshot(row) => {
+                insert_snapshot(connection, name, row).await?;
+                drop_what_nobody_needs(connection, name).await?;
+                session.last_snapshot = session.last_snapshot.max(Some(row.through));
+                session.last_entry = session.last_entry.max(row.through);
+            }
+            Self::SetAside(damage, notices) => {
+                for part in damage {
+                    set_aside(connection, name, *part, session).await?;
+                }
+                let newest: Option<i64> =
+                    sqlx::query_scalar("SELECT max(through) FROM snapshots WHERE session = ?")
+                        .bind(name)
+                        .fetch_one(connection)
+                        .await?;
+                session.last_snapshot = newest.map(i64::cast_unsigned);
+                session.keep_notices(notices);
+            }
+            Self::ForgetNotices => session.notices = None,
+        }
+        Ok(())
     }
 }
 
 async fn create(connection: &mut SqliteConnection, new: &NewSession) -> Result<u64, StoreError> {
-    let result = sqlx::query(
+    sqlx::query(
         "INSERT INTO sessions (name, seed, simulation_version, created_at)
          VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))",
     )
@@ -147,34 +217,35 @@ async fn create(connection: &mut SqliteConnection, new: &NewSession) -> Result<u
     .execute(&mut *connection)
     .await?;
     if let Some(bytes) = &new.snapshot {
-        let row = SnapshotRow {
-            through: 0,
-            bytes: bytes.clone(),
-            checksum: Some(snapshot_sum(&new.name, 0, bytes)),
-            simulation_version: new.simulation_version,
-        };
+        let row = SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes.clone());
         insert_snapshot(connection, &new.name, &row).await?;
     }
+    update(connection, &new.name, &SessionRow::new(new)).await
+}
+
+/// Writes what changes of a session's row.
+async fn update(connection: &mut SqliteConnection, name: &str, row: &SessionRow) -> Result<u64, StoreError> {
+    let result = sqlx::query(
+        "UPDATE sessions SET last_entry = ?, last_snapshot = ?, notices = ?, written_by = ?, checksum = ?
+         WHERE name = ?",
+    )
+    .bind(row.last_entry.cast_signed())
+    .bind(row.last_snapshot.map(u64::cast_signed))
+    .bind(&row.notices)
+    .bind(&row.written_by)
+    .bind(row.checksum)
+    .bind(name)
+    .execute(connection)
+    .await?;
     Ok(result.rows_affected())
 }
 
-async fn append(
+async fn insert_journal(
     connection: &mut SqliteConnection,
     session: &str,
     row: &JournalRow,
-) -> Result<u64, StoreError> {
-    let last: i64 = sqlx::query_scalar(
-        "SELECT max(coalesce((SELECT last FROM journal WHERE session = ?1 ORDER BY first DESC LIMIT 1), 0),
-                    coalesce((SELECT max(through) FROM snapshots WHERE session = ?1), 0))",
-    )
-    .bind(session)
-    .fetch_one(&mut *connection)
-    .await?;
-    let last = last.cast_unsigned();
-    if row.first != last + 1 {
-        return Err(StoreError::OutOfOrder { last, found: row.first });
-    }
-    let result = sqlx::query(
+) -> Result<(), sqlx::Error> {
+    sqlx::query(
         "INSERT INTO journal (session, first, last, entries, checksum, simulation_version)
          VALUES (?, ?, ?, ?, ?, ?)",
     )
@@ -185,8 +256,8 @@ async fn append(
     .bind(row.checksum)
     .bind(row.simulation_version)
     .execute(connection)
-    .await?;
-    Ok(result.rows_affected())
+    .await
+    .map(drop)
 }
 
 async fn insert_snapshot(
@@ -208,7 +279,7 @@ async fn insert_snapshot(
     .map(drop)
 }
 
-async fn drop_what_nobody_needs(connection: &mut SqliteConnection, session: &str) -> Result<u64, StoreError> {
+async fn drop_what_nobody_needs(connection: &mut SqliteConnection, session: &str) -> Result<(), sqlx::Error> {
     let kept = KEPT_SNAPSHOTS as i64;
     sqlx::query(
         "DELETE FROM snapshots WHERE session = ?1 AND through NOT IN
@@ -218,22 +289,30 @@ async fn drop_what_nobody_needs(connection: &mut SqliteConnection, session: &str
     .bind(kept)
     .execute(&mut *connection)
     .await?;
-    let result = sqlx::query(
+    sqlx::query(
         "DELETE FROM journal WHERE session = ?1 AND last <=
          (SELECT min(through) FROM snapshots WHERE session = ?1 HAVING count(*) = ?2)",
     )
     .bind(session)
     .bind(kept)
     .execute(connection)
-    .await?;
-    Ok(result.rows_affected())
+    .await
+    .map(drop)
 }
 
 async fn set_aside(
     connection: &mut SqliteConnection,
     session: &str,
     part: Damage,
+    row: &mut SessionRow,
 ) -> Result<(), sqlx::Error> {
+    // A row may be whole before the entry that is damaged.
+    let mut whole = Vec::new();
+    if let Damage::Journal(from) = part {
+        let rows = journal_rows(connection, session, from, row.simulation_version).await?;
+        whole.extend(rows.iter().filter_map(|row| row.before(session, from)));
+        row.last_entry = from - 1;
+    }
     let (copy, delete, number) = match part {
         Damage::Journal(from) => (
             "INSERT INTO set_aside (session, first, last, contents, checksum, simulation_version, set_aside_at)
@@ -254,6 +333,9 @@ async fn set_aside(
     };
     for sql in [copy, delete] {
         sqlx::query(sql).bind(session).bind(number.cast_signed()).execute(&mut *connection).await?;
+    }
+    for row in &whole {
+        insert_journal(connection, session, row).await?;
     }
     Ok(())
 }
@@ -296,6 +378,37 @@ mod tests {
             let stored = store.load_session("oak", None).await.unwrap().unwrap();
             assert_eq!(stored.damage, [Damage::Journal(1)], "{nonsense}");
         }
+    }
+
+    #[tokio::test]
+    async fn op4_an_unsealed_row_is_read_up_to_what_is_no_command() {
+        let folder = Folder::new();
+        let store = SqliteStore::open(&folder.database()).await.unwrap();
+        let lease = with_oak(&store).await;
+        store.append(&lease, 3, &entries(1..=3)).await.unwrap();
+        store.append(&lease, 3, &entries(4..=4)).await.unwrap();
+        let spoil = "UPDATE journal SET entries = replace(entries, '\"steps\\\":2', '\"steps\\\":x')";
+        store.sql(format!("{spoil}, checksum = NULL")).await;
+        let stored = store.load_session("oak", None).await.unwrap().unwrap();
+        assert_eq!((&stored.entries, &stored.damage), (&entries(1..=1), &vec![Damage::Journal(2)]));
+        store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
+        let stored = store.load_session("oak", None).await.unwrap().unwrap();
+        assert_eq!((stored.entries, stored.damage), (entries(1..=1), vec![]), "what is whole stays");
+        store.append(&lease, 3, &entries(2..=2)).await.unwrap();
+    }
+
+    #[tokio::test]
+    async fn op1_a_sealed_row_in_another_form_is_a_newer_programs() {
+        let folder = Folder::new();
+        let store = SqliteStore::open(&folder.database()).await.unwrap();
+        let lease = with_oak(&store).await;
+        let mut row = JournalRow::seal("oak", 3, &entries(1..=2)).unwrap();
+        row.entries = r#"{"later":[]}"#.into();
+        let sealed = row.with_sum("oak");
+        let write = SessionWrite::Append(lease, sealed);
+        store.writer.write(super::super::Write::Session(write)).await.unwrap();
+        let refused = store.load_session("oak", None).await;
+        assert!(matches!(refused, Err(StoreError::Later(_))), "{refused:?}");
     }
 
     #[tokio::test]

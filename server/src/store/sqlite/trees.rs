@@ -1,8 +1,11 @@
 //! The library of trees in SQLite.
 
-use sqlx::{SqlitePool, sqlite::SqliteConnection};
+use sqlx::{SqliteExecutor, SqlitePool, sqlite::SqliteConnection};
 
-use super::super::{NewTree, Picture, StoreError, StoredTree, TreeDocument, TreeKey, seal::tree_sum};
+use super::super::{
+    NewTree, Picture, StoreError, StoredTree, TreeDocument, TreeKey,
+    seal::{tree_sum, tree_sum_of},
+};
 
 #[derive(Debug)]
 pub(super) enum TreeWrite {
@@ -45,17 +48,39 @@ pub(super) async fn find(readers: &SqlitePool, id: &str) -> Result<Option<Stored
 }
 
 pub(super) async fn document(readers: &SqlitePool, id: &str) -> Result<Option<TreeDocument>, StoreError> {
-    let row: Option<(u32, Vec<u8>, Option<u32>)> =
-        sqlx::query_as("SELECT simulation_version, document, checksum FROM trees WHERE id = ?")
-            .bind(id)
-            .fetch_optional(readers)
-            .await?;
-    let Some((simulation_version, bytes, checksum)) = row else { return Ok(None) };
+    let Some((name, document, checksum)) = row(readers, id).await? else { return Ok(None) };
     // Trees of the first release have none.
-    if checksum.is_some_and(|checksum| checksum != tree_sum(id, &bytes)) {
-        return Err(StoreError::Damaged(format!("the document of tree {id} is damaged")));
+    if checksum.is_some_and(|checksum| checksum != sum_of(id, &name, &document)) {
+        return Err(StoreError::Damaged(format!("the tree {id} is damaged")));
     }
-    Ok(Some(TreeDocument { simulation_version, bytes }))
+    Ok(Some(document))
+}
+
+/// Name, document and checksum.
+type Row = (String, TreeDocument, Option<u32>);
+
+async fn row(from: impl SqliteExecutor<'_>, id: &str) -> Result<Option<Row>, sqlx::Error> {
+    let row: Option<(String, u32, Vec<u8>, Option<u32>)> =
+        sqlx::query_as("SELECT name, simulation_version, document, checksum FROM trees WHERE id = ?")
+            .bind(id)
+            .fetch_optional(from)
+            .await?;
+    Ok(row.map(|(name, simulation_version, bytes, checksum)| {
+        (name, TreeDocument { simulation_version, bytes }, checksum)
+    }))
+}
+
+fn sum_of(id: &str, name: &str, document: &TreeDocument) -> u32 {
+    tree_sum_of(id, name, document.simulation_version, &document.bytes)
+}
+
+/// A tree that is whole stays so; one that is damaged does not become whole by another name.
+async fn rename(connection: &mut SqliteConnection, id: &str, name: &str) -> Result<u64, StoreError> {
+    let Some((before, document, checksum)) = row(&mut *connection, id).await? else { return Ok(0) };
+    let is_whole = checksum == Some(sum_of(id, &before, &document));
+    let checksum = if is_whole { Some(sum_of(id, name, &document)) } else { checksum };
+    let query = sqlx::query("UPDATE trees SET name = ?, checksum = ? WHERE id = ?").bind(name);
+    Ok(query.bind(checksum).bind(id).execute(connection).await?.rows_affected())
 }
 
 pub(super) async fn thumbnail(readers: &SqlitePool, id: &str) -> Result<Option<Picture>, StoreError> {
@@ -81,12 +106,10 @@ impl TreeWrite {
             .bind(&tree.saved_at)
             .bind(tree.document.simulation_version)
             .bind(&tree.document.bytes)
-            .bind(tree_sum(&tree.id, &tree.document.bytes))
+            .bind(tree_sum(tree))
             .bind(tree.thumbnail.as_ref().map(|picture| &picture.bytes))
             .bind(tree.thumbnail.as_ref().map(|picture| &picture.media_type)),
-            Self::Rename { id, name } => {
-                sqlx::query("UPDATE trees SET name = ? WHERE id = ?").bind(name).bind(id)
-            }
+            Self::Rename { id, name } => return rename(connection, id, name).await,
             Self::Delete { id } => sqlx::query("DELETE FROM trees WHERE id = ?").bind(id),
         };
         Ok(query.execute(connection).await?.rows_affected())

@@ -1,0 +1,173 @@
+//! Restoring a session from what is stored of it: which snapshot, what was damaged, what people are notified of.
+
+use espalier_proto::Notice;
+use espalier_session::{DocumentError, JournalEntry, RestoreError, Session};
+
+use super::actor::Services;
+use crate::{
+    SIMULATION_VERSION,
+    pool::Panicked,
+    store::{Damage, Lease, Store, StoreError, StoredSession},
+};
+
+/// A session exists but cannot be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum OpenError {
+    /// Reading failed.
+    #[error("The session cannot be read: {0}.")]
+    Store(#[source] StoreError),
+    /// Nothing of it that a tree could be made from is whole.
+    #[error("The session is damaged: {0}.")]
+    Damaged(String),
+    /// What was read is not a session.
+    #[error("The session cannot be restored: {0}.")]
+    Restore(#[source] RestoreError),
+    /// A newer program made it.
+    #[error(
+        "A newer Espalier made this tree (simulation {found}; this one has {SIMULATION_VERSION}): update the server."
+    )]
+    Newer {
+        /// The version of the simulation it was made with.
+        found: u32,
+    },
+    /// A newer program wrote its snapshot or its journal, in a way that this one cannot read.
+    #[error("A newer Espalier made this tree ({0}): update the server.")]
+    Later(String),
+    /// Restoring it panicked.
+    #[error("The session cannot be restored: {0}.")]
+    Panicked(#[from] Panicked),
+    /// The server is stopping.
+    #[error("The server is stopping.")]
+    Stopping,
+}
+
+impl OpenError {
+    /// Whether an older snapshot may serve. Going on from one would grow another tree than a newer program did.
+    fn is_of_snapshot(&self) -> bool {
+        matches!(self, Self::Restore(_) | Self::Panicked(_))
+    }
+
+    /// Whether asking again is of no use.
+    pub fn is_final(&self) -> bool {
+        !matches!(self, Self::Store(_) | Self::Stopping)
+    }
+}
+
+impl From<RestoreError> for OpenError {
+    fn from(error: RestoreError) -> Self {
+        match error {
+            RestoreError::Document(DocumentError::Later(what)) => Self::Later(what),
+            error => Self::Restore(error),
+        }
+    }
+}
+
+impl From<StoreError> for OpenError {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Damaged(what) => Self::Damaged(what),
+            StoreError::Later(what) => Self::Later(what),
+            error => Self::Store(error),
+        }
+    }
+}
+
+/// Makes a session of its name, epoch, snapshot, seed and entries.
+pub(super) type Make =
+    fn(String, u32, Option<&[u8]>, u32, Vec<JournalEntry>) -> Result<Session, RestoreError>;
+
+/// Restores a session, if there is one, from its newest snapshot, or from the one before if that is of no use.
+pub(super) async fn restored(
+    services: &Services,
+    name: &str,
+    lease: &Lease,
+) -> Result<Option<Session>, OpenError> {
+    let make: Make =
+        |name, epoch, snapshot, seed, entries| Session::restore(name, epoch, snapshot, seed, entries);
+    restored_by(make, services, name, lease).await
+}
+
+pub(super) async fn restored_by(
+    make: Make,
+    services: &Services,
+    name: &str,
+    lease: &Lease,
+) -> Result<Option<Session>, OpenError> {
+    let Some(stored) = services.store.load_session(name, None).await? else { return Ok(None) };
+    let (through, passed_over) = (stored.through, stored.damage.clone());
+    let error = match restore(make, services, name, lease, stored).await {
+        Err(error) if error.is_of_snapshot() => error,
+        restored => return restored.map(Some),
+    };
+    tracing::error!(session = name, %error, "the newest snapshot is of no use; trying the one before");
+    // The first error is the one that tells.
+    let Ok(Some(mut older)) = services.store.load_session(name, Some(through)).await else {
+        return Err(error);
+    };
+    // Its row is what was written, but nothing can be made of it.
+    older.damage.push(Damage::Snapshot(through));
+    older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
+    restore(make, services, name, lease, older).await.map(Some).map_err(|_| error)
+}
+
+/// Makes a session of what was read of it, and puts aside what was damaged; nothing of that is done in silence.
+async fn restore(
+    make: Make,
+    services: &Services,
+    name: &str,
+    lease: &Lease,
+    stored: StoredSession,
+) -> Result<Session, OpenError> {
+    if stored.newest_version > SIMULATION_VERSION {
+        return Err(OpenError::Newer { found: stored.newest_version });
+    }
+    let last = stored.through + stored.entries.len() as u64;
+    tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
+    let fresh = notices(&stored);
+    for damage in &stored.damage {
+        match damage {
+            Damage::Snapshot(entry) => {
+                tracing::error!(session = name, entry, "the snapshot after an entry is damaged")
+            }
+            Damage::Journal(entry) => {
+                tracing::error!(session = name, entry, "the journal is damaged from an entry on")
+            }
+        }
+    }
+    let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
+    let epoch = rand::random();
+    let made = services.pool.run({
+        let name = name.to_owned();
+        move || make(name, epoch, snapshot.as_deref(), seed, entries)
+    });
+    let mut session = made.await?.map_err(|error| match error {
+        // Its row is sealed, so this is what was written.
+        RestoreError::Entry { number, problem } => {
+            tracing::error!(session = name, number, %problem, "an entry of the journal cannot be read");
+            let program = written_by.unwrap_or_else(|| "a later one".into());
+            OpenError::Later(format!("its entry {number} is of version {program}"))
+        }
+        error => error.into(),
+    })?;
+    if !damage.is_empty() || !fresh.is_empty() {
+        services.store.set_aside(lease, &damage, &fresh).await?;
+    }
+    let mut all = notices;
+    all.extend(fresh.into_iter().filter(|notice| !all.contains(notice)).collect::<Vec<_>>());
+    if !all.is_empty() {
+        session.notify(all);
+    }
+    Ok(session)
+}
+
+/// What everybody who comes into the session is notified of.
+fn notices(stored: &StoredSession) -> Vec<Notice> {
+    let older = stored.oldest_entries.filter(|&version| version < SIMULATION_VERSION);
+    let regrown = older.map(|from| Notice::Regrown { from, to: SIMULATION_VERSION });
+    let lost = stored.damage.iter().filter_map(|damage| match *damage {
+        Damage::Journal(entry) => Some(Notice::Damaged { entry }),
+        // What it contained has been done again.
+        Damage::Snapshot(_) => None,
+    });
+    regrown.into_iter().chain(lost).collect()
+}
