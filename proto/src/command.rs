@@ -98,7 +98,7 @@ tagged_enum! {
             /// 1 to 256 places, in the order the finger went through them.
             samples: List<StrokeSample, 1, MAX_STROKE_SAMPLES>,
         },
-        /// The finger lifts; growth goes on for the steps its last markers live.
+        /// The finger lifts; growth goes on until it has filled what the brush swept (`CM6`).
         StrokeEnd {
             /// The number given in `stroke_begin`.
             stroke: u32,

@@ -3,18 +3,35 @@
 use espalier_plant::AxisId;
 use glam::Vec3;
 
-use crate::{cells::bits, parameters::Parameters};
+use crate::{cells::bits, markers::MarkerSource, parameters::Parameters, vigor};
 
 /// Steps of a unit vector's coordinate: sums of whole numbers are the same in any order.
 const UNIT: f32 = 32_768.0;
 
 impl Claimed {
-    /// The internodes of a shoot that would have so many: in an envelope it ends where its markers do, with its
-    /// own zone still inside.
-    pub(crate) fn limit(self, length: u32, parameters: &Parameters) -> u32 {
-        self.envelope
-            .map_or(length, |far| length.min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32))
+    /// The internodes that a bud with so much vigor grows, where the most vigorous has `greatest`. What a person asks
+    /// for grows by one at least, and in an envelope a shoot ends where its markers do, with its own zone still inside.
+    pub(crate) fn shoot_length(self, vigor: f64, greatest: f64, parameters: &Parameters) -> u32 {
+        let length = if vigor > 0.0 { vigor::shoot_length(vigor, greatest, parameters) } else { 0 };
+        match self.room {
+            Room::Free => length,
+            Room::Sweep => length.max(1),
+            Room::Envelope { far } => {
+                length.min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32)
+            }
+        }
     }
+}
+
+/// Where a shoot may grow, from what sowed the markers that its bud has claimed; of several the widest.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(crate) enum Room {
+    /// In an envelope, whose farthest marker among those claimed is this far away.
+    Envelope { far: f32 },
+    /// Where the brush has been.
+    Sweep,
+    /// Wherever there is room.
+    Free,
 }
 
 /// Sums of unit vectors, bud by bud.
@@ -30,8 +47,7 @@ pub(crate) struct Claims {
 #[derive(Clone, Copy, Debug)]
 struct Claim {
     sum: [i32; 3],
-    /// How far the farthest marker is, if all belong to an envelope; else infinite.
-    far: f32,
+    room: Room,
 }
 
 /// What a bud has claimed.
@@ -39,8 +55,8 @@ struct Claim {
 pub(crate) struct Claimed {
     /// The direction E to it.
     pub space: Vec3,
-    /// Where the envelope ends that all of it belongs to: the farthest marker's distance.
-    pub envelope: Option<f32>,
+    /// Where it may grow to.
+    pub room: Room,
 }
 
 impl Claims {
@@ -54,25 +70,31 @@ impl Claims {
 
     /// A bud claims a marker that lies there, seen from it.
     pub(crate) fn add(&mut self, axis: AxisId, offset: Vec3) {
-        self.add_as_far(axis, offset, f32::INFINITY);
+        self.add_in(Room::Free, axis, offset);
     }
 
-    /// A bud claims a marker of an envelope.
-    pub(crate) fn add_in_envelope(&mut self, axis: AxisId, offset: Vec3) {
-        self.add_as_far(axis, offset, offset.length());
+    /// A bud claims a marker that something has sown.
+    pub(crate) fn add_sown(&mut self, axis: AxisId, offset: Vec3, source: MarkerSource) {
+        let room = match source {
+            MarkerSource::Brush => Room::Sweep,
+            MarkerSource::Lasso => Room::Envelope { far: offset.length() },
+        };
+        self.add_in(room, axis, offset);
     }
 
-    fn add_as_far(&mut self, axis: AxisId, offset: Vec3, far: f32) {
+    fn add_in(&mut self, room: Room, axis: AxisId, offset: Vec3) {
         let Some(unit) = offset.try_normalize() else { return };
         let (word, bit) = (&mut self.claimants[axis.index() / 64], 1 << (axis.index() % 64));
         let slot = &mut self.slots[axis.index()];
         if *word & bit == 0 {
             *word |= bit;
             *slot = self.claims.len() as u32;
-            self.claims.push(Claim { sum: [0; 3], far: 0.0 });
+            self.claims.push(Claim { sum: [0; 3], room });
         }
         let claim = &mut self.claims[*slot as usize];
-        claim.far = claim.far.max(far);
+        if room > claim.room {
+            claim.room = room;
+        }
         for (sum, along) in claim.sum.iter_mut().zip(unit.to_array()) {
             *sum += (along * UNIT) as i32;
         }
@@ -99,8 +121,7 @@ impl Claims {
         let claim = &self.claims[self.slots[axis.index()] as usize];
         let [x, y, z] = claim.sum.map(|sum| sum as f32);
         let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
-        let envelope = claim.far.is_finite().then_some(claim.far);
-        Some(Claimed { space, envelope })
+        Some(Claimed { space, room: claim.room })
     }
 
     /// Each of the claimants with its claim.

@@ -10,13 +10,12 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    claims::Claimed,
+    claims::{Claimed, Room},
     growth::Growth,
     newcomers::Newcomers,
     scene::Scene,
     selection::Selection,
     shoot::{Aim, Draft},
-    vigor,
 };
 
 /// Buds that are asked, and shoots that are drafted, by one thread at a time.
@@ -112,12 +111,12 @@ impl Growth {
     }
 
     fn aim(&self, scene: &Scene, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
-        let Claimed { space, envelope } = self.claims.of(axis)?;
-        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, is_enclosed: envelope.is_some() })
+        let Claimed { space, room } = self.claims.of(axis)?;
+        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, room, is_connecting: false })
     }
 
     /// Lets leaders grow along the paths of their strokes. Returns those that did.
-    fn grow_leaders(
+    pub(crate) fn grow_leaders(
         &mut self,
         scene: &mut Scene,
         stroke: Option<Vec3>,
@@ -125,21 +124,23 @@ impl Growth {
     ) -> BTreeSet<AxisId> {
         let mut led = BTreeSet::new();
         let mut guides = core::mem::take(&mut self.guides);
+        let zone = self.parameters.scene().occupancy_radius;
         for guide in guides.values_mut() {
-            let Some(leader) = guide.leader else { continue };
-            if !scene.plant.is_axis_alive(leader) {
-                guide.restart();
-                continue;
-            }
-            if !selection.includes(leader) {
-                continue;
-            }
-            let space = self.claims.of(leader).map(|claimed| claimed.space);
-            let longest = self.parameters.of(leader).max_shoot_length;
-            let aim = Aim { space, stroke, is_enclosed: false };
-            let next = |tip, is_blocked: &dyn Fn(Vec3) -> bool| guide.next_node(tip, is_blocked);
-            if self.grow_guided(scene, leader, longest, aim, next) > 0 {
-                led.insert(leader);
+            // What nothing lets go on gives up a piece of its path, and so do those that take it up, until one goes on.
+            while let Some(leader) = guide.leader.filter(|&leader| selection.includes(leader)) {
+                let space = self.claims.of(leader).map(|claimed| claimed.space);
+                let longest = self.parameters.of(leader).max_shoot_length;
+                let aim = Aim { space, stroke, room: Room::Sweep, is_connecting: guide.is_connecting };
+                let next = |tip, is_blocked: &dyn Fn(Vec3) -> bool| guide.next_node(tip, is_blocked);
+                if self.grow_guided(scene, leader, longest, aim, next) > 0 {
+                    led.insert(leader);
+                    break;
+                }
+                if scene.is_full() || !guide.is_ahead(scene.plant.bud_position(leader)) {
+                    break;
+                }
+                guide.go_past();
+                guide.choose_leader(&scene.space, &scene.obstacles, zone, |axis| selection.includes(axis));
             }
         }
         self.guides = guides;
@@ -156,9 +157,7 @@ impl Growth {
         };
         let greatest = vigors.iter().copied().fold(0.0, f64::max);
         let shoot = |(&axis, &vigor): (&AxisId, &f64)| {
-            let parameters = self.parameters.of(axis);
-            let length = if vigor > 0.0 { vigor::shoot_length(vigor, greatest, parameters) } else { 0 };
-            let length = if length > 0 { self.claims.of(axis)?.limit(length, parameters) } else { 0 };
+            let length = self.claims.of(axis)?.shoot_length(vigor, greatest, self.parameters.of(axis));
             (length > 0).then(|| Shoot::new(axis, length))
         };
         let mut shoots: Vec<Shoot> = axes.iter().zip(&vigors).filter_map(shoot).collect();

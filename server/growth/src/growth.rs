@@ -16,7 +16,6 @@ use crate::{
     lasso::Envelope,
     markers::{Marker, MarkerSource, Markers},
     observer::{NoObserver, Observer, Phase},
-    obstacles::CLEARANCE,
     parameter_table::ParameterTable,
     parameters::Parameters,
     random::{Draw, Purpose},
@@ -121,11 +120,8 @@ impl Growth {
 
     /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
     pub fn has_guidance(&self, scene: &Scene) -> bool {
-        let is_blocked = |place| scene.obstacles.blocks(place, place, CLEARANCE);
         let is_led = |guide: &Guide| {
-            guide.leader.is_some_and(|leader| {
-                guide.clone().next_node(scene.plant.bud_position(leader), is_blocked).is_some()
-            })
+            guide.leader.is_some_and(|leader| guide.is_ahead(scene.plant.bud_position(leader)))
         };
         !self.markers.as_slice().is_empty() || self.guides.values().any(is_led)
     }

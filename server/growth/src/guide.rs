@@ -1,17 +1,17 @@
-//! Sketching: as the brush's radius goes to zero, one axis follows the finger exactly.
+//! Leading: one axis follows the finger.
 //!
-//! Markers alone cannot do this: there are none left to sow in a sphere without volume, and an axis that
-//! turns towards a cloud of markers cuts corners. So a narrow brush also leads: the bud nearest to where the
-//! stroke begins becomes its leader and grows from point to point of the path. How strongly it is led rises from
-//! one half, where the radius is the occupancy radius, to 1 at half of it; there both forces mix.
-//! A leader that is led more weakly would lose the path, and wider brushes sow markers enough to do without.
+//! Markers alone cannot do this: a narrow brush has none left to sow, and buds turn to a cloud of markers as their
+//! habit lets them, which loses strokes that go down, back or around. So a brush also leads: the bud nearest to where
+//! the stroke begins becomes its leader and grows from point to point of the path. How strongly it is led falls from 1,
+//! where the brush is half as wide as a zone, to [`LEAST_WEIGHT`] where it is as wide or wider; there the axis' own
+//! habit bends it, but never so far that it would not come nearer to its next point.
 
 use std::collections::VecDeque;
 
-use espalier_plant::AxisId;
+use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
 
-use crate::{brush::BrushSample, space::Space};
+use crate::{brush::BrushSample, obstacles::Obstacles, shoot::GROUND_CLEARANCE, space::Space, sweep::Sweep};
 
 /// A point of the path still ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,73 +22,144 @@ pub struct Waypoint {
     pub weight: f32,
 }
 
-/// The path of one stroke that its leader has not yet followed.
-#[derive(Clone, Debug, Default, PartialEq)]
+/// One stroke: the path that its leader has not yet followed, and what the brush has swept.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
     /// The axis that follows the path, once it is chosen.
     pub leader: Option<AxisId>,
     /// What lies ahead of it.
     pub path: VecDeque<Waypoint>,
+    /// Where the brush has been.
+    pub sweep: Sweep,
+    /// Metamers from this one on were born after the stroke had begun.
+    pub first_born: MetamerId,
+    /// Whether nothing has come to the path yet.
+    pub is_connecting: bool,
+    /// Whether no bud was near when a leader was last asked for.
+    pub is_out_of_reach: bool,
 }
 
-/// A leader that heeds its path less than this would stray from it.
-const LEAST_WEIGHT: f32 = 0.5;
+/// A leader that heeds its path less than this might turn away from it: with it, no habit takes an axis more than 42°
+/// off the way to its next point.
+const LEAST_WEIGHT: f32 = 0.6;
 /// A node must lie this near to the end of the path for it to be followed.
 const ARRIVED: f32 = 0.5;
 /// Points nearer together than this say nothing new.
 const LEAST_SPACING: f32 = 0.05;
-/// Path needed before a stroke's direction is known, in internodes.
+/// Path needed before a narrow stroke's direction is known, in internodes.
 const ASSURED_LENGTH: f32 = 0.5;
 /// Points remembered at most: a leader that cannot follow is not waited for.
 const MAX_WAYPOINTS: usize = 4096;
+/// How far from a bud a stroke may begin: so far, a limb grows to where it begins.
+const REACH: f32 = 25.0;
+/// What a turn by a right angle counts for, and an obstacle in between, when a leader is chosen; in internodes.
+const TURN_COST: f32 = 0.75;
+const OBSTACLE_COST: f32 = 10.0;
+/// Path that a leader gives up at a time when nothing lets it go on, in internodes.
+const SKIPPED: f32 = 1.0;
 
 impl Guide {
-    /// How strongly a brush of this radius leads.
-    pub(crate) fn weight(radius: f32, occupancy_radius: f32) -> f32 {
-        let weight = 1.0 + LEAST_WEIGHT - radius / occupancy_radius;
-        if weight < LEAST_WEIGHT { 0.0 } else { weight.min(1.0) }
+    /// A stroke that begins now, in a plant with so many metamers.
+    pub fn new(metamers: usize) -> Self {
+        Self {
+            leader: None,
+            path: VecDeque::new(),
+            sweep: Sweep::default(),
+            first_born: MetamerId::new(metamers),
+            is_connecting: true,
+            is_out_of_reach: false,
+        }
     }
 
-    /// Takes in more of the stroke.
+    /// How strongly a brush of this radius leads.
+    pub(crate) fn weight(radius: f32, occupancy_radius: f32) -> f32 {
+        (1.5 - radius / occupancy_radius).clamp(LEAST_WEIGHT, 1.0)
+    }
+
+    /// Takes in more of the stroke. Where the finger goes below the ground, the path goes along it.
     pub(crate) fn follow(&mut self, sample: BrushSample, occupancy_radius: f32) {
-        let weight = Self::weight(sample.radius, occupancy_radius);
-        let apart =
-            self.path.back().is_none_or(|last| last.position.distance(sample.position) > LEAST_SPACING);
-        if weight > 0.0 && apart {
+        self.sweep.add(sample);
+        let BrushSample { position, radius } = sample;
+        let position = position.with_y(position.y.max(GROUND_CLEARANCE));
+        let apart = self.path.back().is_none_or(|last| last.position.distance(position) > LEAST_SPACING);
+        if apart {
             if self.path.len() == MAX_WAYPOINTS {
                 self.path.pop_front();
             }
-            self.path.push_back(Waypoint { position: sample.position, weight });
+            self.path.push_back(Waypoint { position, weight: Self::weight(radius, occupancy_radius) });
         }
     }
 
-    /// Chooses the leader once the stroke's direction is known: a near bud that may lead and points along it.
-    pub(crate) fn choose_leader(&mut self, space: &Space, reach: f32, may_lead: impl Fn(AxisId) -> bool) {
-        let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
-        if self.leader.is_some() || first.position.distance(last.position) < ASSURED_LENGTH {
+    /// Whether the brush is wider than a zone where its path goes on, so that it fills space rather than draws a line.
+    pub(crate) fn is_wide(&self, occupancy_radius: f32) -> bool {
+        let brush = self.sweep.places().last();
+        brush.is_some_and(|brush| brush.radius > occupancy_radius)
+    }
+
+    /// Forgets the points ahead that a wide brush would find filled by wood older than the stroke: it leads on from
+    /// what is nearest to the first that is free.
+    pub(crate) fn skip_filled(&mut self, space: &Space, occupancy_radius: f32) {
+        if !self.is_wide(occupancy_radius) {
             return;
         }
-        let towards = (last.position - first.position).normalize();
+        let is_old = |id: MetamerId| id < self.first_born;
+        let filled = |point: &&Waypoint| space.is_occupied(point.position, occupancy_radius, is_old);
+        let count = self.path.iter().take_while(filled).count();
+        if count > 0 {
+            self.path.drain(..count);
+            self.leader = None;
+        }
+    }
+
+    /// Chooses the leader, once the stroke's direction is known if it is a line: a near bud that may lead, points
+    /// along it and sees where it begins.
+    pub(crate) fn choose_leader(
+        &mut self,
+        space: &Space,
+        obstacles: &Obstacles,
+        occupancy_radius: f32,
+        may_lead: impl Fn(AxisId) -> bool,
+    ) {
+        let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
+        let is_vague = first.position.distance(last.position) < ASSURED_LENGTH;
+        if self.leader.is_some() || (is_vague && !self.is_wide(occupancy_radius)) {
+            return;
+        }
+        let towards = if is_vague { Vec3::ZERO } else { (last.position - first.position).normalize() };
         let mut best: Option<(f32, AxisId)> = None;
-        space.visit_buds(first.position, reach, |axis, bud, distance_squared| {
-            let turn = 1.0 - bud.direction.dot(towards);
-            let cost = distance_squared.sqrt() + 0.75 * turn;
-            if may_lead(axis) && best.is_none_or(|(c, a)| (cost, axis) < (c, a)) {
+        space.visit_buds(first.position, REACH, |axis, bud, distance_squared| {
+            let turn = TURN_COST * (1.0 - bud.direction.dot(towards));
+            let least = distance_squared.sqrt() + turn;
+            if best.is_some_and(|(cost, other)| (cost, other) <= (least, axis)) || !may_lead(axis) {
+                return;
+            }
+            let is_hidden = obstacles.hides(bud.position, first.position);
+            let cost = least + if is_hidden { OBSTACLE_COST } else { 0.0 };
+            if best.is_none_or(|(c, a)| (cost, axis) < (c, a)) {
                 best = Some((cost, axis));
             }
         });
         self.leader = best.map(|(_, axis)| axis);
-        if self.leader.is_none() {
-            // Nothing is near: the stroke leads from where it first passes a bud.
-            self.restart();
+        self.is_out_of_reach = best.is_none();
+        if self.is_out_of_reach {
+            // The stroke leads from where it first passes a bud.
+            let behind = self.path.len() - 1;
+            self.path.drain(..behind);
         }
     }
 
-    /// Gives up the leader and all of the path but its end.
-    pub(crate) fn restart(&mut self) {
+    /// Gives up the leader, which nothing lets go on, and the next piece of the path.
+    pub(crate) fn go_past(&mut self) {
         self.leader = None;
-        let behind = self.path.len().saturating_sub(1);
-        self.path.drain(..behind);
+        let Some(stuck) = self.path.front().map(|point| point.position) else { return };
+        let near = |point: &&Waypoint| point.position.distance(stuck) < SKIPPED;
+        let count = self.path.iter().take_while(near).count();
+        self.path.drain(..count);
+    }
+
+    /// Whether any of the path lies ahead of a leader whose tip is at `tip`.
+    pub(crate) fn is_ahead(&self, tip: Vec3) -> bool {
+        self.path.back().is_some_and(|end| self.path.len() > 1 || end.position.distance(tip) >= ARRIVED)
     }
 
     /// The next node of a leader whose tip is at `tip`: the point one internode away on the path ahead, or on
@@ -106,6 +177,7 @@ impl Guide {
         if front.position.distance(tip) >= 1.0 {
             return Some(front);
         }
+        self.is_connecting = false;
         match self.path.get(1) {
             Some(&beyond) => {
                 // What lies before the next node is followed; the path now begins there.
@@ -113,7 +185,11 @@ impl Guide {
                 self.path[0] = ahead;
                 Some(ahead)
             }
-            None if front.position.distance(tip) >= ARRIVED => Some(front),
+            None if front.position.distance(tip) >= ARRIVED => {
+                // The last internode: one that misses the end by a little must not turn around for it.
+                self.path.pop_front();
+                Some(front)
+            }
             None => None,
         }
     }
@@ -136,7 +212,7 @@ mod tests {
     use super::*;
 
     fn guide(points: &[Vec3]) -> Guide {
-        let mut guide = Guide::default();
+        let mut guide = Guide::new(0);
         for &position in points {
             guide.follow(BrushSample { position, radius: 0.0 }, 2.0);
         }
@@ -187,7 +263,7 @@ mod tests {
     fn weight_passes_from_brush_to_pencil() {
         assert_eq!(
             [0.0, 1.0, 1.5, 2.0, 2.1, 9.0].map(|r| Guide::weight(r, 2.0)),
-            [1.0, 1.0, 0.75, 0.5, 0.0, 0.0]
+            [1.0, 1.0, 0.75, 0.6, 0.6, 0.6]
         );
     }
 }

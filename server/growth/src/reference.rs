@@ -18,10 +18,10 @@ use crate::{
     growth::Growth,
     markers::MarkerSource,
     scene::Scene,
+    selection::Selection,
     shoot::Aim,
     simulation::Simulation,
     space::Cone,
-    vigor::shoot_length,
 };
 
 /// One step of a simulation whose caches are thrown away first.
@@ -32,30 +32,39 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     plain.tick = plain.tick.wrapping_add(1);
     let vigor = Vigor::of(&scene.plant, &plain.parameters, &scene.obstacles);
     scene.plant.begin_step();
-    for axis in all_axes(&scene.plant) {
+    let goes = plain.spares(&scene.plant);
+    for axis in all_axes(&scene.plant).filter(goes) {
         if scene.plant.is_standing(axis) && vigor.condemns(&scene.plant, axis, &plain.parameters) {
             scene.plant.shed(&[axis]);
         }
     }
-    let claims = claims(&mut plain, &scene, input);
     // Growth asks space whether a place is taken, and light for the way to it: both made afresh.
     scene.rebuild(plain.parameters());
+    let selection = Selection::new(&scene.plant, input.chosen);
+    plain.take_in_strokes(&scene, input, &selection);
+    plain.claims = claims(&mut plain, &scene, input);
     let stroke = input.pieces.iter().find_map(BrushPiece::direction);
+    let born = scene.plant.metamer_count();
+    let led = plain.grow_leaders(&mut scene, stroke, &selection);
+    for id in (born..scene.plant.metamer_count()).map(MetamerId::new) {
+        scene.space.occupy(id, scene.plant.metamers().end(id));
+    }
     let mut shoots: Vec<(u32, AxisId, Claimed)> = Vec::new();
+    let claims = std::mem::take(&mut plain.claims);
     let vigors: Vec<(AxisId, Claimed, f64)> = claims
         .iter()
+        .filter(|(axis, _)| !led.contains(axis))
         .map(|(axis, claimed)| (axis, claimed, vigor.of_bud(&scene.plant, axis, &plain.parameters)))
         .collect();
     let greatest = vigors.iter().map(|&(.., vigor)| vigor).fold(0.0, f64::max);
-    for (axis, claimed, vigor) in vigors.into_iter().filter(|&(.., vigor)| vigor > 0.0) {
-        let parameters = plain.parameters.of(axis);
-        let length = claimed.limit(shoot_length(vigor, greatest, parameters), parameters);
+    for (axis, claimed, vigor) in vigors {
+        let length = claimed.shoot_length(vigor, greatest, plain.parameters.of(axis));
         shoots.push((length, axis, claimed));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
-    for (length, axis, Claimed { space, envelope }) in shoots {
+    for (length, axis, Claimed { space, room }) in shoots {
         let lit = plain.lit_side(&scene, axis, space);
-        let aim = Aim { space: Some(lit), stroke, is_enclosed: envelope.is_some() };
+        let aim = Aim { space: Some(lit), stroke, room, is_connecting: false };
         plain.grow_shoot(&mut scene, axis, length, aim);
     }
     scene.plant.end_step();
@@ -86,9 +95,10 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
     let is_free = |place: Vec3| {
         !obstacles.contains(place) && nodes.iter().all(|node| node.distance_squared(place) > zone)
     };
-    plain.markers.clear(tick, parameters.marker_max_age, is_free);
-    let mut markers: Vec<(Vec3, MarkerSource)> =
-        plain.markers.as_slice().iter().map(|marker| (marker.position, marker.source)).collect();
+    let max_age = if input.pieces.is_empty() { u32::MAX } else { parameters.marker_max_age };
+    plain.markers.clear(tick, max_age, is_free);
+    let mut markers: Vec<(Vec3, Option<MarkerSource>)> =
+        plain.markers.as_slice().iter().map(|marker| (marker.position, Some(marker.source))).collect();
     if input.autonomous {
         let lattice = Lattice::new(plain.seed, &parameters);
         let edge = lattice.spacing;
@@ -102,7 +112,7 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
                 for z in cells(low.z, high.z) {
                     let marker = lattice.marker_in([x, y, z]);
                     if let Some(marker) = marker.filter(|marker| marker.y > 0.0 && is_free(*marker)) {
-                        markers.push((marker, MarkerSource::Brush));
+                        markers.push((marker, None));
                     }
                 }
             }
@@ -132,8 +142,8 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
         if let Some((_, axis)) = nearest {
             let offset = marker - plant.bud_position(axis);
             match source {
-                MarkerSource::Brush => claims.add(axis, offset),
-                MarkerSource::Lasso => claims.add_in_envelope(axis, offset),
+                None => claims.add(axis, offset),
+                Some(source) => claims.add_sown(axis, offset, source),
             }
         }
     }

@@ -6,6 +6,7 @@ use espalier_plant::{AxisId, Internode, MetamerId, Plant};
 use glam::Vec3;
 
 use crate::{
+    claims::Room,
     direction::{Tropism, across, azimuth, next_heading, transport, turn},
     growth::Growth,
     guide::Waypoint,
@@ -17,38 +18,49 @@ use crate::{
 };
 
 /// Nodes keep this far above the ground.
-const GROUND_CLEARANCE: f32 = 0.2;
+pub(crate) const GROUND_CLEARANCE: f32 = 0.2;
+/// Nodes that a brush calls for lie no farther outside its sweep than this.
+const SWEEP_MARGIN: f32 = 0.5;
 
 /// What draws a shoot.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Aim {
     /// The direction E to free space.
     pub space: Option<Vec3>,
     /// The direction of the stroke that guides this step.
     pub stroke: Option<Vec3>,
-    /// Whether it fills an envelope.
-    pub is_enclosed: bool,
+    /// Where it may grow.
+    pub room: Room,
+    /// Whether it is on its way to where a stroke begins.
+    pub is_connecting: bool,
 }
 
-/// Weights of heading, tropism and space in an envelope: its form is what was asked for, so the room that is left
-/// in it counts for more than the habit of the plant.
-const ENVELOPE_WEIGHTS: [f32; 3] = [0.45, 0.05, 0.5];
+/// Weights of heading, tropism and space where a person says what is to be filled: that form was asked for, so the
+/// room that is left in it counts for more than the habit of the plant.
+const GUIDED_WEIGHTS: [f32; 3] = [0.45, 0.05, 0.5];
 
 impl Aim {
     /// The weights α, β and γ (TreeSketch Figure 11).
     fn weights(&self, parameters: &Parameters) -> [f32; 3] {
-        if self.is_enclosed && parameters.space_weight < ENVELOPE_WEIGHTS[2] {
-            return ENVELOPE_WEIGHTS;
-        }
-        [parameters.heading_weight, parameters.tropism_weight, parameters.space_weight]
+        let own = [parameters.heading_weight, parameters.tropism_weight, parameters.space_weight];
+        // A tropism along the stroke is a form asked for as well.
+        let is_along_stroke = self.stroke.is_some() && parameters.tropism_from_stroke;
+        let is_guided = self.room != Room::Free && own[2] < GUIDED_WEIGHTS[2] && !is_along_stroke;
+        if is_guided { GUIDED_WEIGHTS } else { own }
     }
 }
 
-/// Whether a leader turned aside by an obstacle still follows its path: neither straight past it nor back along
-/// the surface it came by, or it would wander there for ever.
-fn follows(turned: Vec3, heading: Vec3, before: Vec3) -> bool {
-    turned.dot(heading) > 0.05 && turned.dot(before) > -0.2
+/// The heading nearest to `heading` that keeps an internode from `base` above the ground; `aside` where it points
+/// straight down.
+fn along_ground(base: Vec3, heading: Vec3, aside: impl Fn() -> Vec3) -> Vec3 {
+    // A hair higher, against rounding.
+    let rise = (GROUND_CLEARANCE + 1e-4 - base.y).clamp(-1.0, 1.0);
+    let level = heading.with_y(0.0).try_normalize().unwrap_or_else(aside);
+    level * (1.0 - rise * rise).sqrt() + Vec3::Y * rise
 }
+
+/// A limb on its way to a stroke goes around obstacles while its beginning is no farther away than this, in internodes.
+const GOES_AROUND: f32 = 40.0;
 
 /// An internode that would grow if nobody took its place.
 #[derive(Clone, Copy, Debug)]
@@ -118,10 +130,22 @@ impl Growth {
     #[inline]
     fn draft_freely(&self, scene: &Scene, axis: AxisId, tip: Tip, aim: Aim) -> Option<Draft> {
         let draft = self.draft(scene, axis, tip, aim, None)?;
+        if aim.room == Room::Sweep && !self.stays_in_sweep(tip.base, draft.end) {
+            return None;
+        }
         let radius = self.parameters.of(axis).occupancy_radius;
         let is_taken =
             scene.space.is_occupied(draft.end, radius, |id| !self.is_kin(scene, axis, draft.end, id));
         (!is_taken).then_some(draft)
+    }
+
+    /// Whether an internode lies where a brush has been, or on the way to where a wide one has been.
+    fn stays_in_sweep(&self, base: Vec3, end: Vec3) -> bool {
+        let zone = self.parameters.scene().occupancy_radius;
+        self.guides.values().any(|guide| {
+            let outside = guide.sweep.outside(end);
+            outside <= SWEEP_MARGIN || (guide.is_wide(zone) && outside < guide.sweep.outside(base))
+        })
     }
 
     /// Lets a leader grow along the path of its stroke, up to `count` internodes; it goes where the finger went,
@@ -185,12 +209,47 @@ impl Growth {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
         }
-        let free = scene.obstacles.way_around(base, heading, || azimuth(self.chance(axis), parameters));
-        let is_free = |free: &Vec3| *free == heading || waypoint.is_none() || follows(*free, heading, before);
-        let heading = free.filter(is_free)?;
+        if aim.room == Room::Sweep && base.y + heading.y < GROUND_CLEARANCE {
+            heading = along_ground(base, heading, || azimuth(self.chance(axis), parameters));
+        }
+        let heading = match waypoint.map(|waypoint| waypoint.position.distance(base)) {
+            Some(left) => {
+                let is_far = aim.is_connecting && left < GOES_AROUND;
+                self.leader_way_around(scene, axis, base, [before, heading], is_far)?
+            }
+            None => self.way_around(scene, axis, base, heading)?,
+        };
         let end = base + heading;
         let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
         in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(scene, axis, tip, heading) })
+    }
+
+    /// The heading of an internode that would go one way: along the surface of what is in its way.
+    fn way_around(&self, scene: &Scene, axis: AxisId, base: Vec3, heading: Vec3) -> Option<Vec3> {
+        let aside = || azimuth(self.chance(axis), self.parameters.of(axis));
+        scene.obstacles.way_around(base, heading, aside)
+    }
+
+    /// The same for a leader that comes from one direction and would go another. It goes neither straight past its path
+    /// nor back along the surface it came by, or it would wander there for ever; a limb that is still on its way may
+    /// go on around.
+    fn leader_way_around(
+        &self,
+        scene: &Scene,
+        axis: AxisId,
+        base: Vec3,
+        [before, heading]: [Vec3; 2],
+        is_on_its_way: bool,
+    ) -> Option<Vec3> {
+        let turned = self.way_around(scene, axis, base, heading);
+        let least = if is_on_its_way { -0.05 } else { 0.05 };
+        let follows =
+            |turned: &Vec3| *turned == heading || (turned.dot(heading) > least && turned.dot(before) > -0.2);
+        let goes_on = || {
+            let on = is_on_its_way.then(|| self.way_around(scene, axis, base, before))?;
+            on.filter(|on| on.dot(before) > 0.5)
+        };
+        turned.filter(follows).or_else(goes_on)
     }
 
     /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.

@@ -4,9 +4,9 @@
 //! vigor are read last. They are then always those of the plant as it is, for whoever draws it and for the
 //! next step alike.
 
-use std::ops::Range;
+use std::{collections::BTreeSet, ops::Range};
 
-use espalier_plant::{AxisId, MetamerId};
+use espalier_plant::{AxisId, MetamerId, Plant};
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -16,7 +16,8 @@ use crate::{
     field::MarkerField,
     generator::{Change, Generator, StepOutcome},
     growth::Growth,
-    markers::{Marker, MarkerSource},
+    guide::Guide,
+    markers::Marker,
     nearby_order::nearby_order,
     observer::{Observer, Phase},
     scene::Scene,
@@ -52,7 +53,8 @@ impl Generator for Growth {
         let mut changed = self.shed(scene);
         observer.enter(Phase::Space);
         let selection = Selection::new(&scene.plant, input.chosen);
-        self.sow_and_clear_markers(scene, input, &selection);
+        self.take_in_strokes(scene, input, &selection);
+        self.sow_and_clear_markers(scene, input);
         self.claim_markers(scene, input, &selection);
         let buds_enabled = self.claims.count();
 
@@ -74,22 +76,38 @@ impl Generator for Growth {
 }
 
 impl Growth {
-    fn sow_and_clear_markers(&mut self, scene: &Scene, input: &StepInput, selection: &Selection) {
-        let tick = self.tick;
-        let parameters = self.parameters.scene();
+    /// Takes in where the brushes are, and chooses who follows them.
+    pub(crate) fn take_in_strokes(&mut self, scene: &Scene, input: &StepInput, selection: &Selection) {
+        let Self { parameters, guides, .. } = self;
+        let Scene { plant, space, obstacles, .. } = scene;
+        let zone = parameters.scene().occupancy_radius;
         for piece in &input.pieces {
-            piece.sow(&mut self.markers, self.seed, tick, parameters);
-            let guide = self.guides.entry(piece.stroke).or_default();
+            let guide = guides.entry(piece.stroke).or_insert_with(|| Guide::new(plant.metamer_count()));
             for &sample in &piece.samples {
-                if !scene.obstacles.contains(sample.position) {
-                    guide.follow(sample, parameters.occupancy_radius);
+                if !obstacles.contains(sample.position) {
+                    guide.follow(sample, zone);
                 }
             }
-            let reach = 2.0 * parameters.perception_radius();
-            guide.choose_leader(&scene.space, reach, |axis| selection.includes(axis));
         }
+        for guide in guides.values_mut() {
+            if guide.leader.is_some_and(|leader| !plant.is_axis_alive(leader)) {
+                guide.leader = None;
+            }
+            guide.skip_filled(space, zone);
+            guide.choose_leader(space, obstacles, zone, |axis| selection.includes(axis));
+        }
+    }
+
+    fn sow_and_clear_markers(&mut self, scene: &Scene, input: &StepInput) {
+        let tick = self.tick;
+        let parameters = self.parameters.scene();
         let (space, obstacles, radius) = (&scene.space, &scene.obstacles, parameters.occupancy_radius);
-        self.markers.clear(tick, parameters.marker_max_age, |place| {
+        for piece in &input.pieces {
+            piece.sow(&mut self.markers, self.seed, tick, parameters);
+        }
+        // Markers that nobody sows beside any more last until growth has come to an end.
+        let max_age = if input.pieces.is_empty() { u32::MAX } else { parameters.marker_max_age };
+        self.markers.clear(tick, max_age, |place| {
             !obstacles.contains(place) && !space.is_occupied(place, radius, |_| true)
         });
     }
@@ -107,10 +125,7 @@ impl Growth {
             let counts = |axis| selection.includes(axis) && (obstacles.is_empty() || sees(axis));
             if let Some((axis, _)) = space.nearest_perceiving(marker, parameters, counts) {
                 let offset = marker - plant.bud_position(axis);
-                match source {
-                    MarkerSource::Brush => claims.add(axis, offset),
-                    MarkerSource::Lasso => claims.add_in_envelope(axis, offset),
-                }
+                claims.add_sown(axis, offset, source);
             }
         }
         let Some(field) = field.as_mut().filter(|_| input.autonomous) else { return };
@@ -151,7 +166,8 @@ impl Growth {
 
     /// Sheds what does not pay; returns the nodes that went.
     fn shed(&mut self, scene: &mut Scene) -> Vec<Vec3> {
-        let condemned = shedding::condemned(&scene.plant, &self.canopy, &self.parameters);
+        let mut condemned = shedding::condemned(&scene.plant, &self.canopy, &self.parameters);
+        condemned.retain(self.spares(&scene.plant));
         if condemned.is_empty() {
             return Vec::new();
         }
@@ -167,6 +183,18 @@ impl Growth {
         }
         self.canopy.bury(&scene.plant, &metamers);
         nodes
+    }
+
+    /// Which axes may be shed: not those that lead a stroke, nor what bears them.
+    pub(crate) fn spares(&self, plant: &Plant) -> impl Fn(&AxisId) -> bool + use<> {
+        let mut spared = BTreeSet::new();
+        for leader in self.guides.values().filter_map(|guide| guide.leader) {
+            let mut axis = Some(leader);
+            while let Some(bearing) = axis.filter(|&axis| spared.insert(axis)) {
+                axis = plant.axes().bearer(bearing).map(|bearer| plant.metamers().axis(bearer));
+            }
+        }
+        move |axis| !spared.contains(axis)
     }
 
     /// E, turned towards the light as far as phototropism has it.

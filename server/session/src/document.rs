@@ -31,7 +31,7 @@ use self::{
     bending::OpenBends,
     bytes::Section,
     futures::Futures,
-    growing::Pending,
+    growing::{MAX_SETTLING_STEPS, Pending},
     history::{History, Kind, Setting},
     obstacles::Obstacles,
     strokes::OpenStrokes,
@@ -145,8 +145,7 @@ impl Document {
             }
             Action::StrokeEnd { stroke } => {
                 let (stroke, chosen) = self.strokes.close(author, *stroke)?;
-                let left = self.simulation.parameters().marker_max_age;
-                self.pending.push_back(Pending::Settle { stroke, left, chosen });
+                self.pending.push_back(Pending::Settle { stroke, left: MAX_SETTLING_STEPS, chosen });
                 Ok(())
             }
             Action::Grow { steps, until, bud } => self.begin_growth(cause, *steps, *until, *bud),

@@ -1,5 +1,7 @@
 //! The feel of the brush (TreeSketch §3.2): it fills where it is wide and draws where it is narrow.
 
+use proptest::prelude::*;
+
 use super::*;
 
 /// Points along a polyline, every tenth of an internode.
@@ -156,12 +158,15 @@ fn a_brush_may_narrow_to_a_pencil() {
 #[test]
 fn old_brush_markers_do_not_linger() {
     let mut simulation = simulation(2);
-    let far = BrushSample { position: Vec3::new(60.0, 60.0, 0.0), radius: 6.0 };
-    let piece = BrushPiece { stroke: StrokeId(1), samples: vec![far] };
-    simulation.step(&StepInput { pieces: vec![piece], ..StepInput::default() }, &mut NoObserver);
-    assert!(!simulation.markers().is_empty());
+    let rest = |x: f32, radius: f32| {
+        let place = BrushSample { position: Vec3::new(x, 60.0, 0.0), radius };
+        let piece = BrushPiece { stroke: StrokeId(1), samples: vec![place] };
+        StepInput { pieces: vec![piece], ..StepInput::default() }
+    };
+    simulation.step(&rest(60.0, 6.0), &mut NoObserver);
+    assert!(simulation.markers().len() > 50);
     for _ in 0..=simulation.parameters().marker_max_age {
-        simulation.step(&StepInput::default(), &mut NoObserver);
+        simulation.step(&rest(90.0, 0.0), &mut NoObserver);
     }
     assert!(simulation.markers().is_empty());
 }
@@ -185,5 +190,161 @@ fn tropism_from_the_stroke_turns_shoots_its_way() {
     for seed in 1..=5 {
         let (along, upright) = (lean_under_a_sweep(seed, true), lean_under_a_sweep(seed, false));
         assert!(along > upright + 0.1, "seed {seed}: {along} along the stroke, {upright} without");
+    }
+}
+
+/// A trunk of ten internodes.
+fn trunk(seed: u32, change: impl FnOnce(&mut ParameterValues)) -> Simulation {
+    let mut values = ParameterValues::default();
+    change(&mut values);
+    let mut simulation = Simulation::new(seed, Parameters::new(values).expect("in range"));
+    brush(&mut simulation, 1, &[(Vec3::ZERO, 0.0), (Vec3::Y * 10.0, 0.0)]);
+    simulation
+}
+
+/// How near wood comes to a place.
+fn nearness(simulation: &Simulation, place: Vec3) -> f32 {
+    nodes(simulation).iter().map(|node| node.distance(place)).fold(f32::INFINITY, f32::min)
+}
+
+fn stroke(points: &[Vec3], radius: f32) -> Vec<(Vec3, f32)> {
+    points.iter().map(|&point| (point, radius)).collect()
+}
+
+#[test]
+fn strokes_down_back_and_level_reach_their_ends() {
+    let top = Vec3::Y * 10.0;
+    let down = [top, Vec3::new(3.0, 10.0, 0.0), Vec3::new(12.0, 1.0, 0.0)];
+    let back = [top, Vec3::new(14.0, 13.0, 0.0), Vec3::new(15.0, 17.0, 2.0), Vec3::new(-8.0, 19.0, 5.0)];
+    let level = [top, Vec3::new(24.0, 10.0, 0.0)];
+    for path in [&down[..], &back, &level] {
+        for radius in [1.5, 2.0, 3.0, 6.0] {
+            for seed in 1..=4 {
+                let mut simulation = trunk(seed, |_| {});
+                brush(&mut simulation, 2, &stroke(path, radius));
+                let left = nearness(&simulation, path[path.len() - 1]);
+                assert!(left <= 2.0, "radius {radius}, seed {seed}: {left} from the end of {path:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn narrow_brushes_grow_where_they_were_and_nowhere_else() {
+    let path = [Vec3::Y * 10.0, Vec3::new(20.0, 10.0, 0.0)];
+    for radius in [1.0, 2.0, 3.0] {
+        for seed in 1..=6 {
+            let mut simulation = trunk(seed, |_| {});
+            let before = nodes(&simulation).len();
+            brush(&mut simulation, 2, &stroke(&path, radius));
+            let grown = &nodes(&simulation)[before..];
+            let outside =
+                |node: &&Vec3| node.distance(path[0].with_x(node.x.clamp(0.0, 20.0))) > radius + 1.0;
+            let spilt = grown.iter().filter(outside).count();
+            assert!(spilt * 20 <= grown.len(), "radius {radius}, seed {seed}: {spilt} of {}", grown.len());
+        }
+    }
+}
+
+#[test]
+fn a_pencil_that_dips_below_ground_goes_on_along_it() {
+    let path = [[0.0, 10.0], [8.0, 4.0], [12.0, -6.0], [24.0, -6.0], [30.0, 6.0]];
+    let path = path.map(|[x, y]| Vec3::new(x, y, 0.0));
+    for seed in 1..=4 {
+        let mut simulation = trunk(seed, |_| {});
+        brush(&mut simulation, 2, &stroke(&path, 0.0));
+        let on_ground: Vec<Vec3> = path.iter().map(|p| p.with_y(p.y.max(0.2))).collect();
+        assert!(followed(&simulation, &on_ground[2..4]) >= 0.95, "the ground is followed");
+        assert!(nearness(&simulation, path[4]) <= 1.0, "and left again");
+    }
+}
+
+#[test]
+fn a_stroke_begun_away_from_all_buds_is_reached_by_a_limb() {
+    let from = Vec3::new(18.0, 24.0, 0.0);
+    for radius in [0.0, 1.0, 4.0] {
+        let mut simulation = trunk(3, |_| {});
+        let start = nearness(&simulation, from);
+        assert!((20.0..25.0).contains(&start), "{start}");
+        brush(&mut simulation, 2, &stroke(&[from, Vec3::new(30.0, 24.0, 0.0)], radius));
+        assert!(nearness(&simulation, Vec3::new(30.0, 24.0, 0.0)) <= 2.0, "radius {radius}");
+    }
+}
+
+#[test]
+fn a_connecting_limb_goes_around_what_stands_in_between() {
+    let mut simulation = trunk(3, |_| {});
+    let wall = espalier_growth::Shape::Box {
+        centre: Vec3::new(8.0, 8.0, 0.0),
+        half_extents: Vec3::new(1.0, 8.0, 6.0),
+        rotation: glam::Quat::IDENTITY,
+    };
+    simulation.set_obstacles(vec![espalier_growth::Obstacle::new(wall).expect("a wall")]);
+    let path = [Vec3::new(15.0, 10.0, 0.0), Vec3::new(24.0, 12.0, 0.0)];
+    brush(&mut simulation, 2, &stroke(&path, 0.0));
+    assert!(followed(&simulation, &path) >= 0.9, "{} is followed", followed(&simulation, &path));
+}
+
+#[test]
+fn what_a_stroke_calls_for_is_not_shed_while_it_lasts() {
+    let path = [Vec3::Y * 10.0, Vec3::new(24.0, 4.0, 0.0)];
+    for radius in [0.0, 3.0] {
+        let mut simulation = trunk(2, |values| values.shedding_threshold = 1.0);
+        brush(&mut simulation, 2, &stroke(&path, radius));
+        assert!(nearness(&simulation, path[1]) <= 2.0, "radius {radius}");
+    }
+}
+
+#[test]
+fn a_wide_brush_grows_from_the_crown_that_is_there() {
+    // Through the crown and out of it: where wood stands, no new limb grows through it.
+    let mut simulation = simulation(4);
+    grow(&mut simulation, 9);
+    let before = simulation.plant().metamer_count();
+    let path = [Vec3::Y * 4.0, Vec3::new(0.0, 40.0, 0.0)];
+    brush(&mut simulation, 1, &stroke(&path, 4.0));
+    let plant = simulation.plant();
+    let new = (before..plant.metamer_count()).map(MetamerId::new);
+    let leader = new.clone().filter(|&id| plant.metamers().end(id).y > 38.0).count();
+    assert!(leader > 0, "it goes on beyond the crown");
+    let old: Vec<Vec3> = nodes(&simulation)[..before].to_vec();
+    let crowded = |id: &MetamerId| {
+        let end = plant.metamers().end(*id);
+        old.iter().filter(|node| node.distance(end) < 1.0).count() > 1
+    };
+    let (crowd, all) = (new.clone().filter(crowded).count(), new.count());
+    assert!(crowd * 10 <= all, "{crowd} of {all} metamers grow through others");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+
+    /// Whatever the direction, the radius, the speed and the seed, and whatever the plant's habit is.
+    #[test]
+    fn any_stroke_reaches_its_end(
+        seed: u32,
+        corners in prop::collection::vec((-14f32..14.0, 0.3f32..26.0, -14f32..14.0), 1..4),
+        radius in 0f32..8.0,
+        speed in 0.5f32..40.0,
+        (theta, weights, branching) in (0f32..180.0, 0usize..3, 20f32..110.0),
+        shedding in 0f32..1.0,
+    ) {
+        let mut simulation = trunk(seed, |values| {
+            (values.setpoint_angle, values.branching_angle) = (theta, branching);
+            (values.heading_weight, values.tropism_weight, values.space_weight) =
+                [(0.5, 0.25, 0.25), (0.1, 0.8, 0.1), (0.9, 0.05, 0.05)][weights];
+            values.shedding_threshold = shedding;
+        });
+        let path: Vec<Vec3> =
+            core::iter::once(Vec3::Y * 10.0).chain(corners.into_iter().map(Vec3::from)).collect();
+        // As a finger of that speed draws it, a message after the other.
+        let mut drawn = vec![path[0]];
+        for pair in path.windows(2) {
+            let moves = (pair[0].distance(pair[1]) / speed).ceil().max(1.0);
+            drawn.extend((1..=moves as u32).map(|i| pair[0].lerp(pair[1], i as f32 / moves)));
+        }
+        brush(&mut simulation, 2, &stroke(&drawn, radius));
+        let left = nearness(&simulation, path[path.len() - 1]);
+        prop_assert!(left <= 2.0, "{left} from the end");
     }
 }

@@ -20,14 +20,6 @@ fn envelope(outline: &[Vec2], simulation: &Simulation) -> Envelope {
     Envelope::inflate(outline, FRONT, 1.0, simulation.parameters().occupancy_radius).expect("a lasso")
 }
 
-fn settle(simulation: &mut Simulation) {
-    for _ in 0..80 {
-        if simulation.step(&StepInput::default(), &mut NoObserver).metamers_grown == 0 {
-            return;
-        }
-    }
-}
-
 #[test]
 fn a_lasso_sows_lasting_markers_by_volume() {
     let mut simulation = simulation(1);

@@ -38,7 +38,9 @@ fn set(simulation: &mut Simulation, change: impl FnOnce(&mut ParameterValues)) {
 fn happen(simulation: &mut Simulation, number: u32, event: &Event) {
     match event {
         Event::Grow(steps) => grow(simulation, *steps),
-        Event::Brush(path) => brush(simulation, number, path),
+        Event::Brush(path) => {
+            brush(simulation, number, path);
+        }
         Event::GoTo(step) => simulation.go_to(u32::from(*step) % (simulation.plant().last_step() + 1)),
         Event::Sow(place) => simulation.sow(*place),
         Event::Shedding(threshold) => set(simulation, |values| values.shedding_threshold = *threshold),

@@ -10,10 +10,12 @@ mod selecting;
 mod shaping;
 mod summary;
 
+use std::collections::BTreeSet;
+
 use espalier_growth::{
     BrushPiece, BrushSample, NoObserver, ParameterValues, Parameters, Simulation, StepInput, StrokeId,
 };
-use espalier_plant::MetamerId;
+use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
 
 fn simulation(seed: u32) -> Simulation {
@@ -27,8 +29,9 @@ fn grow(simulation: &mut Simulation, steps: u32) {
     simulation.show();
 }
 
-/// Moves a brush along a path, in steps as long as a shoot, and lets the tree settle.
-fn brush(simulation: &mut Simulation, stroke: u32, path: &[(Vec3, f32)]) {
+/// Moves a brush along a path, in steps as long as a shoot, and lets the tree settle. Returns the axes that led.
+fn brush(simulation: &mut Simulation, stroke: u32, path: &[(Vec3, f32)]) -> BTreeSet<AxisId> {
+    let mut leaders = BTreeSet::new();
     for pair in path.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         let longest = simulation.parameters().max_shoot_length as f32;
@@ -40,13 +43,22 @@ fn brush(simulation: &mut Simulation, stroke: u32, path: &[(Vec3, f32)]) {
         for i in 0..pieces {
             let piece = BrushPiece { stroke: StrokeId(stroke), samples: vec![at(i), at(i + 1)] };
             simulation.step(&StepInput { pieces: vec![piece], ..StepInput::default() }, &mut NoObserver);
+            leaders.extend(simulation.state().guides.values().filter_map(|guide| guide.leader));
         }
     }
-    for _ in 0..simulation.parameters().marker_max_age {
-        simulation.step(&StepInput::default(), &mut NoObserver);
-    }
+    settle(simulation);
     simulation.end_stroke(StrokeId(stroke));
     simulation.drop_guidance();
+    leaders
+}
+
+/// Lets everything grow that finds something to grow into.
+fn settle(simulation: &mut Simulation) {
+    for _ in 0..400 {
+        if simulation.step(&StepInput::default(), &mut NoObserver).metamers_grown == 0 {
+            return;
+        }
+    }
 }
 
 fn nodes(simulation: &Simulation) -> Vec<Vec3> {

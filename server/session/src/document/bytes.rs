@@ -89,6 +89,10 @@ impl Document {
             growth::write(out, &self.simulation.state());
             out.u32(self.steps_begun);
         });
+        let guides = self.simulation.state().guides;
+        if !guides.is_empty() {
+            add(&sections::SWEEPS, &|out| growth::write_sweeps(out, &guides));
+        }
         let pool = Pool::of(&self.history, futures, &self.setting());
         add(&sections::PARAMETERS, &|out| pool.write_parameters(out));
         if pool.has_programmes() || programmes::has_ages(&self.history, futures) {
@@ -125,6 +129,13 @@ impl Document {
             .map_err(|error| damaged(error.to_string()))?;
         let (mut state, steps_begun) =
             container.require(&sections::GROWTH, |r| Ok((growth::read(r)?, r.u32()?)))?;
+        for (stroke, first_born, sweep) in
+            container.read(&sections::SWEEPS, growth::read_sweeps)?.unwrap_or_default()
+        {
+            if let Some(guide) = state.guides.get_mut(&stroke) {
+                (guide.first_born, guide.sweep) = (first_born, sweep);
+            }
+        }
         growth::check(&state, &plant)?;
 
         let all_parameters = container.require(&sections::PARAMETERS, settings::read_parameters)?;

@@ -8,6 +8,8 @@ use glam::Vec2;
 use super::{Document, generators::Step, history::Kind, refused};
 use crate::cause::Cause;
 
+/// A stroke that still grows so many steps after its end is left as it is.
+pub(super) const MAX_SETTLING_STEPS: u32 = 400;
 /// A lasso that still grows after so many steps is left as it is (`LA1`).
 const MAX_LASSO_STEPS: u32 = 400;
 
@@ -20,7 +22,7 @@ pub(super) enum Pending {
     Steps { left: u32, has_grown: bool, step: Step },
     /// At most so many steps, while the markers of a lasso make anything grow.
     Lasso { left: u32, chosen: Option<MetamerId> },
-    /// At most so many steps for a lifted brush, while buds find what it left.
+    /// At most so many steps for a lifted brush, while anything grows into what it left.
     Settle { stroke: StrokeId, left: u32, chosen: Option<MetamerId> },
 }
 
@@ -64,14 +66,13 @@ impl Document {
                 }
             }
             Pending::Settle { stroke, left, chosen } => {
-                let outcome = if left > 0 && self.simulation.has_guidance() {
+                let mut grows = false;
+                if left > 0 && !self.is_stopped() && self.simulation.has_guidance() {
                     self.resume_stroke();
-                    self.step(&Step::Growth(StepInput { chosen, ..StepInput::default() }), observer)
-                } else {
-                    StepOutcome::default()
-                };
-                // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
-                if outcome == StepOutcome::default() {
+                    let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
+                    grows = self.step(&step, observer).metamers_grown > 0;
+                }
+                if !grows {
                     self.simulation.end_stroke(stroke);
                     if self.strokes.is_empty() {
                         self.simulation.drop_guidance();

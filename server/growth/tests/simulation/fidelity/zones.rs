@@ -1,7 +1,6 @@
 //! Occupancy zones: what lets no branch grow through another (TreeSketch §3.2, Figure 8B).
 
 use espalier_growth::{ParameterValues, Parameters};
-use espalier_plant::AxisId;
 use measure::{bearing_axis, wood};
 use proptest::prelude::*;
 
@@ -13,10 +12,11 @@ fn are_kin(plant: &Plant, a: AxisId, b: AxisId) -> bool {
     a == b || bearing_a == Some(b) || bearing_b == Some(a) || (bearing_a.is_some() && bearing_a == bearing_b)
 }
 
-/// The least distance between nodes of axes that are not kin.
-fn least_distance(plant: &Plant) -> f32 {
-    let nodes: Vec<(AxisId, Vec3)> =
-        wood(plant).map(|id| (plant.metamers().axis(id), plant.metamers().end(id))).collect();
+/// The least distance between nodes of axes that are not kin, but for axes that led a stroke: they go where the finger
+/// went.
+fn least_distance(plant: &Plant, leaders: &BTreeSet<AxisId>) -> f32 {
+    let nodes = wood(plant).map(|id| (plant.metamers().axis(id), plant.metamers().end(id)));
+    let nodes: Vec<(AxisId, Vec3)> = nodes.filter(|(axis, _)| !leaders.contains(axis)).collect();
     let mut least = f32::INFINITY;
     for (i, &(axis, node)) in nodes.iter().enumerate() {
         for &(other, place) in &nodes[..i] {
@@ -61,9 +61,9 @@ proptest! {
         let mut scene = Simulation::new(seed, Parameters::new(values).expect("in range"));
         scene.set_metamer_budget(1200);
         scene.sow(Vec3::X * x);
-        brush(&mut scene, 1, &[(Vec3::Y * 4.0, radius + 2.0), (Vec3::new(0.5 * x, 9.0, 0.0), radius + 3.0)]);
+        let leaders = brush(&mut scene, 1, &[(Vec3::Y * 4.0, radius + 2.0), (Vec3::new(0.5 * x, 9.0, 0.0), radius + 3.0)]);
         grow(&mut scene, 8);
-        let least = least_distance(scene.plant());
+        let least = least_distance(scene.plant(), &leaders);
         prop_assert!(least > radius - 1e-4, "{least} of {radius}");
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use espalier_growth::{Guide, Marker, MarkerSource, SimulationState, StrokeId, Waypoint};
-use espalier_plant::{AxisId, Plant};
+use espalier_growth::{BrushSample, Guide, Marker, MarkerSource, SimulationState, StrokeId, Sweep, Waypoint};
+use espalier_plant::{AxisId, MetamerId, Plant};
 
 use super::{
     DocumentError, damaged,
@@ -53,7 +53,8 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentE
         let stroke = StrokeId(r.u32()?);
         let leader = r.axis()?;
         let path = r.list(|r| Ok(Waypoint { position: r.vector()?, weight: r.f32()? }))?;
-        Ok((stroke, Guide { leader, path: path.into() }))
+        // What it has swept stands in a section of its own.
+        Ok((stroke, Guide { leader, path: path.into(), ..Guide::new(0) }))
     })?;
     Ok(SimulationState {
         seed,
@@ -66,8 +67,42 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentE
     })
 }
 
-/// Checks that every guide leads an axis of the plant.
+/// What the brushes of strokes in progress have swept, and since when.
+pub(super) fn write_sweeps(out: &mut Writer, guides: &BTreeMap<StrokeId, Guide>) {
+    let guides: Vec<_> = guides.iter().collect();
+    out.list(&guides, |out, (stroke, guide)| {
+        out.u32(stroke.0);
+        out.u32(guide.first_born.raw());
+        out.list(guide.sweep.places(), |out, place| {
+            out.vector(place.position);
+            out.f32(place.radius);
+        });
+    });
+}
+
+pub(super) fn read_sweeps(
+    reader: &mut Reader<'_>,
+) -> Result<Vec<(StrokeId, MetamerId, Sweep)>, DocumentError> {
+    reader.list(|r| {
+        let (stroke, first_born) = (StrokeId(r.u32()?), r.u32()?);
+        if first_born == u32::MAX {
+            return Err(damaged("a metamer is not there"));
+        }
+        let first_born = MetamerId::new(first_born as usize);
+        let places = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
+        Ok((stroke, first_born, Sweep::from_places(places)))
+    })
+}
+
+/// Checks that every guide is about wood of the plant.
 pub(super) fn check(state: &SimulationState, plant: &Plant) -> Result<(), DocumentError> {
-    let is_there = |guide: &Guide| guide.leader.is_none_or(|axis| axis.index() < plant.axis_count());
-    if state.guides.values().all(is_there) { Ok(()) } else { Err(damaged("an axis is not there")) }
+    let is_there = |guide: &Guide| {
+        guide.leader.is_none_or(|axis| axis.index() < plant.axis_count())
+            && guide.first_born.index() <= plant.metamer_count()
+    };
+    if state.guides.values().all(is_there) {
+        Ok(())
+    } else {
+        Err(damaged("a stroke follows what is not there"))
+    }
 }
