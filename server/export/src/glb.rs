@@ -1,6 +1,6 @@
 //! glTF 2.0 binary: bark and leaves as two meshes, in metres, Y up.
 
-use espalier_mesh::{Style, TriangleMesh, bark_mesh, leaf_mesh};
+use espalier_mesh::{Style, TriangleMesh, leaf_mesh, wood};
 use espalier_plant::Plant;
 use espalier_settings::Appearance;
 use glam::Vec3;
@@ -43,7 +43,9 @@ pub fn glb(
         return Err(ExportError::Scale(metres_per_internode));
     }
     let mut writer = Writer::new(metres_per_internode);
-    writer.add("Bark", &bark_mesh(plant, style), bark_material(linear(appearance.bark.tint)))?;
+    for wood in wood(plant, style, &appearance.bark) {
+        writer.add("Bark", &wood.into_mesh(), bark_material(linear(appearance.bark.tint)))?;
+    }
     let (leaves, hues): (Vec<_>, Vec<_>) =
         leaf_look::hanging(plant, style, &appearance.leaves).into_iter().unzip();
     // The material has one colour for all of them.

@@ -16,6 +16,11 @@ const LEAST_FLARE: f32 = 0.02;
 /// Rings closer than this share of an internode merge.
 const LEAST_GAP: f32 = 0.04;
 
+/// Rings are apart by this share of the smaller one's radius where they are nearest.
+const LEAST_CLEARANCE: f32 = 0.02;
+/// Cosine of the most that a ring's axis leans away from the way to the next ring.
+const LEAST_UPRIGHT: f32 = 0.3;
+
 /// One place on the curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
@@ -27,8 +32,48 @@ pub(crate) struct Sample {
     pub radius: f32,
 }
 
-/// Places for rings, at least two.
-pub(crate) fn samples(course: &Course) -> Vec<Sample> {
+/// Places for rings, at least two, on a curve that `smoothing` takes from a polyline (0) to a smooth one (1). No ring
+/// reaches through another, so that the skin between two never folds.
+pub(crate) fn samples(course: &Course, smoothing: f32) -> Vec<Sample> {
+    apart(&on_curve(course, smoothing))
+}
+
+/// As many of the places as can have rings that do not cross; the first and the last are always among them.
+fn apart(samples: &[Sample]) -> Vec<Sample> {
+    let mut kept: Vec<Sample> = Vec::with_capacity(samples.len());
+    for (i, &sample) in samples.iter().enumerate() {
+        if i + 1 == samples.len() {
+            while kept.len() > 1 && kept.last().is_some_and(|below| below.crosses(&sample)) {
+                kept.pop();
+            }
+        }
+        let is_end = i == 0 || i + 1 == samples.len();
+        if is_end || !kept.last().is_some_and(|below| below.crosses(&sample)) {
+            kept.push(sample);
+        }
+    }
+    if let [first, last] = &mut kept[..]
+        && first.crosses(last)
+    {
+        // Parallel rings are apart however wide they are.
+        let along = (last.point - first.point).normalize_or(first.tangent);
+        (first.tangent, last.tangent) = (along, along);
+    }
+    kept
+}
+
+impl Sample {
+    /// Whether its ring and the next one's cross, or nearly do, or the skin between them would be sheared flat.
+    fn crosses(&self, above: &Self) -> bool {
+        let way = above.point - self.point;
+        let tilt = self.tangent.cross(above.tangent).length();
+        let least = (LEAST_CLEARANCE * self.radius.min(above.radius)).max(LEAST_UPRIGHT * way.length());
+        way.dot(self.tangent) < above.radius * tilt + least
+            || way.dot(above.tangent) < self.radius * tilt + least
+    }
+}
+
+fn on_curve(course: &Course, smoothing: f32) -> Vec<Sample> {
     let nodes = &course.nodes;
     let last = nodes.len() - 1;
     let mut samples: Vec<Sample> = Vec::with_capacity(2 * nodes.len());
@@ -36,12 +81,15 @@ pub(crate) fn samples(course: &Course) -> Vec<Sample> {
         let (from, to) = (nodes[i], nodes[i + 1]);
         let before = if i == 0 { course.before } else { nodes[i - 1] };
         let after = if i + 1 == last { 2.0 * to - from } else { nodes[i + 2] };
-        let piece = Piece::through(before, from, to, after);
+        let smooth = Piece::through(before, from, to, after);
+        let piece = smooth.smoothed(smoothing);
         for u in parts(&piece, course, i) {
             let point = piece.point(u);
             let arc = samples.last().map_or(0.0, |s| s.arc + s.point.distance(point));
             let radius = course.radii[i] + (course.radii[i + 1] - course.radii[i]) * u + course.flare.at(arc);
-            samples.push(Sample { point, tangent: piece.tangent(u), arc, radius });
+            // At a node the ring lies between both ways, also where there is a corner.
+            let tangent = if u < 1.0 && u > 0.0 { piece.tangent(u) } else { smooth.tangent(u) };
+            samples.push(Sample { point, tangent, arc, radius });
         }
     }
     samples
@@ -92,6 +140,12 @@ impl Piece {
         }
     }
 
+    /// Between the straight way (0) and the whole curve (1).
+    fn smoothed(&self, share: f32) -> Self {
+        let [leaving, arriving] = [self.leaving, self.arriving].map(|way| self.chord.lerp(way, share));
+        Self { from: self.from, chord: self.chord, leaving, arriving }
+    }
+
     fn point(&self, u: f32) -> Vec3 {
         let (u2, u3) = (u * u, u * u * u);
         self.from
@@ -124,11 +178,14 @@ impl Piece {
 
 #[cfg(test)]
 mod tests {
+    use espalier_plant::MetamerId;
+
     use super::*;
     use crate::course::{End, Flare};
 
     fn course(nodes: &[Vec3]) -> Course {
         Course {
+            seed: MetamerId::new(0),
             nodes: nodes.to_vec(),
             radii: vec![0.1; nodes.len()],
             before: 2.0 * nodes[0] - nodes[1],
@@ -141,7 +198,7 @@ mod tests {
     #[test]
     fn curve_goes_through_every_node() {
         let nodes = [Vec3::ZERO, Vec3::Y, Vec3::new(1.0, 1.5, 0.0), Vec3::new(1.2, 1.5, 2.0)];
-        let samples = samples(&course(&nodes));
+        let samples = samples(&course(&nodes), 1.0);
         for node in nodes {
             assert!(samples.iter().any(|s| s.point.distance(node) < 1e-5), "{node} is missed");
         }
@@ -150,7 +207,7 @@ mod tests {
 
     #[test]
     fn straight_axis_needs_one_ring_a_node() {
-        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, 3.0 * Vec3::Y, 3.5 * Vec3::Y]));
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, 3.0 * Vec3::Y, 3.5 * Vec3::Y]), 1.0);
         assert_eq!(samples.len(), 4);
         assert!(samples.iter().all(|s| s.tangent.distance(Vec3::Y) < 1e-5));
         assert!((samples[3].arc - 3.5).abs() < 1e-5);
@@ -158,7 +215,7 @@ mod tests {
 
     #[test]
     fn sharp_bend_gets_more_rings() {
-        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]));
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 1.0);
         assert!(samples.len() > 5);
         for pair in samples.windows(2) {
             assert!(pair[0].tangent.angle_between(pair[1].tangent) <= MOST_TURN);
@@ -169,9 +226,28 @@ mod tests {
     fn flare_declines_on_rings_of_its_own() {
         let mut course = course(&[Vec3::ZERO, Vec3::Y]);
         course.flare = Flare { amount: 0.1, hidden: 0.1, falloff: 0.1 };
-        let radii: Vec<f32> = samples(&course).iter().map(|s| s.radius).collect();
+        let radii: Vec<f32> = samples(&course, 1.0).iter().map(|s| s.radius).collect();
         assert_eq!(radii.len(), 6);
         assert_eq!(radii[..2], [0.2, 0.2]);
         assert!(radii[1..].is_sorted_by(|a, b| a > b));
+    }
+
+    #[test]
+    fn rings_of_a_sharp_bend_do_not_cross() {
+        let mut course = course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + 0.4 * Vec3::X, Vec3::X]);
+        course.radii = vec![0.8, 0.8, 0.7, 0.6];
+        assert!(on_curve(&course, 1.0).windows(2).any(|pair| pair[0].crosses(&pair[1])));
+        let samples = samples(&course, 1.0);
+        assert!(samples.len() >= 2 && !samples.windows(2).any(|pair| pair[0].crosses(&pair[1])));
+        assert_eq!(samples[samples.len() - 1].point, Vec3::X);
+    }
+
+    #[test]
+    fn a_polyline_has_no_more_rings_than_nodes() {
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 0.0);
+        assert_eq!(
+            samples.iter().map(|s| s.point).collect::<Vec<_>>(),
+            [Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! A plant as it is drawn.
 //!
-//! [`RingTable`] holds one quantised row per metamer: what clients mirror, chunk by chunk. [`bark_mesh`] and
+//! [`RingTable`] holds one quantised row per metamer: what clients mirror, chunk by chunk. [`wood`] and
 //! [`leaf_mesh`] make whole triangle meshes for exports. Lengths are in internodes.
 
 pub mod blades;
@@ -17,7 +17,8 @@ pub mod triangle_mesh;
 pub mod tubes;
 
 pub use blades::leaf_mesh;
+pub use course::seeds;
 pub use ring_table::{Changes, RingTable};
 pub use style::{Style, StyleOptions};
 pub use triangle_mesh::TriangleMesh;
-pub use tubes::bark_mesh;
+pub use tubes::{Wood, wood};

@@ -3,7 +3,8 @@
 
 use std::f32::consts::TAU;
 
-use espalier_plant::Plant;
+use espalier_plant::{MetamerId, Plant};
+use espalier_settings::{BARK_SQUARES, BarkLook, THINNEST_BARK};
 use glam::{Vec2, Vec3};
 
 use crate::{
@@ -18,16 +19,36 @@ use crate::{
 const CHORD_ERROR: f32 = 0.01;
 const FEWEST_SIDES: u32 = 3;
 const MOST_SIDES: u32 = 24;
-/// Width of one tile of bark texture, in internodes.
-const BARK_TILE: f32 = 1.0;
+/// Normals lean no further along the axis than this slope has them: beside a bend they would belong to its other side.
+const STEEPEST: f32 = 0.8;
 
-/// All living wood. Texture coordinates have square texels: u goes around in whole tiles, v along.
-pub fn bark_mesh(plant: &Plant, style: &Style) -> TriangleMesh {
-    let mut mesh = TriangleMesh::default();
-    for course in courses(plant, style) {
-        sweep(&mut mesh, &course);
+/// The wood of one plant: a closed body for each axis, so that no edge is open; bodies lie one in another where a branch
+/// begins.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wood {
+    /// The seed that the plant has grown from.
+    pub seed: MetamerId,
+    /// All of it but the faces of cuts. Texture coordinates have square texels: u goes around in whole squares of bark, v
+    /// along.
+    pub surface: TriangleMesh,
+    /// The faces of cuts, as triangles of the same vertices.
+    pub cuts: Vec<u32>,
+    /// How thick the wood is at each vertex: its radius in internodes.
+    pub radii: Vec<f32>,
+}
+
+/// All living wood, plant by plant in the order of their seeds; none of a seed that has not grown.
+pub fn wood(plant: &Plant, style: &Style, look: &BarkLook) -> Vec<Wood> {
+    let mut plants: Vec<Wood> = Vec::new();
+    for course in courses(plant, style, look) {
+        let at = plants.binary_search_by_key(&course.seed, |wood| wood.seed).unwrap_or_else(|at| {
+            let (surface, cuts, radii) = Default::default();
+            plants.insert(at, Wood { seed: course.seed, surface, cuts, radii });
+            at
+        });
+        plants[at].sweep(&course, look.smoothing);
     }
-    mesh
+    plants
 }
 
 /// Sides of a tube: as many as keep the error, between a prism and what looks round.
@@ -36,36 +57,124 @@ fn sides(radius: f32) -> u32 {
     ((TAU / (2.0 * half_angle)).ceil() as u32).clamp(FEWEST_SIDES, MOST_SIDES)
 }
 
-fn sweep(mesh: &mut TriangleMesh, course: &Course) {
-    let samples = samples(course);
-    let across = rotation_minimising::normals(samples.iter().map(|s| (s.point, s.tangent)), course.normal);
-    let thickest = course.radii.iter().copied().fold(0.0, f32::max);
-    let tube = Tube::new(sides(thickest), (TAU * thickest / BARK_TILE).round().max(1.0));
-    let mut v = 0.0;
-    let mut below = None;
-    for (i, sample) in samples.iter().enumerate() {
-        if let Some(last) = i.checked_sub(1).map(|last| &samples[last]) {
-            v += tube.tiles_along(sample.arc - last.arc, 0.5 * (sample.radius + last.radius));
-        }
-        let ring = tube.add_ring(mesh, sample, across[i], slope(&samples, i), v);
-        if let Some(below) = below {
-            tube.join(mesh, below, ring);
-        }
-        below = Some(ring);
-    }
-    if let (Some(ring), Some(last)) = (below, samples.last()) {
-        match course.end {
-            End::Grown => tube.close(mesh, ring, last, v),
-            End::Cut => tube.cut(mesh, ring, last, v),
-        }
-    }
+/// Squares of bark around a tube.
+fn squares(radius: f32) -> f32 {
+    let octave = libm::log2f((radius / THINNEST_BARK).max(1.0)).round() as usize;
+    f32::from(BARK_SQUARES[octave.min(BARK_SQUARES.len() - 1)])
 }
 
-/// How fast the radius grows along the axis.
-fn slope(samples: &[Sample], i: usize) -> f32 {
-    let (a, b) = (&samples[i.saturating_sub(1)], &samples[(i + 1).min(samples.len() - 1)]);
-    let length = b.arc - a.arc;
-    if length > 0.0 { (b.radius - a.radius) / length } else { 0.0 }
+/// How fast the radius grows along the axis at each place, as normals have it.
+fn slopes(samples: &[Sample], end: End) -> Vec<f32> {
+    let slope = |a: &Sample, b: &Sample| {
+        let length = b.arc - a.arc;
+        if length > 0.0 { (b.radius - a.radius) / length } else { 0.0 }
+    };
+    let last = samples.len() - 1;
+    // A grown tip is a cone as high as it is wide.
+    let tip = if end == End::Grown { -1.0 } else { 0.0 };
+    let at = |i: usize| {
+        let (below, above) = (&samples[i.saturating_sub(1)], &samples[(i + 1).min(last)]);
+        let beside = [slope(below, &samples[i]), if i < last { slope(&samples[i], above) } else { tip }];
+        // Where wood swells and shrinks at once, a normal still belongs to the surface on both sides.
+        let limited = |mean: f32, side: f32| if mean * side < -0.5 { -0.5 / side } else { mean };
+        beside.into_iter().fold(slope(below, above), limited).clamp(-STEEPEST, STEEPEST)
+    };
+    (0..samples.len()).map(at).collect()
+}
+
+impl Wood {
+    /// All its triangles, the faces of cuts last.
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        let (surface, cuts) = (self.surface.indices.as_chunks::<3>().0, self.cuts.as_chunks::<3>().0);
+        surface.iter().chain(cuts).copied()
+    }
+
+    /// All its triangles as one mesh, the faces of cuts last.
+    pub fn into_mesh(mut self) -> TriangleMesh {
+        self.surface.indices.append(&mut self.cuts);
+        self.surface
+    }
+
+    fn sweep(&mut self, course: &Course, smoothing: f32) {
+        let samples = samples(course, smoothing);
+        let [first, .., last] = &samples[..] else { return };
+        let across = rotation_minimising::normals(samples.iter().map(|sample| sample.tangent), course.normal);
+        let thickest = course.radii.iter().copied().fold(0.0, f32::max);
+        let slopes = slopes(&samples, course.end);
+        let tube = Tube::new(sides(thickest), squares(thickest));
+        let foot = self.add_ring(&tube, first, across[0], slopes[0], 0.0);
+        let back = self.add_face(&tube, foot, first, -first.tangent, 0.0);
+        for triangle in back.as_chunks::<3>().0 {
+            let &[a, b, c] = triangle;
+            self.surface.triangle(b, a, c);
+        }
+        let (mut v, mut below) = (0.0, foot);
+        for (i, pair) in samples.windows(2).enumerate() {
+            let [from, to] = pair else { continue };
+            v += tube.tiles_along(to.arc - from.arc, 0.5 * (to.radius + from.radius));
+            let ring = self.add_ring(&tube, to, across[i + 1], slopes[i + 1], v);
+            self.join(&tube, below, ring);
+            below = ring;
+        }
+        match course.end {
+            End::Grown => self.close(&tube, below, last, v),
+            End::Cut => {
+                let face = self.add_face(&tube, below, last, last.tangent, v);
+                self.cuts.extend(face);
+            }
+        }
+    }
+
+    fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, radius: f32) -> u32 {
+        self.radii.push(radius);
+        self.surface.vertex(position, normal, uv)
+    }
+
+    /// Adds a ring and returns its first vertex.
+    fn add_ring(&mut self, tube: &Tube, sample: &Sample, across: Vec3, slope: f32, v: f32) -> u32 {
+        let binormal = sample.tangent.cross(across);
+        let first = self.radii.len() as u32;
+        for &(cos, sin, u) in &tube.around {
+            let outward = across * cos + binormal * sin;
+            let normal = (outward - sample.tangent * slope).normalize();
+            let place = sample.point + outward * sample.radius;
+            self.vertex(place, normal, Vec2::new(u, v), sample.radius);
+        }
+        first
+    }
+
+    fn join(&mut self, tube: &Tube, below: u32, above: u32) {
+        for side in 0..tube.sides() {
+            self.surface.triangle(below + side, below + side + 1, above + side + 1);
+            self.surface.triangle(below + side, above + side + 1, above + side);
+        }
+    }
+
+    /// Closes the tip with a cone as high as it is wide.
+    fn close(&mut self, tube: &Tube, ring: u32, tip: &Sample, v: f32) {
+        let apex = tip.point + tip.tangent * tip.radius;
+        let v = v + tube.tiles_along(tip.radius, tip.radius);
+        for side in 0..tube.sides() {
+            // An apex for each side: one for all could have only one place in the texture.
+            let top = self.vertex(apex, tip.tangent, Vec2::new(tube.middle(side), v), tip.radius);
+            self.surface.triangle(ring + side, ring + side + 1, top);
+        }
+    }
+
+    /// The triangles of a flat face over a ring, as seen from above it.
+    fn add_face(&mut self, tube: &Tube, ring: u32, end: &Sample, normal: Vec3, v: f32) -> Vec<u32> {
+        // The rim once more, for the face has another normal than the sides; texels go on as they come over the rim.
+        let rim = self.radii.len() as u32;
+        for corner in (ring..=ring + tube.sides()).map(|corner| corner as usize) {
+            self.vertex(self.surface.positions[corner], normal, self.surface.uvs[corner], end.radius);
+        }
+        let v = v + tube.tiles_along(end.radius, end.radius);
+        let triangle = |side| {
+            let middle = self.vertex(end.point, normal, Vec2::new(tube.middle(side), v), end.radius);
+            [rim + side, rim + side + 1, middle]
+        };
+        (0..tube.sides()).flat_map(triangle).collect()
+    }
 }
 
 /// What all rings of one tube have in common.
@@ -90,62 +199,20 @@ impl Tube {
         self.around.len() as u32 - 1
     }
 
+    /// The texture coordinate of a side's middle.
+    fn middle(&self, side: u32) -> f32 {
+        self.tiles * (side as f32 + 0.5) / self.sides() as f32
+    }
+
     /// Tiles along a piece, so many that texels are as long as they are wide.
     fn tiles_along(&self, length: f32, radius: f32) -> f32 {
         self.tiles * length / (TAU * radius)
-    }
-
-    /// Adds a ring and returns its first vertex.
-    fn add_ring(&self, mesh: &mut TriangleMesh, sample: &Sample, across: Vec3, slope: f32, v: f32) -> u32 {
-        let binormal = sample.tangent.cross(across);
-        let first = mesh.positions.len() as u32;
-        for &(cos, sin, u) in &self.around {
-            let outward = across * cos + binormal * sin;
-            let normal = (outward - sample.tangent * slope).normalize();
-            mesh.vertex(sample.point + outward * sample.radius, normal, Vec2::new(u, v));
-        }
-        first
-    }
-
-    fn join(&self, mesh: &mut TriangleMesh, below: u32, above: u32) {
-        for side in 0..self.sides() {
-            mesh.triangle(below + side, below + side + 1, above + side + 1);
-            mesh.triangle(below + side, above + side + 1, above + side);
-        }
-    }
-
-    /// Closes the tip with a cone as high as it is wide.
-    fn close(&self, mesh: &mut TriangleMesh, ring: u32, tip: &Sample, v: f32) {
-        let apex = tip.point + tip.tangent * tip.radius;
-        let v = v + self.tiles_along(tip.radius, tip.radius);
-        for side in 0..self.sides() {
-            // An apex for each side: one for all could have only one place in the texture.
-            let u = self.tiles * (side as f32 + 0.5) / self.sides() as f32;
-            let top = mesh.vertex(apex, tip.tangent, Vec2::new(u, v));
-            mesh.triangle(ring + side, ring + side + 1, top);
-        }
-    }
-
-    /// Closes a cut end with a flat face.
-    fn cut(&self, mesh: &mut TriangleMesh, ring: u32, end: &Sample, v: f32) {
-        // The rim once more, for the face has another normal than the sides; texels go on as they come over the rim.
-        let rim = mesh.positions.len() as u32;
-        for corner in ring..=ring + self.sides() {
-            let corner = corner as usize;
-            mesh.vertex(mesh.positions[corner], end.tangent, mesh.uvs[corner]);
-        }
-        let v = v + self.tiles_along(end.radius, end.radius);
-        for side in 0..self.sides() {
-            let u = self.tiles * (side as f32 + 0.5) / self.sides() as f32;
-            let middle = mesh.vertex(end.point, end.tangent, Vec2::new(u, v));
-            mesh.triangle(rim + side, rim + side + 1, middle);
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{AxisId, Internode, MetamerId};
+    use espalier_plant::{AxisId, Internode};
 
     use super::*;
     use crate::{checks, style::StyleOptions};
@@ -166,6 +233,23 @@ mod tests {
         plant
     }
 
+    fn courses_of(plant: &Plant) -> Vec<Course> {
+        courses(plant, &style(0.1), &BarkLook::default())
+    }
+
+    /// The wood of the only plant, which is closed.
+    fn wood_of(plant: &Plant, style: &Style) -> Wood {
+        let mut plants = wood(plant, style, &BarkLook::default());
+        let wood = plants.pop().expect("it has grown");
+        assert!(plants.is_empty());
+        assert_eq!(checks::wood(&wood), Ok(()));
+        wood
+    }
+
+    fn bark_of(plant: &Plant, style: &Style) -> TriangleMesh {
+        wood_of(plant, style).surface
+    }
+
     fn style(twig_diameter: f32) -> Style {
         Style::new(StyleOptions { twig_diameter, ..StyleOptions::default() })
     }
@@ -178,7 +262,7 @@ mod tests {
 
     #[test]
     fn seed_alone_has_no_wood() {
-        assert!(bark_mesh(&Plant::new(Vec3::ZERO), &Style::default()).is_empty());
+        assert!(wood(&Plant::new(Vec3::ZERO), &Style::default(), &BarkLook::default()).is_empty());
     }
 
     #[test]
@@ -189,14 +273,7 @@ mod tests {
 
     #[test]
     fn trunk_is_round_faces_out_and_tapers() {
-        let mesh = bark_mesh(&trunk(4, false), &style(0.1));
-        assert_eq!(checks::mesh(&mesh), Ok(()));
-        for corners in mesh.indices.as_chunks::<3>().0 {
-            let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
-            let middle = (a + b + c) / 3.0;
-            let outward = Vec3::new(middle.x, 0.0, middle.z);
-            assert!((b - a).cross(c - a).dot(outward) > 0.0, "a triangle at {middle} faces inwards");
-        }
+        let mesh = bark_of(&trunk(4, false), &style(0.1));
         // The roots spread by 0.65; the tip is slim.
         assert!((girth_at(&mesh, 0.0) - 0.05 * 1.65).abs() < 1e-5);
         assert!((girth_at(&mesh, 3.0) - 0.05).abs() < 1e-5);
@@ -206,30 +283,30 @@ mod tests {
     #[test]
     fn lateral_begins_in_its_bearer_with_a_collar() {
         let plant = trunk(3, true);
-        let courses = courses(&plant, &style(0.1));
+        let courses = courses_of(&plant);
         assert_eq!(courses.len(), 2);
         let lateral = &courses[1];
         assert_eq!((lateral.nodes[0], lateral.before), (Vec3::Y, Vec3::ZERO));
         let bearing = 0.05 * libm::powf(2.0, 0.4);
-        let first = samples(lateral)[0].radius;
+        let first = samples(lateral, 1.0)[0].radius;
         assert!((first - 0.95 * bearing).abs() < 1e-5, "the collar is {first} wide on a trunk of {bearing}");
     }
 
     #[test]
     fn shed_wood_is_not_drawn() {
         let mut plant = trunk(3, true);
-        let whole = bark_mesh(&plant, &style(0.1));
+        let whole = bark_of(&plant, &style(0.1));
         plant.begin_step();
         plant.shed(&[AxisId::new(1)]);
         plant.end_step();
-        let rest = bark_mesh(&plant, &style(0.1));
+        let rest = bark_of(&plant, &style(0.1));
         assert!(rest.positions.len() < whole.positions.len());
         assert!(rest.bounds().is_some_and(|[_, high]| high.x < 0.2));
     }
 
     #[test]
     fn texels_are_square_and_close_at_the_seam() {
-        let mesh = bark_mesh(&trunk(3, false), &style(1.0));
+        let mesh = bark_of(&trunk(3, false), &style(1.0));
         // From node 1 to node 2 the radius is 0.5 and the flare nearly gone.
         let v_at = |height: f32| {
             let at =
@@ -237,7 +314,8 @@ mod tests {
             mesh.uvs[at].y
         };
         let circumference = TAU * 0.5;
-        let tiles = circumference.round();
+        let tiles = squares(0.5);
+        assert_eq!(tiles, 1.0);
         assert!((v_at(2.0) - v_at(1.0) - tiles / circumference).abs() < 0.08);
         let (first, last) = (0, sides(0.5) as usize);
         assert_eq!(mesh.positions[first], mesh.positions[last]);
@@ -260,20 +338,18 @@ mod tests {
     fn stub_keeps_its_width_and_ends_flat() {
         let mut plant = trunk(5, false);
         edit(&mut plant, &[(3, 0.4)], Some(4));
-        let mesh = bark_mesh(&plant, &style(0.1));
-        assert_eq!(checks::mesh(&mesh), Ok(()));
+        let wood = wood_of(&plant, &style(0.1));
+        let mesh = &wood.surface;
         assert!(mesh.bounds().is_some_and(|[_, high]| (high.y - 3.0).abs() < 1e-6));
-        assert!((girth_at(&mesh, 3.0) - 0.2).abs() < 1e-5 && (girth_at(&mesh, 2.0) - 0.2).abs() < 1e-4);
+        assert!((girth_at(mesh, 3.0) - 0.2).abs() < 1e-5 && (girth_at(mesh, 2.0) - 0.2).abs() < 1e-4);
         // The face is a whole polygon of upright triangles.
         let mut face = 0.0;
-        for corners in mesh.indices.as_chunks::<3>().0 {
+        for corners in wood.cuts.as_chunks::<3>().0 {
             let [a, b, c] = corners.map(|corner| mesh.positions[corner as usize]);
-            if [a, b, c].iter().all(|p| (p.y - 3.0).abs() < 1e-5) {
-                let area = 0.5 * (b - a).cross(c - a);
-                assert!(area.y > 0.0 && area.x.abs() < 1e-6 && area.z.abs() < 1e-6);
-                assert!(corners.iter().all(|&corner| mesh.normals[corner as usize].y > 0.999));
-                face += area.y;
-            }
+            let area = 0.5 * (b - a).cross(c - a);
+            assert!(area.y > 0.0 && area.x.abs() < 1e-6 && area.z.abs() < 1e-6);
+            assert!(corners.iter().all(|&corner| mesh.normals[corner as usize].y > 0.999));
+            face += area.y;
         }
         let sides = sides(0.2) as f32;
         let polygon = 0.5 * sides * 0.04 * libm::sinf(TAU / sides);
@@ -284,8 +360,7 @@ mod tests {
     fn cut_without_a_width_is_a_twig() {
         let mut plant = trunk(5, true);
         edit(&mut plant, &[], Some(3));
-        let mesh = bark_mesh(&plant, &style(0.1));
-        assert_eq!(checks::mesh(&mesh), Ok(()));
+        let mesh = bark_of(&plant, &style(0.1));
         // As if nothing had been above, but neither slim nor pointed.
         assert!((girth_at(&mesh, 2.0) - 0.05).abs() < 1e-5);
         assert!(mesh.bounds().is_some_and(|[_, high]| high.y < 2.0 + 1e-5 && high.x > 1.0));
@@ -295,17 +370,17 @@ mod tests {
     fn lateral_closes_the_cut_above_it() {
         let mut plant = trunk(5, true);
         edit(&mut plant, &[(1, 0.4)], Some(2));
-        let courses = courses(&plant, &style(0.1));
+        let courses = courses_of(&plant);
         assert_eq!(courses.iter().map(|course| course.end).collect::<Vec<_>>(), [End::Grown; 2]);
         assert_eq!(courses[0].nodes, [Vec3::ZERO, Vec3::Y]);
-        assert_eq!(checks::mesh(&bark_mesh(&plant, &style(0.1))), Ok(()));
+        bark_of(&plant, &style(0.1));
     }
 
     #[test]
     fn constrained_tip_is_not_slim() {
         let mut plant = trunk(3, false);
         edit(&mut plant, &[(1, 0.8), (3, 0.2)], None);
-        let mesh = bark_mesh(&plant, &style(0.1));
+        let mesh = bark_of(&plant, &style(0.1));
         // Halved and halved again; at the second node the flare of the roots is gone but for a thousandth.
         assert!((girth_at(&mesh, 2.0) - 0.2).abs() < 2e-3);
         assert!((girth_at(&mesh, 3.0) - 0.1).abs() < 1e-3);

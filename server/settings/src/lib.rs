@@ -6,6 +6,7 @@
 //! Reading JSON checks types; ranges are checked by `check`, so that what is out of range has an error of its own.
 
 mod appearance;
+mod bark_nature;
 mod choice;
 mod leaf_nature;
 pub mod looks;
@@ -16,6 +17,7 @@ mod table;
 mod value;
 
 pub use appearance::{Appearance, AppearancePatch};
+pub use bark_nature::{BARK_BEGINS, BARK_SQUARES, BarkNature, LIMB_ENDS, Mixture, THINNEST_BARK};
 pub use leaf_nature::{Change, Course, LeafNature};
 pub use looks::{
     Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerKind, FlowerLook, FlowerPatch,

@@ -1,7 +1,7 @@
 //! A plant in the sun: how large it is drawn, what it stands on, and the colour of every pixel.
 
 use espalier_growth::species::{Species, Stand};
-use espalier_mesh::{Style, TriangleMesh, bark_mesh};
+use espalier_mesh::{Style, TriangleMesh, wood};
 use espalier_plant::Plant;
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
@@ -59,10 +59,9 @@ const LAWN: [u8; 3] = [196, 202, 172];
 
 /// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
 pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
-    let mut meshes = vec![
-        (Skin::Bark, bare(bark_mesh(plant, style))),
-        (Skin::Leaf, blades::foliage(plant, style, &look.appearance)),
-    ];
+    let wood = wood(plant, style, &look.appearance.bark).into_iter();
+    let mut meshes: Vec<_> = wood.map(|wood| (Skin::Bark, bare(wood.into_mesh()))).collect();
+    meshes.push((Skin::Leaf, blades::foliage(plant, style, &look.appearance)));
     let (points, reach) = extent(&meshes);
     let base = stand(&mut meshes, look.stand, reach);
     // What it stands on is to be seen as well.

@@ -2,9 +2,10 @@
 
 mod reader;
 mod saplings;
+mod species;
 
 use espalier_export::{ExportError, glb, skeleton_json};
-use espalier_mesh::{Style, StyleOptions, bark_mesh, leaf_mesh, leaves};
+use espalier_mesh::{Style, StyleOptions, leaf_mesh, leaves, wood};
 use espalier_plant::{MetamerId, Plant, Widths};
 use espalier_settings::{Appearance, LeafKind};
 use glam::Vec3;
@@ -39,8 +40,8 @@ proptest! {
         // In summer leaves are as the rules have them.
         let ids = (0..plant.metamer_count()).map(MetamerId::new);
         let leaves: Vec<_> = ids.flat_map(|id| leaves::of(&plant, id, &style)).collect();
-        let sources = [("Bark", bark_mesh(&plant, &style)), ("Leaves", leaf_mesh(&leaves))];
-        let sources: Vec<_> = sources.into_iter().filter(|(_, mesh)| !mesh.is_empty()).collect();
+        let bark = wood(&plant, &style, &looks().bark).into_iter().map(|wood| ("Bark", wood.into_mesh()));
+        let sources: Vec<_> = bark.chain([("Leaves", leaf_mesh(&leaves))]).filter(|(_, mesh)| !mesh.is_empty()).collect();
         prop_assert_eq!(meshes.len(), sources.len());
         for (read, (name, source)) in meshes.iter().zip(&sources) {
             prop_assert_eq!(&read.name, name);

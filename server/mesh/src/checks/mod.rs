@@ -1,12 +1,13 @@
 //! Invariants of what is drawn, one a file. Property tests run all that apply.
 
+mod closed_wood;
 mod finite_vertices;
 mod table_mirrors_plant;
 mod true_triangles;
 
 use espalier_plant::Plant;
 
-use crate::{ring_table::RingTable, style::Style, triangle_mesh::TriangleMesh};
+use crate::{ring_table::RingTable, style::Style, triangle_mesh::TriangleMesh, tubes::Wood};
 
 /// An invariant that does not hold.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -27,6 +28,12 @@ pub fn table(table: &RingTable, plant: &Plant, style: &Style) -> Result<(), Fail
 pub fn mesh(mesh: &TriangleMesh) -> Result<(), Failure> {
     finite_vertices::check(mesh)?;
     true_triangles::check(mesh)
+}
+
+/// Checks the wood of a plant.
+pub fn wood(wood: &Wood) -> Result<(), Failure> {
+    mesh(&wood.surface)?;
+    closed_wood::check(wood)
 }
 
 fn require(check: &'static str, holds: bool, detail: impl FnOnce() -> String) -> Result<(), Failure> {

@@ -4,10 +4,13 @@ mod life;
 mod mirror;
 mod plain;
 
+use std::collections::BTreeSet;
+
 use espalier_mesh::{
-    RingTable, Style, StyleOptions, bark_mesh, checks, leaf_mesh, leaves, ring_table::CHUNK_ROWS,
+    RingTable, Style, StyleOptions, checks, leaf_mesh, leaves, ring_table::CHUNK_ROWS, seeds, wood,
 };
 use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_settings::BarkLook;
 use glam::Vec3;
 use life::{events, happen};
 use mirror::{ByChanges, ByGenerations};
@@ -68,18 +71,29 @@ proptest! {
     }
 
     #[test]
-    fn whole_meshes_hold_and_repeat(events in events(), style in styles()) {
+    fn whole_meshes_hold_and_repeat(
+        events in events(),
+        style in styles(),
+        [collar, root_flare] in prop::array::uniform2(0.0f32..=2.0),
+        smoothing in 0.0f32..=1.0,
+    ) {
         let mut plant = Plant::new(Vec3::ZERO);
         for event in &events {
             happen(&mut plant, event);
         }
         let ids = (0..plant.metamer_count()).map(MetamerId::new);
         let leaves: Vec<_> = ids.flat_map(|id| leaves::of(&plant, id, &style)).collect();
-        let (bark, foliage) = (bark_mesh(&plant, &style), leaf_mesh(&leaves));
-        prop_assert_eq!(checks::mesh(&bark), Ok(()));
+        let look = BarkLook { collar, root_flare, smoothing, ..BarkLook::default() };
+        let (plants, foliage) = (wood(&plant, &style, &look), leaf_mesh(&leaves));
+        for wood in &plants {
+            prop_assert_eq!(checks::wood(wood), Ok(()));
+        }
         prop_assert_eq!(checks::mesh(&foliage), Ok(()));
-        prop_assert_eq!(bark.is_empty(), plant.living_count() == 0);
-        prop_assert_eq!(&bark, &bark_mesh(&plant, &style));
+        let of = seeds(&plant);
+        let grown = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
+        let grown: BTreeSet<_> = grown.map(|id| of[id.index()]).collect();
+        prop_assert!(plants.iter().map(|wood| wood.seed).eq(grown));
+        prop_assert_eq!(&plants, &wood(&plant, &style, &look));
         let mut table = RingTable::new();
         table.sync(&plant, &style, 1);
         prop_assert_eq!(leaves.len(), table.leaves() as usize);

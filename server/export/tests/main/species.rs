@@ -1,0 +1,28 @@
+//! What holds for a tree of each species.
+
+use espalier_growth::species::{self, Species};
+use espalier_mesh::{Style, checks, wood};
+use espalier_session::{Document, script, style_options};
+
+/// A tree of a species at the end of its schedule.
+pub fn raised(species: &Species, seed: u32) -> Document {
+    let mut document = Document::new(seed);
+    for action in script(species) {
+        document.apply("gardener", &action.into()).expect("its schedule can be done");
+    }
+    document
+}
+
+#[test]
+fn wood_is_closed_and_faces_outwards() {
+    let mut triangles = 0;
+    for species in species::all() {
+        let mut document = raised(species, 3);
+        let (style, look) = (Style::new(style_options(&document.parameters())), document.appearance().bark);
+        for wood in wood(document.portrait(), &style, &look) {
+            assert_eq!(checks::wood(&wood), Ok(()), "{}", species.slug);
+            triangles += wood.triangles().count();
+        }
+    }
+    assert!(triangles > 100_000, "{triangles}");
+}
