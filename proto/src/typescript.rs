@@ -84,7 +84,10 @@ pub fn declarations() -> String {
         settings::FruitKind::decl(&config),
         settings::FruitLook::decl(&config),
         settings::FruitPatch::decl(&config),
+        settings::OrnamentNature::decl(&config),
         settings::BarkKind::decl(&config),
+        settings::Mixture::decl(&config),
+        settings::BarkNature::decl(&config),
         settings::BarkLook::decl(&config),
         settings::BarkPatch::decl(&config),
         settings::Sky::decl(&config),
@@ -144,18 +147,34 @@ fn add_tables(out: &mut String) {
         let _ = writeln!(out, "  {}: {},", kind.name(), json(&kind.nature()));
     }
     out.push_str("};\n");
-    let flowers: Vec<_> =
-        settings::FlowerKind::ALL.iter().map(|kind| (kind.name(), kind.together())).collect();
-    let fruits: Vec<_> = settings::FruitKind::ALL.iter().map(|kind| (kind.name(), kind.together())).collect();
-    for (sort, salt, together) in
+    let of_ornaments = |natures: &[(&str, Option<settings::OrnamentNature>)]| -> String {
+        let named = natures.iter().filter_map(|(name, nature)| Some((name, nature.as_ref()?)));
+        named.map(|(name, nature)| format!("  {name}: {},\n", json(nature))).collect()
+    };
+    let flowers: Vec<_> = settings::FlowerKind::ALL.iter().map(|kind| (kind.name(), kind.nature())).collect();
+    let fruits: Vec<_> = settings::FruitKind::ALL.iter().map(|kind| (kind.name(), kind.nature())).collect();
+    for (sort, salt, natures) in
         [("Flower", settings::FLOWER_SALT, flowers), ("Fruit", settings::FRUIT_SALT, fruits)]
     {
-        let together: String = together.iter().map(|(name, count)| format!(" {name}: {count},")).collect();
-        let name = sort.to_uppercase();
+        let (name, natures) = (sort.to_uppercase(), of_ornaments(&natures));
         let _ = writeln!(out, "\nexport const {name}_SALT = {salt};");
-        let _ = writeln!(out, "export const {name}S_TOGETHER: Record<{sort}Kind, number> = {{{together} }};");
+        let of = format!("Record<Exclude<{sort}Kind, \"none\">, OrnamentNature>");
+        let _ = writeln!(out, "export const {name}_NATURES: {of} = {{\n{natures}}};");
     }
     let _ = writeln!(out, "export const THICKEST_BEARING = {};", settings::THICKEST_BEARING);
+    out.push_str("\nexport const BARK_NATURES: Record<BarkKind, BarkNature> = {\n");
+    for &kind in settings::BarkKind::ALL {
+        let _ = writeln!(out, "  {}: {},", kind.name(), json(&kind.nature()));
+    }
+    out.push_str("};\n");
+    for (name, value) in [
+        ("THINNEST_BARK", json(&settings::THINNEST_BARK)),
+        ("BARK_SQUARES", json(&settings::BARK_SQUARES)),
+        ("BARK_BEGINS", json(&settings::BARK_BEGINS)),
+        ("LIMB_ENDS", json(&settings::LIMB_ENDS)),
+    ] {
+        let _ = writeln!(out, "export const {name} = {value} as const;");
+    }
     let (parameters, looks) = (json(&ParameterValues::default()), json(&Appearance::default()));
     let _ = writeln!(out, "\nexport const DEFAULT_PARAMETERS: Parameters = {parameters};");
     let _ = writeln!(out, "\nexport const DEFAULT_APPEARANCE: Appearance = {looks};");

@@ -121,23 +121,46 @@ export const LOOKS = {
 } as const satisfies { [Part in keyof Appearance]: Record<keyof Appearance[Part], Setting> };
 
 export const LEAF_NATURES: Record<LeafKind, LeafNature> = {
-  ovate: {"is_spray":false,"lean":0.0,"autumn":[[222,176,50],[192,96,34],[124,82,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.77000004}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  round: {"is_spray":false,"lean":0.0,"autumn":[[236,194,54],[220,152,38],[120,88,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  lanceolate: {"is_spray":false,"lean":0.0,"autumn":[[224,200,84],[206,160,62],[124,98,58]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  lobed: {"is_spray":false,"lean":0.0,"autumn":[[190,142,60],[142,80,42],[116,78,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.74}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  palmate: {"is_spray":false,"lean":0.0,"autumn":[[240,164,38],[190,44,28],[130,70,44]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  fan: {"is_spray":false,"lean":0.0,"autumn":[[246,208,54],[242,188,40],[150,112,56]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  compound: {"is_spray":false,"lean":0.0,"autumn":[[232,182,50],[208,92,36],[122,82,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
-  needle: {"is_spray":true,"lean":0.6,"autumn":[[170,140,60],[160,110,50],[122,96,60]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
-  scale: {"is_spray":true,"lean":0.72,"autumn":[[150,140,66],[150,120,60],[112,96,62]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
+  ovate: {"is_spray":false,"lean":0.0,"bend":1.0,"autumn":[[222,176,50],[192,96,34],[124,82,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.77000004}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  round: {"is_spray":false,"lean":0.0,"bend":1.0,"autumn":[[236,194,54],[220,152,38],[120,88,50]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  lanceolate: {"is_spray":false,"lean":0.0,"bend":1.3,"autumn":[[224,200,84],[206,160,62],[124,98,58]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  lobed: {"is_spray":false,"lean":0.0,"bend":1.0,"autumn":[[190,142,60],[142,80,42],[116,78,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.74}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  palmate: {"is_spray":false,"lean":0.0,"bend":0.9,"autumn":[[240,164,38],[190,44,28],[130,70,44]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  fan: {"is_spray":false,"lean":0.0,"bend":0.5,"autumn":[[246,208,54],[242,188,40],[150,112,56]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  compound: {"is_spray":false,"lean":0.0,"bend":1.4,"autumn":[[232,182,50],[208,92,36],[122,82,48]],"unfolded":{"start":0.24,"changes":[{"from":0.0,"to":0.85,"by":0.76}]},"present":{"start":0.4,"changes":[{"from":0.0,"to":0.6,"by":0.6},{"from":1.5,"to":2.0,"by":-0.2},{"from":2.0,"to":2.85,"by":-0.8}]},"fresh":{"start":1.0,"changes":[{"from":0.0,"to":0.95,"by":-1.0}]},"turned":{"start":0.0,"changes":[{"from":1.1,"to":2.2,"by":1.0}]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":1.0}]}},
+  needle: {"is_spray":true,"lean":0.6,"bend":0.3,"autumn":[[170,140,60],[160,110,50],[122,96,60]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
+  scale: {"is_spray":true,"lean":0.72,"bend":1.0,"autumn":[[150,140,66],[150,120,60],[112,96,62]],"unfolded":{"start":0.94,"changes":[{"from":0.0,"to":0.95,"by":0.06}]},"present":{"start":1.0,"changes":[]},"fresh":{"start":0.5,"changes":[{"from":0.0,"to":0.95,"by":-0.5}]},"turned":{"start":0.0,"changes":[]},"withered":{"start":0.0,"changes":[{"from":1.9,"to":2.9,"by":0.16}]}},
 };
 
 export const FLOWER_SALT = 7997;
-export const FLOWERS_TOGETHER: Record<FlowerKind, number> = { none: 0, rosette: 7, catkin: 2, panicle: 1, };
+export const FLOWER_NATURES: Record<Exclude<FlowerKind, "none">, OrnamentNature> = {
+  rosette: {"together":7,"reach":0.5,"hang":0.35,"turn":-1.0,"stalk":0.55,"gloss":0.3,"second":[214,170,72]},
+  catkin: {"together":2,"reach":0.11,"hang":-1.0,"turn":0.25,"stalk":0.0,"gloss":0.0,"second":[226,206,120]},
+  panicle: {"together":1,"reach":0.27,"hang":0.85,"turn":0.25,"stalk":0.0,"gloss":0.2,"second":[222,150,90]},
+};
 
 export const FRUIT_SALT = 27425;
-export const FRUITS_TOGETHER: Record<FruitKind, number> = { none: 0, round: 1, cone: 1, nut: 2, winged: 2, };
+export const FRUIT_NATURES: Record<Exclude<FruitKind, "none">, OrnamentNature> = {
+  round: {"together":1,"reach":0.5,"hang":-0.95,"turn":0.9,"stalk":0.0,"gloss":2.4,"second":[206,170,70]},
+  cone: {"together":1,"reach":0.27,"hang":-0.75,"turn":0.4,"stalk":0.0,"gloss":0.3,"second":[184,140,92]},
+  nut: {"together":2,"reach":0.33,"hang":-0.8,"turn":0.5,"stalk":0.0,"gloss":1.4,"second":[150,134,96]},
+  winged: {"together":2,"reach":0.5,"hang":-0.9,"turn":0.35,"stalk":0.0,"gloss":0.5,"second":[196,172,120]},
+};
 export const THICKEST_BEARING = 0.6;
+
+export const BARK_NATURES: Record<BarkKind, BarkNature> = {
+  smooth: {"second":{"brightness":0.8,"other":[0.1,0.12,0.05],"share":0.6},"third":{"brightness":1.12,"other":[0.42,0.44,0.36],"share":0.3},"young":{"brightness":0.7,"other":[0.13,0.095,0.06],"share":0.5},"limb":{"brightness":1.0,"other":[0.0,0.0,0.0],"share":0.0}},
+  furrowed: {"second":{"brightness":0.34,"other":[0.045,0.032,0.021],"share":0.5},"third":{"brightness":1.0,"other":[0.24,0.28,0.16],"share":0.6},"young":{"brightness":0.75,"other":[0.085,0.07,0.036],"share":0.55},"limb":{"brightness":1.0,"other":[0.0,0.0,0.0],"share":0.0}},
+  plated: {"second":{"brightness":1.05,"other":[0.36,0.14,0.06],"share":0.55},"third":{"brightness":0.24,"other":[0.035,0.022,0.015],"share":0.5},"young":{"brightness":0.9,"other":[0.2,0.115,0.055],"share":0.5},"limb":{"brightness":1.1,"other":[0.37,0.155,0.07],"share":0.6}},
+  papery: {"second":{"brightness":0.02,"other":[0.02,0.017,0.015],"share":0.8},"third":{"brightness":0.9,"other":[0.55,0.33,0.2],"share":0.75},"young":{"brightness":0.05,"other":[0.085,0.042,0.03],"share":0.9},"limb":{"brightness":1.0,"other":[0.0,0.0,0.0],"share":0.0}},
+  flaking: {"second":{"brightness":1.4,"other":[0.58,0.51,0.31],"share":0.7},"third":{"brightness":0.75,"other":[0.2,0.175,0.135],"share":0.7},"young":{"brightness":0.8,"other":[0.11,0.09,0.045],"share":0.5},"limb":{"brightness":1.2,"other":[0.5,0.45,0.28],"share":0.35}},
+  banded: {"second":{"brightness":1.7,"other":[0.28,0.17,0.1],"share":0.55},"third":{"brightness":0.25,"other":[0.025,0.014,0.012],"share":0.4},"young":{"brightness":0.9,"other":[0.11,0.05,0.035],"share":0.5},"limb":{"brightness":1.0,"other":[0.0,0.0,0.0],"share":0.0}},
+  stringy: {"second":{"brightness":0.45,"other":[0.13,0.045,0.022],"share":0.55},"third":{"brightness":1.25,"other":[0.36,0.33,0.28],"share":0.5},"young":{"brightness":0.7,"other":[0.1,0.075,0.035],"share":0.6},"limb":{"brightness":1.0,"other":[0.0,0.0,0.0],"share":0.0}},
+};
+export const THINNEST_BARK = 0.1 as const;
+export const BARK_SQUARES = [1,1,1,2,4,6,9] as const;
+export const BARK_BEGINS = [0.05,0.24] as const;
+export const LIMB_ENDS = [0.25,0.8] as const;
 
 export const DEFAULT_PARAMETERS: Parameters = {"internode_length":0.1,"occupancy_radius":1.5,"perception_depth":3.0,"perception_angle":90.0,"phyllotactic_angle":137.5,"buds_per_node":1,"branching_angle":50.0,"deflection_angle":5.0,"apical_control":0.52,"mature_apical_control":0.52,"maturity_start":0,"maturity_steps":0,"light_sensitivity":1.0,"max_shoot_length":4,"shedding_threshold":0.0,"vigor_gain":2.0,"vigor_model":"borchert_honda","priority_least_weight":0.006,"priority_decline":0.5,"heading_weight":0.5,"tropism_weight":0.25,"space_weight":0.25,"phototropism":0.0,"setpoint_angle":0.0,"trunk_upward":true,"tropism_from_stroke":false,"gravimorphism_vertical":1.0,"gravimorphism_horizontal":1.0,"gravimorphism_shift":0.0,"marker_density":0.15,"markers_per_bud":6,"marker_max_age":8,"shadow_strength":0.12,"shadow_decay":2.0,"shadow_depth":6,"girth_exponent":2.5,"twig_diameter":0.07,"leaves_per_node":4,"leaf_size":1.0};
 
@@ -627,6 +650,10 @@ is_spray: boolean,
  */
 lean: number, 
 /**
+ * How much it bows, folds or sags: long and heavy ones hang.
+ */
+bend: number, 
+/**
  * The sRGB colours that it turns into: at first, at last, and dead.
  */
 autumn: [[number, number, number], [number, number, number], [number, number, number]], 
@@ -805,7 +832,69 @@ place?: Place,
  */
 vigor?: number, };
 
+export type OrnamentNature = { 
+/**
+ * How many there are at a place.
+ */
+together: number, 
+/**
+ * Half of its width.
+ */
+reach: number, 
+/**
+ * Whether it hangs (-1), stands as a leaf does (0) or upright (1), or anything between.
+ */
+hang: number, 
+/**
+ * How far it turns its face to the eye, 0 to 1; below 0 for a disc that looks where a leaf points.
+ */
+turn: number, 
+/**
+ * Its stalk.
+ */
+stalk: number, 
+/**
+ * How much it shines.
+ */
+gloss: number, 
+/**
+ * Its second colour in sRGB.
+ */
+second: [number, number, number], };
+
 export type BarkKind = "smooth" | "furrowed" | "plated" | "papery" | "flaking" | "banded" | "stringy";
+
+export type Mixture = { 
+/**
+ * What the tint is multiplied by.
+ */
+brightness: number, 
+/**
+ * What is mixed with it, linear.
+ */
+other: [number, number, number], 
+/**
+ * How much of that.
+ */
+share: number, };
+
+export type BarkNature = { 
+/**
+ * Of what lies in the furrows.
+ */
+second: Mixture, 
+/**
+ * Of what grows or shows on top.
+ */
+third: Mixture, 
+/**
+ * Of twigs, before they have bark.
+ */
+young: Mixture, 
+/**
+ * What limbs have for the tint.
+ */
+limb: Mixture, };
 
 export type BarkLook = { 
 /**

@@ -12,6 +12,8 @@ pub struct LeafNature {
     pub is_spray: bool,
     /// How far it lies along its twig, 0 as `LF2` has it to 1 along the twig.
     pub lean: f32,
+    /// How much it bows, folds or sags: long and heavy ones hang.
+    pub bend: f32,
     /// The sRGB colours that it turns into: at first, at last, and dead.
     pub autumn: [Tint; 3],
     /// How large it is, 0 to 1.
@@ -71,6 +73,14 @@ impl LeafKind {
             start,
             changes: changes.iter().map(|&[from, to, by]| Change { from, to, by }).collect(),
         };
+        let bend = match self {
+            Self::Compound => 1.4,
+            Self::Lanceolate => 1.3,
+            Self::Palmate => 0.9,
+            Self::Fan => 0.5,
+            Self::Needle => 0.3,
+            _ => 1.0,
+        };
         let is_spray = self.is_evergreen();
         let autumn = self.autumn();
         if is_spray {
@@ -78,6 +88,7 @@ impl LeafKind {
             return LeafNature {
                 is_spray,
                 lean,
+                bend,
                 autumn,
                 unfolded: course(0.94, &[[0.0, 0.95, 0.06]]),
                 present: course(kept, &[]),
@@ -89,6 +100,7 @@ impl LeafKind {
         LeafNature {
             is_spray,
             lean,
+            bend,
             autumn,
             unfolded: course(0.24, &[[0.0, 0.85, 0.76]]),
             present: course(0.4, &[[0.0, 0.6, 0.6], [1.5, 2.0, -0.2], [2.0, 2.85, kept - 0.8]]),

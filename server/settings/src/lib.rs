@@ -23,7 +23,7 @@ pub use looks::{
     Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerKind, FlowerLook, FlowerPatch,
     FruitKind, FruitLook, FruitPatch, Ground, LeafKind, LeafLook, LeafPatch, Place, Sky,
 };
-pub use ornament_nature::{FLOWER_SALT, FRUIT_SALT, THICKEST_BEARING};
+pub use ornament_nature::{FLOWER_SALT, FRUIT_SALT, OrnamentNature, THICKEST_BEARING};
 pub use parameters::{ParameterValues, ParametersPatch, VigorModel};
 pub use setting::{Kind, OutOfRange, Setting, Unit};
 pub use value::{Tint, Value};

@@ -1,14 +1,11 @@
 import { Vector2, Vector3, Vector4 } from "three";
-import { DEFAULT_APPEARANCE, LEAF_NATURES, type LeafKind, type LeafLook } from "../../wire/generated";
+import { DEFAULT_APPEARANCE, LEAF_NATURES, type LeafLook } from "../../wire/generated";
 import { linear } from "../light/colours";
 import type { Uniforms } from "../materials";
 import { GradualTextures } from "../painting/gradual-textures";
 import { reachOf } from "../painting/leaf-pictures";
 import type { Painter } from "../painting/painter";
 import { seasonOf } from "./leaf-season";
-
-/** How much a blade bows and folds; long and heavy ones hang. */
-const BEND: Partial<Record<LeafKind, number>> = { lanceolate: 1.3, compound: 1.4, palmate: 0.9, fan: 0.5, needle: 0.3 };
 
 /** The textures of leaves and the uniforms that carry their look to the shaders. */
 export class LeafUniforms {
@@ -46,8 +43,8 @@ export class LeafUniforms {
   setLook(look: LeafLook): void {
     this.textures.choose(look.shape);
     const { unfolded, present, fresh, turned, withered } = seasonOf(look.shape, look.season);
-    const { is_spray, lean, autumn } = LEAF_NATURES[look.shape];
-    this.form.value.set(reachOf(look.shape), is_spray ? 1 : 0, lean, BEND[look.shape] ?? 1);
+    const { is_spray, lean, bend, autumn } = LEAF_NATURES[look.shape];
+    this.form.value.set(reachOf(look.shape), is_spray ? 1 : 0, lean, bend);
     this.season.value.set(unfolded, present, fresh, turned);
     this.traits.value.set(look.vigor_shift, look.orientation, withered, 0);
     this.tint.value.set(...linear(look.tint));

@@ -53,7 +53,7 @@ describe("flowers", () => {
   });
 
   it("stand where the look has them", () => {
-    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.together.rosette));
+    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
     for (const look of [
       { ...LOOK, share: 0.9 },
       { ...LOOK, place: "tips" },
@@ -61,7 +61,7 @@ describe("flowers", () => {
     ] as const) {
       flowers.setLook(look);
       flowers.upload(table);
-      expect(borne(flowers.mesh.geometry)).toEqual(expected(look, FLOWERS.together.rosette));
+      expect(borne(flowers.mesh.geometry)).toEqual(expected(look, FLOWERS.kinds.rosette.together));
     }
   });
 
@@ -83,7 +83,7 @@ describe("flowers", () => {
       ],
     });
     sync();
-    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.together.rosette));
+    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
   });
 
   it("that are none take nothing to draw", () => {
@@ -112,7 +112,7 @@ it("a large tree bears fewer at a place, but as many places", () => {
   const counts = borne(flowers.mesh.geometry);
   const rows = Array.from({ length: table.rows }, (_, row) => row);
   const places = rows.filter((row) => (table.foliage[row]! & 15) > 0 && table.radiusCode[row] !== 0);
-  expect(places.length * FLOWERS.together.rosette).toBeGreaterThan(100_000);
+  expect(places.length * FLOWERS.kinds.rosette.together).toBeGreaterThan(100_000);
   expect(counts.size).toBe(places.length);
   expect([...counts.values()].reduce((sum, count) => sum + count, 0)).toBeLessThanOrEqual(100_000);
 });

@@ -106,7 +106,7 @@ export class Ornaments<Look extends OrnamentLook> {
 
   /** Uploads what was written since the last call. */
   upload(table: TreeTable): void {
-    if (this.stale) this.search(table, this.look ? this.sort.together[this.look.kind as Look["kind"]] : 0);
+    if (this.stale) this.search(table, this.kind?.together ?? 0);
     while (this.instances.filled > MANY && this.together > 1) this.search(table, Math.ceil(this.together / 2));
     this.instances.upload();
     const visible = this.kind !== null && this.instances.filled > 0;

@@ -1,3 +1,4 @@
+import { BARK_BEGINS, BARK_SQUARES, LIMB_ENDS, THINNEST_BARK } from "../../wire/generated";
 import { MOST_SHADE, MOST_SLOPE } from "../painting/bark-relief";
 
 /** The bark of a place on a limb, from the textures of \`bark.ts\`. */
@@ -11,10 +12,10 @@ struct Bark {
   vec2 slope; // how the surface rises around and along
   float cavity; // how much of the sky it sees
 };
-const float THINNEST = 0.1; // radius of the first octave, in internodes
+const float THINNEST = ${THINNEST_BARK}; // radius of the first octave, in internodes
 /** Squares around a limb: bark coarsens as a limb thickens, and then there is more of it. */
 float squaresAround(float octave) {
-  return octave < 2.5 ? 1.0 : octave < 3.5 ? 2.0 : octave < 4.5 ? 4.0 : octave < 5.5 ? 6.0 : 9.0;
+  return float(int[](${BARK_SQUARES.join(", ")})[int(octave + 0.5)]);
 }
 /** Colours' shares and height, relief. Squares fit around the limb a whole number of times, so there is no seam. */
 void squareAt(vec2 at, vec2 dx, vec2 dy, out vec4 shares, out vec4 relief) {
@@ -43,7 +44,7 @@ void octaveAt(float octave, vec2 place, vec2 dx, vec2 dy, out vec4 shares, out v
 }
 /** The bark at a turn and length of a limb of such a radius; one octave passes into the next by the height of both. */
 void skinAt(vec2 place, float radius, vec2 dx, vec2 dy, out vec4 shares, out vec4 relief) {
-  float octave = clamp(log2(radius / THINNEST), 0.0, 6.0);
+  float octave = clamp(log2(radius / THINNEST), 0.0, ${(BARK_SQUARES.length - 1).toFixed(1)});
   float lower = floor(octave);
   float passing = octave - lower;
   octaveAt(passing > 0.62 ? lower + 1.0 : lower, place, dx, dy, shares, relief);
@@ -57,9 +58,9 @@ void skinAt(vec2 place, float radius, vec2 dx, vec2 dy, out vec4 shares, out vec
 }
 /** What a twig grows out of: it is smooth, and has its own colour. */
 Bark aged(vec4 shares, vec4 relief, float radius) {
-  vec3 first = mix(uBarkPalette[4], uBarkPalette[0], smoothstep(0.25, 0.8, radius));
+  vec3 first = mix(uBarkPalette[4], uBarkPalette[0], smoothstep(${LIMB_ENDS.join(", ")}, radius));
   vec3 own = first * shares.r * ${MOST_SHADE} + uBarkPalette[1] * shares.g + uBarkPalette[2] * shares.b;
-  float bark = smoothstep(0.05, 0.24, radius);
+  float bark = smoothstep(${BARK_BEGINS.join(", ")}, radius);
   vec3 young = uBarkPalette[3] * (0.75 + 0.4 * shares.r);
   float rough = smoothstep(0.05, 0.3, radius);
   vec2 slope = (relief.rg * 2.0 - 1.0) * ${MOST_SLOPE.toFixed(1)} * rough * uBarkShape.x;

@@ -31,6 +31,8 @@ vec4 ownNumbers(float random) { return fract(random * vec4(57.31, 131.7, 313.3, 
 float presence(float share, float number) { return clamp((share * 1.08 - number) / 0.08, 0.0, 1.0); }
 /** The size of a leaf that unfolds a little earlier than others, or later. */
 float unfolding(float unfolded, float number) { return mix(unfolded, 1.0, 0.35 * number * (1.0 - unfolded)); }
+/** How far the tip of a blade bows and its halves rise from the midrib, each leaf by its own measure. */
+vec2 bending(float random, float own) { return vec2(mix(0.10, 0.38, random), mix(0.12, 0.45, own)); }
 /** Where a leaf points that lies so far along its twig, and hangs or is raised. */
 vec3 pointing(vec3 d, vec3 h, vec3 side, float lean, float turn) {
   vec3 lying = mix(d, h, lean);
@@ -206,8 +208,9 @@ void main() {
 #if defined(CASTER) || defined(SPRIG)
     near = 0.0;
 #endif
-    float bow = mix(0.10, 0.38, random) * near;
-    float fold = mix(0.12, 0.45, more.w) * near;
+    vec2 bent = bending(random, more.w) * near;
+    float bow = bent.x;
+    float fold = bent.y;
     world += size * (d * (along - 0.12 * bow * along * along) + side * across
       + n * (abs(across) * fold - bow * along * along));
     lengthwise = normalize(d - n * 2.0 * bow * along);

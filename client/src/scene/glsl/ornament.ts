@@ -3,6 +3,19 @@ import { MODES, TRAITS } from "./draw-mode";
 import { CARD, CUT, LEAF_PLACE, THIN_LIGHT } from "./leaf";
 import { DEPTH_COLOUR } from "./shadow";
 
+/** What makes a flower or fruit differ from others of its kind; the server's exports compute the same. */
+export const ORNAMENT_SHAPE = /* glsl */ `
+/** How large it is beside the middle size. */
+float ornamentSize(float random) { return mix(0.82, 1.18, random); }
+/** Where it points that hangs or stands upright so far, from where a leaf would. */
+vec3 ornamentAxis(vec3 direction, float hang, vec3 more) {
+  return normalize(mix(direction, vec3(0.0, sign(hang), 0.0), abs(hang)) + 0.16 * (more - vec3(0.5)));
+}
+vec3 ornamentHue(vec3 tint, vec3 more) {
+  return tint * (0.86 + 0.28 * more.z) * vec3(1.0 + 0.10 * (more.y - 0.5), 1.0, 1.0 - 0.08 * (more.y - 0.5));
+}
+`;
+
 /** Puts one flower or fruit at the surface of the wood that bears it. */
 export const ornamentVertex = (name: "Flower" | "Fruit") => /* glsl */ `${HEAD}${NODES}${TRAITS}${LEAF_PLACE}
 uniform vec3 uSun;
@@ -20,7 +33,7 @@ out vec3 vMiddle;
 out float vLight; // below 0 for what is marked
 out float vTrait;
 const float SECONDS = 0.5;
-${CARD}
+${CARD}${ORNAMENT_SHAPE}
 void main() {
   Node node = nodeAt(int(leaf.x + 0.5));
   Node from = nodeAt(int(leaf.y + 0.5));
@@ -30,14 +43,14 @@ void main() {
   }
   float random = fract(tint);
   vec3 more = fract(random * vec3(57.31, 131.7, 313.3));
-  float size = u${name}Finish.x * mix(0.82, 1.18, random) * eased(uTime - node.birth - node.growing, SECONDS);
+  float size = u${name}Finish.x * ornamentSize(random) * eased(uTime - node.birth - node.growing, SECONDS);
   Leaf place = leafAt(from.position, node.position, leaf.z, leaf.w);
   vec3 h = normalize(node.position - from.position);
   vec3 outward = normalize(place.direction - dot(place.direction, h) * h);
   vec3 base = place.base + outward * node.radius * 0.9;
   vec3 eye = towardsEye(base);
   float hang = u${name}Form.y;
-  vec3 axis = normalize(mix(place.direction, vec3(0.0, sign(hang), 0.0), abs(hang)) + 0.16 * (more - 0.5));
+  vec3 axis = ornamentAxis(place.direction, hang, more);
   float mirror = more.x > 0.5 ? 1.0 : -1.0;
   float across = card.x * u${name}Form.x * (1.0 + 2.0 * MARGIN);
   float along = card.y * (1.0 + 2.0 * MARGIN) - MARGIN;
@@ -66,7 +79,7 @@ void main() {
   vNormal = n;
   vSide = vec4(side, mirror);
   vPicture = tileAt(card.xy, more.x * 2.0 - step(0.5, more.x), mirror);
-  vMiddle = u${name}Tint * (0.86 + 0.28 * more.z) * vec3(1.0 + 0.10 * (more.y - 0.5), 1.0, 1.0 - 0.08 * (more.y - 0.5));
+  vMiddle = ornamentHue(u${name}Tint, more);
   vLight = node.look == MARKED ? -1.0 : node.light;
   vTrait = traitOf(int(leaf.x + 0.5));
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);

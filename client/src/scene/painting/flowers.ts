@@ -1,4 +1,4 @@
-import { FLOWER_SALT, FLOWERS_TOGETHER, type FlowerKind } from "../../wire/generated";
+import { FLOWER_NATURES, FLOWER_SALT, type FlowerKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { round } from "./leaf-painter";
 import { LeafTile } from "./leaf-tile";
@@ -10,41 +10,16 @@ type Random = () => number;
 export const FLOWERS: OrnamentSort<FlowerKind> = {
   name: "Flower",
   salt: FLOWER_SALT,
-  together: FLOWERS_TOGETHER,
   kinds: {
-    rosette: {
-      reach: 0.5,
-      hang: 0.35,
-      turn: -1,
-      stalk: 0.55,
-      gloss: 0.3,
-      second: [214, 170, 72],
-      paint: rosette,
-    },
-    catkin: {
-      reach: 0.11,
-      hang: -1,
-      turn: 0.25,
-      stalk: 0,
-      gloss: 0,
-      second: [226, 206, 120],
-      paint: catkin,
-    },
-    panicle: {
-      reach: 0.27,
-      hang: 0.85,
-      turn: 0.25,
-      stalk: 0,
-      gloss: 0.2,
-      second: [222, 150, 90],
-      paint: panicle,
-    },
+    rosette: { ...FLOWER_NATURES.rosette, paint: rosette },
+    catkin: { ...FLOWER_NATURES.catkin, paint: catkin },
+    panicle: { ...FLOWER_NATURES.panicle, paint: panicle },
   },
 };
 
 /** Five notched petals around stamens, hollow like a bowl. */
 function rosette(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.5, side);
+  const tile = new LeafTile(FLOWER_NATURES.rosette.reach, side);
   const turn = 2 * Math.PI * random();
   for (let petal = 0; petal < 5; petal += 1) {
     const angle = turn + (2 * Math.PI * (petal + 0.12 * (random() - 0.5))) / 5;
@@ -97,7 +72,7 @@ function petalOutline(angle: number, length: number): Outline {
 
 /** Small flowers close together along a thread. */
 function catkin(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.11, side);
+  const tile = new LeafTile(FLOWER_NATURES.catkin.reach, side);
   const rows = 30;
   for (let row = rows - 1; row >= 0; row -= 1) {
     const y = 0.05 + (0.92 * row) / rows;
@@ -118,7 +93,7 @@ function catkin(random: Random, side?: number): LeafTile {
 
 /** An upright candle of many small flowers, broad below. */
 function panicle(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.27, side);
+  const tile = new LeafTile(FLOWER_NATURES.panicle.reach, side);
   tile.stroke({ from: [0, 0], to: [0, 0.9], width: [0.03, 0.01] }, () => ({ ...paint(0.9, 0, 0.01), wood: 1 }));
   for (let i = 0; i < 170; i += 1) {
     const layer = i / 170;

@@ -1,4 +1,4 @@
-import { FRUIT_SALT, FRUITS_TOGETHER, type FruitKind } from "../../wire/generated";
+import { FRUIT_NATURES, FRUIT_SALT, type FruitKind } from "../../wire/generated";
 import type { Outline, Point } from "./lamina";
 import { LeafTile, type Paint } from "./leaf-tile";
 import type { OrnamentSort } from "./ornament-sort";
@@ -9,36 +9,11 @@ type Random = () => number;
 export const FRUITS: OrnamentSort<FruitKind> = {
   name: "Fruit",
   salt: FRUIT_SALT,
-  together: FRUITS_TOGETHER,
   kinds: {
-    round: {
-      reach: 0.5,
-      hang: -0.95,
-      turn: 0.9,
-      stalk: 0.0,
-      gloss: 2.4,
-      second: [206, 170, 70],
-      paint: ball,
-    },
-    cone: {
-      reach: 0.27,
-      hang: -0.75,
-      turn: 0.4,
-      stalk: 0,
-      gloss: 0.3,
-      second: [184, 140, 92],
-      paint: cone,
-    },
-    nut: { reach: 0.33, hang: -0.8, turn: 0.5, stalk: 0, gloss: 1.4, second: [150, 134, 96], paint: nut },
-    winged: {
-      reach: 0.5,
-      hang: -0.9,
-      turn: 0.35,
-      stalk: 0,
-      gloss: 0.5,
-      second: [196, 172, 120],
-      paint: winged,
-    },
+    round: { ...FRUIT_NATURES.round, paint: ball },
+    cone: { ...FRUIT_NATURES.cone, paint: cone },
+    nut: { ...FRUIT_NATURES.nut, paint: nut },
+    winged: { ...FRUIT_NATURES.winged, paint: winged },
   },
 };
 
@@ -46,7 +21,7 @@ const STALK: Omit<Paint, "height"> = { shade: 0.9, tone: 0, sheer: 0, wood: 1 };
 
 /** A ball on a stalk, flushed on one side. */
 function ball(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.5, side);
+  const tile = new LeafTile(FRUIT_NATURES.round.reach, side);
   const centre = 0.57;
   const radius = 0.41;
   const [flushX, flushY] = [0.5 * (random() - 0.5), 0.3 * (random() - 0.5)];
@@ -71,7 +46,7 @@ function ball(random: Random, side?: number): LeafTile {
 
 /** Scales in spirals, those nearer to the tip under the others. */
 function cone(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.27, side);
+  const tile = new LeafTile(FRUIT_NATURES.cone.reach, side);
   stalk(tile, [0, 0.02], [0, 0.1], 0.05);
   const rows = 13;
   const half = (t: number) => 0.22 * Math.sin(Math.PI * Math.min(1, 0.16 + 0.86 * t)) ** 0.62;
@@ -101,7 +76,7 @@ function cone(random: Random, side?: number): LeafTile {
 
 /** A nut in its cup, as of oaks. */
 function nut(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.33, side);
+  const tile = new LeafTile(FRUIT_NATURES.nut.reach, side);
   stalk(tile, [0, 0.02], [0, 0.16], 0.04);
   const tip = 0.97;
   const body: Point[] = oval([0, 0.58], 0.25, 0.33).filter(([, y]) => y < 0.89);
@@ -133,7 +108,7 @@ function nut(random: Random, side?: number): LeafTile {
 
 /** Two nutlets side by side, each with a wing. */
 function winged(random: Random, side?: number): LeafTile {
-  const tile = new LeafTile(0.5, side);
+  const tile = new LeafTile(FRUIT_NATURES.winged.reach, side);
   stalk(tile, [0, 0.02], [0, 0.3], 0.024);
   for (const sign of [-1, 1]) {
     const spread = 0.95 + 0.16 * (random() - 0.5);

@@ -93,7 +93,8 @@ impl Spot {
 /// Draws the flowers that a metamer bears.
 pub(super) fn flowers(painter: &mut Painter, bearer: &Bearer, look: &FlowerLook) {
     let &FlowerLook { kind, share, place, vigor, .. } = look;
-    for spot in bearer.spots(&Placing { share, place, vigor, salt: FLOWER_SALT, together: kind.together() }) {
+    let together = kind.nature().map_or(0, |nature| nature.together);
+    for spot in bearer.spots(&Placing { share, place, vigor, salt: FLOWER_SALT, together }) {
         flower(painter, &spot, look);
     }
 }
@@ -101,7 +102,8 @@ pub(super) fn flowers(painter: &mut Painter, bearer: &Bearer, look: &FlowerLook)
 /// Draws the fruits that a metamer bears.
 pub(super) fn fruits(painter: &mut Painter, bearer: &Bearer, look: &FruitLook) {
     let &FruitLook { kind, share, place, vigor, .. } = look;
-    for spot in bearer.spots(&Placing { share, place, vigor, salt: FRUIT_SALT, together: kind.together() }) {
+    let together = kind.nature().map_or(0, |nature| nature.together);
+    for spot in bearer.spots(&Placing { share, place, vigor, salt: FRUIT_SALT, together }) {
         fruit(painter, &spot, look);
     }
 }
