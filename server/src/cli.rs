@@ -150,6 +150,12 @@ pub struct Results {
     /// Write the plants to a file: .glb (triangles for any glTF viewer), .json (the skeleton) or .png (a picture).
     #[arg(long, value_name = "OUT", value_parser = parse_export)]
     pub export: Option<Export>,
+    /// Say in a glTF file who made the plants.
+    #[arg(long, value_name = "NAME", requires = "export")]
+    pub author: Option<String>,
+    /// Say in a glTF file under which licence they may be used, by its SPDX name.
+    #[arg(long, value_name = "LICENCE", requires = "export")]
+    pub licence: Option<String>,
     /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
     #[arg(long, value_name = "FORMAT")]
     pub stats: Option<Stats>,

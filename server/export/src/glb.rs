@@ -1,22 +1,25 @@
-//! glTF 2.0 binary: bark and leaves as two meshes, in metres, Y up.
+//! glTF 2.0 binary: each plant as a node with its wood, leaves, flowers and fruits, textured, in metres, Y up.
 
-use espalier_mesh::{Style, TriangleMesh, leaf_mesh, wood};
-use espalier_plant::Plant;
-use espalier_settings::Appearance;
-use glam::Vec3;
+mod writer;
 
-use crate::gltf::{
-    ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Material,
-    Mesh, Node, PbrMetallicRoughness, Primitive, Root, Scene, UNSIGNED_INT, UNSIGNED_SHORT,
+use std::collections::BTreeMap;
+
+use espalier_mesh::{Style, seeds, wood};
+use espalier_plant::{MetamerId, Plant};
+use espalier_settings::{Appearance, ParameterValues};
+use serde_json::{Value, json};
+
+use self::writer::{Surface, Vertex, Writer};
+use crate::{
+    foliage::{Foliage, cards::Cards, living},
+    surface::{
+        bark::{Bark, CUT},
+        thin::{self, Thin},
+    },
 };
-use crate::picture::{leaf_look, linear};
 
-const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
-const VERSION: u32 = 2;
-const JSON_CHUNK: u32 = u32::from_le_bytes(*b"JSON");
-const BINARY_CHUNK: u32 = u32::from_le_bytes(*b"BIN\0");
-/// The index that glTF keeps for restarting a strip; it must not name a vertex.
-const RESERVED_INDEX: usize = u16::MAX as usize;
+/// Metamers whose leaves are made before they are written: so little is held beside the file itself.
+const BLOCK: usize = 1024;
 
 /// Why a plant could not be exported.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -32,195 +35,124 @@ pub enum ExportError {
     NotFinite,
 }
 
+/// What a file says about its plants.
+#[derive(Clone, Debug)]
+pub struct About<'a> {
+    /// The program and its version.
+    pub program: &'a str,
+    /// The version of the simulation that grew them.
+    pub simulation: u32,
+    /// The name of the species, if it is known.
+    pub species: Option<&'a str>,
+    /// The seed of all randomness, if it is known.
+    pub seed: Option<u32>,
+    /// The parameters in force; the length of an internode makes metres.
+    pub parameters: &'a ParameterValues,
+    /// Who made them.
+    pub author: Option<&'a str>,
+    /// Under which licence they may be used.
+    pub licence: Option<&'a str>,
+}
+
+impl About<'_> {
+    fn extras(&self) -> Value {
+        let Self { simulation, species, seed, parameters, author, licence, .. } = self;
+        let all = json!({
+            "simulation": simulation,
+            "species": species,
+            "seed": seed,
+            "metres_per_internode": parameters.internode_length,
+            "parameters": parameters,
+            "author": author,
+            "licence": licence,
+        });
+        let Value::Object(mut all) = all else { return all };
+        all.retain(|_, value| !value.is_null());
+        Value::Object(all)
+    }
+
+    fn copyright(&self) -> Option<String> {
+        let said: Vec<&str> = [self.author, self.licence].into_iter().flatten().collect();
+        (!said.is_empty()).then(|| said.join(", "))
+    }
+}
+
 /// The present of `plant` as a glTF binary file. A plant without wood gives a valid file without meshes.
 pub fn glb(
     plant: &Plant,
     style: &Style,
     appearance: &Appearance,
-    metres_per_internode: f32,
+    about: &About<'_>,
 ) -> Result<Vec<u8>, ExportError> {
-    if !(metres_per_internode.is_finite() && metres_per_internode > 0.0) {
-        return Err(ExportError::Scale(metres_per_internode));
+    let scale = about.parameters.internode_length;
+    if !(scale.is_finite() && scale > 0.0) {
+        return Err(ExportError::Scale(scale));
     }
-    let mut writer = Writer::new(metres_per_internode);
-    for wood in wood(plant, style, &appearance.bark) {
-        writer.add("Bark", &wood.into_mesh(), bark_material(linear(appearance.bark.tint)))?;
+    let mut writer = Writer::new(scale, about);
+    let (bark, foliage) = (Bark::of(&appearance.bark), Foliage::of(plant, style, appearance));
+    let mut of_seed: BTreeMap<MetamerId, Vec<MetamerId>> = BTreeMap::new();
+    let seed_of = seeds(plant);
+    for id in living(plant) {
+        of_seed.entry(seed_of[id.index()]).or_default().push(id);
     }
-    let (leaves, hues): (Vec<_>, Vec<_>) =
-        leaf_look::hanging(plant, style, &appearance.leaves).into_iter().unzip();
-    // The material has one colour for all of them.
-    let colour = hues.iter().sum::<Vec3>() / hues.len().max(1) as f32;
-    writer.add("Leaves", &leaf_mesh(&leaves), leaf_material(colour.min(Vec3::ONE)))?;
+    let [wood_surface, cut_surface] =
+        [Surface::Bark(&bark, appearance.bark.relief), Surface::Plain("Cut", CUT)];
+    let parts = [
+        Some(("Leaves", thin::leaves(&appearance.leaves))),
+        thin::flowers(&appearance.flowers).map(|thin| ("Flowers", thin)),
+        thin::fruits(&appearance.fruits).map(|thin| ("Fruits", thin)),
+    ];
+    let mut wood = wood(plant, style, &appearance.bark).into_iter().peekable();
+    let seeds: Vec<MetamerId> = (0..plant.metamer_count())
+        .map(MetamerId::new)
+        .filter(|&id| plant.is_seed(id) && plant.is_alive(id))
+        .collect();
+    for (number, &seed) in (1..).zip(&seeds) {
+        let species = about.species.unwrap_or("Tree");
+        let name = if seeds.len() == 1 { species.to_owned() } else { format!("{species} {number}") };
+        let ids = of_seed.get(&seed).map_or(&[][..], Vec::as_slice);
+        let extras = json!({ "row": seed.raw(), "metamers": ids.len() });
+        writer.begin_plant(name, plant.metamers().end(seed), extras);
+        let Some(wood) = wood.next_if(|wood| wood.seed == seed) else { continue };
+        let mut part = writer.begin_part();
+        for (vertex, &place) in wood.surface.positions.iter().enumerate() {
+            let (normal, tangent, uv) =
+                (wood.surface.normals[vertex], wood.tangents[vertex], wood.surface.uvs[vertex]);
+            part.vertex(Vertex { place, normal, tangent, uv, colour: bark.tint(wood.radii[vertex]) });
+        }
+        part.finish("Wood", &[(&wood.surface.indices, wood_surface), (&wood.cuts, cut_surface)])?;
+        drop(wood);
+        for (name, thin) in parts.iter().flatten() {
+            add_cards(&mut writer, name, thin, ids, |cards, id| match *name {
+                "Leaves" => foliage.add_leaves(cards, id),
+                "Flowers" => foliage.add_flowers(cards, id),
+                _ => foliage.add_fruits(cards, id),
+            })?;
+        }
+    }
     writer.finish()
 }
 
-/// The colour is linear.
-fn bark_material(colour: Vec3) -> Material {
-    Material {
-        name: "Bark",
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: colour.extend(1.0).to_array(),
-            metallic_factor: 0.0,
-            roughness_factor: 0.95,
-        },
-        double_sided: false,
-    }
-}
-
-fn leaf_material(colour: Vec3) -> Material {
-    Material {
-        name: "Leaves",
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: colour.extend(1.0).to_array(),
-            metallic_factor: 0.0,
-            roughness_factor: 0.7,
-        },
-        double_sided: true,
-    }
-}
-
-/// Collects meshes under one node.
-struct Writer {
-    scale: f32,
-    root: Root,
-    binary: Vec<u8>,
-}
-
-impl Writer {
-    fn new(scale: f32) -> Self {
-        let root = Root {
-            asset: Asset { version: "2.0", generator: "Espalier" },
-            scene: 0,
-            scenes: vec![Scene { name: "Scene", nodes: vec![0] }],
-            nodes: vec![Node { name: "Tree", mesh: None, children: Vec::new() }],
-            meshes: Vec::new(),
-            materials: Vec::new(),
-            accessors: Vec::new(),
-            buffer_views: Vec::new(),
-            buffers: Vec::new(),
-        };
-        Self { scale, root, binary: Vec::new() }
-    }
-
-    /// Adds a mesh, its material and its node; an empty mesh adds nothing, for an accessor must not be empty.
-    fn add(
-        &mut self,
-        name: &'static str,
-        mesh: &TriangleMesh,
-        material: Material,
-    ) -> Result<(), ExportError> {
-        let Some(bounds) = mesh.bounds().filter(|_| !mesh.is_empty()) else { return Ok(()) };
-        let primitive = Primitive {
-            attributes: Attributes {
-                position: self.positions(&mesh.positions, bounds)?,
-                normal: self.floats("VEC3", mesh.normals.iter().map(|normal| normal.to_array())),
-                // An image's first row is its top.
-                texcoord_0: self.floats("VEC2", mesh.uvs.iter().map(|uv| [uv.x, 1.0 - uv.y])),
-            },
-            indices: self.indices(mesh),
-            material: self.root.materials.len(),
-        };
-        self.root.materials.push(material);
-        self.root.nodes.push(Node { name, mesh: Some(self.root.meshes.len()), children: Vec::new() });
-        self.root.meshes.push(Mesh { name, primitives: [primitive] });
-        let child = self.root.nodes.len() - 1;
-        self.root.nodes[0].children.push(child);
-        Ok(())
-    }
-
-    fn positions(&mut self, positions: &[Vec3], bounds: [Vec3; 2]) -> Result<usize, ExportError> {
-        let scale = self.scale;
-        // Multiplication keeps the order, so the corners of the scaled box are the scaled corners to the last bit.
-        let [min, max] = bounds.map(|corner| corner * scale);
-        if !(min.is_finite() && max.is_finite()) {
-            return Err(ExportError::NotFinite);
+fn add_cards(
+    writer: &mut Writer,
+    name: &'static str,
+    thin: &Thin,
+    ids: &[MetamerId],
+    add: impl Fn(&mut Cards, MetamerId),
+) -> Result<(), ExportError> {
+    let (mut part, mut cards, mut indices) = (writer.begin_part(), Cards::default(), Vec::new());
+    for block in ids.chunks(BLOCK) {
+        for &id in block {
+            add(&mut cards, id);
         }
-        let index = self.floats("VEC3", positions.iter().map(|&position| (position * scale).to_array()));
-        let accessor = &mut self.root.accessors[index];
-        (accessor.min, accessor.max) = (Some(min.to_array()), Some(max.to_array()));
-        Ok(index)
-    }
-
-    fn floats<const N: usize>(
-        &mut self,
-        shape: &'static str,
-        values: impl Iterator<Item = [f32; N]>,
-    ) -> usize {
-        let (offset, mut count) = (self.binary.len(), 0);
-        self.words(values.inspect(|_| count += 1).flatten().map(f32::to_le_bytes));
-        self.accessor(offset, ARRAY_BUFFER, FLOAT, shape, count)
-    }
-
-    fn indices(&mut self, mesh: &TriangleMesh) -> usize {
-        let (offset, count) = (self.binary.len(), mesh.indices.len());
-        let component_type = if mesh.positions.len() <= RESERVED_INDEX {
-            self.words(mesh.indices.iter().map(|&index| (index as u16).to_le_bytes()));
-            UNSIGNED_SHORT
-        } else {
-            self.words(mesh.indices.iter().map(|index| index.to_le_bytes()));
-            UNSIGNED_INT
-        };
-        self.accessor(offset, ELEMENT_ARRAY_BUFFER, component_type, "SCALAR", count)
-    }
-
-    fn words<const N: usize>(&mut self, words: impl Iterator<Item = [u8; N]>) {
-        self.binary.reserve(N * words.size_hint().0);
-        for word in words {
-            self.binary.extend_from_slice(&word);
+        let first = part.count();
+        indices.extend(cards.mesh.indices.iter().map(|&index| first + index));
+        for (vertex, &place) in cards.mesh.positions.iter().enumerate() {
+            let (normal, tangent, uv) =
+                (cards.mesh.normals[vertex], cards.tangents[vertex], cards.mesh.uvs[vertex]);
+            part.vertex(Vertex { place, normal, tangent, uv, colour: cards.hues[vertex] * thin.strength });
         }
+        cards.clear();
     }
-
-    /// Makes the bytes from `offset` on a view and an accessor, and returns the accessor.
-    fn accessor(
-        &mut self,
-        offset: usize,
-        target: u32,
-        component_type: u32,
-        shape: &'static str,
-        count: usize,
-    ) -> usize {
-        let byte_length = self.binary.len() - offset;
-        self.root.buffer_views.push(BufferView { buffer: 0, byte_offset: offset, byte_length, target });
-        // The next view must begin where its components are aligned.
-        pad(&mut self.binary, 0);
-        self.root.accessors.push(Accessor {
-            buffer_view: self.root.buffer_views.len() - 1,
-            component_type,
-            count,
-            shape,
-            min: None,
-            max: None,
-        });
-        self.root.accessors.len() - 1
-    }
-
-    fn finish(mut self) -> Result<Vec<u8>, ExportError> {
-        if !self.binary.is_empty() {
-            self.root.buffers.push(Buffer { byte_length: self.binary.len() });
-        }
-        // Writing to memory does not fail, and all keys are strings.
-        let mut json = serde_json::to_vec(&self.root).expect("the root is always JSON");
-        pad(&mut json, b' ');
-        let chunks = [(JSON_CHUNK, json), (BINARY_CHUNK, self.binary)];
-        let chunks = chunks.iter().filter(|(_, bytes)| !bytes.is_empty());
-        let length = 12 + chunks.clone().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
-        let total = u32::try_from(length).map_err(|_| ExportError::TooLarge)?;
-        let mut file = Vec::with_capacity(length);
-        let word = |file: &mut Vec<u8>, word: u32| file.extend(word.to_le_bytes());
-        for header in [MAGIC, VERSION, total] {
-            word(&mut file, header);
-        }
-        for (kind, bytes) in chunks {
-            // Shorter than the file, whose length has 32 bits.
-            word(&mut file, bytes.len() as u32);
-            word(&mut file, *kind);
-            file.extend(bytes);
-        }
-        Ok(file)
-    }
-}
-
-/// Chunks and views begin at multiples of four.
-fn pad(bytes: &mut Vec<u8>, filler: u8) {
-    bytes.resize(bytes.len().next_multiple_of(4), filler);
+    part.finish(name, &[(&indices, Surface::Thin(name, &thin.texture))])
 }

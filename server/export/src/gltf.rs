@@ -1,7 +1,10 @@
 //! The part of glTF 2.0's JSON that a plant needs.
 
 use serde::Serialize;
+use serde_json::Value;
 
+/// `componentType` of colours.
+pub(crate) const UNSIGNED_BYTE: u32 = 5121;
 /// `componentType` of 16-bit indices.
 pub(crate) const UNSIGNED_SHORT: u32 = 5123;
 /// `componentType` of 32-bit indices.
@@ -20,11 +23,16 @@ pub(crate) struct Root {
     pub asset: Asset,
     pub scene: usize,
     pub scenes: Vec<Scene>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub nodes: Vec<Node>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub meshes: Vec<Mesh>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub materials: Vec<Material>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub textures: Vec<Texture>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub images: Vec<Image>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub accessors: Vec<Accessor>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -36,28 +44,36 @@ pub(crate) struct Root {
 #[derive(Serialize)]
 pub(crate) struct Asset {
     pub version: &'static str,
-    pub generator: &'static str,
+    pub generator: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub copyright: Option<String>,
+    pub extras: Value,
 }
 
 #[derive(Serialize)]
 pub(crate) struct Scene {
     pub name: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub nodes: Vec<usize>,
 }
 
 #[derive(Serialize)]
 pub(crate) struct Node {
-    pub name: &'static str,
+    pub name: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub translation: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub children: Vec<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extras: Option<Value>,
 }
 
 #[derive(Serialize)]
 pub(crate) struct Mesh {
-    pub name: &'static str,
-    pub primitives: [Primitive; 1],
+    pub name: String,
+    pub primitives: Vec<Primitive>,
 }
 
 #[derive(Serialize)]
@@ -67,12 +83,17 @@ pub(crate) struct Primitive {
     pub material: usize,
 }
 
-#[derive(Serialize)]
+#[derive(Clone, Copy, Serialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
 pub(crate) struct Attributes {
     pub position: usize,
     pub normal: usize,
-    pub texcoord_0: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tangent: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub texcoord_0: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color_0: Option<usize>,
 }
 
 #[derive(Serialize)]
@@ -80,6 +101,13 @@ pub(crate) struct Attributes {
 pub(crate) struct Material {
     pub name: &'static str,
     pub pbr_metallic_roughness: PbrMetallicRoughness,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub normal_texture: Option<NormalTexture>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub occlusion_texture: Option<TextureInfo>,
+    /// `OPAQUE` where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha_mode: Option<&'static str>,
     pub double_sided: bool,
 }
 
@@ -87,15 +115,47 @@ pub(crate) struct Material {
 #[serde(rename_all = "camelCase")]
 pub(crate) struct PbrMetallicRoughness {
     pub base_color_factor: [f32; 4],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub base_color_texture: Option<TextureInfo>,
     pub metallic_factor: f32,
     pub roughness_factor: f32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metallic_roughness_texture: Option<TextureInfo>,
+}
+
+#[derive(Clone, Copy, Serialize)]
+pub(crate) struct TextureInfo {
+    pub index: usize,
+}
+
+#[derive(Serialize)]
+pub(crate) struct NormalTexture {
+    pub index: usize,
+    pub scale: f32,
+}
+
+#[derive(Serialize)]
+pub(crate) struct Texture {
+    pub source: usize,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct Image {
+    pub name: String,
+    pub mime_type: &'static str,
+    pub buffer_view: usize,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Accessor {
     pub buffer_view: usize,
+    #[serde(skip_serializing_if = "is_zero")]
+    pub byte_offset: usize,
     pub component_type: u32,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub normalized: bool,
     pub count: usize,
     #[serde(rename = "type")]
     pub shape: &'static str,
@@ -111,11 +171,19 @@ pub(crate) struct BufferView {
     pub buffer: usize,
     pub byte_offset: usize,
     pub byte_length: usize,
-    pub target: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub byte_stride: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<u32>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Buffer {
     pub byte_length: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_zero(offset: &usize) -> bool {
+    *offset == 0
 }

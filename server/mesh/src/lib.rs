@@ -1,9 +1,8 @@
 //! A plant as it is drawn.
 //!
-//! [`RingTable`] holds one quantised row per metamer: what clients mirror, chunk by chunk. [`wood`] and
-//! [`leaf_mesh`] make whole triangle meshes for exports. Lengths are in internodes.
+//! [`RingTable`] holds one quantised row per metamer: what clients mirror, chunk by chunk. [`wood`] makes
+//! the triangles of wood for exports, and [`leaves`] says where leaves are. Lengths are in internodes.
 
-pub mod blades;
 pub mod checks;
 mod course;
 mod curve;
@@ -16,7 +15,6 @@ pub mod style;
 pub mod triangle_mesh;
 pub mod tubes;
 
-pub use blades::leaf_mesh;
 pub use course::seeds;
 pub use ring_table::{Changes, RingTable};
 pub use style::{Style, StyleOptions};

@@ -5,7 +5,7 @@ use std::f32::consts::TAU;
 
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::{BARK_SQUARES, BarkLook, THINNEST_BARK};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 
 use crate::{
     course::{Course, End, courses},
@@ -35,6 +35,8 @@ pub struct Wood {
     pub cuts: Vec<u32>,
     /// How thick the wood is at each vertex: its radius in internodes.
     pub radii: Vec<f32>,
+    /// At each vertex the unit vector along which u grows, and ±1 for the side of the normal on which v does.
+    pub tangents: Vec<Vec4>,
 }
 
 /// All living wood, plant by plant in the order of their seeds; none of a seed that has not grown.
@@ -42,8 +44,8 @@ pub fn wood(plant: &Plant, style: &Style, look: &BarkLook) -> Vec<Wood> {
     let mut plants: Vec<Wood> = Vec::new();
     for course in courses(plant, style, look) {
         let at = plants.binary_search_by_key(&course.seed, |wood| wood.seed).unwrap_or_else(|at| {
-            let (surface, cuts, radii) = Default::default();
-            plants.insert(at, Wood { seed: course.seed, surface, cuts, radii });
+            let (surface, cuts, radii, tangents) = Default::default();
+            plants.insert(at, Wood { seed: course.seed, surface, cuts, radii, tangents });
             at
         });
         plants[at].sweep(&course, look.smoothing);
@@ -125,9 +127,16 @@ impl Wood {
         }
     }
 
-    fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, radius: f32) -> u32 {
+    fn vertex(&mut self, position: Vec3, normal: Vec3, uv: Vec2, radius: f32, tangent: Vec4) -> u32 {
         self.radii.push(radius);
+        self.tangents.push(tangent);
         self.surface.vertex(position, normal, uv)
+    }
+
+    /// The tangent half-way between a vertex of a ring and the next one.
+    fn between(&self, corner: u32) -> Vec4 {
+        let [a, b] = [corner, corner + 1].map(|corner| self.tangents[corner as usize]);
+        (a + b).truncate().normalize_or(a.truncate()).extend(a.w)
     }
 
     /// Adds a ring and returns its first vertex.
@@ -138,7 +147,8 @@ impl Wood {
             let outward = across * cos + binormal * sin;
             let normal = (outward - sample.tangent * slope).normalize();
             let place = sample.point + outward * sample.radius;
-            self.vertex(place, normal, Vec2::new(u, v), sample.radius);
+            let around = (binormal * cos - across * sin).extend(1.0);
+            self.vertex(place, normal, Vec2::new(u, v), sample.radius, around);
         }
         first
     }
@@ -156,7 +166,8 @@ impl Wood {
         let v = v + tube.tiles_along(tip.radius, tip.radius);
         for side in 0..tube.sides() {
             // An apex for each side: one for all could have only one place in the texture.
-            let top = self.vertex(apex, tip.tangent, Vec2::new(tube.middle(side), v), tip.radius);
+            let around = self.between(ring + side);
+            let top = self.vertex(apex, tip.tangent, Vec2::new(tube.middle(side), v), tip.radius, around);
             self.surface.triangle(ring + side, ring + side + 1, top);
         }
     }
@@ -165,12 +176,17 @@ impl Wood {
     fn add_face(&mut self, tube: &Tube, ring: u32, end: &Sample, normal: Vec3, v: f32) -> Vec<u32> {
         // The rim once more, for the face has another normal than the sides; texels go on as they come over the rim.
         let rim = self.radii.len() as u32;
+        // Seen from behind v still grows inwards.
+        let hand = if normal.dot(end.tangent) < 0.0 { -1.0 } else { 1.0 };
         for corner in (ring..=ring + tube.sides()).map(|corner| corner as usize) {
-            self.vertex(self.surface.positions[corner], normal, self.surface.uvs[corner], end.radius);
+            let (place, uv) = (self.surface.positions[corner], self.surface.uvs[corner]);
+            let around = self.tangents[corner].truncate().extend(hand);
+            self.vertex(place, normal, uv, end.radius, around);
         }
         let v = v + tube.tiles_along(end.radius, end.radius);
         let triangle = |side| {
-            let middle = self.vertex(end.point, normal, Vec2::new(tube.middle(side), v), end.radius);
+            let around = self.between(rim + side);
+            let middle = self.vertex(end.point, normal, Vec2::new(tube.middle(side), v), end.radius, around);
             [rim + side, rim + side + 1, middle]
         };
         (0..tube.sides()).flat_map(triangle).collect()

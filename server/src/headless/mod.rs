@@ -12,7 +12,7 @@ use std::{
 };
 
 use espalier_export::ExportError;
-use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Stand};
+use espalier_growth::DEFAULT_METAMER_BUDGET;
 use espalier_proto::{Action, Command, Problem, Steps};
 use espalier_session::Document;
 
@@ -20,7 +20,7 @@ pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
 use crate::{
     cli::{Grow, Replay, Results, Start},
-    document,
+    document::{self, Provenance},
     pool::SimulationPool,
 };
 
@@ -89,7 +89,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         }
         Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, Stand::Ground, &options.results)
+    finish(bench, Provenance { seed: Some(options.seed), ..Provenance::default() }, &options.results)
 }
 
 /// `espalier grow`.
@@ -122,8 +122,8 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         }
         Ok(bench)
     })?;
-    let stand = options.species.map(|species| species.stand).unwrap_or_default();
-    finish(bench, stand, &options.results)
+    let seed = Some(options.seed);
+    finish(bench, Provenance { species: options.species, seed, ..Provenance::default() }, &options.results)
 }
 
 /// A seedling as the options want it.
@@ -149,10 +149,12 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-fn finish(mut bench: Bench, stand: Stand, results: &Results) -> Result<(), HeadlessError> {
+fn finish(mut bench: Bench, from: Provenance<'_>, results: &Results) -> Result<(), HeadlessError> {
     let stats = bench.stats();
     if let Some(export) = &results.export {
-        let bytes = document::file(bench.document_mut(), stand, export.format)?;
+        let from =
+            Provenance { author: results.author.as_deref(), licence: results.licence.as_deref(), ..from };
+        let bytes = document::file(bench.document_mut(), from, export.format)?;
         fs::write(&export.path, bytes)
             .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
     }

@@ -11,7 +11,7 @@ interface Look {
   look: LeafLook;
   /** Unfolded, present, fresh, turned, withered. */
   season: number[];
-  hues: { vigor: number; light: number; own: number[]; hue: number[] }[];
+  hues: { vigor: number; light: number; own: number[]; hue: number[]; margin: number[] }[];
 }
 
 interface Shape {
@@ -24,6 +24,7 @@ interface Shape {
   heading: number[];
   lean: number;
   orientation: number;
+  bending: number[];
   pointing: number[];
 }
 
@@ -35,6 +36,7 @@ interface ShapeFunctions {
   ownNumbers(random: number): number[];
   presence(share: number, number: number): number;
   unfolding(unfolded: number, number: number): number;
+  bending(random: number, own: number): number[];
   pointing(d: number[], h: number[], side: number[], lean: number, turn: number): number[];
 }
 
@@ -64,12 +66,16 @@ describe.each(samples.looks)("$look.shape in season $look.season", ({ look, seas
       uLeafLast: linear(autumn[1]),
       uLeafDead: linear(autumn[2]),
     });
-    for (const { vigor, light, own, hue } of hues) expectNear(leafHues(vigor, light, own).middle, hue, 2e-4);
+    for (const { vigor, light, own, hue, margin } of hues) {
+      const found = leafHues(vigor, light, own);
+      expectNear(found.middle, hue, 2e-4);
+      expectNear(found.margin, margin, 2e-4);
+    }
   });
 });
 
 it("leaves have the size and direction of those in exports", () => {
-  const names = ["ownNumbers", "presence", "unfolding", "pointing"] as const;
+  const names = ["ownNumbers", "presence", "unfolding", "bending", "pointing"] as const;
   const shader = shaderFunctions<ShapeFunctions>(LEAF_SHAPE, names);
   expect(samples.shapes.length).toBeGreaterThan(20);
   for (const { random, own, share, direction, heading, lean, orientation, ...wanted } of samples.shapes) {
@@ -77,6 +83,7 @@ it("leaves have the size and direction of those in exports", () => {
     expectNear(shader.ownNumbers(random), own, 3e-4);
     expectNear([shader.presence(share, own[2]!)], wanted.presence, 5e-4);
     expectNear([shader.unfolding(share, own[1]!)], wanted.unfolding, 2e-5);
+    expectNear(shader.bending(random, own[3]!), wanted.bending, 5e-4);
     expectNear(shader.pointing(direction, heading, [0, 0, 0], lean, orientation), wanted.pointing, 2e-5);
   }
 });

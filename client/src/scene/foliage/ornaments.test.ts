@@ -1,7 +1,10 @@
+import { readFileSync } from "node:fs";
 import { type BufferGeometry, ShaderMaterial } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
 import { sampleTree } from "../../../test/sample-tree";
+import { shaderFunctions } from "../../../test/shader-functions";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
+import { ORNAMENT_SHAPE } from "../glsl/ornament";
 import type { Uniforms } from "../materials";
 import { FLOWERS } from "../painting/flowers";
 import { FRUITS } from "../painting/fruits";
@@ -131,5 +134,25 @@ it("every flower and fruit is painted within its tile", () => {
       i * side + side - 1,
     ]).flat();
     expect(Math.max(...edge.map((at) => alpha[at]!)), name).toBeLessThan(0.5);
+  }
+});
+
+it("flowers and fruits are shaped as in exports", () => {
+  interface Functions {
+    ornamentSize(random: number): number;
+    ornamentAxis(direction: number[], hang: number, more: number[]): number[];
+    ornamentHue(tint: number[], more: number[]): number[];
+  }
+  const shader = shaderFunctions<Functions>(ORNAMENT_SHAPE, ["ornamentSize", "ornamentAxis", "ornamentHue"]);
+  const file = new URL("../../../../server/export/golden/ornaments.json", import.meta.url);
+  const { shapes } = JSON.parse(readFileSync(file, "utf8"));
+  expect(shapes.length).toBeGreaterThan(10);
+  for (const { random, own, hang, direction, tint, size, axis, hue } of shapes) {
+    const found = [
+      shader.ornamentSize(random),
+      ...shader.ornamentAxis(direction, hang, own),
+      ...shader.ornamentHue(tint, own),
+    ];
+    for (const [i, wanted] of [...size, ...axis, ...hue].entries()) expect(found[i]).toBeCloseTo(wanted, 3);
   }
 });

@@ -42,7 +42,8 @@ export function paint(order: Order): Levels[] {
   }
 }
 
-function ornamentLevels(picture: typeof FLOWERS.kinds.rosette.paint, side: number): Levels {
+/** Four pictures of a kind of flower or fruit. */
+export function ornamentLevels(picture: typeof FLOWERS.kinds.rosette.paint, side: number): Levels {
   const tiles = Array.from({ length: ATLAS_TILES ** 2 }, (_, i) => picture(seeded(97 + i), side));
   return atlasLevels(
     tiles.map((tile) => () => tile),

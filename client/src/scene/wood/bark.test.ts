@@ -1,3 +1,4 @@
+import { readFileSync } from "node:fs";
 import { describe, expect, it, vi } from "vitest";
 import { type BarkKind, DEFAULT_APPEARANCE } from "../../wire/generated";
 import type { Uniforms } from "../materials";
@@ -101,6 +102,14 @@ it("slopes tell how heights rise", () => {
 describe("a palette", () => {
   it("has the tint itself, as light", () => {
     expect(barkPalette("furrowed", [255, 0, 188])[0]).toEqual([1, 0, expect.closeTo(0.503, 3)]);
+  });
+
+  it("is that of exports", () => {
+    const file = new URL("../../../../server/export/golden/bark.json", import.meta.url);
+    for (const { kind, tint, palette } of JSON.parse(readFileSync(file, "utf8"))) {
+      const found = barkPalette(kind, tint).flat();
+      for (const [i, wanted] of palette.flat().entries()) expect(found[i]).toBeCloseTo(wanted, 4);
+    }
   });
 
   it("has a pine's limbs redder than its trunk", () => {

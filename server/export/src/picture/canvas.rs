@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::{palette, png};
+use super::palette;
+use crate::{colour::encoded, png};
 
 /// Pixels in rows from the top, in linear light from 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,33 +78,9 @@ impl Canvas {
     }
 }
 
-/// Linear light as sRGB bytes.
-fn encoded(linear: Vec3) -> [u8; 3] {
-    linear.to_array().map(|c| {
-        let c = c.clamp(0.0, 1.0);
-        let c = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * libm::powf(c, 1.0 / 2.4) - 0.055 };
-        (c * 255.0 + 0.5) as u8
-    })
-}
-
-/// An sRGB colour in linear light.
-pub(crate) fn linear(colour: [u8; 3]) -> Vec3 {
-    Vec3::from_array(colour.map(|c| {
-        let c = f32::from(c) / 255.0;
-        if c <= 0.040_45 { c / 12.92 } else { libm::powf((c + 0.055) / 1.055, 2.4) }
-    }))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn colours_survive_linear_light_and_back() {
-        for value in 0..=255 {
-            assert_eq!(encoded(linear([value; 3])), [value; 3]);
-        }
-    }
 
     #[test]
     fn reducing_takes_the_mean() {

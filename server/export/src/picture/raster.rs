@@ -52,8 +52,9 @@ impl Seen {
         Self { width, height, near: vec![f32::NEG_INFINITY; count], triangle: vec![NOTHING; count] }
     }
 
-    /// Puts a projected triangle in front of what lies behind it; both its sides are seen.
-    pub(crate) fn add(&mut self, corners: [Vec3; 3], number: u32) {
+    /// Puts a projected triangle in front of what lies behind it, where `is_there` finds some of it by how much each corner
+    /// has to say; both its sides are seen.
+    pub(crate) fn add(&mut self, corners: [Vec3; 3], number: u32, is_there: impl Fn(Vec3) -> bool) {
         let low = corners[0].min(corners[1]).min(corners[2]);
         let high = corners[0].max(corners[1]).max(corners[2]);
         let first = |value: f32| (value - 0.5).ceil().max(0.0) as usize;
@@ -68,7 +69,7 @@ impl Seen {
                 }
                 let near = weights.x * corners[0].z + weights.y * corners[1].z + weights.z * corners[2].z;
                 let pixel = y * self.width + x;
-                if near > self.near[pixel] {
+                if near > self.near[pixel] && is_there(weights) {
                     self.near[pixel] = near;
                     self.triangle[pixel] = number;
                 }
@@ -101,8 +102,9 @@ mod tests {
     fn the_nearest_triangle_is_seen() {
         let mut seen = Seen::new(8, 8);
         for (number, near) in [(0, 1.0), (1, 3.0), (2, 2.0)] {
-            seen.add(corners(near), number);
+            seen.add(corners(near), number, |_| true);
         }
+        seen.add(corners(4.0), 3, |weights| weights.x < 0.0);
         assert_eq!((seen.triangle[0], seen.triangle[63]), (1, NOTHING));
         assert_eq!(seen.triangle.iter().filter(|&&number| number == 1).count(), 36);
     }

@@ -2,14 +2,22 @@
 
 use espalier_growth::species::{Species, Stand};
 use espalier_mesh::{Style, TriangleMesh, wood};
-use espalier_plant::Plant;
+use espalier_plant::{MetamerId, Plant};
 use espalier_settings::Appearance;
 use glam::{Vec2, Vec3};
 
 use super::{
-    bark, blades,
-    canvas::{Canvas, linear},
+    canvas::Canvas,
     raster::{NOTHING, Seen, View, weights},
+};
+use crate::{
+    colour::linear,
+    foliage::{Foliage, cards::Cards, leaf_look::Shoot, living},
+    surface::{
+        Texture,
+        bark::{Bark, CUT},
+        thin::{self, Thin},
+    },
 };
 
 /// What a plant looks like beyond its form, and what it stands on.
@@ -27,11 +35,24 @@ impl From<&Species> for Look {
     }
 }
 
-/// A mesh with a colour at each corner.
+/// A mesh with a colour at each corner, which multiplies that of a texture.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Painted {
-    pub(crate) mesh: TriangleMesh,
-    pub(crate) colours: Vec<Vec3>,
+struct Painted {
+    mesh: TriangleMesh,
+    colours: Vec<Vec3>,
+    texture: Option<Texture>,
+}
+
+impl Painted {
+    /// Whether there is anything where each corner of a triangle has so much to say.
+    fn is_there(&self, corners: [u32; 3], weights: Vec3) -> bool {
+        self.texture.as_ref().is_none_or(|texture| texture.is_there(self.uv(corners, weights)))
+    }
+
+    fn uv(&self, corners: [u32; 3], weights: Vec3) -> Vec2 {
+        let [a, b, c] = corners.map(|corner| self.mesh.uvs[corner as usize]);
+        a * weights.x + b * weights.y + c * weights.z
+    }
 }
 
 /// How a mesh answers to light.
@@ -59,9 +80,8 @@ const LAWN: [u8; 3] = [196, 202, 172];
 
 /// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
 pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
-    let wood = wood(plant, style, &look.appearance.bark).into_iter();
-    let mut meshes: Vec<_> = wood.map(|wood| (Skin::Bark, bare(wood.into_mesh()))).collect();
-    meshes.push((Skin::Leaf, blades::foliage(plant, style, &look.appearance)));
+    let mut meshes = wooden(plant, style, &look.appearance);
+    meshes.extend(borne(plant, style, &look.appearance));
     let (points, reach) = extent(&meshes);
     let base = stand(&mut meshes, look.stand, reach);
     // What it stands on is to be seen as well.
@@ -73,14 +93,52 @@ pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usi
     let lawn = Vec2::new(0.5 * size.x, FOOT * size.y / eye.y) / view.scale();
     let middle = (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale();
     let sun = Sun::new(&meshes, &points);
-    let scene =
-        Scene { sun, meshes, look, bark_tint: linear(look.appearance.bark.tint), reach, lawn, middle };
+    let scene = Scene { sun, meshes, reach, lawn, middle };
     scene.paint(&view, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
 }
 
 fn bare(mesh: TriangleMesh) -> Painted {
     let colours = vec![Vec3::ONE; mesh.positions.len()];
-    Painted { mesh, colours }
+    Painted { mesh, colours, texture: None }
+}
+
+/// Wood in its bark, and the faces of cuts.
+fn wooden(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
+    let bark = Bark::of(&look.bark);
+    let mut meshes = Vec::new();
+    for wood in wood(plant, style, &look.bark) {
+        let colours = wood.radii.iter().map(|&radius| bark.tint(radius)).collect();
+        let cut = TriangleMesh { indices: wood.cuts, ..wood.surface.clone() };
+        let colour_of_cuts = vec![CUT; cut.positions.len()];
+        meshes.push((Skin::Bark, Painted { mesh: cut, colours: colour_of_cuts, texture: None }));
+        let texture = Some(bark.texture.clone());
+        meshes.push((Skin::Bark, Painted { mesh: wood.surface, colours, texture }));
+    }
+    meshes
+}
+
+/// Leaves, flowers and fruits.
+fn borne(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
+    let foliage = Foliage::of(plant, style, look);
+    let painted = |thin: Thin, add: &dyn Fn(&mut Cards, MetamerId)| {
+        let mut cards = Cards::default();
+        for id in living(plant) {
+            let first = cards.hues.len();
+            add(&mut cards, id);
+            // The shadows of the simulation are soft: deep in a crown there is little of the sky.
+            let sky = 0.62 + 0.38 * Shoot::of(plant, id).light;
+            for hue in &mut cards.hues[first..] {
+                *hue *= thin.strength * sky;
+            }
+        }
+        (Skin::Leaf, Painted { mesh: cards.mesh, colours: cards.hues, texture: Some(thin.texture) })
+    };
+    let mut meshes = vec![painted(thin::leaves(&look.leaves), &|cards, id| foliage.add_leaves(cards, id))];
+    let flowers = thin::flowers(&look.flowers);
+    meshes.extend(flowers.map(|thin| painted(thin, &|cards, id| foliage.add_flowers(cards, id))));
+    let fruits = thin::fruits(&look.fruits);
+    meshes.extend(fruits.map(|thin| painted(thin, &|cards, id| foliage.add_fruits(cards, id))));
+    meshes
 }
 
 /// All corners, and how far the plant reaches from where it stands.
@@ -187,7 +245,8 @@ impl Sun {
         let mut seen = Seen::new(SHADOW_MAP, SHADOW_MAP);
         for (_, painted) in meshes.iter().filter(|(skin, _)| *skin != Skin::Ground) {
             for corners in painted.mesh.indices.as_chunks::<3>().0 {
-                seen.add(corners.map(|corner| view.project(painted.mesh.positions[corner as usize])), 0);
+                let projected = corners.map(|corner| view.project(painted.mesh.positions[corner as usize]));
+                seen.add(projected, 0, |weights| painted.is_there(*corners, weights));
             }
         }
         Self { view, seen }
@@ -217,11 +276,9 @@ impl Sun {
     }
 }
 
-struct Scene<'a> {
+struct Scene {
     meshes: Vec<(Skin, Painted)>,
     sun: Sun,
-    look: &'a Look,
-    bark_tint: Vec3,
     reach: f32,
     /// How far the lawn can be seen to the sides and to the front.
     lawn: Vec2,
@@ -229,7 +286,7 @@ struct Scene<'a> {
     middle: f32,
 }
 
-impl Scene<'_> {
+impl Scene {
     fn paint(&self, view: &View, width: usize, height: usize) -> Canvas {
         let mut canvas = Canvas::new(width, height, linear(SKY));
         let mut seen = Seen::new(width, height);
@@ -238,7 +295,8 @@ impl Scene<'_> {
         for (_, painted) in &self.meshes {
             firsts.push(first);
             for corners in painted.mesh.indices.as_chunks::<3>().0 {
-                seen.add(corners.map(|corner| view.project(painted.mesh.positions[corner as usize])), first);
+                let projected = corners.map(|corner| view.project(painted.mesh.positions[corner as usize]));
+                seen.add(projected, first, |weights| painted.is_there(*corners, weights));
                 first += 1;
             }
         }
@@ -259,15 +317,19 @@ impl Scene<'_> {
     }
 
     fn colour(&self, view: &View, mesh: usize, triangle: u32, at: Vec2) -> Option<Vec3> {
-        let (skin, Painted { mesh, colours }) = &self.meshes[mesh];
-        let corners = mesh.indices.as_chunks::<3>().0[triangle as usize].map(|corner| corner as usize);
-        let weights = weights(corners.map(|corner| view.project(mesh.positions[corner])), at)?.to_array();
+        let (skin, painted) = &self.meshes[mesh];
+        let Painted { mesh, colours, texture } = painted;
+        let indices = mesh.indices.as_chunks::<3>().0[triangle as usize];
+        let corners = indices.map(|corner| corner as usize);
+        let shares = weights(corners.map(|corner| view.project(mesh.positions[corner])), at)?;
         let mix = |values: &[Vec3]| {
-            corners
-                .iter()
-                .zip(weights)
-                .fold(Vec3::ZERO, |sum, (&corner, weight)| sum + values[corner] * weight)
+            let weighted = corners.iter().zip(shares.to_array());
+            weighted.fold(Vec3::ZERO, |sum, (&corner, share)| sum + values[corner] * share)
         };
+        let colour = texture
+            .as_ref()
+            .map_or(Vec3::ONE, |texture| texture.colours[texture.texel(painted.uv(indices, shares))])
+            * mix(colours);
         let (place, normal) = (mix(&mesh.positions), mix(&mesh.normals).normalize_or(Vec3::Y));
         let facing = normal.dot(Sun::direction());
         // Warm sun, and a cool sky that is brighter above.
@@ -278,24 +340,15 @@ impl Scene<'_> {
             Skin::Leaf => {
                 // Both sides count, and some light comes through.
                 let sun = self.sun.reaches(place, bias, 2.0) * (0.3 + 0.62 * facing.abs());
-                mix(colours) * lit(sun * 1.25, 0.55 + 0.2 * normal.y.abs())
+                colour * lit(sun * 1.25, 0.55 + 0.2 * normal.y.abs())
             }
             Skin::Bark => {
-                let uv = corners
-                    .iter()
-                    .zip(weights)
-                    .fold(Vec2::ZERO, |sum, (&corner, weight)| sum + mesh.uvs[corner] * weight);
-                // Texels are square, so any edge tells how wide a tile is.
-                let [a, b, _] = corners;
-                let tile = mesh.positions[a].distance(mesh.positions[b])
-                    / mesh.uvs[a].distance(mesh.uvs[b]).max(1e-6);
                 let sun = self.sun.reaches(place, bias, 2.0) * facing.max(0.0);
-                bark::colour(self.look.appearance.bark.kind, self.bark_tint, uv, tile, place.y)
-                    * lit(sun, 0.5 + 0.2 * normal.y)
+                colour * lit(sun, 0.5 + 0.2 * normal.y)
             }
             Skin::Glaze => {
                 let sun = self.sun.reaches(place, bias, 2.0) * facing.max(0.0);
-                mix(colours) * lit(sun, 0.55 + 0.25 * normal.y)
+                colour * lit(sun, 0.55 + 0.25 * normal.y)
             }
             Skin::Ground => {
                 let sun = self.sun.reaches(place, bias, 9.0);

@@ -1,10 +1,7 @@
 //! A contact sheet: pictures in rows, each with its label.
 
-use super::{
-    canvas::{Canvas, linear},
-    lettering::Pen,
-    scene::SKY,
-};
+use super::{canvas::Canvas, lettering::Pen, scene::SKY};
+use crate::colour::linear;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug)]

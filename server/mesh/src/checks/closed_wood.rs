@@ -10,8 +10,16 @@ use crate::tubes::Wood;
 const CHECK: &str = "closed_wood";
 
 pub(super) fn check(wood: &Wood) -> Result<(), Failure> {
-    let Wood { surface, radii, .. } = wood;
-    require(CHECK, radii.len() == surface.positions.len(), || format!("{} radii", radii.len()))?;
+    let Wood { surface, radii, tangents, .. } = wood;
+    require(CHECK, [radii.len(), tangents.len()] == [surface.positions.len(); 2], || {
+        format!("{} radii, {} tangents", radii.len(), tangents.len())
+    })?;
+    for (vertex, (tangent, normal)) in tangents.iter().zip(&surface.normals).enumerate() {
+        let along = tangent.truncate();
+        let fits =
+            (along.length() - 1.0).abs() < 1e-3 && along.dot(*normal).abs() < 1e-3 && tangent.w.abs() == 1.0;
+        require(CHECK, fits, || format!("vertex {vertex} has tangent {tangent} on normal {normal}"))?;
+    }
     // Vertices at one place count as one, wherever they are in the texture.
     let bits = |corner: u32| surface.positions[corner as usize].to_array().map(f32::to_bits);
     let mut runs: BTreeMap<_, i32> = BTreeMap::new();

@@ -6,9 +6,7 @@ mod plain;
 
 use std::collections::BTreeSet;
 
-use espalier_mesh::{
-    RingTable, Style, StyleOptions, checks, leaf_mesh, leaves, ring_table::CHUNK_ROWS, seeds, wood,
-};
+use espalier_mesh::{RingTable, Style, StyleOptions, checks, leaves, ring_table::CHUNK_ROWS, seeds, wood};
 use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::BarkLook;
 use glam::Vec3;
@@ -84,11 +82,10 @@ proptest! {
         let ids = (0..plant.metamer_count()).map(MetamerId::new);
         let leaves: Vec<_> = ids.flat_map(|id| leaves::of(&plant, id, &style)).collect();
         let look = BarkLook { collar, root_flare, smoothing, ..BarkLook::default() };
-        let (plants, foliage) = (wood(&plant, &style, &look), leaf_mesh(&leaves));
+        let plants = wood(&plant, &style, &look);
         for wood in &plants {
             prop_assert_eq!(checks::wood(wood), Ok(()));
         }
-        prop_assert_eq!(checks::mesh(&foliage), Ok(()));
         let of = seeds(&plant);
         let grown = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id) && !plant.is_seed(id));
         let grown: BTreeSet<_> = grown.map(|id| of[id.index()]).collect();

@@ -3,20 +3,18 @@
 //!
 //! After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-export leaf_look`.
 
-use espalier_mesh::{
-    Style,
-    leaves::{self, Leaf},
-};
+use espalier_mesh::leaves::Leaf;
 use espalier_plant::{MetamerId, Plant};
 use espalier_settings::LeafLook;
 use glam::{Vec3, Vec4};
 
-use super::canvas::linear;
+use crate::colour::{linear, smooth};
 
 const BRIGHTNESS: Vec3 = Vec3::new(0.30, 0.59, 0.11);
 
 /// A look in its season. Colours are linear.
-pub(super) struct LeafPainter {
+#[derive(Clone, Debug)]
+pub(crate) struct LeafPainter {
     tint: Vec3,
     /// Colours at first, at last, and dead.
     autumn: [Vec3; 3],
@@ -32,9 +30,17 @@ pub(super) struct LeafPainter {
     withered: f32,
 }
 
+/// The colours of a leaf, linear.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hues {
+    pub middle: Vec3,
+    /// Along the margin of a blade, which turns first.
+    pub margin: Vec3,
+}
+
 /// What the shoot that bears a leaf is like, each number 0 to 1.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shoot {
+pub(crate) struct Shoot {
     /// Unit vector along it.
     pub heading: Vec3,
     /// Share of the greatest vigor, in the sixteen levels that clients know.
@@ -45,7 +51,7 @@ pub(super) struct Shoot {
 
 impl Shoot {
     /// The metamer as it is in the present.
-    pub(super) fn of(plant: &Plant, id: MetamerId) -> Self {
+    pub(crate) fn of(plant: &Plant, id: MetamerId) -> Self {
         let to = plant.metamers().end(id);
         let from = plant.metamers().parent(id).map_or(to, |parent| plant.metamers().end(parent));
         let seen = plant.metamers().condition(id);
@@ -59,7 +65,7 @@ impl Shoot {
 
 impl LeafPainter {
     /// Of this look.
-    pub(super) fn new(look: &LeafLook) -> Self {
+    pub(crate) fn new(look: &LeafLook) -> Self {
         let nature = look.shape.nature();
         let season = look.season;
         Self {
@@ -78,7 +84,7 @@ impl LeafPainter {
     }
 
     /// The leaf as it hangs in its season, and its colour; nothing of one that has fallen.
-    pub(super) fn paint(&self, leaf: &Leaf, shoot: &Shoot) -> Option<(Leaf, Vec3)> {
+    pub(crate) fn paint(&self, leaf: &Leaf, shoot: &Shoot) -> Option<(Leaf, Vec3)> {
         let own = own_numbers(leaf.random);
         let there = presence(self.present, own.z);
         if there <= 0.0 {
@@ -86,13 +92,26 @@ impl LeafPainter {
         }
         let size = leaf.size * there * unfolding(self.unfolded, own.y);
         let direction = pointing(leaf.direction, shoot.heading, self.lean, self.orientation);
-        let normal = leaf.normal.reject_from_normalized(direction).normalize_or(leaf.normal);
-        let hue = self.hue(shoot.vigor, shoot.light, Vec3::new(leaf.random, own.y, own.w));
+        let side = leaf.direction.cross(leaf.normal).reject_from_normalized(direction);
+        let normal = side.normalize_or(direction.any_orthonormal_vector()).cross(direction);
+        let hue = self.hues(shoot.vigor, shoot.light, Vec3::new(leaf.random, own.y, own.w)).middle;
         Some((Leaf { size, direction, normal, ..*leaf }, hue))
     }
 
-    /// The colour of a leaf away from its margin.
-    fn hue(&self, vigor: f32, light: f32, own: Vec3) -> Vec3 {
+    /// The colours of a leaf as most are.
+    pub(crate) fn typical(&self) -> Hues {
+        self.hues(0.2, 0.6, Vec3::splat(0.5))
+    }
+
+    /// The brightest that any of a leaf's three colours gets.
+    pub(crate) fn brightest(&self) -> f32 {
+        let ends = (0..32).map(|i| [1, 2, 4, 8, 16].map(|bit| f32::from(u8::from(i & bit != 0))));
+        ends.fold(0.0, |most, [vigor, light, x, y, z]| {
+            self.hues(vigor, light, Vec3::new(x, y, z)).middle.max_element().max(most)
+        })
+    }
+
+    fn hues(&self, vigor: f32, light: f32, own: Vec3) -> Hues {
         let own = own.lerp(Vec3::splat(0.5), 0.55 * self.spray);
         let shade = Vec3::new(0.80, 0.88, 1.0).lerp(Vec3::new(1.04, 1.02, 0.96), light);
         let warmth = own.y - 0.5;
@@ -108,27 +127,22 @@ impl LeafPainter {
         summer = summer.lerp(young, self.fresh);
         // Weak shoots turn first, and leaves in the sun turn reddest.
         let late = 0.55 * own.z + 0.30 * vigor + 0.15 * (1.0 - light);
-        let turned = smooth(late - 0.25, late + 0.25, self.turned * 1.5 - 0.37);
+        let [middle, margin] =
+            [-0.37, -0.09].map(|ahead| smooth(late - 0.25, late + 0.25, self.turned * 1.5 + ahead));
         let depth = (0.75 * own.x + 0.5 * light - 0.3 + 0.3 * (1.0 - vigor)).clamp(0.0, 1.0);
         let [first, last, dead] = self.autumn;
         let autumn = first.lerp(last, smooth(0.2, 0.9, depth)) * (0.82 + 0.36 * own.y);
+        let dead = dead * (0.7 + 0.5 * own.y);
         let died = (self.withered * 1.3 - 0.3 * own.z).clamp(0.0, 1.0);
-        summer.lerp(autumn, turned).lerp(dead * (0.7 + 0.5 * own.y), died)
+        Hues {
+            middle: summer.lerp(autumn, middle).lerp(dead, died),
+            margin: summer.lerp(autumn.lerp(last, 0.3), margin).lerp(dead, (1.4 * died).min(1.0)),
+        }
     }
 }
 
-/// All leaves that hang, and their colours, in birth order.
-pub(crate) fn hanging(plant: &Plant, style: &Style, look: &LeafLook) -> Vec<(Leaf, Vec3)> {
-    let painter = LeafPainter::new(look);
-    let hanging = (0..plant.metamer_count()).map(MetamerId::new).flat_map(|id| {
-        let (painter, shoot) = (&painter, Shoot::of(plant, id));
-        leaves::of(plant, id, style).filter_map(move |leaf| painter.paint(&leaf, &shoot))
-    });
-    hanging.collect()
-}
-
 /// More numbers of a leaf's own, 0 to 1, or of a flower's or fruit's.
-pub(super) fn own_numbers(random: f32) -> Vec4 {
+pub(crate) fn own_numbers(random: f32) -> Vec4 {
     (random * Vec4::new(57.31, 131.7, 313.3, 709.9)).fract()
 }
 
@@ -148,10 +162,9 @@ fn pointing(direction: Vec3, heading: Vec3, lean: f32, orientation: f32) -> Vec3
     direction.lerp(heading, lean).lerp(way, 0.92 * orientation.abs()).normalize_or(direction)
 }
 
-/// 0 up to `low`, 1 from `high` on.
-fn smooth(low: f32, high: f32, at: f32) -> f32 {
-    let t = ((at - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
+/// How far the tip of a blade bows and its halves rise from the midrib, each leaf by its own measure.
+pub(crate) fn bending(random: f32, own: f32) -> [f32; 2] {
+    [0.10 + 0.28 * random, 0.12 + 0.33 * own]
 }
 
 #[cfg(test)]
@@ -176,8 +189,9 @@ mod tests {
             let random = (i as f32 * 0.618_034 + 0.1).fract();
             let (vigor, light) = ([0.0, 0.2, 1.0][i % 3], [0.0, 0.6, 1.0][(i + i / 3) % 3]);
             let own = [random, 1.0 - random, (random * 3.0).fract()];
-            let hue = painter.hue(vigor, light, Vec3::from_array(own)).to_array();
-            json!({ "vigor": vigor, "light": light, "own": own, "hue": rounded(&hue) })
+            let Hues { middle, margin } = painter.hues(vigor, light, Vec3::from_array(own));
+            let [middle, margin] = [middle, margin].map(|hue| rounded(&hue.to_array()));
+            json!({ "vigor": vigor, "light": light, "own": own, "hue": middle, "margin": margin })
         });
         samples.collect()
     }
@@ -218,6 +232,7 @@ mod tests {
                 "heading": heading.to_array(),
                 "lean": lean,
                 "orientation": orientation,
+                "bending": rounded(&bending(random, own.w)),
                 "pointing": rounded(&pointing(direction, heading, lean, orientation).to_array()),
             })
         });

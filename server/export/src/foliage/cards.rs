@@ -1,0 +1,316 @@
+//! Cards that show pictures: leaves, sprays, flowers and fruits as triangles, formed as clients form them when they are
+//! near.
+
+use std::f32::consts::{PI, TAU};
+
+use espalier_mesh::{TriangleMesh, leaves::Leaf};
+use espalier_settings::{LeafKind, LeafNature, OrnamentNature};
+use glam::{Vec2, Vec3, Vec4};
+
+use super::leaf_look::{bending, own_numbers};
+use crate::painted::LAYOUT;
+
+/// With more leaves than this each gets half the triangles or fewer: nobody sees single ones then.
+const MANY_LEAVES: usize = 60_000;
+/// How far a blade rolls about its midrib, in radians from one extreme to the other.
+const ROLL: f32 = 0.9;
+/// How far a spray of full length sags, in its own length.
+const SAG: f32 = 0.1;
+/// How far needles look to the side at the edge of a spray.
+const AROUND: f32 = 0.9;
+
+/// Triangles that show an atlas. Texture coordinates are places in it, upwards.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Cards {
+    pub mesh: TriangleMesh,
+    /// The direction in which u grows, and the side of the normal on which v does.
+    pub tangents: Vec<Vec4>,
+    /// The colour of what each vertex belongs to, linear.
+    pub hues: Vec<Vec3>,
+}
+
+/// How finely leaves are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fineness {
+    /// Parts across and along a blade.
+    blade: [u32; 2],
+    /// Crossed cards of a spray, and parts along each.
+    spray: [u32; 2],
+}
+
+impl Fineness {
+    /// For so many leaves.
+    pub(crate) fn of(leaves: usize) -> Self {
+        if leaves > MANY_LEAVES {
+            Self { blade: [2, 1], spray: [2, 1] }
+        } else {
+            Self { blade: [2, 3], spray: [3, 2] }
+        }
+    }
+}
+
+/// What all leaves of a look have in common.
+#[derive(Clone, Debug)]
+pub(crate) struct LeafForm {
+    nature: LeafNature,
+    reach: f32,
+    fineness: Fineness,
+}
+
+impl LeafForm {
+    pub(crate) fn new(kind: LeafKind, fineness: Fineness) -> Self {
+        Self {
+            nature: kind.nature(),
+            reach: LAYOUT.leaf_reach.get(kind.name()).copied().unwrap_or(0.5),
+            fineness,
+        }
+    }
+
+    /// Adds a leaf as it hangs.
+    pub(crate) fn add(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
+        if self.nature.is_spray { self.add_spray(cards, leaf, hue) } else { self.add_blade(cards, leaf, hue) }
+    }
+
+    fn add_blade(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
+        let Leaf { base, direction, normal, size, random } = *leaf;
+        let own = own_numbers(random);
+        let (sin, cos) = libm::sincosf((own.y - 0.5) * ROLL);
+        let level = direction.cross(normal);
+        let (side, up) = (level * cos - normal * sin, normal * cos + level * sin);
+        let [bow, fold] = bending(random, own.w).map(|much| much * self.nature.bend);
+        let tile = Tile::of(own.x);
+        cards.grid(self.fineness.blade, &tile, hue, |across, along| {
+            let (out, along) = (across * full(self.reach), shifted(along));
+            let sunk = bow * along * along;
+            let place = direction * (along - 0.12 * sunk) + side * out + up * (out.abs() * fold - sunk);
+            let lengthwise = direction - up * (2.0 * bow * along);
+            let normal = (side + up * (fold * across)).normalize().cross(lengthwise).normalize();
+            Corner { place: base + size * place, normal, side }
+        });
+    }
+
+    fn add_spray(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
+        let Leaf { base, direction, normal, size, random } = *leaf;
+        let own = own_numbers(random);
+        let level = direction.cross(normal);
+        let [count, parts] = self.fineness.spray;
+        let tile = Tile::of(own.x);
+        for which in 0..count {
+            let (sin, cos) = libm::sincosf(PI * which as f32 / count as f32 + TAU * own.y);
+            let side = level * cos + normal * sin;
+            let flat = side.cross(direction);
+            cards.grid([2, parts], &tile, hue, |across, along| {
+                let (out, along) = (across * full(self.reach), shifted(along));
+                let sag = SAG * self.nature.bend * along * along;
+                Corner {
+                    place: base + size * (direction * along + side * out - Vec3::Y * sag),
+                    // Needles stand all around: the further out, the more they look to the side.
+                    normal: (flat + side * (across * AROUND)).normalize(),
+                    side,
+                }
+            });
+        }
+    }
+}
+
+/// A flower or fruit in its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ornament {
+    pub base: Vec3,
+    /// Unit vector along which it hangs or stands.
+    pub axis: Vec3,
+    pub size: f32,
+    /// A number from 0 to 1 of its own.
+    pub random: f32,
+}
+
+impl Ornament {
+    /// Adds it: a disc, or crossed cards, so many that it looks as thick as it is broad.
+    pub(crate) fn add(&self, cards: &mut Cards, nature: &OrnamentNature, hue: Vec3) {
+        let own = own_numbers(self.random);
+        let foot = self.base + self.axis * (nature.stalk * self.size);
+        let (u, w) = self.axis.any_orthonormal_pair();
+        let tile = Tile::of(own.x);
+        let turned = |angle: f32| {
+            let (sin, cos) = libm::sincosf(angle);
+            u * cos + w * sin
+        };
+        if nature.turn < 0.0 {
+            let side = turned(TAU * own.y);
+            let lengthwise = self.axis.cross(side);
+            cards.grid([1, 1], &tile, hue, |across, along| Corner {
+                place: foot
+                    + self.size
+                        * (side * (across * full(nature.reach)) + lengthwise * (shifted(along) - 0.5)),
+                normal: self.axis,
+                side,
+            });
+            return;
+        }
+        let count = if nature.turn < 0.5 { 2 } else { 3 };
+        for which in 0..count {
+            let side = turned(PI * which as f32 / count as f32 + TAU * own.y);
+            let flat = side.cross(self.axis);
+            cards.grid([2, 1], &tile, hue, |across, along| Corner {
+                place: foot + self.size * (self.axis * shifted(along) + side * (across * full(nature.reach))),
+                normal: (flat + side * (across * AROUND)).normalize(),
+                side,
+            });
+        }
+    }
+}
+
+/// One of the four pictures of an atlas, as it is or mirrored.
+struct Tile {
+    corner: Vec2,
+    mirror: f32,
+}
+
+impl Tile {
+    fn of(number: f32) -> Self {
+        let mirror = if number > 0.5 { 1.0 } else { -1.0 };
+        let which = (8.0 * number) as u8 % 4;
+        let tiles = LAYOUT.tiles;
+        Self { corner: Vec2::new(f32::from(which % tiles), f32::from(which / tiles)), mirror }
+    }
+
+    /// The place of a card's corner, -1 to 1 across and 0 to 1 along.
+    fn at(&self, across: f32, along: f32) -> Vec2 {
+        (self.corner + Vec2::new(0.5 + 0.5 * self.mirror * across, along)) / f32::from(LAYOUT.tiles)
+    }
+}
+
+/// Half the width of a card for what is so wide.
+fn full(reach: f32) -> f32 {
+    reach * (1.0 + 2.0 * LAYOUT.margin)
+}
+
+/// How far along the thing a place of its card is.
+fn shifted(along: f32) -> f32 {
+    along * (1.0 + 2.0 * LAYOUT.margin) - LAYOUT.margin
+}
+
+struct Corner {
+    place: Vec3,
+    normal: Vec3,
+    /// Across the card.
+    side: Vec3,
+}
+
+impl Cards {
+    fn grid(
+        &mut self,
+        [columns, rows]: [u32; 2],
+        tile: &Tile,
+        hue: Vec3,
+        corner: impl Fn(f32, f32) -> Corner,
+    ) {
+        let first = self.mesh.positions.len() as u32;
+        for row in 0..=rows {
+            for column in 0..=columns {
+                let (across, along) = (2.0 * column as f32 / columns as f32 - 1.0, row as f32 / rows as f32);
+                let Corner { place, normal, side } = corner(across, along);
+                self.mesh.vertex(place, normal, tile.at(across, along));
+                let tangent = side.reject_from_normalized(normal).normalize() * tile.mirror;
+                self.tangents.push(tangent.extend(tile.mirror));
+                self.hues.push(hue);
+            }
+        }
+        for row in 0..rows {
+            for column in 0..columns {
+                let a = first + row * (columns + 1) + column;
+                let c = a + columns + 1;
+                self.mesh.triangle(a, a + 1, c);
+                self.mesh.triangle(c, a + 1, c + 1);
+            }
+        }
+    }
+
+    /// Forgets all triangles, but not their room.
+    pub(crate) fn clear(&mut self) {
+        let TriangleMesh { positions, normals, uvs, indices } = &mut self.mesh;
+        positions.clear();
+        normals.clear();
+        uvs.clear();
+        indices.clear();
+        self.tangents.clear();
+        self.hues.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_mesh::checks;
+    use espalier_settings::{FlowerKind, FruitKind};
+
+    use super::*;
+
+    const LEAF: Leaf = Leaf { base: Vec3::ONE, direction: Vec3::X, normal: Vec3::Y, size: 2.0, random: 0.3 };
+
+    fn holds(cards: &Cards, name: &str) {
+        assert_eq!(checks::mesh(&cards.mesh), Ok(()), "{name}");
+        assert_eq!(cards.tangents.len(), cards.mesh.positions.len());
+        for (corners, normals) in cards.mesh.indices.as_chunks::<3>().0.iter().map(|corners| {
+            (
+                corners.map(|c| cards.mesh.positions[c as usize]),
+                corners.map(|c| cards.mesh.normals[c as usize]),
+            )
+        }) {
+            let [a, b, c] = corners;
+            let facing = (b - a).cross(c - a);
+            assert!(
+                facing.dot(normals.into_iter().sum()) > 0.0,
+                "{name}: a triangle faces away from its normal"
+            );
+        }
+        for (i, tangent) in cards.tangents.iter().enumerate() {
+            assert!((tangent.truncate().length() - 1.0).abs() < 1e-4 && tangent.w.abs() == 1.0);
+            assert!(tangent.truncate().dot(cards.mesh.normals[i]).abs() < 1e-3, "{name}");
+        }
+        assert!(cards.mesh.uvs.iter().all(|uv| uv.min_element() >= 0.0 && uv.max_element() <= 1.0));
+    }
+
+    /// In each triangle the tangent points where u grows, and the bitangent where v does.
+    fn tangents_follow(cards: &Cards) {
+        for corners in cards.mesh.indices.as_chunks::<3>().0 {
+            let [a, b, c] = corners.map(|corner| corner as usize);
+            let (p, uv) = (&cards.mesh.positions, &cards.mesh.uvs);
+            let ([e, f], [s, t]) = ([p[b] - p[a], p[c] - p[a]], [uv[b] - uv[a], uv[c] - uv[a]]);
+            let area = s.perp_dot(t);
+            let (along_u, along_v) = ((e * t.y - f * s.y) / area, (f * s.x - e * t.x) / area);
+            let tangent = cards.tangents[a];
+            let bitangent = cards.mesh.normals[a].cross(tangent.truncate()) * tangent.w;
+            assert!(along_u.dot(tangent.truncate()) > 0.0 && along_v.dot(bitangent) > 0.0);
+        }
+    }
+
+    #[test]
+    fn leaves_of_every_kind_are_cards_with_tangents() {
+        for &kind in LeafKind::ALL {
+            for (leaves, most) in [(1, 24), (MANY_LEAVES + 1, 8)] {
+                let form = LeafForm::new(kind, Fineness::of(leaves));
+                for random in [0.1, 0.3, 0.6, 0.9] {
+                    let mut cards = Cards::default();
+                    form.add(&mut cards, &Leaf { random, ..LEAF }, Vec3::ONE);
+                    holds(&cards, kind.name());
+                    tangents_follow(&cards);
+                    assert!(cards.mesh.indices.len() <= 3 * most);
+                    let [low, high] = cards.mesh.bounds().expect("it has vertices");
+                    assert!(low.x > 0.7 && high.x < 3.2 && high.x > 2.2, "{kind:?}: {low} to {high}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn flowers_and_fruits_of_every_kind_are_cards_with_tangents() {
+        let flowers = FlowerKind::ALL.iter().filter_map(|kind| kind.nature());
+        for nature in flowers.chain(FruitKind::ALL.iter().filter_map(|kind| kind.nature())) {
+            let mut cards = Cards::default();
+            let ornament = Ornament { base: Vec3::ZERO, axis: -Vec3::Y, size: 1.0, random: 0.7 };
+            ornament.add(&mut cards, &nature, Vec3::ONE);
+            holds(&cards, "ornament");
+            tangents_follow(&cards);
+        }
+    }
+}

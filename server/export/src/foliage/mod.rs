@@ -1,0 +1,92 @@
+//! What a plant bears, as triangles that show pictures: leaves, flowers and fruits, for files and for pictures alike.
+
+pub(crate) mod cards;
+pub(crate) mod leaf_look;
+pub(crate) mod ornaments;
+
+use espalier_mesh::{Style, foliage, leaves};
+use espalier_plant::{MetamerId, Plant, Widths};
+use espalier_settings::Appearance;
+
+use self::{
+    cards::{Cards, Fineness, LeafForm},
+    leaf_look::{LeafPainter, Shoot},
+    ornaments::Bearer,
+};
+
+/// What each metamer of a plant bears in a look.
+pub(crate) struct Foliage<'a> {
+    plant: &'a Plant,
+    style: &'a Style,
+    look: &'a Appearance,
+    widths: Widths<'a>,
+    /// Which metamers their axis goes on beyond.
+    goes_on: Vec<bool>,
+    painter: LeafPainter,
+    form: LeafForm,
+}
+
+impl<'a> Foliage<'a> {
+    pub(crate) fn of(plant: &'a Plant, style: &'a Style, look: &'a Appearance) -> Self {
+        let count = living(plant).map(|id| usize::from(foliage::leaves(plant, id, style))).sum();
+        Self {
+            plant,
+            style,
+            look,
+            widths: Widths::of(plant, style.girth()),
+            goes_on: goes_on(plant),
+            painter: LeafPainter::new(&look.leaves),
+            form: LeafForm::new(look.leaves.shape, Fineness::of(count)),
+        }
+    }
+
+    /// Adds the leaves of a metamer.
+    pub(crate) fn add_leaves(&self, cards: &mut Cards, id: MetamerId) {
+        let shoot = Shoot::of(self.plant, id);
+        for leaf in leaves::of(self.plant, id, self.style) {
+            if let Some((leaf, hue)) = self.painter.paint(&leaf, &shoot) {
+                self.form.add(cards, &leaf, hue);
+            }
+        }
+    }
+
+    /// Adds the flowers of a metamer.
+    pub(crate) fn add_flowers(&self, cards: &mut Cards, id: MetamerId) {
+        ornaments::add_flowers(cards, &self.bearer(id), &self.look.flowers);
+    }
+
+    /// Adds the fruits of a metamer.
+    pub(crate) fn add_fruits(&self, cards: &mut Cards, id: MetamerId) {
+        ornaments::add_fruits(cards, &self.bearer(id), &self.look.fruits);
+    }
+
+    fn bearer(&self, id: MetamerId) -> Bearer {
+        let metamers = self.plant.metamers();
+        let to = metamers.end(id);
+        Bearer {
+            row: id.raw(),
+            ends: [metamers.parent(id).map_or(to, |parent| metamers.end(parent)), to],
+            radius: self.widths.radius(id),
+            is_leafy: foliage::leaves(self.plant, id, self.style) > 0,
+            is_tip: !self.goes_on[id.index()],
+            vigor: Shoot::of(self.plant, id).vigor,
+        }
+    }
+}
+
+/// The living metamers that are no seeds, in birth order.
+pub(crate) fn living(plant: &Plant) -> impl Iterator<Item = MetamerId> + '_ {
+    (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id) && !plant.is_seed(id))
+}
+
+fn goes_on(plant: &Plant) -> Vec<bool> {
+    let mut goes_on = vec![false; plant.metamer_count()];
+    for id in living(plant) {
+        let metamers = plant.metamers();
+        if let Some(parent) = metamers.parent(id).filter(|&parent| metamers.axis(parent) == metamers.axis(id))
+        {
+            goes_on[parent.index()] = true;
+        }
+    }
+    goes_on
+}

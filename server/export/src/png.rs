@@ -1,0 +1,71 @@
+//! Files in the PNG format (ISO/IEC 15948).
+
+use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
+
+/// A file of at most 256 colours, and for each pixel which of them.
+pub(crate) fn indexed(width: usize, height: usize, colours: &[[u8; 3]], indices: &[u8]) -> Vec<u8> {
+    // Filters help smooth tones; indices have none.
+    file([width, height], ColorType::Indexed, Filter::NoFilter, Some(colours.as_flattened()), indices)
+}
+
+/// A square file with a byte for each channel: three are red, green, blue; the fourth is cover.
+pub(crate) fn square<const CHANNELS: usize>(side: usize, pixels: &[[u8; CHANNELS]]) -> Vec<u8> {
+    let colours = if CHANNELS == 4 { ColorType::Rgba } else { ColorType::Rgb };
+    file([side, side], colours, Filter::Adaptive, None, pixels.as_flattened())
+}
+
+fn file(
+    size: [usize; 2],
+    colours: ColorType,
+    filter: Filter,
+    palette: Option<&[u8]>,
+    data: &[u8],
+) -> Vec<u8> {
+    let write = || -> Result<Vec<u8>, EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = Encoder::new(&mut bytes, size[0] as u32, size[1] as u32);
+        encoder.set_color(colours);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Balanced);
+        encoder.set_filter(filter);
+        if let Some(palette) = palette {
+            encoder.set_palette(palette);
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(data)?;
+        writer.finish()?;
+        Ok(bytes)
+    };
+    write().unwrap_or_else(|error| unreachable!("memory takes every byte of a whole picture: {error}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Cursor;
+
+    use png::Decoder;
+
+    use super::*;
+
+    #[test]
+    fn pixels_are_read_back() {
+        let pixels: Vec<[u8; 4]> = (0..64u8).map(|i| [i, 255 - i, 3 * i, 7]).collect();
+        let file = square(8, &pixels);
+        let mut reader = Decoder::new(Cursor::new(&file)).read_info().expect("it is a PNG file");
+        let mut read = vec![0; 256];
+        let info = reader.next_frame(&mut read).expect("it is whole");
+        assert_eq!((info.width, info.height, info.color_type), (8, 8, ColorType::Rgba));
+        assert_eq!(read, pixels.as_flattened());
+    }
+
+    #[test]
+    fn indices_are_read_back_as_colours() {
+        let file = indexed(2, 2, &[[1, 2, 3], [250, 0, 9]], &[0, 1, 1, 0]);
+        let mut decoder = Decoder::new(Cursor::new(&file));
+        decoder.set_transformations(png::Transformations::EXPAND);
+        let mut reader = decoder.read_info().expect("it is a PNG file");
+        let mut read = vec![0; 12];
+        reader.next_frame(&mut read).expect("it is whole");
+        assert_eq!(read, [1, 2, 3, 250, 0, 9, 250, 0, 9, 1, 2, 3]);
+    }
+}
