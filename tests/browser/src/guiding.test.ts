@@ -130,7 +130,8 @@ test("a seed is planted where the ground is tapped, and grows", async () => {
   await tablet.take("Plant a seed");
   await tablet.tapAt({ x: 860, y: 790 });
   const planted = await tablet.until("there are two seeds", (facts) => facts.rows === before.rows + 1);
-  expect(planted.tool, "the brush is at hand again").toBe("brush");
+  expect(planted.tool, "for the next one").toBe("seed");
+  await tablet.page.keyboard.press("b");
   const seedlings = () => tablet.page.locator(".seedling").count();
   await expect.poll(seedlings).toBe(2);
   await tablet.show("25-two-seeds");

@@ -129,6 +129,4 @@ export interface ToolKit extends Workshop {
   readonly base: (x: number, y: number) => Vec3;
   /** Tells the user something. */
   readonly say: (text: Key | Text) => void;
-  /** The tool has done what it is for: the first one is chosen again. */
-  readonly done: () => void;
 }

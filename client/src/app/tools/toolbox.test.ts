@@ -190,14 +190,14 @@ describe("toolbox", () => {
     expect(outline.shown.value?.stage).toBe("growing");
   });
 
-  it("after a seed the brush is chosen again", () => {
+  it("a seed leaves its tool in the hand, for the next one", () => {
     const { tools, sent, toasts, draw } = setUp();
     tools.choose("seed");
     draw([[300, 200]]);
     expect([sent, tools.chosen.value, toasts.list.value.length]).toEqual([[], "seed", 1]);
     draw([[300, 700]]);
     expect(sent).toEqual([{ kind: "plant_seed", position: [30, 0, 70] }]);
-    expect([tools.chosen.value, tools.made.value?.seed?.place.value]).toEqual(["brush", null]);
+    expect([tools.chosen.value, tools.made.value?.seed?.place.value]).toEqual(["seed", null]);
   });
 
   it("a tool that changes ends its stroke", () => {

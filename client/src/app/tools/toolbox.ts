@@ -72,7 +72,6 @@ export class Toolbox {
       view,
       base: (x, y) => nearestBase(table, view, x, y),
       say: (text) => toasts.show(say(text)),
-      done: () => this.choose(FIRST_TOOL),
     };
     this.#kit = kit;
     this.#loading.clear();

@@ -10,11 +10,10 @@ export const SEED: ToolDescriptor<SeedTool> = {
   group: "drawing",
   keepsObstacles: true,
   hint: () => ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
-  make: ({ view, submit, say, done }) =>
+  make: ({ view, submit, say }) =>
     new SeedTool({
       groundAt: (x, y) => view.pointOnLevel(x, y, [0, 0, 0]),
       submit,
-      planted: done,
       missed: () => say("tools.ground-missed"),
     }),
   later: () => import("./later"),

@@ -9,7 +9,6 @@ function setUp() {
   const tool = new SeedTool({
     groundAt: (x, y) => (y > 500 ? [x / 10, 0, y / 10] : null),
     submit: (command) => sent.push(command),
-    planted: () => calls.push("planted"),
     missed: () => calls.push("missed"),
   });
   return { tool, sent, calls, shown: () => tool.place.value };
@@ -26,7 +25,7 @@ describe("seed tool", () => {
     tool.end();
     tool.end();
     expect(sent).toEqual([{ kind: "plant_seed", position: [20, 0, 80] }]);
-    expect([calls, shown()]).toEqual([["planted"], null]);
+    expect([calls, shown()]).toEqual([[], null]);
   });
 
   it("plants nothing in the sky", () => {

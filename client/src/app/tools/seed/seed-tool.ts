@@ -8,7 +8,6 @@ export interface SeedOptions {
   /** Where the ground is under a pixel; null where there is sky, or ground too far off to aim at. */
   readonly groundAt: (x: number, y: number) => Vec3 | null;
   readonly submit: (command: Command) => void;
-  readonly planted: () => void;
   /** The finger lifted where there is no ground. */
   readonly missed: () => void;
 }
@@ -44,7 +43,6 @@ export class SeedTool implements Tool {
     this.abandon();
     if (place) {
       this.#options.submit({ kind: "plant_seed", position: withinReach(place) });
-      this.#options.planted();
     } else {
       this.#options.missed();
     }
