@@ -5,6 +5,7 @@ import { App } from "./app/ui/app";
 import "./app/ui/styles/base.css";
 import "./app/ui/styles/layout.css";
 import "./app/ui/styles/bars.css";
+import "./app/ui/styles/labels.css";
 import "./app/ui/styles/status.css";
 import "./app/ui/styles/tools.css";
 import "./app/ui/styles/draw-modes.css";

@@ -28,6 +28,8 @@ export interface Settings {
   readonly theme: Signal<Theme | null>;
   /** Whether the tour was taken or waved away. */
   readonly tourSeen: Signal<boolean>;
+  /** Whether every button shows its name. */
+  readonly namesShown: Signal<boolean>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
 }
@@ -52,6 +54,7 @@ export function loadSettings(store: Storage): Settings {
     language: kept<Language | null>(store, "language", null, (value) => LANGUAGES.some((known) => known === value)),
     theme: kept<Theme | null>(store, "theme", null, (value) => value === "light" || value === "dark"),
     tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
+    namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
   };
 }

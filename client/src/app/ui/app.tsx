@@ -18,7 +18,7 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import { loadPartsWhenIdle, PANELS, PREDICTION, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
+import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useRoom } from "./workspace-size";
@@ -28,11 +28,13 @@ export function App({ studio }: { studio: Studio }) {
   const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.layout.bare.value;
+  const ButtonLabel = usePart(studio, NAMES, true);
   const panel = bare ? null : studio.layout.panel.value;
   return (
     <div
       class="app"
       data-side={studio.settings.side.value}
+      data-names={studio.settings.namesShown.value}
       data-drawing={studio.tools.drawing.value}
       data-panel={panel ?? undefined}
       data-bare={bare}
@@ -44,6 +46,7 @@ export function App({ studio }: { studio: Studio }) {
         </Panel>
       )}
       <ToastList studio={studio} />
+      {ButtonLabel && <ButtonLabel />}
       {shown !== null && (
         <Sheet studio={studio} title={say(shown.title)} wide={shown.wide} key={sheet}>
           <PartView studio={studio} part={shown.part} height={shown.height} />

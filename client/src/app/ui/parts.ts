@@ -73,6 +73,9 @@ export const SUN = new Part(async () => (await import("./overlays/sun-handle")).
 
 export const TOUR = new Part(async () => (await import("./notices/tour-card")).TourCard);
 
+/** Names of buttons; they are held only once there is something to see. */
+export const NAMES = new Part(async () => (await import("./notices/button-label")).ButtonLabel);
+
 /** All of them, those first that are needed first. */
 const ALL: readonly Part<unknown>[] = [
   PREDICTION,

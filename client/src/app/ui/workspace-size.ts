@@ -4,19 +4,19 @@ import { useEffect } from "preact/hooks";
 /** What the workspace measures, in pixels. */
 const room = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
 
-/** The widths below which the bars fold, in pixels. */
-const FOLDED_TOOL_BAR = 780;
-const SMALL_WIDTH = 640;
-const SMALL_HEIGHT = 560;
+/** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
+const BARE = { toolBar: 780, width: 640, height: 560 };
+const NAMED = { toolBar: 1040, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
-export function isToolBarFolded(): boolean {
-  return room.value.width < FOLDED_TOOL_BAR;
+export function isToolBarFolded(names: boolean): boolean {
+  return room.value.width < (names ? NAMED : BARE).toolBar;
 }
 
 /** Whether there is room for little more than the tree, as on a phone. */
-export function isSmall(): boolean {
-  return room.value.width < SMALL_WIDTH || room.value.height < SMALL_HEIGHT;
+export function isSmall(names: boolean): boolean {
+  const { width, height } = names ? NAMED : BARE;
+  return room.value.width < width || room.value.height < height;
 }
 
 /** Measures the workspace from now on. */

@@ -9,5 +9,6 @@ export const SETTINGS = {
   "settings.side": ["Tools", "Werkzeuge"],
   "settings.side.left": ["Left", "Links"],
   "settings.side.right": ["Right", "Rechts"],
+  "settings.names": ["Names on all buttons", "Namen an allen Knöpfen"],
   "settings.pressure": ["Pen pressure widens the brush", "Stiftdruck verbreitert den Pinsel"],
 } as const;

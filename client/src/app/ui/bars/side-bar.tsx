@@ -11,7 +11,7 @@ import { RadiusSlider } from "./radius-slider";
 /** The tools, at the side of the user that does not draw. */
 export function SideBar({ studio }: { studio: Studio }) {
   const document = studio.document.value;
-  const small = isSmall();
+  const small = isSmall(studio.settings.namesShown.value);
   return (
     <nav class="panel side-bar" aria-label={say("bars.tools")} data-small={small}>
       {small ? <ToolMenu studio={studio} /> : <Tools studio={studio} />}

@@ -69,8 +69,9 @@ const DEEDS: readonly Deed[] = [
 
 /** The panels, and what is done with a tree as a whole; where room is short the latter folds into a menu. */
 export function ToolBar({ studio }: { studio: Studio }) {
+  const folded = isToolBarFolded(studio.settings.namesShown.value);
   return (
-    <header class="panel tool-bar" data-folded={isToolBarFolded()}>
+    <header class="panel tool-bar" data-folded={folded}>
       {PANEL_NAMES.map((panel) => {
         const Icon = PANEL_ICONS[panel];
         return (
@@ -89,7 +90,7 @@ export function ToolBar({ studio }: { studio: Studio }) {
       })}
       <hr />
       <DrawModeMenu studio={studio} />
-      {isToolBarFolded() ? (
+      {folded ? (
         <Menu studio={studio} />
       ) : (
         DEEDS.map(({ label, place, title = label, Icon, act }) => (

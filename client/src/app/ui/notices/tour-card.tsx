@@ -1,6 +1,7 @@
 import { TOUR_STEPS } from "../../help/tour";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
+import { Check } from "../controls/check";
 import { GestureSketch } from "../sheets/gesture-sketch";
 import { useAnimationFrames } from "../use-animation-frames";
 
@@ -24,6 +25,7 @@ export function TourCard({ studio }: { studio: Studio }) {
         </h2>
         <p>{say(`help.tour.${step}.text`)}</p>
       </div>
+      <Check label={say("settings.names")} chosen={studio.settings.namesShown} />
       <div class="tour-ways">
         {!last && (
           <button type="button" class="small" onClick={() => tour.skip()}>

@@ -1,13 +1,14 @@
 import type { Signal } from "@preact/signals";
 import type { Studio } from "../../studio";
 import { type Language, say } from "../../words/say";
+import { Check } from "../controls/check";
 
 /** Languages by their own names, which need no translation. */
 const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" };
 
 /** What a person chooses for this device. */
 export function SettingsSheet({ studio }: { studio: Studio }) {
-  const { language, theme, side, pressureWidens } = studio.settings;
+  const { language, theme, side, pressureWidens, namesShown } = studio.settings;
   return (
     <div class="options">
       <Segments
@@ -39,16 +40,8 @@ export function SettingsSheet({ studio }: { studio: Studio }) {
           ["right", say("settings.side.right")],
         ]}
       />
-      <label class="switch">
-        <input
-          type="checkbox"
-          checked={pressureWidens.value}
-          onChange={(event) => {
-            pressureWidens.value = event.currentTarget.checked;
-          }}
-        />
-        <span>{say("settings.pressure")}</span>
-      </label>
+      <Check label={say("settings.names")} chosen={namesShown} />
+      <Check label={say("settings.pressure")} chosen={pressureWidens} />
     </div>
   );
 }
