@@ -8,6 +8,7 @@ import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
+import type { UnsavedTrees } from "./library/unsaved-trees";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
@@ -28,6 +29,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
   readonly poses: SharedPoses;
+  readonly unsaved: UnsavedTrees;
   readonly table: TreeTable;
   readonly rows: Signal<number>;
   /** Counts the frames of rows that came in. */
@@ -51,7 +53,10 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     appearance: ({ appearance }) => page.looks.receive(appearance),
     // An empty list may also mean a welcome, after which ids mean what they now mean (`OB5`).
     obstacles: ({ obstacles }) => (obstacles.length === 0 ? page.obstacles.clear() : page.obstacles.receive(obstacles)),
-    timeline: (timeline) => page.time.receive(timeline),
+    timeline: (timeline) => {
+      page.time.receive(timeline);
+      page.unsaved.follow(timeline);
+    },
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
@@ -120,6 +125,7 @@ function forget(page: SessionTargets): void {
   page.widths.all.value = [];
   page.obstacles.forget();
   page.time.clear();
+  page.unsaved.clear();
   page.branches.clear();
   page.firstView.forget();
   page.table.clear();

@@ -13,6 +13,7 @@ import { ObstacleList } from "./document/obstacles/obstacle-list";
 import { TimelineControl } from "./document/timeline/timeline-control";
 import { Tour } from "./help/tour";
 import { Exports, keepFile } from "./library/exports";
+import { UnsavedTrees } from "./library/unsaved-trees";
 import { browserClock } from "./page/clock";
 import type { Hindrance } from "./page/hindrance";
 import { Layout } from "./page/layout";
@@ -30,6 +31,9 @@ import { WidthList } from "./tools/width/width-list";
 import { FirstView } from "./view/first-view";
 import { Stage } from "./view/stage";
 import { say } from "./words/say";
+
+/** The side of the pictures of trees that were not saved, in pixels. */
+const UNSAVED_PICTURE = 256;
 
 /** One open page: the session it shows and the tools. */
 export class Studio {
@@ -96,6 +100,13 @@ export class Studio {
     clock: browserClock,
     session: () => this.link.session.peek(),
     failed: (error) => void this.#explain(error),
+  });
+  readonly unsaved = new UnsavedTrees({
+    list: this.settings.unsavedTrees,
+    saved: this.settings.savedState,
+    session: () => this.link.session.peek(),
+    metamers: () => this.document.peek()?.metamers ?? 0,
+    picture: () => this.stage.thumbnail(UNSAVED_PICTURE),
   });
   readonly exports = new Exports({
     session: () => this.link.session.peek(),
@@ -170,13 +181,54 @@ export class Studio {
 
   readonly firstView = new FirstView({ stage: this.stage, table: this.table, query: () => location.search });
 
-  /** Leaves this session for a new one, empty or from a saved tree. */
-  async newSession(tree?: string): Promise<void> {
+  /** Begins a new tree; one that is not saved is first asked where it stays. */
+  beginTree(): void {
+    if (this.unsaved.isUnsaved) {
+      this.layout.sheet.value = "leave";
+    } else {
+      void this.newSession();
+    }
+  }
+
+  /**
+   * Leaves this session for a new one, empty or from a saved tree. What is not saved is kept under Unsaved, unless the
+   * user would not have it.
+   */
+  async newSession(tree?: string, keeps = true): Promise<void> {
+    const left = await this.#leave(keeps, () => this.link.change(tree));
+    const session = this.link.session.peek();
+    if (left && tree !== undefined && session !== null) {
+      this.unsaved.opened(session);
+    }
+  }
+
+  /** Goes on with a tree that was left. */
+  async goOnWith(session: string): Promise<void> {
+    await this.#leave(true, async () => {
+      const came = await this.link.reopen(session);
+      if (came === "gone") {
+        this.unsaved.forget(session);
+        this.toasts.show(say("notices.unsaved-gone"));
+      }
+      return came === "opened";
+    });
+  }
+
+  /** Leaves this session for another one; false if there is none to be had. */
+  async #leave(keeps: boolean, open: () => Promise<boolean>): Promise<boolean> {
     const from = this.layout.sheet.peek();
+    const kept = keeps && (await this.unsaved.keep());
+    if (!(await open())) {
+      return false;
+    }
     // The user may have closed the sheet meanwhile and opened another one.
-    if ((await this.link.change(tree)) && this.layout.sheet.peek() === from) {
+    if (this.layout.sheet.peek() === from) {
       this.layout.sheet.value = null;
     }
+    if (kept) {
+      this.toasts.show(say("notices.kept-unsaved"));
+    }
+    return true;
   }
 
   /** Sends a command and gives its number; 0 while no session is open. */

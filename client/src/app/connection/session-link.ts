@@ -131,6 +131,21 @@ export class SessionLink implements PageEvents {
     }
   }
 
+  /** Goes back to a session that was left, if the server still has it. */
+  async reopen(session: string): Promise<"opened" | "gone" | "failed"> {
+    try {
+      if (!(await sessionExists(session))) {
+        return "gone";
+      }
+    } catch (error) {
+      this.#options.events.failed(error);
+      return "failed";
+    }
+    this.#options.page.history.pushState(null, "", pathOf(session));
+    this.#open(session);
+    return "opened";
+  }
+
   get connected(): boolean {
     return this.phase.peek() === "connected";
   }

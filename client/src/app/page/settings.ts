@@ -1,4 +1,5 @@
 import { effect, type Signal, signal } from "@preact/signals";
+import { areUnsavedTrees, isSavedState, type SavedState, type UnsavedTree } from "../library/unsaved-tree";
 import { LANGUAGES, type Language } from "../words/say";
 
 /** In what light the interface is shown. */
@@ -32,6 +33,10 @@ export interface Settings {
   readonly namesShown: Signal<boolean>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
+  /** Trees that were left and not saved, the last one first. */
+  readonly unsavedTrees: Signal<readonly UnsavedTree[]>;
+  /** The session whose tree is saved as it stands, and the place in its time that was saved. */
+  readonly savedState: Signal<SavedState | null>;
 }
 
 /** Reads the settings and keeps them as they change. */
@@ -56,6 +61,8 @@ export function loadSettings(store: Storage): Settings {
     tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
     namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
+    unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
+    savedState: kept<SavedState | null>(store, "saved", null, isSavedState),
   };
 }
 

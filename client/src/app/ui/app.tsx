@@ -18,7 +18,7 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
+import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, RECENT, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useRoom } from "./workspace-size";
@@ -124,6 +124,8 @@ function Bars({ studio }: { studio: Studio }) {
   const made = studio.tools.made.value?.[name];
   const predicted = studio.branches.prediction.rows.value !== null;
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
+  const isFirst = isFirstScreen(studio);
+  const RecentTrees = usePart(studio, RECENT, isFirst);
   return (
     <>
       <ToolBar studio={studio} />
@@ -136,8 +138,22 @@ function Bars({ studio }: { studio: Studio }) {
         <TimelineStrip studio={studio} />
       </div>
       {TourCard && <TourCard studio={studio} />}
+      {RecentTrees && isFirst && <RecentTrees studio={studio} />}
       <Chips studio={studio} />
       <DrawModeLegend studio={studio} />
     </>
+  );
+}
+
+/** Whether nothing has been done on the page yet, and nothing else wants to be looked at. */
+function isFirstScreen({ document, hindrance, tools, tour, settings, layout }: Studio): boolean {
+  return (
+    document.value?.metamers === 0 &&
+    !document.value.can_undo &&
+    hindrance.value === null &&
+    !tools.drawing.value &&
+    settings.tourSeen.value &&
+    tour.step.value === null &&
+    layout.panel.value === null
   );
 }

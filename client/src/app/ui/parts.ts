@@ -30,6 +30,11 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "12rem",
     part: new Part(async () => (await import("./sheets/save-sheet")).SaveSheet),
   },
+  leave: {
+    title: "sheets.leave",
+    height: "16rem",
+    part: new Part(async () => (await import("./sheets/leave-sheet")).LeaveSheet),
+  },
   library: {
     title: "sheets.library",
     wide: true,
@@ -76,12 +81,15 @@ export const TOUR = new Part(async () => (await import("./notices/tour-card")).T
 /** Names of buttons; they are held only once there is something to see. */
 export const NAMES = new Part(async () => (await import("./notices/button-label")).ButtonLabel);
 
+export const RECENT = new Part(async () => (await import("./notices/recent-trees")).RecentTrees);
+
 /** All of them, those first that are needed first. */
 const ALL: readonly Part<unknown>[] = [
   PREDICTION,
   ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),
   SUN,
+  RECENT,
   ...Object.values(SHEETS).map(({ part }) => part),
 ];
 

@@ -30,6 +30,11 @@ export const NOTICES = {
     "What the server has not got yet of the other tree is kept; it is sent when you open that tree again in this tab.",
     "Was der Server vom anderen Baum noch nicht hat, bleibt erhalten; es wird gesendet, wenn du jenen Baum in diesem Tab wieder öffnest.",
   ],
+  "notices.kept-unsaved": [
+    "The tree you left is in the library under Unsaved.",
+    "Der Baum, den du verlassen hast, ist in der Bibliothek unter Ungespeichert.",
+  ],
+  "notices.unsaved-gone": ["The server no longer has this tree.", "Der Server hat diesen Baum nicht mehr."],
   "notices.part-loading": ["Loading…", "Lädt…"],
   "notices.part-lost": [
     "This part of the page could not be loaded. Is the server still there?",

@@ -9,6 +9,25 @@ export const SHEETS = {
   "sheets.save.act": ["Save tree", "Baum speichern"],
   "sheets.save.saving": ["Saving…", "Speichert…"],
   "sheets.save.done": ["Saved “{name}”", "„{name}“ gespeichert"],
+  "sheets.leave.text": [
+    "This tree is not saved as it stands. Where should it stay while you begin a new one?",
+    "Dieser Baum ist nicht gespeichert, wie er jetzt ist. Wo soll er bleiben, während du einen neuen beginnst?",
+  ],
+  "sheets.leave.save": ["Save it", "Speichern"],
+  "sheets.leave.keep": ["Keep under Unsaved", "Unter Ungespeichert behalten"],
+  "sheets.leave.drop": ["Do not keep it", "Nicht behalten"],
+  "sheets.unsaved": ["Unsaved", "Ungespeichert"],
+  "sheets.unsaved.advice": [
+    "Trees you left on this device without saving them. Each goes on where you left it.",
+    "Bäume, die du auf diesem Gerät verlassen hast, ohne sie zu speichern. Jeder geht weiter, wo du aufgehört hast.",
+  ],
+  "sheets.unsaved.open": ["Go on with the tree of {date}", "Mit dem Baum vom {date} weitermachen"],
+  "sheets.unsaved.forget": ["Forget", "Vergessen"],
+  "sheets.unsaved.forget.which": ["Forget the tree of {date}", "Den Baum vom {date} vergessen"],
+  "sheets.unsaved.forget.sure": ["Only its link leads to it then.", "Dann führt nur noch sein Link zu ihm."],
+  "sheets.saved": ["Saved", "Gespeichert"],
+  "sheets.recent": ["Go on with a tree", "Mit einem Baum weitermachen"],
+  "sheets.recent.hide": ["Hide these trees", "Diese Bäume ausblenden"],
   "sheets.library.empty": [
     "Nothing saved yet. Trees you save appear here.",
     "Noch nichts gespeichert. Gespeicherte Bäume erscheinen hier.",
@@ -40,6 +59,7 @@ export const SHEETS = {
 /** Titles of the sheets. */
 export const SHEET_TITLES = {
   "sheets.save": ["Save this tree", "Diesen Baum speichern"],
+  "sheets.leave": ["A new tree", "Ein neuer Baum"],
   "sheets.library": ["Library", "Bibliothek"],
   "sheets.share": ["Draw together", "Zusammen zeichnen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],

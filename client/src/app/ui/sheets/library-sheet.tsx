@@ -4,8 +4,11 @@ import { deleteTree, listTrees, renameTree } from "../../library/library-api";
 import { LibraryPages } from "../../library/library-pages";
 import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
+import { dateText } from "../../words/date-text";
 import { language, say } from "../../words/say";
-import { DeleteIcon, RenameIcon, TreeIcon } from "../icons";
+import { DeleteIcon, RenameIcon } from "../icons";
+import { TreePicture } from "./tree-picture";
+import { UnsavedSection } from "./unsaved-section";
 
 /** The saved trees; a tap opens one as a new session. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
@@ -15,6 +18,7 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   useEffect(() => void pages.next(), [pages]);
   return (
     <>
+      <UnsavedSection studio={studio} />
       {trees === null && failure === null && <p class="quiet empty">{say("notices.looking")}</p>}
       {trees?.length === 0 && <p class="quiet empty">{say("sheets.library.empty")}</p>}
       <ul class="library">
@@ -89,7 +93,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
         aria-label={say("sheets.library.open", { name: tree.name })}
         onClick={() => studio.newSession(tree.id)}
       >
-        {tree.thumbnail === undefined ? <TreeIcon /> : <img src={tree.thumbnail} alt="" loading="lazy" />}
+        <TreePicture url={tree.thumbnail} />
       </button>
       {mode === "rename" && (
         <form class="card-rename" onSubmit={rename}>
@@ -133,7 +137,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
           <span class="quiet card-facts">
             {say("notices.metamers", { count: tree.metamers.toLocaleString(language.value) })}
             <br />
-            {dateOf(tree.saved_at)}
+            {dateText(tree.saved_at)}
           </span>
           <button
             type="button"
@@ -157,9 +161,4 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
       )}
     </li>
   );
-}
-
-function dateOf(time: string): string {
-  const date = new Date(time);
-  return Number.isNaN(date.valueOf()) ? time : date.toLocaleDateString(language.value, { dateStyle: "medium" });
 }

@@ -10,3 +10,4 @@ import "./sun.css";
 import "./branch.css";
 import "./sheet-contents.css";
 import "./help.css";
+import "./recent.css";

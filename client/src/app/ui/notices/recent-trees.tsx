@@ -1,0 +1,68 @@
+import { useEffect, useState } from "preact/hooks";
+import { listTrees } from "../../library/library-api";
+import type { Studio } from "../../studio";
+import { dateText } from "../../words/date-text";
+import { say } from "../../words/say";
+import { CloseIcon } from "../icons";
+import { TreePicture } from "../sheets/tree-picture";
+
+/** So many are shown. */
+const MOST = 4;
+
+interface Recent {
+  readonly key: string;
+  readonly name: string;
+  /** When it was left or saved, as ISO 8601 has it. */
+  readonly at: string;
+  readonly thumbnail?: string | undefined;
+  readonly open: () => Promise<void>;
+}
+
+/** On a page on which nothing has grown yet: the trees that were worked on last, to go on with. */
+export function RecentTrees({ studio }: { studio: Studio }) {
+  const [saved, setSaved] = useState<readonly Recent[]>([]);
+  const [hidden, setHidden] = useState(false);
+  useEffect(() => {
+    const show = async () => {
+      const trees = await listTrees(MOST);
+      setSaved(
+        trees.map(({ id, name, saved_at: at, thumbnail }) => {
+          return { key: id, name, at, thumbnail, open: () => studio.newSession(id) };
+        }),
+      );
+    };
+    // A library that does not answer now is no reason to disturb who wants to draw; its sheet says why.
+    void show().catch(() => {});
+  }, [studio]);
+  const here = studio.link.session.value;
+  const left = studio.unsaved.list.value
+    .filter(({ session }) => session !== here)
+    .map(({ session, left: at, thumbnail }) => {
+      return { key: session, name: say("sheets.unsaved"), at, thumbnail, open: () => studio.goOnWith(session) };
+    });
+  const recent = [...left, ...saved].sort((a, b) => Date.parse(b.at) - Date.parse(a.at)).slice(0, MOST);
+  if (hidden || recent.length === 0) {
+    return null;
+  }
+  return (
+    <section class="panel recent" aria-label={say("sheets.recent")}>
+      <header>
+        <h2>{say("sheets.recent")}</h2>
+        <button type="button" class="tool" aria-label={say("sheets.recent.hide")} onClick={() => setHidden(true)}>
+          <CloseIcon />
+        </button>
+      </header>
+      <ul>
+        {recent.map(({ key, name, at, thumbnail, open }) => (
+          <li key={key}>
+            <button type="button" class="recent-tree" onClick={() => void open()}>
+              <TreePicture url={thumbnail} />
+              <span class="recent-name">{name}</span>
+              <span class="quiet">{dateText(at)}</span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

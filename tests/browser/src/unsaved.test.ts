@@ -1,0 +1,108 @@
+import { expect, test } from "vitest";
+import { SMALL, type Tablet } from "./tablet";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.withItsOwnServer();
+
+/** A tablet with a tree that nobody has saved. */
+async function unsaved(): Promise<{ tablet: Tablet; metamers: number }> {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  await workshop.act(address, [{ kind: "grow", steps: 5 }]);
+  await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+  return { tablet, metamers: (await tablet.untilQuiet()).metamers };
+}
+
+/** Begins a new tree, and answers where the one before stays. */
+async function begin(tablet: Tablet, answer: string): Promise<void> {
+  await tablet.tap("New tree");
+  const asked = tablet.page.getByRole("dialog", { name: "A new tree" });
+  await asked.getByRole("button", { name: answer }).tap();
+  await asked.waitFor({ state: "detached" });
+  await tablet.until("a new tree begins", ({ metamers, rows }) => metamers === 0 && rows > 0);
+}
+
+const recent = (tablet: Tablet) => tablet.page.getByRole("region", { name: "Go on with a tree" });
+
+/** The trees that the library lists under Unsaved. */
+async function listed(tablet: Tablet): Promise<number> {
+  await tablet.tap("Library");
+  await tablet.page.getByRole("dialog", { name: "Library" }).waitFor();
+  await tablet.untilSettled();
+  const count = await tablet.page.getByRole("region", { name: "Unsaved" }).locator(".card").count();
+  await tablet.page.keyboard.press("Escape");
+  await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
+  return count;
+}
+
+test("a tree that is kept under Unsaved is found there, and on the first screen", async () => {
+  const { tablet, metamers } = await unsaved();
+  await begin(tablet, "Keep under Unsaved");
+  await recent(tablet)
+    .getByRole("button", { name: /^Unsaved/ })
+    .waitFor();
+  expect(await listed(tablet)).toBe(1);
+  await tablet.tap("Library");
+  await tablet.page.getByRole("button", { name: /^Go on with the tree of/ }).tap();
+  await tablet.until("it is the tree that was left", (facts) => facts.metamers === metamers);
+  await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
+  expect(await recent(tablet).count(), "something has grown here").toBe(0);
+  // It can be taken back and forth as before: it is the very session.
+  await tablet.tap("Undo");
+  await tablet.until("undo goes on", (facts) => facts.metamers === 0);
+});
+
+test("a tree that is saved is not asked for again until it changes", async () => {
+  const { tablet, metamers } = await unsaved();
+  await begin(tablet, "Save it");
+  await recent(tablet)
+    .getByRole("button", { name: /^Tree / })
+    .tap();
+  await tablet.until("it is opened", (facts) => facts.metamers === metamers);
+  await tablet.tap("New tree");
+  await tablet.until("nothing is asked", (facts) => facts.metamers === 0 && facts.rows > 0);
+  expect(await tablet.page.getByRole("dialog").count()).toBe(0);
+  expect(await listed(tablet)).toBe(0);
+});
+
+test("a tree that is not wanted is not kept; one that is left for another is", async () => {
+  const { tablet, metamers } = await unsaved();
+  await begin(tablet, "Do not keep it");
+  expect(await listed(tablet)).toBe(0);
+  await tablet.page.goBack();
+  await tablet.until("its link still leads to it", (facts) => facts.metamers === metamers);
+  await tablet.tap("Save");
+  await tablet.page.getByRole("button", { name: "Save tree" }).tap();
+  await tablet.page.getByRole("dialog").waitFor({ state: "detached" });
+  await tablet.page.keyboard.down("g");
+  await tablet.until("it goes on", (facts) => facts.metamers > metamers);
+  await tablet.page.keyboard.up("g");
+  await tablet.untilQuiet();
+  await tablet.tap("Library");
+  await tablet.page
+    .getByRole("button", { name: /^Open Tree/ })
+    .first()
+    .tap();
+  await tablet.until("the saved one is opened", (facts) => facts.metamers === metamers);
+  expect(await listed(tablet)).toBe(1);
+});
+
+test("a tree is forgotten once that is sure", async () => {
+  const { tablet } = await unsaved();
+  await begin(tablet, "Keep under Unsaved");
+  await tablet.tap("Library");
+  const section = tablet.page.getByRole("region", { name: "Unsaved" });
+  await section.getByRole("button", { name: /^Forget the tree/ }).tap();
+  await section.getByRole("button", { name: "Keep", exact: true }).tap();
+  await section.getByRole("button", { name: /^Forget the tree/ }).tap();
+  await section.getByRole("button", { name: "Forget", exact: true }).tap();
+  await section.waitFor({ state: "detached" });
+});
+
+test("a new tree begins without a question where nothing has grown", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const before = tablet.page.url();
+  await tablet.tap("New tree");
+  await expect.poll(() => tablet.page.url()).not.toBe(before);
+  await tablet.untilReady();
+  expect(await tablet.page.getByRole("dialog").count()).toBe(0);
+});
