@@ -17,8 +17,22 @@ export function followChoices(settings: Settings, failed: () => void): () => voi
     const theme = settings.theme.peek() ?? (dark.matches ? "dark" : "light");
     document.querySelector('meta[name="theme-color"]')?.setAttribute("content", BAR_COLOURS[theme]);
   };
+  /** The last choice whose language could be spoken. */
+  let spoken = settings.language.peek();
   const stopChoosing = effect(() => {
-    speak(settings.language.value ?? preferredLanguage(navigator.languages)).catch(failed);
+    const chosen = settings.language.value;
+    speak(chosen ?? preferredLanguage(navigator.languages)).then(
+      () => {
+        spoken = chosen;
+      },
+      () => {
+        failed();
+        // The choice shown is that of the page, and the same one can be made again.
+        if (settings.language.peek() === chosen) {
+          settings.language.value = spoken;
+        }
+      },
+    );
   });
   const stopLanguage = effect(() => {
     root.lang = language.value;
