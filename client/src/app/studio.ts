@@ -20,6 +20,7 @@ import { Layout } from "./page/layout";
 import { loadSettings } from "./page/settings";
 import { Toasts } from "./page/toasts";
 import { explained } from "./problems/explained";
+import { askAs } from "./requests/principal";
 import { sessionEvents } from "./session-events";
 import { SharedPoses } from "./tools/bend/shared-poses";
 import { BranchWork } from "./tools/branch/branch-work";
@@ -180,6 +181,10 @@ export class Studio {
   readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
   readonly firstView = new FirstView({ stage: this.stage, table: this.table, query: () => location.search });
+  constructor() {
+    askAs(() => this.link.key);
+  }
+
 
   /** Begins a new tree; one that is not saved is first asked where it stays. */
   beginTree(): void {

@@ -115,6 +115,11 @@ export class ConnectionCore {
     return this.#deadline;
   }
 
+  /** The key under which commands are sent (`HS1`). */
+  get key(): string {
+    return this.#key;
+  }
+
   /** The number the next command gets. */
   get next(): number {
     return this.#outbox.next;

@@ -90,6 +90,11 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
     return id;
   }
 
+  /** The key under which commands are sent. */
+  get key(): string {
+    return this.#core.key;
+  }
+
   /** The number the next command gets: unique for this client, so strokes and gestures are named by it too. */
   get next(): number {
     return this.#core.next;

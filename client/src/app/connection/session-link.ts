@@ -155,6 +155,11 @@ export class SessionLink implements PageEvents {
     return this.#connection !== null;
   }
 
+  /** The key of this page in the session that is open; null while none is. */
+  get key(): string | null {
+    return this.#connection?.key ?? null;
+  }
+
   /** Sends a command and gives its number; 0 while no session is open. */
   submit(command: Command): number {
     return this.#connection?.submit(command) ?? 0;

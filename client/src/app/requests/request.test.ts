@@ -1,6 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 import { createSession, sessionExists, socketAddress } from "../connection/session-api";
 import { deleteTree, renameTree } from "../library/library-api";
+import { askAs } from "./principal";
 import { RequestFailed } from "./request";
 
 function answer(status: number, body: unknown) {
@@ -16,6 +17,20 @@ describe("requests", () => {
     const fetch = answer(201, { session: "oak" });
     expect(await createSession({ tree: "t1" })).toBe("oak");
     expect(fetch).toHaveBeenCalledWith("/api/sessions", expect.objectContaining({ body: '{"tree":"t1"}' }));
+  });
+
+  it("AU1: says which client asks, once there is one", async () => {
+    const fetch = answer(200, {});
+    const headers = () => new Headers((fetch.mock.lastCall as unknown as [string, RequestInit])[1].headers);
+    await sessionExists("oak");
+    expect(headers().has("Espalier-Client")).toBe(false);
+    askAs(() => "key-of-this-page");
+    await renameTree("t", "Oak");
+    expect(headers().get("Espalier-Client")).toBe("key-of-this-page");
+    expect(headers().get("Content-Type")).toBe("application/json");
+    askAs(() => null);
+    await deleteTree("t");
+    expect([...headers()]).toEqual([]);
   });
 
   it("tells a missing session from a failing server", async () => {

@@ -1,5 +1,6 @@
 import type { Problem } from "../../wire/generated";
 import { say } from "../words/say";
+import { principal } from "./principal";
 
 /** A request the server refused, or that never reached it. */
 export class RequestFailed extends Error {
@@ -31,8 +32,13 @@ export async function askFor(
 ): Promise<Response> {
   let response: Response;
   try {
-    const body = sent && { headers: { "content-type": sent.type }, body: sent.body };
-    response = await fetch(path, { method, ...body, ...(signal ? { signal } : {}) });
+    const headers = { ...principal(), ...(sent ? { "content-type": sent.type } : {}) };
+    response = await fetch(path, {
+      method,
+      headers,
+      ...(sent ? { body: sent.body } : {}),
+      ...(signal ? { signal } : {}),
+    });
   } catch (error) {
     if (signal?.aborted) {
       throw error;

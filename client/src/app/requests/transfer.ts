@@ -1,4 +1,5 @@
 import { signal } from "@preact/signals";
+import { principal } from "./principal";
 import { refusal, silence } from "./request";
 
 /** How far something on its way has come; `total` is null where it is not known. */
@@ -78,7 +79,9 @@ export function send(
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open("POST", path);
-    request.setRequestHeader("content-type", type);
+    for (const [name, value] of Object.entries({ ...principal(), "content-type": type })) {
+      request.setRequestHeader(name, value);
+    }
     request.responseType = "json";
     request.upload.onprogress = ({ loaded }) => tell?.({ bytes: loaded, total: body.byteLength });
     request.onload = () =>
