@@ -148,8 +148,8 @@ export const HELP = {
   "help.topic.import.words": ["upload file glb gltf obstacle", "importieren hochladen Datei glb gltf Hindernis"],
   "help.topic.new": ["New tree", "Neuer Baum"],
   "help.topic.new.text": [
-    "Plants a seed in a scene of its own; this tree keeps its link",
-    "Setzt einen Samen in eine eigene Szene; dieser Baum behält seinen Link",
+    "Plants a seed in a scene of its own; asks first where a tree that is not saved should stay",
+    "Setzt einen Samen in eine eigene Szene; fragt vorher, wo ein ungespeicherter Baum bleiben soll",
   ],
   "help.topic.new.words": ["start over blank clear", "neu anfangen leer"],
   "help.topic.save": ["Save", "Speichern"],
@@ -160,10 +160,10 @@ export const HELP = {
   "help.topic.save.words": ["keep store", "sichern ablegen behalten"],
   "help.topic.library": ["Library", "Bibliothek"],
   "help.topic.library.text": [
-    "Saved trees: open one as a new scene, rename, delete",
-    "Gespeicherte Bäume: als neue Szene öffnen, umbenennen, löschen",
+    "Saved trees: open one as a new scene, rename, delete; unsaved ones of this device, to go on with",
+    "Gespeicherte Bäume: als neue Szene öffnen, umbenennen, löschen; ungespeicherte dieses Geräts, zum Weitermachen",
   ],
-  "help.topic.library.words": ["open load saved", "öffnen laden gespeichert"],
+  "help.topic.library.words": ["open load saved unsaved recent", "öffnen laden gespeichert ungespeichert zuletzt"],
   "help.topic.share": ["Share", "Teilen"],
   "help.topic.share.text": [
     "A link by which others see the tree grow and draw along",
@@ -187,7 +187,10 @@ export const HELP = {
     "Language, light or dark, side of the tools, pen pressure",
     "Sprache, hell oder dunkel, Seite der Werkzeuge, Stiftdruck",
   ],
-  "help.topic.settings.words": ["language dark theme left hand preferences", "Sprache dunkel Design linkshändig"],
+  "help.topic.settings.words": [
+    "language dark theme left hand preferences names labels icons",
+    "Sprache dunkel Design linkshändig Namen Beschriftung Symbole",
+  ],
   "help.topic.help": ["Help and tour", "Hilfe und Rundgang"],
   "help.topic.help.text": [
     "All of this can be searched; the tour shows three gestures in half a minute",
@@ -205,7 +208,7 @@ export const HELP = {
   "help.topic.hide.words": ["fullscreen clean bare", "Vollbild leer nur Baum"],
 
   "help.key.radius": ["Narrower, wider", "Schmaler, breiter"],
-  "help.key.escape": ["Cancel, let go", "Abbrechen, loslassen"],
+  "help.key.escape": ["Cancel, stop growing, let go", "Abbrechen, Wachstum anhalten, loslassen"],
   "help.key.grow": ["Grow, ungrow while held", "Gehalten: wachsen, zurückwachsen"],
   "help.key.travel": [
     "A step back, forth; with Shift an operation",
