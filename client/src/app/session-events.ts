@@ -44,7 +44,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     problem: ({ problem }) => refused(page, problem),
     state: ({ state }) => {
       page.document.value = state;
-      page.growth.told();
+      page.growth.reported();
       page.tools.changed();
       page.outline.progressed(page.link.answered, state.pending_steps);
     },

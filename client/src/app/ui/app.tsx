@@ -21,7 +21,7 @@ import { PartView } from "./part-view";
 import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, RECENT, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
-import { useRoom } from "./workspace-size";
+import { useWorkspaceSize } from "./workspace-size";
 
 /** The whole page: the workspace, around it as little as possible, and beside it the panel that is pulled down. */
 export function App({ studio }: { studio: Studio }) {
@@ -59,7 +59,7 @@ export function App({ studio }: { studio: Studio }) {
 /** The picture with what lies over it; it shrinks beside a panel and stays in use. */
 function Workspace({ studio }: { studio: Studio }) {
   const [host, canvas] = [useRef<HTMLElement>(null), useRef<HTMLCanvasElement>(null)];
-  useRoom(host);
+  useWorkspaceSize(host);
   useEffect(() => followChoices(studio.settings, () => studio.toasts.show(say("notices.part-lost"))), [studio]);
   useEffect(() => (canvas.current ? loadPartsWhenIdle(studio, canvas.current) : undefined), [studio]);
   useEffect(() => studio.tour.follow(), [studio]);

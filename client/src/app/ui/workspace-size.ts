@@ -2,7 +2,7 @@ import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
 /** What the workspace measures, in pixels. */
-const room = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
+const size = signal({ width: globalThis.innerWidth ?? 1024, height: globalThis.innerHeight ?? 768 });
 
 /** The sizes below which the bars fold, in pixels: as they are, and with the names of their buttons. */
 const BARE = { toolBar: 780, width: 640, height: 560 };
@@ -10,17 +10,17 @@ const NAMED = { toolBar: 1040, width: 640, height: 780 };
 
 /** Whether the tool bar has no room for all its buttons. */
 export function isToolBarFolded(names: boolean): boolean {
-  return room.value.width < (names ? NAMED : BARE).toolBar;
+  return size.value.width < (names ? NAMED : BARE).toolBar;
 }
 
 /** Whether there is room for little more than the tree, as on a phone. */
 export function isSmall(names: boolean): boolean {
   const { width, height } = names ? NAMED : BARE;
-  return room.value.width < width || room.value.height < height;
+  return size.value.width < width || size.value.height < height;
 }
 
 /** Measures the workspace from now on. */
-export function useRoom(workspace: { readonly current: HTMLElement | null }): void {
+export function useWorkspaceSize(workspace: { readonly current: HTMLElement | null }): void {
   useEffect(() => {
     if (!workspace.current) {
       return undefined;
@@ -28,7 +28,7 @@ export function useRoom(workspace: { readonly current: HTMLElement | null }): vo
     const observer = new ResizeObserver(([entry]) => {
       if (entry) {
         const { width, height } = entry.contentRect;
-        room.value = { width, height };
+        size.value = { width, height };
       }
     });
     observer.observe(workspace.current);

@@ -45,11 +45,11 @@ it("asks for one step at a time, and stops it when it is released", () => {
   frames(0, 5000);
   expect(sent, "the server has not answered").toEqual([{ kind: "grow", steps: 1, gesture: 9 }]);
   [backlog.unsettled, backlog.pending] = [0, 1];
-  growth.told();
+  growth.reported();
   frames(5000, 9000);
   expect(sent, "the step is not done").toHaveLength(1);
   backlog.pending = 0;
-  growth.told();
+  growth.reported();
   frames(9000, 9020);
   expect(sent).toHaveLength(2);
   growth.release();
@@ -62,7 +62,7 @@ it("has nothing to stop where nothing is under way, or the tree grows back", () 
   growth.to(1);
   frames(0, 32);
   backlog.unsettled = 0;
-  growth.told();
+  growth.reported();
   growth.release();
   growth.to(-1);
   frames(32, 64);

@@ -31,7 +31,7 @@ export class GrowControl {
     this.#options = options;
   }
 
-  /** Whether a hand or a key has it. */
+  /** Whether a finger or a key holds it. */
   get isHeld(): boolean {
     return this.#loop !== 0;
   }
@@ -58,9 +58,9 @@ export class GrowControl {
     this.deflection.value = 0;
   }
 
-  /** The server told how things stand. */
-  told(): void {
-    this.#pacer.told(this.#backlog());
+  /** The server reported how things stand. */
+  reported(): void {
+    this.#pacer.reported(this.#backlog());
   }
 
   #backlog(): Backlog {

@@ -17,7 +17,7 @@ function hold(deflection: (time: number) => number, milliseconds: number, backlo
     const command = pacer.tick(time, deflection(time), backlog);
     if (command?.kind === "grow") steps.push(command.steps);
     if (command?.kind === "ungrow") steps.push(-command.steps);
-    pacer.told(backlog);
+    pacer.reported(backlog);
   }
   return steps;
 }
@@ -58,7 +58,7 @@ describe("grow pacer", () => {
     expect(hold(() => 1, 1000, running)).toEqual([]);
   });
 
-  it.each([1, -1])("asks for one step, and for the next when the server has told that it is done", (push) => {
+  it.each([1, -1])("asks for one step, and for the next when the server has reported that it is done", (push) => {
     const pacer = new GrowPacer();
     pacer.press(1);
     expect(pacer.tick(0, push, free)).toMatchObject({ steps: 1 });
@@ -68,16 +68,16 @@ describe("grow pacer", () => {
     none(16, 300, asked);
     // It was taken on, and what the page knows of the server is older than that.
     none(300, 600, free);
-    pacer.told(running);
+    pacer.reported(running);
     none(600, 3000, running);
-    // What was told before the step was taken on says nothing of it.
-    pacer.told(asked);
+    // What was reported before the step was taken on says nothing of it.
+    pacer.reported(asked);
     none(3000, 3100, free);
-    pacer.told(free);
+    pacer.reported(free);
     expect(pacer.tick(3100, push, free)).toMatchObject({ steps: 1 });
   });
 
-  it("goes on after a step of which nothing was told, for it came to nothing", () => {
+  it("goes on after a step of which nothing was reported, for it came to nothing", () => {
     const pacer = new GrowPacer();
     pacer.press(1);
     pacer.tick(0, -1, free);
@@ -91,9 +91,9 @@ describe("grow pacer", () => {
     expect(pacer.grows).toBe(false);
     pacer.tick(0, 1, free);
     expect(pacer.grows).toBe(true);
-    pacer.told(running);
+    pacer.reported(running);
     expect(pacer.grows).toBe(true);
-    pacer.told(free);
+    pacer.reported(free);
     expect(pacer.grows).toBe(false);
     pacer.tick(16, -1, free);
     expect(pacer.grows, "backwards there is nothing to stop").toBe(false);
@@ -103,7 +103,7 @@ describe("grow pacer", () => {
     const pacer = new GrowPacer();
     pacer.press(77);
     expect(pacer.tick(0, 1, free)).toEqual({ kind: "grow", steps: 1, gesture: 77 });
-    pacer.told(free);
+    pacer.reported(free);
     expect(pacer.tick(200, 1, free)).toMatchObject({ gesture: 77 });
   });
 });

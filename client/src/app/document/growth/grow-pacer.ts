@@ -7,7 +7,7 @@ export const FASTEST = 8;
 export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
-/** After so many milliseconds in which the server has nothing to do, a step of which it told nothing has come to nothing. */
+/** After so many milliseconds in which the server has nothing to do, a step of which it reported nothing has come to nothing. */
 const UNTOLD = 400;
 
 /** What the server has still to do. */
@@ -45,8 +45,8 @@ export class GrowPacer {
     return this.#open === "grow";
   }
 
-  /** The server told how things stand, after everything that is answered. */
-  told({ unsettled, pendingSteps }: Backlog): void {
+  /** The server reported how things stand, after everything that is answered. */
+  reported({ unsettled, pendingSteps }: Backlog): void {
     if (unsettled === 0 && pendingSteps === 0) {
       this.#open = null;
     }

@@ -11,7 +11,7 @@ export interface GrowthSources {
   submit(command: Command): unknown;
 }
 
-/** Whether anything grows: by this page's hand, of itself, or because someone else has it grow. */
+/** Whether anything grows: through this page or through someone else. */
 export function isGrowing({ document, outline, growth }: Pick<GrowthSources, "document" | "outline" | "growth">) {
   const pending = document.value?.pending_steps ?? 0;
   return pending > 0 || outline.shown.value?.stage === "growing" || growth.deflection.value !== 0;
