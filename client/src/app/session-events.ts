@@ -13,6 +13,7 @@ import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
+import { toolFor } from "./tools/tools";
 import type { WidthList } from "./tools/width/width-list";
 import type { FirstView } from "./view/first-view";
 import type { Stage } from "./view/stage";
@@ -87,7 +88,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
         page.branches.prediction.receive(aside.frame);
       } else {
         // Someone else bends, so that the code which shows it is needed.
-        void page.tools.load("bend");
+        void page.tools.load(toolFor("bend"));
         page.poses.receive(aside.frame);
       }
     },

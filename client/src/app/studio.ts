@@ -137,7 +137,7 @@ export class Studio {
     newGesture: () => this.link.next,
     predict: (rows, steps) => this.link.predict(rows, steps),
     limits: () => this.widths.rows.peek(),
-    cut: (rows) => this.tools.made.peek()?.prune?.cut(rows),
+    cut: (rows) => this.tools.toolFor("cut")?.cut?.(rows),
     screen: () => this.stage.middle(),
     say: (text) => this.toasts.show(say(text)),
     busy: () => this.#busy(),
@@ -167,7 +167,6 @@ export class Studio {
     ready: () => this.link.open && this.hindrance.peek() === null,
     arranging: () => this.layout.panel.peek() === "scene",
     choose: (x, y) => chooseBud(this, x, y),
-    cutAt: (x, y) => this.tools.made.peek()?.prune?.cutAt(x, y),
   });
 
   readonly tour = new Tour({
@@ -181,10 +180,10 @@ export class Studio {
   readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
 
   readonly firstView = new FirstView({ stage: this.stage, table: this.table, query: () => location.search });
+
   constructor() {
     askAs(() => this.link.key);
   }
-
 
   /** Begins a new tree; one that is not saved is first asked where it stays. */
   beginTree(): void {

@@ -2,7 +2,7 @@ import { PARAMETERS } from "../../wire/generated";
 import { type Group, SECTIONS, WIDGETS } from "../document/growth/growth-parameters";
 import type { PanelName, SheetName } from "../page/layout";
 import type { ToolDescriptor, ToolLater } from "../tools/descriptor";
-import { TOOL_NAMES, TOOLS, type ToolName } from "../tools/tools";
+import { TOOL_NAMES, TOOLS, type ToolName, toolFor } from "../tools/tools";
 import { inAll, type Key, keysSaid, say, type Text } from "../words/say";
 import type { PlaceName } from "./help-places";
 
@@ -278,7 +278,7 @@ function subjectOf(label: Key, tools: ToolHelp): Subject | undefined {
     case "tools": {
       const tool = TOOL_NAMES.find((name) => tools[name].CONTROLS?.includes(label));
       // What is ahead is asked for while something is cut, in a bar of its own.
-      return tool ? { tool, control } : { tool: "prune" };
+      return tool ? { tool, control } : { tool: toolFor("cut") };
     }
     default:
       return undefined;

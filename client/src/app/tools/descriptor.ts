@@ -7,6 +7,7 @@ import type { Viewport } from "../../scene/viewport";
 import type { Command } from "../../wire/generated";
 import type { ObstacleList } from "../document/obstacles/obstacle-list";
 import type { PlaceName } from "../help/help-places";
+import type { StrokePoint } from "../input/gesture-recogniser";
 import type { Settings } from "../page/settings";
 import type { Toasts } from "../page/toasts";
 import type { Stage } from "../view/stage";
@@ -22,6 +23,15 @@ import type { WidthList } from "./width/width-list";
 /** A tool that has the pointers while it is chosen. */
 export type AnyTool = StrokeTool | GripTool;
 
+/** What other parts of the page ask a tool for. */
+export type Service = "cut" | "bend" | "plant";
+
+/** What takes a finger before the chosen tool does, where it lies on something of its own. */
+export interface Mover extends StrokeTool {
+  /** Whether a stroke that begins here is its own. */
+  grips(point: StrokePoint): boolean;
+}
+
 /** Everything that the page shows and says of a tool, and how the tool is made: one for each tool, beside its code. */
 export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   /** The letter that chooses it, as it stands on the key. */
@@ -32,6 +42,10 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly Icon: ComponentType<{ readonly settings: Settings }>;
   /** The group of the help that it stands in. */
   readonly group: "drawing" | "shaping";
+  /** Its code is there with the first picture. */
+  readonly atOnce?: boolean;
+  /** What the page asks it for, whichever tool is chosen. */
+  readonly serves?: Service;
   /** Holding still chooses the branch there, and a double tap cuts it off. */
   readonly choosesBranches?: boolean;
   /** It keeps a finger on an obstacle, which otherwise moves the obstacle while the scene is arranged. */

@@ -1,3 +1,5 @@
+import type { ReadonlySignal } from "@preact/signals";
+import type { Vec3 } from "../../scene/vector";
 import type { Command } from "../../wire/generated";
 import type { Grip, StrokePoint } from "../input/gesture-recogniser";
 
@@ -21,6 +23,11 @@ export interface Tool {
   refused?(command: Command): void;
   /** The wheel turns by a factor; false if the tool has no use for it. */
   zoom?(factor: number): boolean;
+  /** Cuts off the branches at some rows, or the one at a place; false where there is none. */
+  cut?(rows: readonly number[]): void;
+  cutAt?(x: number, y: number): boolean;
+  /** Where it would put something into the scene; null for nowhere. */
+  readonly coming?: ReadonlySignal<Vec3 | null>;
   /** Releases what is marked, as Escape does while nothing is in progress; false if there was nothing. */
   release?(): boolean;
 }

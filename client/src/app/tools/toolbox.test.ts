@@ -88,7 +88,6 @@ function setUp(table = new TreeTable()) {
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),
-    cutAt: (x, y) => tools.made.peek()?.prune?.cutAt(x, y),
   });
   tools.attach(view);
   const at = (x: number, y: number) => ({ x, y, pressure: null });
@@ -197,7 +196,7 @@ describe("toolbox", () => {
     expect([sent, tools.chosen.value, toasts.list.value.length]).toEqual([[], "seed", 1]);
     draw([[300, 700]]);
     expect(sent).toEqual([{ kind: "plant_seed", position: [30, 0, 70] }]);
-    expect([tools.chosen.value, tools.made.value?.seed?.place.value]).toEqual(["seed", null]);
+    expect([tools.chosen.value, tools.made.value?.seed?.coming.value]).toEqual(["seed", null]);
   });
 
   it("a tool that changes ends its stroke", () => {

@@ -4,14 +4,10 @@ import type { Command } from "../../wire/generated";
 import type { Gesture, Grip, StrokePoint } from "../input/gesture-recogniser";
 import { nearestBase } from "../view/places";
 import { say } from "../words/say";
-import type { AnyTool, ToolDescriptor, ToolKit, Workshop } from "./descriptor";
-import { ObstacleTool } from "./obstacle/obstacle-tool";
+import type { AnyTool, Mover, Service, ToolDescriptor, ToolKit, Workshop } from "./descriptor";
 import { pace } from "./pacing";
 import { PICK_TOLERANCE } from "./tool";
-import { descriptorOf, FIRST_TOOL, type MadeTools, type ToolName } from "./tools";
-
-/** The tools that are there with the first picture: what is drawn with, and the shears of a double tap. */
-const AT_ONCE: readonly ToolName[] = ["brush", "lasso", "prune", "seed"];
+import { descriptorOf, FIRST_TOOL, type MadeTools, makeMover, TOOL_NAMES, type ToolName, toolFor } from "./tools";
 
 /** After so many milliseconds a press that waits for a tool's code is answered. */
 const LATE = 400;
@@ -29,8 +25,6 @@ export interface ToolboxOptions extends Workshop {
   readonly arranging: () => boolean;
   /** A place is held, or what is there was chosen. */
   readonly choose: (x: number, y: number) => void;
-  /** A place was tapped twice. */
-  readonly cutAt: (x: number, y: number) => void;
 }
 
 /** A place that is being held still, until it is chosen. */
@@ -51,7 +45,7 @@ export class Toolbox {
   #options: ToolboxOptions;
   #kit: ToolKit | null = null;
   #loading = new Map<ToolName, Promise<void>>();
-  #mover: ObstacleTool | null = null;
+  #mover: Mover | null = null;
   /** The tool that has the stroke in progress. */
   #active: AnyTool | null = null;
   /** Fingers that the tool in progress has taken. */
@@ -66,7 +60,7 @@ export class Toolbox {
 
   /** Takes a view into use. */
   attach(view: Viewport): void {
-    const { table, toasts, obstacles } = this.#options;
+    const { table, toasts } = this.#options;
     const kit: ToolKit = {
       ...this.#options,
       view,
@@ -76,19 +70,11 @@ export class Toolbox {
     this.#kit = kit;
     this.#loading.clear();
     this.made.value = {};
-    for (const name of AT_ONCE) {
+    for (const name of TOOL_NAMES.filter((name) => descriptorOf(name).atOnce === true)) {
       void this.load(name);
     }
     void this.#open(this.chosen.peek());
-    this.#mover = new ObstacleTool({
-      view,
-      poseOf: (id) => obstacles.poseOf(id),
-      move: (id, pose) => obstacles.move(id, pose),
-      choose: (id) => {
-        obstacles.chosen.value = id;
-      },
-      preview: (moved) => obstacles.preview(moved),
-    });
+    this.#mover = makeMover(kit);
   }
 
   detach(): void {
@@ -116,6 +102,11 @@ export class Toolbox {
     const loading = this.#loading.get(name) ?? this.#make(descriptorOf(name), name, kit);
     this.#loading.set(name, loading);
     await loading;
+  }
+
+  /** The tool that does something for the rest of the page, once its code is there. */
+  toolFor(service: Service): AnyTool | undefined {
+    return this.made.value?.[toolFor(service)];
   }
 
   async #make({ make, ready }: ToolDescriptor, name: ToolName, kit: ToolKit): Promise<void> {
@@ -177,7 +168,7 @@ export class Toolbox {
         this.#options.choose(gesture.x, gesture.y);
         break;
       case "double-tap":
-        this.#options.cutAt(gesture.x, gesture.y);
+        this.toolFor("cut")?.cutAt?.(gesture.x, gesture.y);
         break;
       case "grip-begin":
         this.#gripBegin(gesture);

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { LANGUAGES, type Text } from "../words/say";
-import { descriptorOf, FIRST_TOOL, laterOfAll, TOOL_NAMES, toolOfKey } from "./tools";
+import { descriptorOf, FIRST_TOOL, laterOfAll, TOOL_NAMES, toolFor, toolOfKey } from "./tools";
 
 /** Letters that mean something else on the keyboard. */
 const TAKEN = ["D", "F", "G", "H", "U"];
@@ -12,6 +12,12 @@ describe("tools", () => {
     expect(keys.filter((key) => !/^[A-Z]$/.test(key))).toEqual([]);
     expect(TOOL_NAMES.map((name) => toolOfKey(descriptorOf(name).key.toLowerCase()))).toEqual(TOOL_NAMES);
     expect(toolOfKey("escape")).toBeUndefined();
+  });
+
+  it("each thing that the page asks for has one tool that does it", () => {
+    const services = TOOL_NAMES.flatMap((name) => descriptorOf(name).serves ?? []);
+    expect([...services].sort()).toEqual(["bend", "cut", "plant"]);
+    expect(services.map(toolFor).map((name) => descriptorOf(name).serves)).toEqual(services);
   });
 
   it("the first stands first", () => {

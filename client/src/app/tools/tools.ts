@@ -1,8 +1,9 @@
 import { BEND } from "./bend/descriptor";
 import { BRANCH } from "./branch/descriptor";
 import { BRUSH } from "./brush/descriptor";
-import type { ToolDescriptor, ToolLater } from "./descriptor";
+import type { Service, ToolDescriptor, ToolLater } from "./descriptor";
 import { LASSO } from "./lasso/descriptor";
+import { obstacleMover } from "./obstacle/mover";
 import { PRUNE } from "./prune/descriptor";
 import { SEED } from "./seed/descriptor";
 import { WIDTH } from "./width/descriptor";
@@ -23,6 +24,14 @@ export type MadeTools = { readonly [Name in ToolName]?: Awaited<ReturnType<(type
 
 export const TOOL_NAMES = Object.keys(TOOLS) as ToolName[];
 export const FIRST_TOOL: ToolName = "brush";
+
+/** What takes a finger before the chosen tool does, while the scene is arranged. */
+export const makeMover = obstacleMover;
+
+/** The tool that does something for the rest of the page. */
+export function toolFor(service: Service): ToolName {
+  return TOOL_NAMES.find((name) => descriptorOf(name).serves === service) ?? FIRST_TOOL;
+}
 
 /** What is known of a tool, whichever it is. */
 export function descriptorOf(name: ToolName): ToolDescriptor {

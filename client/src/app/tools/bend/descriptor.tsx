@@ -9,6 +9,7 @@ export const BEND: ToolDescriptor<BendTool> = {
   title: ["Bend: hold a branch's base and drag its end", "Biegen: den Astansatz halten und das Ende ziehen"],
   Icon: BendIcon,
   group: "shaping",
+  serves: "bend",
   make: async ({ table, view, submit, next, unsettled, settings, say }) => {
     const [{ Bend }, { BendTool }] = await Promise.all([import("../../../scene/bend/bend"), import("./bend-tool")]);
     return new BendTool({

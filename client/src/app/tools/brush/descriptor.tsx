@@ -9,6 +9,7 @@ export const BRUSH: ToolDescriptor<BrushTool> = {
   title: ["Brush: the tree grows into the stroke", "Pinsel: Der Baum wächst in den Strich"],
   Icon: BrushSample,
   group: "drawing",
+  atOnce: true,
   choosesBranches: true,
   growsIntoStrokes: true,
   usesRadius: true,

@@ -8,6 +8,7 @@ export const LASSO: ToolDescriptor<LassoTool> = {
   title: ["Lasso: draw the outline the tree grows to fill", "Lasso: den Umriss zeichnen, den der Baum ausfüllt"],
   Icon: LassoIcon,
   group: "drawing",
+  atOnce: true,
   choosesBranches: true,
   hint: ({ settings, outlined }) =>
     outlined || settings.hasOutlined.value ? null : ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],

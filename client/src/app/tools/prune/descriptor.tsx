@@ -11,6 +11,8 @@ export const PRUNE: ToolDescriptor<PruneTool> = {
   ],
   Icon: PruneIcon,
   group: "shaping",
+  atOnce: true,
+  serves: "cut",
   make: ({ table, view, submit, unsettled, widths, say, predict }) =>
     new PruneTool({ table, view, submit, unsettled, limits: () => widths.rows.peek(), say, predict }),
   hasViews: true,

@@ -8,6 +8,8 @@ export const SEED: ToolDescriptor<SeedTool> = {
   title: ["Plant a seed: tap the ground", "Samen setzen: auf den Boden tippen"],
   Icon: SeedIcon,
   group: "drawing",
+  atOnce: true,
+  serves: "plant",
   keepsObstacles: true,
   hint: () => ["Tap the ground to plant a seed", "Tippe auf den Boden, um einen Samen zu setzen"],
   make: ({ view, submit, say }) =>

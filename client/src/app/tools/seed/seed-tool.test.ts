@@ -11,7 +11,7 @@ function setUp() {
     submit: (command) => sent.push(command),
     missed: () => calls.push("missed"),
   });
-  return { tool, sent, calls, shown: () => tool.place.value };
+  return { tool, sent, calls, shown: () => tool.coming.value };
 }
 
 const at = (x: number, y: number) => ({ x, y, pressure: null });

@@ -15,7 +15,7 @@ export interface SeedOptions {
 /** Plants a seed where the finger lifts. */
 export class SeedTool implements Tool {
   /** Where the seed would lie; null for nowhere. */
-  readonly place = signal<Vec3 | null>(null);
+  readonly coming = signal<Vec3 | null>(null);
   #options: SeedOptions;
   #active = false;
 
@@ -39,7 +39,7 @@ export class SeedTool implements Tool {
     if (!this.#active) {
       return;
     }
-    const place = this.place.peek();
+    const place = this.coming.peek();
     this.abandon();
     if (place) {
       this.#options.submit({ kind: "plant_seed", position: withinReach(place) });
@@ -54,10 +54,10 @@ export class SeedTool implements Tool {
   }
 
   hover(x: number, y: number): void {
-    this.place.value = this.#options.groundAt(x, y);
+    this.coming.value = this.#options.groundAt(x, y);
   }
 
   leave(): void {
-    this.place.value = null;
+    this.coming.value = null;
   }
 }

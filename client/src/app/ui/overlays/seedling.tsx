@@ -16,7 +16,7 @@ export function Seedlings({ studio }: { studio: Studio }) {
   // Each frame of rows may have sown seeds, or let them grow.
   const revision = studio.revision.value;
   const waiting = useMemo(() => seedsToGrow(studio.table, MOST_SHOWN), [studio, revision]);
-  const coming = studio.tools.made.value?.seed?.place.value;
+  const coming = studio.tools.toolFor("plant")?.coming?.value;
   const places: readonly Vec3[] = coming ? [...waiting, coming] : waiting;
   useAnimationFrames(places.length > 0, () => {
     const project = studio.stage.projector();

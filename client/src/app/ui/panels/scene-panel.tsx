@@ -4,6 +4,7 @@ import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../..
 import { type SimpleShape, UndoGroup } from "../../document/obstacles/obstacle-list";
 import { rotationOf, turningOf } from "../../document/obstacles/turning";
 import type { Studio } from "../../studio";
+import { toolFor } from "../../tools/tools";
 import { say } from "../../words/say";
 import { Field } from "../controls/field";
 import { TypedNumber } from "../controls/typed-number";
@@ -33,7 +34,7 @@ export function ScenePanel({ studio }: { studio: Studio }) {
           </button>
         ))}
         <ModelButton studio={studio} disabled={full || transfer.progress.value !== null} />
-        <button type="button" onClick={() => studio.tools.choose("seed")}>
+        <button type="button" onClick={() => studio.tools.choose(toolFor("plant"))}>
           <NewIcon />
           {say("scene.seed")}
         </button>
