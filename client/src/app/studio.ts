@@ -11,6 +11,7 @@ import { growthAhead } from "./document/growth/growth-ahead";
 import { ProgrammeControl } from "./document/growth/programme-control";
 import { ObstacleList } from "./document/obstacles/obstacle-list";
 import { TimelineControl } from "./document/timeline/timeline-control";
+import { undoByTap } from "./document/timeline/undo-by-tap";
 import { Tour } from "./help/tour";
 import { Exports, keepFile } from "./library/exports";
 import { UnsavedTrees } from "./library/unsaved-trees";
@@ -167,6 +168,7 @@ export class Studio {
     ready: () => this.link.open && this.hindrance.peek() === null,
     arranging: () => this.layout.panel.peek() === "scene",
     choose: (x, y) => chooseBud(this, x, y),
+    tapped: (fingers) => undoByTap(this, fingers),
   });
 
   readonly tour = new Tour({

@@ -465,3 +465,54 @@ describe("mouse", () => {
     expect(wheelFactor(1e9, 0, false)).toBeGreaterThan(0.5);
   });
 });
+
+describe("a tap of several fingers", () => {
+  const several = (fingers: number) => [{ kind: "several-tap", fingers }];
+
+  it("is one gesture once all are up, however they tremble", () => {
+    const { down, move, up } = pointers();
+    down(1, 100, 100, 0);
+    down(2, 200, 100, 30);
+    expect(move(1, 104, 103, 60)).toEqual([]);
+    expect(up(2, 200, 100, 120)).toEqual([]);
+    expect(up(1, 104, 103, 150)).toEqual(several(2));
+    down(3, 100, 100, 1000);
+    down(4, 200, 100, 1010);
+    down(5, 300, 100, 1020);
+    expect([...up(3, 100, 100, 1100), ...up(5, 300, 100, 1110), ...up(4, 200, 100, 1120)]).toEqual(several(3));
+  });
+
+  it("is none after a pan, a pinch or a long touch, which lose nothing of their way", () => {
+    const { down, move, up } = pointers();
+    down(1, 100, 100, 0);
+    down(2, 200, 100, 10);
+    expect(move(2, 205, 100, 20)).toEqual([]);
+    expect(move(2, 220, 100, 30)).toMatchObject([{ kind: "pan", dx: 10 }, { kind: "zoom" }]);
+    expect([...up(1, 100, 100, 60), ...up(2, 220, 100, 80)]).toEqual([]);
+    down(1, 100, 100, 1000);
+    down(2, 200, 100, 1010);
+    expect(move(2, 206, 100, 2000), "a slow one has its way as well").toMatchObject([{ dx: 3 }, { kind: "zoom" }]);
+    expect([...up(1, 100, 100, 2010), ...up(2, 206, 100, 2020)]).toEqual([]);
+  });
+
+  it("is none where a finger drew, a tool took one, or the system took one away", () => {
+    const { recogniser, down, move, up } = pointers();
+    down(1, 100, 100, 0);
+    move(1, 130, 100, 20);
+    down(2, 200, 100, 30);
+    expect([...kinds(up(2, 200, 100, 60)), ...kinds(up(1, 130, 100, 80))]).toEqual(["stroke-end"]);
+    down(1, 100, 100, 1000, "touch", { grip: "take" });
+    down(2, 200, 100, 1010, "touch", { grip: "ignore" });
+    expect(kinds([...up(1, 100, 100, 1050), ...up(2, 200, 100, 1060)])).toEqual(["grip-end"]);
+    down(1, 100, 100, 2000);
+    down(2, 200, 100, 2010);
+    expect([...recogniser.cancel(2), ...up(1, 100, 100, 2060)]).toEqual([]);
+  });
+
+  it("is one with a tool that lets both go", () => {
+    const { down, up } = pointers();
+    down(1, 100, 100, 0, "touch", { grip: "take" });
+    down(2, 200, 100, 10, "touch", { grip: "leave" });
+    expect([...up(1, 100, 100, 60), ...up(2, 200, 100, 70)]).toEqual(several(2));
+  });
+});

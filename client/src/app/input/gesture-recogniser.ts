@@ -1,9 +1,8 @@
+import { Fingers, SLOP } from "./fingers";
 import type { Gesture, Grip, PointerPress, PointerSample, StrokePoint } from "./gesture";
 
 export type { Gesture, Grip, PointerPress, PointerSample, StrokePoint } from "./gesture";
 
-/** How far a finger may wander before it is drawing, in pixels. */
-export const SLOP = 9;
 /** How far a pen or a mouse may wander before it is drawing, and no longer holding what is under it. */
 export const FINE_SLOP = 5;
 /** How long a resting finger waits for a second one before it is drawing, in milliseconds. */
@@ -58,11 +57,6 @@ interface Tapped {
   readonly points: readonly StrokePoint[];
 }
 
-interface Finger {
-  x: number;
-  y: number;
-}
-
 /**
  * Turns pointers into strokes and camera moves.
  *
@@ -73,7 +67,7 @@ interface Finger {
 export class GestureRecogniser {
   #state: State = { kind: "idle" };
   /** Touches that count, by pointer; palms beside a pen and fingers beside a stroke do not. */
-  #fingers = new Map<number, Finger>();
+  #fingers = new Fingers();
   #penSeen = Number.NEGATIVE_INFINITY;
 
   /** When `tick` is due, or null. */
@@ -130,7 +124,7 @@ export class GestureRecogniser {
       case "fingers":
         return this.#moveFinger(state, last);
       case "grips":
-        this.#place(last);
+        this.#fingers.place(last.id, last.x, last.y);
         return state.ids.has(last.id) ? [{ kind: "grip-move", id: last.id, x: last.x, y: last.y }] : [];
       case "idle":
       case "held":
@@ -224,7 +218,7 @@ export class GestureRecogniser {
     if (busy || (state.kind === "waiting" && !this.#fingers.has(state.id))) {
       return [];
     }
-    this.#fingers.set(press.id, { x: press.x, y: press.y });
+    this.#fingers.add(press.id, press.x, press.y, press.time);
     const draws = !press.pans && press.time - this.#penSeen >= PEN_MEMORY;
     if (press.grip && (state.kind === "grips" || (state.kind === "idle" && draws))) {
       return this.#gripTouch(press, press.grip);
@@ -296,7 +290,7 @@ export class GestureRecogniser {
     for (const sample of samples) {
       state.points.push(strokePoint(sample));
       far ||= first !== undefined && Math.hypot(sample.x - first.x, sample.y - first.y) > state.slop;
-      this.#place(sample);
+      this.#fingers.place(sample.id, sample.x, sample.y);
     }
     const now = samples[samples.length - 1]?.time ?? 0;
     return far ? this.#draw(state) : this.tick(now);
@@ -313,21 +307,15 @@ export class GestureRecogniser {
     return rest.length > 0 ? [...gestures, { kind: "stroke-move", points: rest }] : gestures;
   }
 
-  #place(sample: PointerSample): void {
-    const finger = this.#fingers.get(sample.id);
-    if (finger) {
-      finger.x = sample.x;
-      finger.y = sample.y;
-    }
-  }
-
   #moveFinger(state: Extract<State, { kind: "fingers" }>, sample: PointerSample): Gesture[] {
     if (!this.#fingers.has(sample.id)) {
       return [];
     }
-    const before = spread(this.#fingers);
-    this.#place(sample);
-    const after = spread(this.#fingers);
+    const moved = this.#fingers.moved(sample.id, sample.x, sample.y, sample.time);
+    if (moved === null) {
+      return [];
+    }
+    const [before, after] = moved;
     const dx = after.x - before.x;
     const dy = after.y - before.y;
     if (this.#fingers.size >= 3) {
@@ -346,15 +334,16 @@ export class GestureRecogniser {
 
   /** `time` is null where the system took the pointer away. */
   #lift(id: number, time: number | null): Gesture[] {
-    this.#fingers.delete(id);
+    const tap = this.#fingers.remove(id, time);
     const state = this.#state;
     if (state.kind === "fingers") {
       if (this.#fingers.size === 0) {
         this.#state = { kind: "idle" };
       }
-      return [];
+      return tap > 1 ? [{ kind: "several-tap", fingers: tap }] : [];
     }
     if (state.kind === "grips") {
+      this.#fingers.noTap();
       if (!state.ids.delete(id)) {
         return [];
       }
@@ -434,14 +423,4 @@ export function wheelFactor(delta: number, mode: number, pinch: boolean): number
 
 function strokePoint(sample: PointerSample): StrokePoint {
   return { x: sample.x, y: sample.y, pressure: sample.device === "pen" ? sample.pressure : null };
-}
-
-/** The centre of the fingers and how far they are from it on average, times two. */
-function spread(fingers: Map<number, Finger>): { x: number; y: number; distance: number } {
-  const all = [...fingers.values()];
-  const count = Math.max(1, all.length);
-  const x = all.reduce((sum, finger) => sum + finger.x, 0) / count;
-  const y = all.reduce((sum, finger) => sum + finger.y, 0) / count;
-  const distance = (2 * all.reduce((sum, finger) => sum + Math.hypot(finger.x - x, finger.y - y), 0)) / count;
-  return { x, y, distance };
 }

@@ -47,6 +47,8 @@ export type Gesture =
   | { readonly kind: "hold-end" }
   | { readonly kind: "choose"; readonly x: number; readonly y: number }
   | { readonly kind: "double-tap"; readonly x: number; readonly y: number }
+  /** So many fingers tapped at once, and did nothing else. */
+  | { readonly kind: "several-tap"; readonly fingers: number }
   /** A tool's finger comes down, moves, lifts; `slop` is how far it may wander and still be a tap. */
   | { readonly kind: "grip-begin"; readonly id: number; readonly x: number; readonly y: number; readonly slop: number }
   | { readonly kind: "grip-move"; readonly id: number; readonly x: number; readonly y: number }

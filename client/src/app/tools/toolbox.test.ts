@@ -88,6 +88,7 @@ function setUp(table = new TreeTable()) {
     ready: () => world.ready,
     arranging: () => world.arranging,
     choose: (x, y) => world.chosen.push([x, y]),
+    tapped: () => {},
   });
   tools.attach(view);
   const at = (x: number, y: number) => ({ x, y, pressure: null });

@@ -25,6 +25,8 @@ export interface ToolboxOptions extends Workshop {
   readonly arranging: () => boolean;
   /** A place is held, or what is there was chosen. */
   readonly choose: (x: number, y: number) => void;
+  /** So many fingers tapped at once. */
+  readonly tapped: (fingers: number) => void;
 }
 
 /** A place that is being held still, until it is chosen. */
@@ -169,6 +171,9 @@ export class Toolbox {
         break;
       case "double-tap":
         this.toolFor("cut")?.cutAt?.(gesture.x, gesture.y);
+        break;
+      case "several-tap":
+        this.#options.tapped(gesture.fingers);
         break;
       case "grip-begin":
         this.#gripBegin(gesture);

@@ -106,10 +106,10 @@ export const HELP = {
 
   "help.topic.undo": ["Undo, redo", "Rückgängig, wiederholen"],
   "help.topic.undo.text": [
-    "Takes back the last thing done, by whomever, and brings it again",
-    "Nimmt zurück, was zuletzt geschah, von wem auch immer, und holt es wieder",
+    "Takes back the last thing done, by whomever, and brings it again; a tap with two fingers undoes, with three it redoes",
+    "Nimmt zurück, was zuletzt geschah, von wem auch immer, und holt es wieder; ein Tippen mit zwei Fingern nimmt zurück, mit dreien holt es wieder",
   ],
-  "help.topic.undo.words": ["back mistake revert", "zurücknehmen Fehler widerrufen"],
+  "help.topic.undo.words": ["back mistake revert two-finger three-finger tap", "zurücknehmen Fehler widerrufen Zweifingertipp antippen"],
   "help.topic.rotation": ["Rotation strip", "Drehstreifen"],
   "help.topic.rotation.text": [
     "Pull it to turn the tree, also while the other hand draws; Home faces the front",
