@@ -1,6 +1,7 @@
 /** Things on the page that are no panel, sheet or tool, and can be pointed at. */
 export type PlaceName =
   | "undo"
+  | "fit"
   | "grow"
   | "radius"
   | "rotation"

@@ -69,6 +69,23 @@ describe("help", () => {
       ["seed", "seed", "Samen"],
       ["undo", "undo", "rückgängig"],
       ["species", "species", "Baumart"],
+      ["prune", "eraser", "Radiergummi"],
+      ["card-cut", "erase", "radieren"],
+      ["width", "thicker", "dicker"],
+      ["branch", "duplicate", "duplizieren"],
+      ["bend", "warp", "verformen"],
+      ["fit", "zoom out", "zentrieren"],
+      ["fit", "reset view", "Ansicht zurücksetzen"],
+      ["card-move", "zoom", "heranholen"],
+      ["card-grow", "simulate", "simulieren"],
+      ["card-hold", "isolate", "freistellen"],
+      ["undo", "two-finger tap", "Zweifingertipp"],
+      ["travel", "replay", "abspielen"],
+      ["library", "gallery", "Galerie"],
+      ["seed", "another tree", "weiterer"],
+      ["new", "start over", "von vorn"],
+      ["leaves", "autumn", "Herbst"],
+      ["settings", "dark mode", "Dunkelmodus"],
     ];
     for (const [id, english, german] of names) {
       language.value = "en";

@@ -66,6 +66,7 @@ const TRAVELLING = [
 ] as const;
 const LOOKING = [
   ["rotation", { place: "rotation" }],
+  ["fit", { place: "fit" }],
   ["sun", { panel: "background", control: { label: "background.time", section: "background.sun" } }],
   ["draw-modes", { place: "draw-modes" }],
   ["hide", { place: "hide" }],
@@ -132,7 +133,8 @@ export function helpGroups(tools: ToolHelp): readonly TopicGroup[] {
         id: `card-${name}`,
         title: say(`help.card.${name}`),
         text: say(`help.card.${name}.text`),
-        everywhere: everywhere(`help.card.${name}`, `help.card.${name}.text`),
+        also: say(`help.card.${name}.words`),
+        everywhere: everywhere(`help.card.${name}`, `help.card.${name}.text`, `help.card.${name}.words`),
         sketch: name,
         ...(subject ? { subject } : {}),
       })),

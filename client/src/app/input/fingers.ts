@@ -70,7 +70,9 @@ export class Fingers {
 
   /** A finger is gone; `time` is null where the system took it away. Gives the tap that is over with it, in fingers. */
   remove(id: number, time: number | null): number {
-    this.#down.delete(id);
+    if (!this.#down.delete(id)) {
+      return 0;
+    }
     this.#told = this.#spread();
     const tap = this.#tap;
     if (tap === null || time === null || time - tap.since > LONGEST_TAP_OF_SEVERAL) {

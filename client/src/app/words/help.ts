@@ -41,6 +41,7 @@ export const HELP = {
 
   "help.card.draw": ["One finger, pen, left button", "Ein Finger, Stift, linke Maustaste"],
   "help.card.draw.text": ["Brush: the tree grows into the stroke", "Pinsel: Der Baum wächst in den Strich"],
+  "help.card.draw.words": ["paint pencil", "malen Bleistift"],
   "help.card.move": [
     "Two or three fingers, middle or right button",
     "Zwei oder drei Finger, mittlere oder rechte Taste",
@@ -49,23 +50,31 @@ export const HELP = {
     "Two move, and zoom as the wheel does; three turn around the tree",
     "Zwei verschieben und vergrößern, wie auch das Rad; drei drehen um den Baum",
   ],
+  "help.card.move.words": [
+    "pan scroll zoom in out bigger smaller hand",
+    "schieben scrollen heranholen größer kleiner Hand",
+  ],
   "help.card.turn": ["The strip at the bottom", "Der Streifen unten"],
   "help.card.turn.text": [
     "Turns the tree, also while the other hand draws: strokes then wind around it",
     "Dreht den Baum, auch während die andere Hand zeichnet: Striche winden sich dann herum",
   ],
+  "help.card.turn.words": ["rotate spin orbit 3d", "rotieren umkreisen 3D"],
   "help.card.grow": ["Grow, pushed up or pulled down", "Wachsen, nach oben oder unten"],
   "help.card.grow.text": [
     "Grow on alone, or backwards; further is faster",
     "Allein weiter oder zurück; weiter ist schneller",
   ],
+  "help.card.grow.words": ["simulate play automatic older age time", "simulieren abspielen automatisch älter Alter"],
   "help.card.hold": ["Press and hold a branch, or Alt click", "Ast gedrückt halten, oder Alt-Klick"],
   "help.card.hold.text": [
     "Only this branch grows, until you hold elsewhere",
     "Nur dieser Ast wächst, bis du woanders hältst",
   ],
+  "help.card.hold.words": ["select lock isolate mask only", "auswählen sperren freistellen"],
   "help.card.cut": ["Double tap, double click a branch", "Ast zweimal antippen oder doppelklicken"],
   "help.card.cut.text": ["Cut it off, without leaving the brush", "Schneidet ihn ab, ohne den Pinsel wegzulegen"],
+  "help.card.cut.words": ["eraser erase delete remove trim", "Radiergummi radieren löschen entfernen stutzen"],
 
   "help.topic.travel": ["Drag along the timeline", "An der Zeitleiste ziehen"],
   "help.topic.travel.text": [
@@ -109,37 +118,64 @@ export const HELP = {
     "Takes back the last thing done, by whomever, and brings it again; a tap with two fingers undoes, with three it redoes",
     "Nimmt zurück, was zuletzt geschah, von wem auch immer, und holt es wieder; ein Tippen mit zwei Fingern nimmt zurück, mit dreien holt es wieder",
   ],
-  "help.topic.undo.words": ["back mistake revert two-finger three-finger tap", "zurücknehmen Fehler widerrufen Zweifingertipp antippen"],
+  "help.topic.undo.words": [
+    "back mistake revert two-finger three-finger tap oops step history",
+    "zurücknehmen Fehler widerrufen Zweifingertipp antippen Schritt Verlauf",
+  ],
+  "help.topic.fit": ["Show the whole tree", "Ganzen Baum zeigen"],
+  "help.topic.fit.text": [
+    "Brings all of it into the picture, where it was lost or is too large",
+    "Holt ihn ganz ins Bild, wenn er verloren ging oder zu groß ist",
+  ],
+  "help.topic.fit.words": [
+    "center centre zoom out reset view home lost frame",
+    "zentrieren Mitte herauszoomen Ansicht zurücksetzen verloren einpassen",
+  ],
   "help.topic.rotation": ["Rotation strip", "Drehstreifen"],
   "help.topic.rotation.text": [
     "Pull it to turn the tree, also while the other hand draws; Home faces the front",
     "Ziehen dreht den Baum, auch während die andere Hand zeichnet; Pos1 zeigt ihn von vorn",
   ],
-  "help.topic.rotation.words": ["turn rotate view spin camera", "drehen Ansicht Kamera rundherum"],
+  "help.topic.rotation.words": [
+    "turn rotate view spin camera orbit 3d around",
+    "drehen Ansicht Kamera rundherum umkreisen 3D",
+  ],
   "help.topic.sun": ["The sun", "Die Sonne"],
   "help.topic.sun.text": [
     "Drag the little sun around the tree, or set its place and the time of day in the panel",
     "Zieh die kleine Sonne um den Baum, oder stelle Ort und Tageszeit in der Tafel ein",
   ],
-  "help.topic.sun.words": ["light shadow day evening dusk", "Licht Schatten Tag Abend Dämmerung"],
+  "help.topic.sun.words": [
+    "light shadow day evening dusk lamp brightness night",
+    "Licht Schatten Tag Abend Dämmerung Lampe Helligkeit Nacht",
+  ],
   "help.topic.draw-modes": ["Draw modes", "Darstellungen"],
   "help.topic.draw-modes.text": [
     "Lit, skeleton, wireframe, or false colours for light, vigor, age and order",
     "Im Licht, als Skelett, als Drahtgitter, oder Falschfarben für Licht, Kraft, Alter und Ordnung",
   ],
-  "help.topic.draw-modes.words": ["exposure legend colours way of drawing", "Belichtung Legende Farben Ansicht"],
+  "help.topic.draw-modes.words": [
+    "exposure legend colours way of drawing heat map x-ray view mode",
+    "Belichtung Legende Farben Ansicht Wärmebild Röntgen Ansicht",
+  ],
   "help.topic.species": ["Species", "Arten"],
   "help.topic.species.text": [
     "Pick one and the tree grows like it from now on; search by name or botanical name",
     "Wähle eine, und der Baum wächst von nun an wie sie; suche nach Namen oder botanischem Namen",
   ],
-  "help.topic.species.words": ["preset kind oak birch pine", "Vorlage Baumart Eiche Birke Kiefer"],
+  "help.topic.species.words": [
+    "preset kind oak birch pine tree type plant willow maple bonsai",
+    "Vorlage Baumart Eiche Birke Kiefer Sorte Pflanze Weide Ahorn Bonsai",
+  ],
   "help.topic.brush-panel": ["Brush panel", "Pinseltafel"],
   "help.topic.brush-panel.text": [
     "Radius, pen pressure, what a stroke does, which branches grow, depth of the lasso",
     "Radius, Stiftdruck, was ein Strich bewirkt, welche Äste wachsen, Tiefe des Lassos",
   ],
-  "help.topic.brush-panel.words": ["pen width size", "Breite Größe"],
+  "help.topic.brush-panel.words": [
+    "pen width size bigger smaller thicker brush settings",
+    "Breite Größe größer kleiner dicker Pinselgröße",
+  ],
   "help.topic.import": ["Import a model", "Modell laden"],
   "help.topic.import.text": [
     "In the panel Scene: a glTF file becomes an obstacle to grow around; it can be cancelled on the way",
@@ -151,25 +187,31 @@ export const HELP = {
     "Plants a seed in a scene of its own; asks first where a tree that is not saved should stay",
     "Setzt einen Samen in eine eigene Szene; fragt vorher, wo ein ungespeicherter Baum bleiben soll",
   ],
-  "help.topic.new.words": ["start over blank clear", "neu anfangen leer"],
+  "help.topic.new.words": ["start over blank clear reset delete all", "neu anfangen leer alles löschen von vorn"],
   "help.topic.save": ["Save", "Speichern"],
   "help.topic.save.text": [
     "Puts the tree into the library under a name; its link keeps it anyway",
     "Legt den Baum unter einem Namen in die Bibliothek; sein Link behält ihn ohnehin",
   ],
-  "help.topic.save.words": ["keep store", "sichern ablegen behalten"],
+  "help.topic.save.words": ["keep store backup", "sichern ablegen behalten Sicherung"],
   "help.topic.library": ["Library", "Bibliothek"],
   "help.topic.library.text": [
     "Saved trees: open one as a new scene, rename, delete; unsaved ones of this device, to go on with",
     "Gespeicherte Bäume: als neue Szene öffnen, umbenennen, löschen; ungespeicherte dieses Geräts, zum Weitermachen",
   ],
-  "help.topic.library.words": ["open load saved unsaved recent", "öffnen laden gespeichert ungespeichert zuletzt"],
+  "help.topic.library.words": [
+    "open load saved unsaved gallery files recent my trees",
+    "öffnen laden gespeichert ungespeichert zuletzt Galerie Dateien meine Bäume",
+  ],
   "help.topic.share": ["Share", "Teilen"],
   "help.topic.share.text": [
     "A link by which others see the tree grow and draw along",
     "Ein Link, mit dem andere den Baum wachsen sehen und mitzeichnen",
   ],
-  "help.topic.share.words": ["link together people invite", "Link zusammen Leute einladen"],
+  "help.topic.share.words": [
+    "link together people invite collaborate multiplayer url send",
+    "Link zusammen Leute einladen gemeinsam schicken Adresse",
+  ],
   "help.topic.download": ["Download", "Herunterladen"],
   "help.topic.download.text": [
     "The tree as a glTF file for other programs; a large one shows how far it is and can be cancelled",
@@ -188,8 +230,8 @@ export const HELP = {
     "Sprache, hell oder dunkel, Seite der Werkzeuge, Stiftdruck",
   ],
   "help.topic.settings.words": [
-    "language dark theme left hand preferences names labels icons",
-    "Sprache dunkel Design linkshändig Namen Beschriftung Symbole",
+    "language dark theme left hand preferences options configuration left-handed dark mode names labels icons",
+    "Sprache dunkel Design linkshändig Optionen Linkshänder Dunkelmodus Namen Beschriftung Symbole",
   ],
   "help.topic.help": ["Help and tour", "Hilfe und Rundgang"],
   "help.topic.help.text": [
@@ -197,15 +239,33 @@ export const HELP = {
     "All das lässt sich durchsuchen; der Rundgang zeigt drei Gesten in einer halben Minute",
   ],
   "help.topic.help.words": ["first steps begin tutorial", "erste Schritte Anfang Einführung"],
-  "help.topic.travel.words": ["timeline history scrub film", "Zeitleiste Verlauf Geschichte"],
+  "help.topic.travel.words": [
+    "timeline history scrub film animation play replay rewind video",
+    "Zeitleiste Verlauf Geschichte Animation abspielen zurückspulen Video",
+  ],
   "help.topic.sign.words": ["timeline operation", "Zeitleiste Arbeitsgang"],
   "help.topic.fork.words": ["futures branch of time", "Zukunft Zukünfte Gabel"],
-  "help.topic.architecture.words": ["parameters widgets form growth", "Parameter Form Wuchs"],
-  "help.topic.leaves.words": ["foliage flowers fruits season", "Blätter Blüten Früchte Jahreszeit"],
-  "help.topic.branches.words": ["bark wood", "Rinde Holz"],
-  "help.topic.background.words": ["sky ground studio backdrop", "Himmel Boden Studio"],
-  "help.topic.scene.words": ["obstacles wall ball box model", "Hindernisse Mauer Kugel Kasten Modell"],
-  "help.topic.hide.words": ["fullscreen clean bare", "Vollbild leer nur Baum"],
+  "help.topic.architecture.words": [
+    "parameters widgets form growth settings habit shape angle",
+    "Parameter Form Wuchs Einstellungen Gestalt Winkel",
+  ],
+  "help.topic.leaves.words": [
+    "foliage flowers fruits season autumn fall spring winter blossom needles",
+    "Blätter Blüten Früchte Jahreszeit Herbst Frühling Winter Nadeln",
+  ],
+  "help.topic.branches.words": ["bark wood trunk texture roots", "Rinde Holz Stamm Textur Wurzeln"],
+  "help.topic.background.words": [
+    "sky ground studio backdrop environment wallpaper backdrop clouds",
+    "Himmel Boden Studio Umgebung Hintergrundbild Wolken",
+  ],
+  "help.topic.scene.words": [
+    "obstacles wall ball box model object collision fence house",
+    "Hindernisse Mauer Kugel Kasten Modell Gegenstand Zaun Haus",
+  ],
+  "help.topic.hide.words": [
+    "fullscreen clean bare presentation interface zen",
+    "Vollbild leer nur Baum Präsentation Oberfläche",
+  ],
 
   "help.key.radius": ["Narrower, wider", "Schmaler, breiter"],
   "help.key.escape": ["Cancel, stop growing, let go", "Abbrechen, Wachstum anhalten, loslassen"],

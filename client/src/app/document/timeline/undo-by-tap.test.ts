@@ -5,7 +5,14 @@ import { undoByTap } from "./undo-by-tap";
 
 function setUp(kinds: readonly OperationKind[], done: number, step = 10 * done) {
   const operations = kinds.map((kind, i) => ({ kind, author: "", first: 10 * i, last: 10 * (i + 1) }));
-  const timeline = { line: 0, step, last_step: 10 * kinds.length, done, operations, futures: [] } as unknown as Timeline;
+  const timeline = {
+    line: 0,
+    step,
+    last_step: 10 * kinds.length,
+    done,
+    operations,
+    futures: [],
+  } as unknown as Timeline;
   const sent: Command["kind"][] = [];
   const said: string[] = [];
   const page = {

@@ -15,7 +15,7 @@ export const HELP: readonly ToolTopic[] = [
       "One finger holds the base, another drags the end, more between. With a mouse or pen drag a branch; click first where it shall bend from",
       "Ein Finger hält den Ansatz, ein anderer zieht das Ende, weitere dazwischen. Mit Maus oder Stift am Ast ziehen; vorher anklicken, von wo an er sich biegen soll",
     ],
-    words: ["curve stretch form", "krümmen dehnen formen"],
+    words: ["curve stretch form pull warp pose", "krümmen dehnen formen ziehen verformen verbiegen"],
   },
 ];
 

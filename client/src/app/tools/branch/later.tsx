@@ -10,6 +10,9 @@ export const HELP: readonly ToolTopic[] = [
       "Drag turns it about its base, a second finger or the wheel twists; then move or copy it",
       "Ziehen dreht ihn um seinen Ansatz, ein zweiter Finger oder das Rad um sich selbst; dann versetzen oder kopieren",
     ],
-    words: ["turn move copy graft rotate", "drehen versetzen kopieren pfropfen"],
+    words: [
+      "turn move copy graft rotate duplicate clone paste stamp",
+      "drehen versetzen kopieren pfropfen duplizieren klonen einfügen",
+    ],
   },
 ];

@@ -5,7 +5,7 @@ export const HELP: readonly ToolTopic[] = [
     name: "brush",
     title: ["Brush", "Pinsel"],
     text: ["Draw upward: the tree grows into the stroke", "Zeichne nach oben: Der Baum wächst in den Strich"],
-    words: ["paint sketch stroke pen", "malen Strich Stift"],
+    words: ["paint sketch stroke pen draw grow crayon", "malen Strich Stift zeichnen wachsen Kreide"],
   },
   {
     name: "depth",
@@ -23,7 +23,7 @@ export const HELP: readonly ToolTopic[] = [
     name: "sketch",
     title: ["Radius at the bottom", "Radius ganz unten"],
     text: ["Sketch: one limb, exactly along the stroke", "Skizze: ein einzelner Ast, genau dem Strich nach"],
-    words: ["pencil thin limb", "Stift dünn einzelner Ast"],
+    words: ["pencil thin limb line exact", "Stift dünn einzelner Ast Linie genau Bleistift"],
     place: "radius",
   },
 ];

@@ -13,7 +13,10 @@ export const HELP: readonly ToolTopic[] = [
     name: "prune",
     title: ["Prune", "Schneiden"],
     text: ["Tap a branch, or draw a line through many", "Einen Ast antippen oder eine Linie durch mehrere ziehen"],
-    words: ["cut remove delete shears", "abschneiden entfernen löschen Schere"],
+    words: [
+      "cut remove delete shears eraser erase rubber trim clip scissors saw",
+      "abschneiden entfernen löschen Schere Radiergummi radieren stutzen kappen Säge",
+    ],
   },
   {
     name: "what-if",
@@ -22,7 +25,7 @@ export const HELP: readonly ToolTopic[] = [
       "A ghost shows how the tree grows on without a branch",
       "Ein Schemen zeigt, wie der Baum ohne einen Ast weiterwächst",
     ],
-    words: ["predict ghost preview", "vorhersagen Vorschau Schemen"],
+    words: ["predict ghost preview simulate try", "vorhersagen Vorschau Schemen ausprobieren"],
   },
 ];
 

@@ -8,6 +8,6 @@ export const HELP: readonly ToolTopic[] = [
       "Tap the ground; trees shade and crowd each other",
       "Auf den Boden tippen; Bäume beschatten und bedrängen einander",
     ],
-    words: ["plant several trees forest", "pflanzen mehrere Bäume Wald"],
+    words: ["plant several trees forest another second add", "pflanzen mehrere Bäume Wald weiterer zweiter hinzufügen"],
   },
 ];

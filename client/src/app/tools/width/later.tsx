@@ -13,7 +13,10 @@ export const HELP: readonly ToolTopic[] = [
       "Pinch around a limb, or tap it and pull the ring",
       "Den Ast zwischen zwei Finger nehmen, oder antippen und am Ring ziehen",
     ],
-    words: ["thick girth diameter trunk", "dick Umfang Durchmesser Stamm"],
+    words: [
+      "thick girth diameter trunk thicker thinner fat slim",
+      "dick Umfang Durchmesser Stamm dicker dünner schlank",
+    ],
   },
 ];
 

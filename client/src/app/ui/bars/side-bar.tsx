@@ -46,6 +46,7 @@ export function SideBar({ studio }: { studio: Studio }) {
         <button
           type="button"
           class="tool"
+          data-place="fit"
           aria-label={say("bars.fit")}
           title={say("bars.fit.title")}
           onClick={() => studio.stage.fitTree()}

@@ -24,6 +24,13 @@ export function Sheet({ studio, title, wide = false, children }: SheetProps) {
       class={wide ? "sheet wide" : "sheet"}
       aria-label={title}
       onClose={close}
+      onKeyDown={(event) => {
+        // A field would take the first Escape for itself, as one that searches does to become empty.
+        if (event.key === "Escape" && !event.defaultPrevented && !event.isComposing) {
+          event.preventDefault();
+          close();
+        }
+      }}
       onPointerDown={(event) => {
         if (event.target === event.currentTarget) {
           close();
