@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { type Point, SMALL, way } from "./tablet";
+import { LANDSCAPE, PHONE, type Point, SMALL, way } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -48,5 +48,34 @@ describe("help and sheets", () => {
       await page.keyboard.press("Escape");
       await dialog.waitFor({ state: "detached" });
     }
+  });
+});
+
+describe("the size of the tree", () => {
+  it("stands in metres and years beside the metamers, in the page's language", async () => {
+    const { tablet, metamers } = await workshop.stem(LANDSCAPE);
+    const { page } = tablet;
+    const size = page.locator(".figures .size");
+    await expect.poll(() => size.textContent()).toMatch(/^\d\.\d+\sm high, 0(\.\d+)?\sm wide, \d+ years?$/);
+    const metres = Number.parseFloat((await size.textContent())!);
+    expect(metres, "no higher than all its internodes of a decimetre").toBeLessThanOrEqual(0.1 * metamers);
+    await tablet.show("units");
+    await page.evaluate(() => localStorage.setItem("espalier.language", '"de"'));
+    await page.reload();
+    await tablet.untilReady();
+    await expect.poll(() => size.textContent()).toMatch(/^\d,\d+\sm hoch, 0(,\d+)?\sm breit, \d+ Jahre?$/);
+    await tablet.tap("Rückgängig");
+    await tablet.until("a seed alone has no size", (facts) => facts.metamers === 0);
+    await size.waitFor({ state: "detached" });
+  });
+
+  it("leaves room for the controls on a phone", async () => {
+    const { tablet, address } = await workshop.fresh(PHONE);
+    await workshop.act(address, [{ kind: "grow", steps: 12 }]);
+    await tablet.untilQuiet();
+    const { x, width } = await tablet.boxOf(tablet.page.locator(".figures"));
+    expect(x).toBeGreaterThanOrEqual(0);
+    expect(x + width).toBeLessThanOrEqual(PHONE.width);
+    await tablet.show("units-phone");
   });
 });

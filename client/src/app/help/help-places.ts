@@ -2,6 +2,7 @@
 export type PlaceName =
   | "undo"
   | "fit"
+  | "size"
   | "grow"
   | "radius"
   | "rotation"

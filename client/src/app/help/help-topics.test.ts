@@ -74,6 +74,8 @@ describe("help", () => {
       ["width", "thicker", "dicker"],
       ["branch", "duplicate", "duplizieren"],
       ["bend", "warp", "verformen"],
+      ["size", "height", "Höhe"],
+      ["size", "how old", "wie groß"],
       ["fit", "zoom out", "zentrieren"],
       ["fit", "reset view", "Ansicht zurücksetzen"],
       ["card-move", "zoom", "heranholen"],

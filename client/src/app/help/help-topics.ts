@@ -67,6 +67,7 @@ const TRAVELLING = [
 const LOOKING = [
   ["rotation", { place: "rotation" }],
   ["fit", { place: "fit" }],
+  ["size", { place: "size" }],
   ["sun", { panel: "background", control: { label: "background.time", section: "background.sun" } }],
   ["draw-modes", { place: "draw-modes" }],
   ["hide", { place: "hide" }],

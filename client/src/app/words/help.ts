@@ -140,6 +140,15 @@ export const HELP = {
     "turn rotate view spin camera orbit 3d around",
     "drehen Ansicht Kamera rundherum umkreisen 3D",
   ],
+  "help.topic.size": ["Metres and years", "Meter und Jahre"],
+  "help.topic.size.text": [
+    "Beside the number of metamers stand height, spread and age: each step of growth counts as a year, and how long an internode is in metres is set in Architecture, under Growth",
+    "Neben der Zahl der Metamere stehen Höhe, Breite und Alter: Jeder Wachstumsschritt zählt als ein Jahr, und wie lang ein Internodium in Metern ist, steht unter Architektur, Wuchs",
+  ],
+  "help.topic.size.words": [
+    "units scale height tall width age old how big meters",
+    "Einheiten Maßstab Höhe hoch Breite Alter alt wie groß",
+  ],
   "help.topic.sun": ["The sun", "Die Sonne"],
   "help.topic.sun.text": [
     "Drag the little sun around the tree, or set its place and the time of day in the panel",

@@ -82,5 +82,10 @@ export const NOTICES = {
     "Living metamers: internodes with their buds and leaves",
     "Lebende Metamere: Internodien mit ihren Knospen und Blättern",
   ],
+  "notices.size": ["{height} high, {spread} wide, {age}", "{height} hoch, {spread} breit, {age}"],
+  "notices.size.title": [
+    "The living wood, and the age of the oldest tree: each step of growth counts as a year",
+    "Das lebende Holz, und das Alter des ältesten Baums: Jeder Wachstumsschritt zählt als ein Jahr",
+  ],
   "notices.looking": ["Looking…", "Sucht…"],
 } as const;

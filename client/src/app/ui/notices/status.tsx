@@ -1,5 +1,8 @@
+import { useMemo } from "preact/hooks";
+import { measuresOf } from "../../../scene/table/measures";
 import type { Studio } from "../../studio";
-import { language, say } from "../../words/say";
+import { countText, metresText, yearsText } from "../../words/measure-text";
+import { say } from "../../words/say";
 import { PeopleIcon } from "../icons";
 
 /** How things stand, in as few words as possible. */
@@ -36,11 +39,32 @@ export function Status({ studio }: { studio: Studio }) {
           )}
           <span title={say("notices.metamers.title")}>
             {say(document.metamers === 1 ? "notices.metamer" : "notices.metamers", {
-              count: document.metamers.toLocaleString(language.value),
+              count: countText(document.metamers),
             })}
           </span>
+          <Size studio={studio} />
         </p>
       )}
     </div>
+  );
+}
+
+/** How high, wide and old the trees are, as trees are measured. */
+function Size({ studio }: { studio: Studio }) {
+  const revision = studio.revision.value;
+  const measures = useMemo(() => measuresOf(studio.table), [studio, revision]);
+  const internode = studio.parameters.value?.internode_length;
+  if (measures === null || internode === undefined) {
+    return null;
+  }
+  const metres = (internodes: number) => metresText(internodes * internode);
+  return (
+    <span class="size" data-place="size" title={say("notices.size.title")}>
+      {say("notices.size", {
+        height: metres(measures.height),
+        spread: metres(measures.spread),
+        age: yearsText(measures.age),
+      })}
+    </span>
   );
 }
