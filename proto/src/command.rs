@@ -25,7 +25,7 @@ pub struct Command {
     #[serde(flatten)]
     pub action: Action,
     /// Commands of one client that follow each other with the same gesture can be one operation for undo; `AP2`,
-    /// `BE1`, `BR1`, `OB2`, `PR2` and `WI1` say which.
+    /// `BE1`, `BR1`, `LA1`, `OB2`, `PR2` and `WI1` say which.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub gesture: Option<u32>,

@@ -1087,7 +1087,7 @@ age: number, };
 export type Command = { 
 /**
  * Commands of one client that follow each other with the same gesture can be one operation for undo; `AP2`,
- * `BE1`, `BR1`, `OB2`, `PR2` and `WI1` say which.
+ * `BE1`, `BR1`, `LA1`, `OB2`, `PR2` and `WI1` say which.
  */
 gesture?: number, } & ({ "kind": "stroke_begin", 
 /**

@@ -184,7 +184,8 @@ impl Document {
             allowed: None,
             message: format!("nothing can grow into this: {error}"),
         })?;
-        if self.strokes.is_empty() {
+        let continues = self.history.continues(&[Kind::Lasso], cause, self.plant().step());
+        if self.strokes.is_empty() && !continues {
             self.record(Kind::Lasso, cause);
         }
         self.simulation.enclose(&envelope);

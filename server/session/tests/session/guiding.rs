@@ -73,6 +73,30 @@ fn la1_a_lasso_fills_its_outline_as_one_operation() {
 }
 
 #[test]
+fn la1_lassos_of_one_gesture_are_one_operation() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let with = |mut command: Value, gesture: u32| {
+        command["gesture"] = gesture.into();
+        command
+    };
+    world.command(client, 1, with(lasso(6.0, 14.0, None), 1));
+    world.command(client, 2, with(lasso(14.0, 6.0, None), 1));
+    world.settle();
+    let first = world.peer(client).last_state().unwrap().metamers;
+    world.command(client, 3, with(lasso(16.0, 20.0, None), 2));
+    world.settle();
+    assert!(world.peer(client).last_state().unwrap().metamers > first, "another gesture grows as well");
+    for (number, left) in [(4, first), (5, 0)] {
+        world.command(client, number, json!({ "kind": "undo" }));
+        world.settle();
+        assert_eq!(world.peer(client).last_state().unwrap().metamers, left);
+    }
+    assert_eq!(world.document().hash(), world.replayed_hash());
+    world.assert_mirrored(client);
+}
+
+#[test]
 fn la1_a_lasso_leaves_no_markers_behind() {
     let mut world = World::new();
     let client = world.join("birch-01");
