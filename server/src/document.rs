@@ -37,9 +37,9 @@ pub struct Provenance<'a> {
     pub licence: Option<&'a str>,
 }
 
-/// The plants of a stored document as glTF binary.
-pub fn glb(bytes: &[u8]) -> Result<Vec<u8>, FileError> {
-    Ok(file(&mut Document::from_bytes(bytes)?, Provenance::default(), Format::Glb)?)
+/// The plants of a stored document in a file format.
+pub fn export(bytes: &[u8], format: Format) -> Result<Vec<u8>, FileError> {
+    Ok(file(&mut Document::from_bytes(bytes)?, Provenance::default(), format)?)
 }
 
 /// A file format for plants.

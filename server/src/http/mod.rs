@@ -88,7 +88,12 @@ fn routes() -> Vec<Route> {
         route(
             "GET /api/sessions/{session}/tree.glb",
             Action::TakeTree,
-            get(sessions::export).layer(at_once(MAX_EXPORTS)),
+            get(sessions::glb).layer(at_once(MAX_EXPORTS)),
+        ),
+        route(
+            "GET /api/sessions/{session}/tree.json",
+            Action::TakeTree,
+            get(sessions::skeleton).layer(at_once(MAX_EXPORTS)),
         ),
         route(
             "POST /api/sessions/{session}/obstacles",
@@ -224,6 +229,7 @@ mod tests {
             ("/api/sessions", r#"{"tree":"ash"}"#),
             ("/api/trees", r#"{"session":"oak","name":"Oak"}"#),
             ("/api/sessions/oak/tree.glb", ""),
+            ("/api/sessions/oak/tree.json", ""),
         ] {
             let method = if body.is_empty() { Method::GET } else { Method::POST };
             assert_eq!(status(&server, &method, path, body).await, StatusCode::FORBIDDEN, "{path}");

@@ -22,7 +22,7 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     authority::{Action, Object},
-    document,
+    document::{self, Format},
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
     name,
     store::{self, Store, StoreError},
@@ -64,20 +64,37 @@ pub(super) async fn find(
     }
 }
 
-pub(super) async fn export(
+pub(super) async fn glb(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-) -> Result<impl IntoResponse, Failure> {
-    let document = open(&shared, &session).await?.read().await?;
-    let glb = shared.pool.run(move || document::glb(&document.bytes)).await?.map_err(|error| {
-        tracing::error!(session, %error, "a document cannot be exported");
-        Failure::unavailable("The tree cannot be exported.")
-    })?;
-    let headers = [
-        (header::CONTENT_TYPE, "model/gltf-binary"),
-        (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.glb\""),
-    ];
-    Ok((headers, glb))
+) -> Result<Response, Failure> {
+    export(&shared, &session, Format::Glb, "model/gltf-binary", "attachment; filename=\"tree.glb\"").await
+}
+
+pub(super) async fn skeleton(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+) -> Result<Response, Failure> {
+    export(&shared, &session, Format::Skeleton, "application/json", "attachment; filename=\"tree.json\"")
+        .await
+}
+
+/// A session's plants in a file format, as a download.
+async fn export(
+    shared: &Shared,
+    session: &str,
+    format: Format,
+    media_type: &'static str,
+    disposition: &'static str,
+) -> Result<Response, Failure> {
+    let document = open(shared, session).await?.read().await?;
+    let file =
+        shared.pool.run(move || document::export(&document.bytes, format)).await?.map_err(|error| {
+            tracing::error!(session, %error, "a document cannot be exported");
+            Failure::unavailable("The tree cannot be exported.")
+        })?;
+    Ok(([(header::CONTENT_TYPE, media_type), (header::CONTENT_DISPOSITION, disposition)], file)
+        .into_response())
 }
 
 pub(super) async fn socket(
