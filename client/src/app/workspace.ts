@@ -9,6 +9,8 @@ import { followPageLife } from "./page/page-life";
 import type { Studio } from "./studio";
 import { stepRadius } from "./tools/brush/brush-radius";
 import { stepBack } from "./tools/step-back";
+import { nextKind } from "./tools/symmetry/symmetry";
+import { symmetryText } from "./tools/symmetry/symmetry-text";
 import { PictureLoss } from "./view/picture-loss";
 
 /** So many of the wheel's notches are one doubling of what it changes, roughly. */
@@ -83,6 +85,11 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
     tool: (tool) => studio.tools.choose(tool),
     escape: () => stepBack(studio),
     widen: (notches) => studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches)),
+    symmetry: () => {
+      const { symmetry } = studio.settings;
+      symmetry.value = { ...symmetry.peek(), kind: nextKind(symmetry.peek().kind) };
+      studio.toasts.show(symmetryText(symmetry.peek()));
+    },
     turn: (right, up, twist) => studio.branches.step(right, up, twist) || turnTree(studio, right),
     travel: (direction, edge) => (edge ? studio.time.toEdge(direction) : studio.time.by(direction)),
     grow: (direction) =>

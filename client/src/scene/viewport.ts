@@ -304,10 +304,9 @@ export class Viewport {
     this.loop.hold(held);
   }
 
-  /** Shows the brush around a point. */
-  showBrush(point: Vec3, radius: number): void {
-    const eye = this.rig.eye();
-    this.brush.show(point, radius, Math.hypot(point[0] - eye[0], point[1] - eye[1], point[2] - eye[2]));
+  /** Shows the brush around some points. */
+  showBrush(points: readonly Vec3[], radius: number): void {
+    this.brush.show(points, radius, this.rig.eye());
     this.stir();
   }
 

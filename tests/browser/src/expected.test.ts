@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
-import { LANDSCAPE, PHONE, type Point, SMALL, way } from "./tablet";
-import { Workshop } from "./workshop";
+import { changed } from "./picture";
+import { LANDSCAPE, loop, PHONE, type Point, SMALL, type Tablet, way } from "./tablet";
+import { SEED, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 
@@ -27,6 +28,64 @@ describe("a tap of several fingers", () => {
     // A pinch is no tap.
     await tablet.swipe([way(fingers(1)[0]!, { x: 700, y: 300 }), way(fingers(2)[1]!, { x: 970, y: 300 })]);
     expect((await tablet.untilQuiet()).sent).toBe(again.sent);
+  });
+});
+
+/** How many rows of the tree lie on each side of the trunk on the glass, from the left of the middle to its right. */
+const sides = async (tablet: Tablet) => {
+  const picture = await tablet.photograph("symmetry");
+  const half = { y: 150, width: 300, height: 500 };
+  return { picture, left: { ...half, x: SEED.x - 320 }, right: { ...half, x: SEED.x + 20 } };
+};
+
+describe("symmetry", () => {
+  it("draws a stroke and its mirror image as one operation, and is kept", async () => {
+    const { tablet, metamers } = await workshop.stem(LANDSCAPE);
+    const { page } = tablet;
+    const before = await sides(tablet);
+    await tablet.tap("Brush");
+    await page.getByRole("region", { name: "Brush", exact: true }).waitFor();
+    await page.getByRole("radio", { name: "Mirror", exact: true }).tap();
+    await tablet.tap("Close Brush");
+    await page.getByText("Mirrored across the trunk").waitFor();
+    await page.locator(".overlay.symmetry path[d]").waitFor({ state: "attached" });
+    await tablet.lead([way({ x: SEED.x, y: 600 }, { x: 800, y: 480 })]);
+    await tablet.showNow("symmetry-drawing");
+    await tablet.touch("touchEnd", []);
+    const grown = await tablet.untilQuiet();
+    expect(grown.operations).toBe("stroke stroke");
+    const after = await sides(tablet);
+    const [left, right] = [before.left, before.right].map((box) => changed(before.picture, after.picture, box));
+    expect(right).toBeGreaterThan(0.004);
+    expect(left! / right!, "both sides have grown").toBeGreaterThan(0.5);
+    expect(left! / right!).toBeLessThan(2);
+    await tablet.tap("Undo");
+    await tablet.until("both are undone at once", (facts) => facts.metamers === metamers);
+    await page.reload();
+    await tablet.untilReady();
+    await page.getByText("Mirrored across the trunk").waitFor();
+    await page.keyboard.press("y");
+    await page.getByText("4 times around the trunk").first().waitFor();
+    await tablet.tap("End the symmetry");
+    await page.locator(".overlay.symmetry").waitFor({ state: "detached" });
+  });
+
+  it("LA1: repeats an outline around the trunk, as one operation", async () => {
+    const { tablet, metamers } = await workshop.stem();
+    const { page } = tablet;
+    await tablet.take("Lasso");
+    await page.keyboard.press("y");
+    await page.keyboard.press("y");
+    await tablet.lead([loop({ x: 700, y: 400 }, { x: 60, y: 60 })]);
+    await expect.poll(() => page.locator('.outline[data-stage="drawing"] .outline-body').count()).toBe(4);
+    await tablet.touch("touchEnd", []);
+    const grown = await tablet.untilQuiet();
+    expect(grown.sent, "the stem's stroke, and an outline four times").toBeGreaterThanOrEqual(4);
+    await page.locator(".outline").waitFor({ state: "detached" });
+    expect(grown.operations).toBe("stroke lasso");
+    expect(grown.metamers).toBeGreaterThan(metamers);
+    await tablet.tap("Undo");
+    await tablet.until("all are undone at once", (facts) => facts.metamers === metamers);
   });
 });
 

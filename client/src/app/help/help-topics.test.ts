@@ -74,6 +74,8 @@ describe("help", () => {
       ["width", "thicker", "dicker"],
       ["branch", "duplicate", "duplizieren"],
       ["bend", "warp", "verformen"],
+      ["symmetry", "symmetry", "Symmetrie"],
+      ["symmetry", "mirror", "spiegeln"],
       ["size", "height", "Höhe"],
       ["size", "how old", "wie groß"],
       ["fit", "zoom out", "zentrieren"],

@@ -13,6 +13,8 @@ export interface KeyActions {
   tool(tool: ToolName): void;
   escape(): void;
   widen(notches: number): void;
+  /** Goes on to the next kind of symmetry. */
+  symmetry(): void;
   /** Turns what is held, in small steps: sideways, up, or about itself; false if nothing is. */
   turn(right: number, up: number, twist: number): boolean;
   /** Travels so many steps in time, or (`edge`) to where an operation begins or ends. */
@@ -97,6 +99,11 @@ export function listenToKeys(actions: KeyActions): { panHeld(): boolean; stop():
         break;
       case "h":
         actions.bare();
+        break;
+      case "y":
+        if (!event.repeat) {
+          actions.symmetry();
+        }
         break;
       case "?":
         actions.help();

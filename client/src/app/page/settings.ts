@@ -1,5 +1,6 @@
 import { effect, type Signal, signal } from "@preact/signals";
 import { areUnsavedTrees, isSavedState, type SavedState, type UnsavedTree } from "../library/unsaved-tree";
+import { isSymmetry, OFF, type Symmetry } from "../tools/symmetry/symmetry";
 import { LANGUAGES, type Language } from "../words/say";
 
 /** In what light the interface is shown. */
@@ -13,6 +14,8 @@ export interface Settings {
   readonly pressureWidens: Signal<boolean>;
   /** The brush's radius, in internodes. */
   readonly radius: Signal<number>;
+  /** How strokes and outlines are repeated about the trunk. */
+  readonly symmetry: Signal<Symmetry>;
   /** Whether the first stroke has been drawn, after which the hint rests. */
   readonly hasDrawn: Signal<boolean>;
   /** The same for the first outline. */
@@ -45,6 +48,7 @@ export function loadSettings(store: Storage): Settings {
     side: kept(store, "side", "left", (value) => value === "left" || value === "right"),
     pressureWidens: kept(store, "pen-pressure", true, (value) => typeof value === "boolean"),
     radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
+    symmetry: kept<Symmetry>(store, "symmetry", OFF, isSymmetry),
     hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
     hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
     stretch: kept(store, "stretch", 0.3, (value) => typeof value === "number" && value >= 0 && value <= 1),

@@ -17,6 +17,7 @@ import type { BranchWork } from "./branch/branch-work";
 import type { HeldBranch } from "./branch/held-branch";
 import type { ChosenBud } from "./chosen-bud";
 import type { OutlineTrace } from "./lasso/outline-trace";
+import type { Copy } from "./symmetry/symmetry";
 import type { GripTool, StrokeTool } from "./tool";
 import type { WidthList } from "./width/width-list";
 
@@ -52,6 +53,8 @@ export interface ToolDescriptor<Made extends AnyTool = AnyTool> {
   readonly keepsObstacles?: boolean;
   /** The tree grows while it draws. */
   readonly growsIntoStrokes?: boolean;
+  /** What it draws is repeated as the symmetry has it. */
+  readonly isSymmetric?: boolean;
   /** It works with the brush's radius. */
   readonly usesRadius?: boolean;
   /** What to do first, as long as the user has not done it. */
@@ -141,6 +144,8 @@ export interface ToolKit extends Workshop {
   readonly view: Viewport;
   /** Where in depth something lies that begins beside every branch. */
   readonly base: (x: number, y: number) => Vec3;
+  /** What is drawn from a place on the canvas, on the branch of a row or beside every branch, and its repetitions. */
+  readonly copies: (row: number | null, x: number, y: number) => readonly Copy[];
   /** Tells the user something. */
   readonly say: (text: Key | Text) => void;
 }

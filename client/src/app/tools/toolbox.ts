@@ -6,6 +6,8 @@ import { nearestBase } from "../view/places";
 import { say } from "../words/say";
 import type { AnyTool, Mover, Service, ToolDescriptor, ToolKit, Workshop } from "./descriptor";
 import { pace } from "./pacing";
+import { strokeCopies, symmetryNow } from "./symmetry/stroke-copies";
+import type { SymmetryFrame } from "./symmetry/symmetry";
 import { PICK_TOLERANCE } from "./tool";
 import { descriptorOf, FIRST_TOOL, type MadeTools, makeMover, TOOL_NAMES, type ToolName, toolFor } from "./tools";
 
@@ -41,6 +43,8 @@ export class Toolbox {
   readonly chosen = signal<ToolName>(FIRST_TOOL);
   readonly drawing = signal(false);
   readonly hold = signal<Hold | null>(null);
+  /** What the stroke in progress is repeated about. */
+  readonly frame = signal<SymmetryFrame | null>(null);
   /** Each tool by its name, once its code is there; null without a view. */
   readonly made = signal<MadeTools | null>(null);
 
@@ -62,11 +66,19 @@ export class Toolbox {
 
   /** Takes a view into use. */
   attach(view: Viewport): void {
-    const { table, toasts } = this.#options;
+    const { table, toasts, settings, bud } = this.#options;
+    const base = (x: number, y: number) => nearestBase(table, view, x, y);
     const kit: ToolKit = {
       ...this.#options,
       view,
-      base: (x, y) => nearestBase(table, view, x, y),
+      base,
+      copies: strokeCopies(
+        { table, view, base },
+        () => symmetryNow(settings, bud.row.peek()),
+        (frame) => {
+          this.frame.value = frame;
+        },
+      ),
       say: (text) => toasts.show(say(text)),
     };
     this.#kit = kit;
@@ -357,6 +369,7 @@ export class Toolbox {
       this.#active = null;
       this.#letGo();
       this.drawing.value = false;
+      this.frame.value = null;
     }
   }
 

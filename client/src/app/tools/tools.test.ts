@@ -3,7 +3,7 @@ import { LANGUAGES, type Text } from "../words/say";
 import { descriptorOf, FIRST_TOOL, laterOfAll, TOOL_NAMES, toolFor, toolOfKey } from "./tools";
 
 /** Letters that mean something else on the keyboard. */
-const TAKEN = ["D", "F", "G", "H", "U"];
+const TAKEN = ["D", "F", "G", "H", "U", "Y"];
 
 describe("tools", () => {
   it("each has a key of its own", () => {

@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import { followChoices } from "../page/language-and-theme";
 import type { Studio } from "../studio";
+import { symmetryNow } from "../tools/symmetry/stroke-copies";
 import { descriptorOf } from "../tools/tools";
 import { say } from "../words/say";
 import { attachWorkspace } from "../workspace";
@@ -18,7 +19,18 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, RECENT, SHEETS, SUN, TOOL_PARTS, TOUR } from "./parts";
+import {
+  loadPartsWhenIdle,
+  NAMES,
+  PANELS,
+  PREDICTION,
+  RECENT,
+  SHEETS,
+  SUN,
+  SYMMETRY,
+  TOOL_PARTS,
+  TOUR,
+} from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useWorkspaceSize } from "./workspace-size";
@@ -71,6 +83,8 @@ function Workspace({ studio }: { studio: Studio }) {
   }, [studio]);
   const tool = useToolViews(studio);
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
+  const repeats = descriptorOf(studio.tools.chosen.value).isSymmetric === true && isRepeating(studio);
+  const SymmetryMark = usePart(studio, SYMMETRY, repeats);
   const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.layout.panel.value === "background");
   return (
     <main
@@ -81,6 +95,7 @@ function Workspace({ studio }: { studio: Studio }) {
     >
       <canvas id="workspace" ref={canvas} aria-label={say("notices.workspace")} role="img" />
       <Seedlings studio={studio} />
+      {repeats && SymmetryMark && <SymmetryMark studio={studio} />}
       <OutlineOverlay studio={studio} />
       <BudMarker studio={studio} />
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
@@ -92,6 +107,10 @@ function Workspace({ studio }: { studio: Studio }) {
       <HindranceCard studio={studio} />
     </main>
   );
+}
+
+function isRepeating({ settings, bud }: Studio): boolean {
+  return symmetryNow(settings, bud.row.value).kind !== "off";
 }
 
 /** Options and marks of the chosen tool, and the tool; null until they are there. */

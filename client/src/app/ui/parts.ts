@@ -74,6 +74,8 @@ export const TOOL_PARTS = Object.fromEntries(
   TOOL_NAMES.map((name) => [name, new Part(() => descriptorOf(name).later())]),
 ) as Readonly<Record<ToolName, Part<ToolLater>>>;
 
+export const SYMMETRY = new Part(async () => (await import("./overlays/symmetry-mark")).SymmetryMark);
+
 export const SUN = new Part(async () => (await import("./overlays/sun-handle")).SunHandle);
 
 export const TOUR = new Part(async () => (await import("./notices/tour-card")).TourCard);
@@ -88,6 +90,7 @@ const ALL: readonly Part<unknown>[] = [
   PREDICTION,
   ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),
+  SYMMETRY,
   SUN,
   RECENT,
   ...Object.values(SHEETS).map(({ part }) => part),

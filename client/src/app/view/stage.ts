@@ -148,7 +148,7 @@ export class Stage {
     const base = nearestBase(this.#table, view, width / 2, height / 2);
     const place = view.pointOnPlane(width / 2, height / 2, base);
     if (place) {
-      view.showBrush(place, radius);
+      view.showBrush([place], radius);
       clearTimeout(this.#radiusTimer);
       this.#radiusTimer = window.setTimeout(() => {
         if (!this.#busy()) {

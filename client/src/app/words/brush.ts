@@ -32,6 +32,25 @@ export const BRUSH = {
   "brush.section.stroke": ["What a stroke does", "Was ein Strich bewirkt"],
   "brush.section.branches": ["Which branches grow", "Welche Äste wachsen"],
   "brush.section.lasso": ["Lasso", "Lasso"],
+  "brush.section.symmetry": ["Symmetry", "Symmetrie"],
+  "brush.symmetry": ["Repeat strokes", "Striche wiederholen"],
+  "brush.symmetry.help": [
+    "What brush, pencil and lasso draw is repeated about the trunk, all of it as one operation: on its other side as you see it, or around it. While one branch alone grows, nothing is repeated.",
+    "Was Pinsel, Stift und Lasso zeichnen, wiederholt sich am Stamm, alles zusammen als ein Arbeitsgang: auf der anderen Seite, wie du ihn siehst, oder ringsum. Solange nur ein Ast wächst, wiederholt sich nichts.",
+  ],
+  "brush.symmetry.off": ["Off", "Aus"],
+  "brush.symmetry.mirror": ["Mirror", "Spiegel"],
+  "brush.symmetry.around": ["Around", "Ringsum"],
+  "brush.around": ["Times around", "Anzahl ringsum"],
+  "brush.around.help": [
+    "How often each stroke stands around the trunk.",
+    "Wie oft jeder Strich um den Stamm herum steht.",
+  ],
+  "brush.around-mirrored": ["Mirrored as well", "Auch gespiegelt"],
+  "brush.around-mirrored.help": [
+    "Each stroke around the trunk also has a mirror image.",
+    "Jeder Strich um den Stamm hat auch ein Spiegelbild.",
+  ],
   "brush.all-grow": ["Every branch may grow.", "Jeder Ast darf wachsen."],
   "brush.all-grow.how": [
     "To have one alone grow, press and hold it in the picture until the circles close.",

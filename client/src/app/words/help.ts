@@ -185,6 +185,15 @@ export const HELP = {
     "pen width size bigger smaller thicker brush settings",
     "Breite Größe größer kleiner dicker Pinselgröße",
   ],
+  "help.topic.symmetry": ["Symmetry", "Symmetrie"],
+  "help.topic.symmetry.text": [
+    "Brush, pencil and lasso draw on both sides of the trunk at once, or 2 to 8 times around it; set it in the brush panel or with Y",
+    "Pinsel, Stift und Lasso zeichnen auf beiden Seiten des Stamms zugleich oder 2- bis 8-mal ringsum; einzustellen in der Pinseltafel oder mit Y",
+  ],
+  "help.topic.symmetry.words": [
+    "mirror reflect radial kaleidoscope mandala both sides symmetric",
+    "spiegeln symmetrisch beidseitig radial Kaleidoskop Mandala",
+  ],
   "help.topic.import": ["Import a model", "Modell laden"],
   "help.topic.import.text": [
     "In the panel Scene: a glTF file becomes an obstacle to grow around; it can be cancelled on the way",
@@ -235,8 +244,8 @@ export const HELP = {
   "help.topic.install.words": ["offline home screen pwa https", "offline Startbildschirm App pwa https"],
   "help.topic.settings": ["Settings", "Einstellungen"],
   "help.topic.settings.text": [
-    "Language, light or dark, side of the tools, pen pressure",
-    "Sprache, hell oder dunkel, Seite der Werkzeuge, Stiftdruck",
+    "Language, light or dark, side of the tools, pen pressure, whether the view moves back for growth",
+    "Sprache, hell oder dunkel, Seite der Werkzeuge, Stiftdruck, ob die Ansicht dem Wachstum Platz macht",
   ],
   "help.topic.settings.words": [
     "language dark theme left hand preferences options configuration left-handed dark mode names labels icons",
@@ -277,6 +286,7 @@ export const HELP = {
   ],
 
   "help.key.radius": ["Narrower, wider", "Schmaler, breiter"],
+  "help.key.symmetry": ["Symmetry: mirror, around, off", "Symmetrie: gespiegelt, ringsum, aus"],
   "help.key.escape": ["Cancel, stop growing, let go", "Abbrechen, Wachstum anhalten, loslassen"],
   "help.key.grow": ["Grow, ungrow while held", "Gehalten: wachsen, zurückwachsen"],
   "help.key.travel": [

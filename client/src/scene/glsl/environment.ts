@@ -218,14 +218,18 @@ void main() {
 }
 `;
 
+/** At so many places at once the brush can be shown. */
+export const MOST_BRUSHES = 16;
+
 /** The brush's outline: a shell that shows at its rim. */
 export const BRUSH_VERTEX = /* glsl */ `${HEAD}
 in vec3 position;
-uniform vec4 uBrush; // centre and radius
+uniform vec4 uBrush[${MOST_BRUSHES}]; // centre and radius of each
 out vec3 vNormal;
 out vec3 vEye;
 void main() {
-  vec3 world = uBrush.xyz + position * uBrush.w;
+  vec4 brush = uBrush[gl_InstanceID];
+  vec3 world = brush.xyz + position * brush.w;
   vNormal = position;
   vEye = cameraPosition - world;
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);

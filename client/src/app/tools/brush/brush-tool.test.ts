@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command, StrokeSample } from "../../../wire/generated";
+import { copiesOf, OFF } from "../symmetry/symmetry";
 import { BrushTool } from "./brush-tool";
 import { MIN_SPACING } from "./sample-queue";
 
@@ -14,10 +15,11 @@ function setUp() {
     branch: null as Vec3 | null,
     planes: true,
     bud: null as number | null,
+    symmetry: OFF,
     /** How far the view is turned around the vertical through x = 50, in radians. */
     turned: 0,
   };
-  const shown: { point: Vec3; radius: number }[] = [];
+  const shown: { point: Vec3; points: readonly Vec3[]; radius: number }[] = [];
   const tool = new BrushTool({
     view: {
       pointOnPlane: (x, y, through) => {
@@ -26,7 +28,7 @@ function setUp() {
         return world.planes ? [50 + aside * cos + out * sin, (1000 - y) / 10, out * cos - aside * sin] : null;
       },
       pick: () => (world.branch ? { row: 1, point: world.branch } : null),
-      showBrush: (point, radius) => shown.push({ point, radius }),
+      showBrush: (points, radius) => shown.push({ point: points[0]!, points, radius }),
       hideBrush: () => shown.splice(0),
     },
     submit: (command) => sent.push(command),
@@ -36,6 +38,7 @@ function setUp() {
     pressureWidens: () => world.pressure,
     bud: () => world.bud,
     base: () => [0, 0, 2],
+    copies: () => copiesOf(world.symmetry, { foot: [0, 0, 0], across: [1, 0, 0] }),
     drawn: () => {},
   });
   const samples = (): StrokeSample[] =>
@@ -55,6 +58,29 @@ describe("brush tool", () => {
     tool.end();
     expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_move", "stroke_end"]);
     expect(new Set(sent.map((command) => "stroke" in command && command.stroke))).toEqual(new Set([1]));
+  });
+
+  it("CM5: draws all copies at once, as strokes that overlap in time", () => {
+    const { tool, sent, world, shown } = setUp();
+    world.symmetry = { kind: "around", around: 2, mirrored: true };
+    tool.begin(at(30, 990));
+    tool.move([at(50, 980)]);
+    const places = [
+      [5, 2, 2],
+      [-5, 2, 2],
+      [-5, 2, -2],
+      [5, 2, -2],
+    ];
+    const near = (points: readonly (readonly number[])[]) => points.map((point) => point.map((x) => Math.round(x)));
+    expect(near(shown.at(-1)!.points), "all are shown while they are drawn").toEqual(places);
+    tool.tick();
+    tool.end();
+    const each = (kind: Command["kind"]) => sent.filter((command) => command.kind === kind);
+    expect(kinds(sent).slice(0, 4)).toEqual(Array(4).fill("stroke_begin"));
+    expect(kinds(sent).slice(-4)).toEqual(Array(4).fill("stroke_end"));
+    expect(new Set(each("stroke_begin").map((command) => "stroke" in command && command.stroke)).size).toBe(4);
+    const moves = each("stroke_move").slice(0, 4);
+    expect(near(moves.map((move) => (move as { samples: StrokeSample[] }).samples.at(-1)!.position))).toEqual(places);
   });
 
   it("winds around the tree that turns under it", () => {
@@ -230,6 +256,6 @@ describe("brush tool", () => {
   it("hovering shows the brush and sends nothing", () => {
     const { tool, sent, shown } = setUp();
     tool.hover(20, 900);
-    expect([sent, shown]).toEqual([[], [{ point: [2, 10, 2], radius: 4 }]]);
+    expect([sent, shown]).toMatchObject([[], [{ point: [2, 10, 2], radius: 4 }]]);
   });
 });

@@ -3,6 +3,7 @@ import { type Command, MAX_STROKE_SAMPLES, type StrokeSample } from "../../../wi
 import type { StrokePoint } from "../../input/gesture-recogniser";
 import { FeltPressure, radiusShare } from "../../input/pressure";
 import type { BrushView } from "../../view/brush-view";
+import type { Copy } from "../symmetry/symmetry";
 import { PICK_TOLERANCE, type Tool, tidy, withinReach } from "../tool";
 import { MAX_RADIUS } from "./brush-radius";
 import { SampleQueue } from "./sample-queue";
@@ -24,12 +25,15 @@ export interface BrushOptions {
   readonly bud: () => number | null;
   /** Where a stroke lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Vec3;
+  /** What is drawn from a place on the canvas, and its repetitions. */
+  readonly copies: (row: number | null, x: number, y: number) => readonly Copy[];
   /** A stroke has ended. */
   readonly drawn: () => void;
 }
 
 interface Stroke {
-  readonly number: number;
+  /** What it is drawn as, each under the stroke's number that the server knows it by. */
+  readonly copies: readonly (Copy & { readonly number: number })[];
   /** The drawing plane passes through this point, parallel to the screen. */
   readonly through: Vec3;
   readonly samples: SampleQueue;
@@ -53,11 +57,16 @@ export class BrushTool implements Tool {
 
   begin(point: StrokePoint): void {
     this.end();
-    const number = this.#options.newStroke();
-    const through = this.#through(point.x, point.y);
-    this.#stroke = { number, through, samples: new SampleQueue(), pressure: new FeltPressure(), finger: point };
+    const { newStroke, submit } = this.#options;
+    const { through, copies } = this.#begins(point.x, point.y);
     const bud = this.#options.bud();
-    this.#options.submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
+    // Strokes that overlap in time are one operation (`CM5`).
+    const begun = copies.map((copy) => {
+      const number = newStroke();
+      submit({ kind: "stroke_begin", stroke: number, ...(bud === null ? {} : { bud }) });
+      return { ...copy, number };
+    });
+    this.#stroke = { copies: begun, through, samples: new SampleQueue(), pressure: new FeltPressure(), finger: point };
     this.move([point]);
   }
 
@@ -100,7 +109,9 @@ export class BrushTool implements Tool {
     while (stroke.samples.length > 0) {
       this.#send(stroke);
     }
-    this.#options.submit({ kind: "stroke_end", stroke: stroke.number });
+    for (const { number } of stroke.copies) {
+      this.#options.submit({ kind: "stroke_end", stroke: number });
+    }
     this.#stroke = null;
     this.#options.view.hideBrush();
     this.#options.drawn();
@@ -122,9 +133,10 @@ export class BrushTool implements Tool {
     if (this.#stroke) {
       return;
     }
-    const place = this.#options.view.pointOnPlane(x, y, this.#through(x, y));
+    const { through, copies } = this.#begins(x, y);
+    const place = this.#options.view.pointOnPlane(x, y, through);
     if (place) {
-      this.#options.view.showBrush(withinReach(place), this.#options.radius());
+      this.#options.view.showBrush(placesOf(copies, withinReach(place)), this.#options.radius());
     } else {
       this.#options.view.hideBrush();
     }
@@ -148,20 +160,27 @@ export class BrushTool implements Tool {
     }
   }
 
-  #show({ samples: { latest } }: Stroke): void {
+  #show({ copies, samples: { latest } }: Stroke): void {
     if (latest) {
-      this.#options.view.showBrush(latest.position, latest.radius);
+      this.#options.view.showBrush(placesOf(copies, latest.position), latest.radius);
     }
   }
 
-  #through(x: number, y: number): Vec3 {
-    return this.#options.view.pick(x, y, PICK_TOLERANCE)?.point ?? this.#options.base(x, y);
+  /** Where a stroke from a place on the canvas lies in depth, and what it is drawn as. */
+  #begins(x: number, y: number): { readonly through: Vec3; readonly copies: readonly Copy[] } {
+    const { view, base, copies } = this.#options;
+    const picked = view.pick(x, y, PICK_TOLERANCE);
+    return { through: picked?.point ?? base(x, y), copies: copies(picked?.row ?? null, x, y) };
   }
 
   #send(stroke: Stroke): void {
     const samples: StrokeSample[] = stroke.samples.take(MAX_STROKE_SAMPLES);
-    if (samples.length > 0) {
-      this.#options.submit({ kind: "stroke_move", stroke: stroke.number, samples });
+    if (samples.length === 0) {
+      return;
+    }
+    for (const { number, place } of stroke.copies) {
+      const placed = samples.map(({ position, radius }) => ({ position: withinReach(place(position)), radius }));
+      this.#options.submit({ kind: "stroke_move", stroke: number, samples: placed });
     }
   }
 
@@ -170,4 +189,8 @@ export class BrushTool implements Tool {
     const share = pressure !== null && this.#options.pressureWidens() ? radiusShare(pressure) : 1;
     return tidy(Math.min(MAX_RADIUS, Math.max(0, radius * share)));
   }
+}
+
+function placesOf(copies: readonly Copy[], point: Vec3): readonly Vec3[] {
+  return copies.map(({ place }) => withinReach(place(point)));
 }

@@ -13,9 +13,10 @@ export const BRUSH: ToolDescriptor<BrushTool> = {
   choosesBranches: true,
   growsIntoStrokes: true,
   usesRadius: true,
+  isSymmetric: true,
   hint: ({ settings, empty }) =>
     empty && !settings.hasDrawn.value ? ["Draw upward from the seedling", "Zeichne vom Sämling nach oben"] : null,
-  make: ({ view, submit, next, unsettledMoves, settings, bud, base }) =>
+  make: ({ view, submit, next, unsettledMoves, settings, bud, base, copies }) =>
     new BrushTool({
       view,
       submit,
@@ -25,6 +26,7 @@ export const BRUSH: ToolDescriptor<BrushTool> = {
       pressureWidens: () => settings.pressureWidens.peek(),
       bud: () => bud.row.peek(),
       base,
+      copies,
       drawn: () => {
         settings.hasDrawn.value = true;
       },

@@ -10,16 +10,19 @@ export const LASSO: ToolDescriptor<LassoTool> = {
   group: "drawing",
   atOnce: true,
   choosesBranches: true,
+  isSymmetric: true,
   hint: ({ settings, outlined }) =>
     outlined || settings.hasOutlined.value ? null : ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],
-  make: ({ view, submit, next, settings, bud, base, outline, say }) =>
+  make: ({ view, submit, next, settings, bud, base, copies, outline, say }) =>
     new LassoTool({
       view,
       submit,
       bud: () => bud.row.peek(),
       base,
+      copies,
+      newGesture: next,
       depth: () => settings.lassoDepth.peek(),
-      draw: (points) => outline.draw(points),
+      draw: (points, copies) => outline.draw(points, copies),
       sent: (places) => {
         settings.hasOutlined.value = true;
         outline.grow(places, next() - 1);

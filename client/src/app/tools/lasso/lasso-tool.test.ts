@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../../../scene/vector";
 import { type Command, MAX_MESSAGE_BYTES } from "../../../wire/generated";
+import { copiesOf, OFF } from "../symmetry/symmetry";
 import { LassoTool } from "./lasso-tool";
 import type { Point2 } from "./outline";
 
@@ -13,22 +14,32 @@ function setUp() {
     depth: 1,
     slips: 0,
     refusals: 0,
-    places: [] as Vec3[],
+    repeated: [] as readonly (readonly Point2[])[],
+    outlines: [] as readonly (readonly Vec3[])[],
+    symmetry: OFF,
   };
   const drawn: (readonly Point2[] | null)[] = [];
   const tool = new LassoTool({
     view: {
       pointOnPlane: (x, y, through) => [through[0], (1000 - y) / 10, -x / 10],
       pick: () => (world.branch ? { row: 1, point: world.branch } : null),
+      projector:
+        () =>
+        ([, y, z]) => [-10 * z, 1000 - 10 * y],
       drawingPlane: (through) => ({ origin: [...through], right: [0, 0, -1], up: [0, 1, 0] }),
     },
     submit: (command) => sent.push(command),
     bud: () => world.bud,
     depth: () => world.depth,
     base: () => [2, 0, 0],
-    draw: (outline) => drawn.push(outline && [...outline]),
-    sent: (places) => {
-      world.places = [...places];
+    copies: () => copiesOf(world.symmetry, { foot: [2, 0, -40], across: [0, 0, -1] }),
+    newGesture: () => sent.length + 1,
+    draw: (outline, repeated) => {
+      drawn.push(outline && [...outline]);
+      world.repeated = repeated;
+    },
+    sent: (outlines) => {
+      world.outlines = outlines;
     },
     tooSmall: () => {
       world.slips += 1;
@@ -53,6 +64,22 @@ const square: [number, number][] = [
 ];
 
 describe("lasso tool", () => {
+  it("LA1: sends an outline and its mirror image as one gesture, and shows both", () => {
+    const { tool, sent, world, draw } = setUp();
+    world.symmetry = { ...OFF, kind: "mirror" };
+    draw(square);
+    expect(world.repeated).toEqual([square.map(([x, y]) => [800 - x, y])]);
+    tool.end();
+    expect(sent.map((command) => command.gesture)).toEqual([1, 1]);
+    const planes = sent.map((command) => command.kind === "lasso" && command.plane);
+    expect(planes).toEqual([
+      { origin: [2, 0, 0], right: [0, 0, -1], up: [0, 1, 0] },
+      { origin: [2, 0, -80], right: [0, 0, 1], up: [0, 1, 0] },
+    ]);
+    expect(world.outlines).toHaveLength(2);
+    expect(world.outlines[1]![0]).toEqual([2, 10, -70]);
+  });
+
   it("sends what was drawn, in internodes on the drawing plane", () => {
     const { tool, sent, draw } = setUp();
     draw(square);
@@ -95,7 +122,7 @@ describe("lasso tool", () => {
         [11, 27],
       ],
     });
-    expect(world.places.map(([x]) => x)).toEqual([-7, -7, -7, -7]);
+    expect(world.outlines[0]?.map(([x]) => x)).toEqual([-7, -7, -7, -7]);
   });
 
   it("SG1: names the branch that alone may grow", () => {

@@ -2,6 +2,7 @@ import type { Vec3 } from "../../../scene/vector";
 import { type Command, type DrawingPlane, MAX_OUTLINE_POINTS } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
 import type { BrushView } from "../../view/brush-view";
+import type { Copy } from "../symmetry/symmetry";
 import { PICK_TOLERANCE, type Tool, tidy } from "../tool";
 import { enclosedArea, type Point2, simplifiedTo } from "./outline";
 
@@ -18,6 +19,8 @@ const REACH = 1000;
 
 /** What the lasso needs of the view. */
 export interface LassoView extends Pick<BrushView, "pick" | "pointOnPlane"> {
+  /** What turns points of the world into places on the canvas. */
+  projector(): (point: Vec3) => Point2 | null;
   /** The plane parallel to the screen through a point, with axes to the right and upwards. */
   drawingPlane(through: Vec3): DrawingPlane;
 }
@@ -29,12 +32,16 @@ export interface LassoOptions {
   readonly bud: () => number | null;
   /** Where an outline lies in depth if it begins beside every branch. */
   readonly base: (x: number, y: number) => Vec3;
+  /** What is drawn from a place on the canvas, and its repetitions. */
+  readonly copies: (row: number | null, x: number, y: number) => readonly Copy[];
+  /** A number no other gesture of this client has. */
+  readonly newGesture: () => number;
   /** How deep the body becomes: 1 is as deep as wide. */
   readonly depth: () => number;
-  /** The outline as far as it is drawn, in pixels; null for none. */
-  readonly draw: (outline: readonly Point2[] | null) => void;
-  /** An outline was sent; these are its points in the world. */
-  readonly sent: (outline: readonly Vec3[]) => void;
+  /** The outline as far as it is drawn, and its repetitions, in pixels; null for none. */
+  readonly draw: (outline: readonly Point2[] | null, repeated: readonly (readonly Point2[])[]) => void;
+  /** Outlines were sent; these are their points in the world. */
+  readonly sent: (outlines: readonly (readonly Vec3[])[]) => void;
   /** A loop too small to grow into. */
   readonly tooSmall: () => void;
   /** The server would not grow into an outline. */
@@ -47,14 +54,18 @@ export class LassoTool implements Tool {
   #outline: Point2[] | null = null;
   /** The drawing plane passes through this point, parallel to the screen. */
   #through: Vec3 = [0, 0, 0];
+  /** The outline itself and its repetitions. */
+  #copies: readonly Copy[] = [];
 
   constructor(options: LassoOptions) {
     this.#options = options;
   }
 
   begin(point: StrokePoint): void {
-    const { view, base } = this.#options;
-    this.#through = view.pick(point.x, point.y, PICK_TOLERANCE)?.point ?? base(point.x, point.y);
+    const { view, base, copies } = this.#options;
+    const picked = view.pick(point.x, point.y, PICK_TOLERANCE);
+    this.#through = picked?.point ?? base(point.x, point.y);
+    this.#copies = copies(picked?.row ?? null, point.x, point.y);
     this.#outline = [];
     this.move([point]);
   }
@@ -70,7 +81,7 @@ export class LassoTool implements Tool {
         outline.push([x, y]);
       }
     }
-    this.#options.draw(outline);
+    this.#options.draw(outline, this.#repeated(outline));
   }
 
   end(): void {
@@ -81,10 +92,7 @@ export class LassoTool implements Tool {
     }
     const { view, bud, depth, submit, sent, tooSmall } = this.#options;
     const plane = view.drawingPlane(this.#through);
-    const places = simplifiedTo(drawn, TOLERANCE, MAX_OUTLINE_POINTS).flatMap(([x, y]) => {
-      const place = view.pointOnPlane(x, y, this.#through);
-      return place ? [place] : [];
-    });
+    const places = this.#placesOf(simplifiedTo(drawn, TOLERANCE, MAX_OUTLINE_POINTS));
     const outline = places.map((place) => onPlane(place, plane));
     if (enclosedArea(drawn) < LEAST_AREA || enclosedArea(outline) < LEAST_ROOM) {
       tooSmall();
@@ -92,13 +100,47 @@ export class LassoTool implements Tool {
     }
     const row = bud();
     const flat = depth() < 1 ? { depth: depth() } : {};
-    submit({ kind: "lasso", outline, plane, ...flat, ...(row === null ? {} : { bud: row }) });
-    sent(places);
+    const copies = this.#copies;
+    const joined = copies.length > 1 ? { gesture: this.#options.newGesture() } : {};
+    for (const copy of copies) {
+      submit({
+        kind: "lasso",
+        outline,
+        plane: planeOf(copy, plane),
+        ...flat,
+        ...(row === null ? {} : { bud: row }),
+        ...joined,
+      });
+    }
+    sent(copies.map(({ place }) => places.map(place)));
   }
 
   abandon(): void {
     this.#outline = null;
-    this.#options.draw(null);
+    this.#options.draw(null, []);
+  }
+
+  #placesOf(outline: readonly Point2[]): Vec3[] {
+    return outline.flatMap(([x, y]) => {
+      const place = this.#options.view.pointOnPlane(x, y, this.#through);
+      return place ? [place] : [];
+    });
+  }
+
+  /** The outline's repetitions on the canvas. */
+  #repeated(outline: readonly Point2[]): Point2[][] {
+    const [, ...others] = this.#copies;
+    if (others.length === 0) {
+      return [];
+    }
+    const project = this.#options.view.projector();
+    const places = this.#placesOf(outline);
+    return others.map(({ place }) =>
+      places.flatMap((point) => {
+        const at = project(place(point));
+        return at ? [at] : [];
+      }),
+    );
   }
 
   refused({ kind }: Command): void {
@@ -106,6 +148,11 @@ export class LassoTool implements Tool {
       this.#options.refused();
     }
   }
+}
+
+/** Where a repetition of what lies on a plane lies. */
+function planeOf({ place, direction }: Copy, { origin, right, up }: DrawingPlane): DrawingPlane {
+  return { origin: [...place(origin)], right: [...direction(right)], up: [...direction(up)] };
 }
 
 function onPlane(place: Vec3, { origin, right, up }: DrawingPlane): [number, number] {

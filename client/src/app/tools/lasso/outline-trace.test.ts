@@ -7,7 +7,7 @@ describe("outline trace", () => {
     trace.draw([[1, 2]]);
     trace.draw(null);
     expect(trace.shown.value).toBeNull();
-    trace.grow([[0, 0, 0]], 7);
+    trace.grow([[[0, 0, 0]]], 7);
     trace.progressed(6, 0);
     expect(trace.shown.value, "the server does not know of it yet").not.toBeNull();
     trace.progressed(7, 1);
@@ -19,7 +19,7 @@ describe("outline trace", () => {
 
   it("one that is being drawn does not end with growth", () => {
     const trace = new OutlineTrace();
-    trace.grow([[0, 0, 0]], 1);
+    trace.grow([[[0, 0, 0]]], 1);
     trace.draw([[5, 5]]);
     trace.progressed(9, 0);
     expect(trace.shown.value?.stage).toBe("drawing");
@@ -28,10 +28,10 @@ describe("outline trace", () => {
   it("quick growth may end before its command is acknowledged", () => {
     const trace = new OutlineTrace();
     trace.progressed(3, 0);
-    trace.grow([[0, 0, 0]], 4);
+    trace.grow([[[0, 0, 0]]], 4);
     trace.settled(4);
     expect(trace.shown.value?.stage, "no message since").toBe("growing");
-    trace.grow([[0, 0, 0]], 5);
+    trace.grow([[[0, 0, 0]]], 5);
     trace.progressed(4, 0);
     trace.settled(5);
     expect(trace.shown.value).toBeNull();
@@ -44,7 +44,7 @@ describe("outline trace", () => {
     const first = trace.shown.value;
     points.push([2, 2]);
     trace.draw(points);
-    expect([first, trace.shown.value]).toEqual([
+    expect([first, trace.shown.value]).toMatchObject([
       { stage: "drawing", points: [[1, 1]] },
       {
         stage: "drawing",

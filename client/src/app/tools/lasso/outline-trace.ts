@@ -4,23 +4,24 @@ import type { Point2 } from "./outline";
 
 /** An outline on the screen while it is drawn, in the world while the tree grows into it. */
 export type Outline =
-  | { readonly stage: "drawing"; readonly points: readonly Point2[] }
-  | { readonly stage: "growing"; readonly places: readonly Vec3[] };
+  | { readonly stage: "drawing"; readonly points: readonly Point2[]; readonly repeated: readonly (readonly Point2[])[] }
+  | { readonly stage: "growing"; readonly outlines: readonly (readonly Vec3[])[] };
 
 /** The lasso's outline, shown until the tree has filled it. */
 export class OutlineTrace {
   readonly shown = signal<Outline | null>(null);
-  /** The number of the command that grows it. */
+  /** The number of the last command that grows it. */
   #command = 0;
   /** The steps left, by the last message of the server after the command was sent. */
   #left: number | null = null;
 
-  draw(points: readonly Point2[] | null): void {
-    this.shown.value = points && { stage: "drawing", points: [...points] };
+  draw(points: readonly Point2[] | null, repeated: readonly (readonly Point2[])[] = []): void {
+    this.shown.value = points && { stage: "drawing", points: [...points], repeated };
   }
 
-  grow(places: readonly Vec3[], command: number): void {
-    this.shown.value = { stage: "growing", places };
+  /** Outlines are grown by commands up to this one. */
+  grow(outlines: readonly (readonly Vec3[])[], command: number): void {
+    this.shown.value = { stage: "growing", outlines };
     this.#command = command;
     this.#left = null;
   }

@@ -3,6 +3,9 @@ import { GrowthShare } from "../../document/growth/growth-share";
 import { isGrowing, stopGrowth } from "../../document/growth/under-way";
 import type { Transfer } from "../../requests/transfer";
 import type { Studio } from "../../studio";
+import { symmetryNow } from "../../tools/symmetry/stroke-copies";
+import { symmetryText } from "../../tools/symmetry/symmetry-text";
+import { descriptorOf } from "../../tools/tools";
 import { language, say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
 
@@ -32,6 +35,7 @@ export function Chips({ studio }: { studio: Studio }) {
           </button>
         </p>
       )}
+      <SymmetryChip studio={studio} />
       {studio.bud.row.value !== null && (
         <p class="chip">
           <i class="bud-sign" aria-hidden="true" />
@@ -47,6 +51,28 @@ export function Chips({ studio }: { studio: Studio }) {
         </p>
       )}
     </div>
+  );
+}
+
+function SymmetryChip({ studio }: { studio: Studio }) {
+  const symmetry = symmetryNow(studio.settings, studio.bud.row.value);
+  if (symmetry.kind === "off" || descriptorOf(studio.tools.chosen.value).isSymmetric !== true) {
+    return null;
+  }
+  return (
+    <p class="chip">
+      {symmetryText(symmetry)}
+      <button
+        type="button"
+        aria-label={say("tools.symmetry.end")}
+        title={say("tools.symmetry.end")}
+        onClick={() => {
+          studio.settings.symmetry.value = { ...symmetry, kind: "off" };
+        }}
+      >
+        <CloseIcon />
+      </button>
+    </p>
   );
 }
 

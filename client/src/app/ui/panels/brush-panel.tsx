@@ -10,6 +10,7 @@ import { TypedNumber } from "../controls/typed-number";
 import { useSpecies } from "./architecture/species-list";
 import { BrushPicture } from "./brush-picture";
 import { ParameterControl } from "./parameter-control";
+import { SymmetryFields } from "./symmetry-fields";
 
 /** What the brush is like, what its strokes do, and which branches follow it (TreeSketch §3.2). */
 export function BrushPanel({ studio }: { studio: Studio }) {
@@ -52,6 +53,9 @@ export function BrushPanel({ studio }: { studio: Studio }) {
               </button>
             )}
           </div>
+        </Section>
+        <Section name="brush.symmetry" title={say("brush.section.symmetry")} open>
+          <SymmetryFields studio={studio} />
         </Section>
         <Section name="brush.lasso" title={say("brush.section.lasso")} open>
           <Slider
