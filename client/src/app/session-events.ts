@@ -35,7 +35,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly rows: Signal<number>;
   /** Counts the frames of rows that came in. */
   readonly revision: Signal<number>;
-  readonly stage: Pick<Stage, "changed">;
+  readonly stage: Pick<Stage, "changed" | "forget">;
   readonly firstView: FirstView;
 }
 
@@ -129,6 +129,7 @@ function forget(page: SessionTargets): void {
   page.unsaved.clear();
   page.branches.clear();
   page.firstView.forget();
+  page.stage.forget();
   page.table.clear();
   page.stage.changed();
 }

@@ -179,7 +179,13 @@ export class Studio {
     growing: () => this.growth.deflection.value !== 0,
   });
 
-  readonly stage: Stage = new Stage(this.table, this.settings, () => this.tools.drawing.peek());
+  readonly stage: Stage = new Stage({
+    table: this.table,
+    settings: this.settings,
+    busy: () => this.tools.drawing.peek(),
+    growing: () => this.#busy(),
+    tooWide: () => this.toasts.show(say("bars.radius.too-wide")),
+  });
 
   readonly firstView = new FirstView({ stage: this.stage, table: this.table, query: () => location.search });
 

@@ -23,7 +23,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   const loss = new PictureLoss(studio.hindrance);
   let viewport: Viewport;
   try {
-    viewport = new Viewport(canvas, studio.table, loss.tell);
+    viewport = new Viewport(canvas, studio.table, loss.tell, () => studio.stage.moved());
   } catch (error) {
     console.error(error);
     studio.stage.darken();
@@ -44,6 +44,11 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   });
   const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
   const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
+  const stopFollowing = effect(() => {
+    if (studio.document.value) {
+      studio.stage.follow();
+    }
+  });
   const stopScene = effect(() => {
     const chosen = studio.layout.panel.value === "scene" ? studio.obstacles.chosen.value : null;
     viewport.showObstacles(studio.obstacles.drawn.value, chosen);
@@ -52,6 +57,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   return () => {
     stopLife();
     stopScene();
+    stopFollowing();
     stopLeaves();
     stopLooks();
     stopDrawMode();
@@ -84,7 +90,7 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
     },
     tool: (tool) => studio.tools.choose(tool),
     escape: () => stepBack(studio),
-    widen: (notches) => studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches)),
+    widen: (notches) => studio.stage.setRadius(stepRadius(studio.stage.radius, notches)),
     symmetry: () => {
       const { symmetry } = studio.settings;
       symmetry.value = { ...symmetry.peek(), kind: nextKind(symmetry.peek().kind) };
@@ -119,7 +125,7 @@ function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () =
     widen: (factor) => {
       const notches = Math.log(factor) * NOTCHES;
       if (!studio.branches.step(0, 0, notches)) {
-        studio.stage.setRadius(stepRadius(studio.settings.radius.peek(), notches));
+        studio.stage.setRadius(stepRadius(studio.stage.radius, notches));
       }
     },
     panHeld,

@@ -1,7 +1,8 @@
 import { Scene, Vector4, WebGLRenderer } from "three";
 import type { Appearance, DrawingPlane } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
-import { type Box, CameraRig, fitted, union } from "./camera/camera-rig";
+import type { Box } from "./camera/camera-pose";
+import { CameraRig, fitted, union } from "./camera/camera-rig";
 import { extent } from "./camera/extent";
 import { type Pick, pickBranch } from "./camera/picking";
 import { pixelsPerInternode, Sight } from "./camera/sight";
@@ -66,11 +67,15 @@ export class Viewport {
   private lost = false;
   private readonly shadow = new ShadowDue();
 
-  /** Calls `lossChanged` with true when the picture is lost, and with false when it is back. */
+  /**
+   * Calls `lossChanged` with true when the picture is lost, and with false when it is back; and `moved` when the view
+   * has another place or size.
+   */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly table: TreeTable,
     private readonly lossChanged: (lost: boolean) => void = () => {},
+    private readonly moved: () => void = () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
@@ -205,6 +210,38 @@ export class Viewport {
   restoreView(): void {
     this.rig.restore();
     this.stir();
+  }
+
+  /** How often the user has moved the camera. */
+  get moves(): number {
+    return this.rig.moves;
+  }
+
+  /** Whether the whole box is in the picture, once the camera has come where it goes. */
+  frames(box: Box): boolean {
+    return this.rig.frames(box, this.sight.width / this.sight.height);
+  }
+
+  /** Eases back until it is. */
+  widen(box: Box): void {
+    this.rig.widen(box, this.sight.width / this.sight.height);
+    this.stir();
+  }
+
+  /** Whether it has done that, and the user has not moved the camera since. */
+  get isWidened(): boolean {
+    return this.rig.isWidened;
+  }
+
+  /** Eases to where it was before. */
+  unwiden(): void {
+    this.rig.unwiden();
+    this.stir();
+  }
+
+  /** The radius of the largest brush around a point, or what the camera looks at, that stays in the picture. */
+  widest(point: Vec3 = this.rig.pose.target): number {
+    return this.aimed().widest(point);
   }
 
   /** Where a place on the canvas, in CSS pixels, lies in the plane that faces the camera and holds `through`. */
@@ -388,6 +425,7 @@ export class Viewport {
     const growing = now < Math.max(this.table.settledAt + AFTERGROWTH_SECONDS, this.tree.glidesUntil);
     const moving = this.rig.step(step);
     if (growing || moving) control.moved(began);
+    if (moving) this.moved();
     if (this.pause.on) return growing || moving;
     const { quality } = control;
     const { camera } = this.aimed();
@@ -467,6 +505,7 @@ export class Viewport {
     this.screen.resize(width, height, ratio);
     if (this.sun.fit(Math.max(width, height) * ratio)) this.shadow.stale = true;
     this.loop.invalidate();
+    this.moved();
   }
 
   private readonly lose = (event: Event): void => {

@@ -89,6 +89,64 @@ describe("symmetry", () => {
   });
 });
 
+describe("the brush and the picture", () => {
+  it("the brush is no wider than the picture, dragged or typed, and says why", async () => {
+    const { tablet } = await workshop.fresh(LANDSCAPE);
+    const { page } = tablet;
+    const slider = page.getByLabel("Brush radius", { exact: true });
+    const radius = async () => Number(await slider.getAttribute("aria-valuenow"));
+    const tooWide = page.getByText("A wider brush would not fit into the picture");
+    // From the first view, which is 40 internodes high, the widest brush would be twice as wide as the picture.
+    const track = await tablet.boxOf(slider);
+    const x = track.x + track.width / 2;
+    await tablet.swipe([way({ x, y: track.y + track.height / 2 }, { x, y: track.y + 4 })]);
+    await tooWide.waitFor();
+    const widest = await radius();
+    expect(widest).toBeGreaterThan(10);
+    expect(widest).toBeLessThan(20);
+    await tooWide.tap();
+    await tablet.tap("Brush");
+    const typed = page.getByLabel("Radius: value", { exact: true });
+    await typed.fill("35");
+    await page.keyboard.press("Enter");
+    await tooWide.waitFor();
+    expect(await radius()).toBe(widest);
+    await tablet.tap("Close Brush");
+    // Nearer, the same brush would be too wide again.
+    await tablet.swipe([way({ x: 560, y: 400 }, { x: 360, y: 400 }), way({ x: 640, y: 400 }, { x: 840, y: 400 })]);
+    await expect.poll(radius).toBeLessThan(widest / 2);
+  });
+
+  it("the view moves back for growth that leaves it, and back again when asked", async () => {
+    const { tablet, address } = await workshop.fresh(LANDSCAPE);
+    const { page } = tablet;
+    const back = page.getByRole("button", { name: "Back to my view" });
+    await workshop.act(address, [{ kind: "grow", steps: 30 }]);
+    await back.waitFor();
+    await tablet.untilQuiet();
+    await tablet.show("moved-back");
+    await back.tap();
+    await back.waitFor({ state: "detached" });
+    await tablet.show("my-view");
+    // Who looks at a part of the tree goes on doing so.
+    await workshop.act(address, [{ kind: "grow", steps: 5 }]);
+    await tablet.untilQuiet();
+    expect(await back.count()).toBe(0);
+    await tablet.tap("Show the whole tree");
+    await workshop.act(address, [{ kind: "grow", steps: 12 }]);
+    await back.waitFor();
+    await tablet.untilQuiet();
+    await tablet.tap("Show the whole tree");
+    await back.waitFor({ state: "detached" });
+    await tablet.tap("Settings");
+    await page.getByLabel("Move back when growth leaves the picture").uncheck();
+    await page.keyboard.press("Escape");
+    await workshop.act(address, [{ kind: "grow", steps: 12 }]);
+    await tablet.untilQuiet();
+    expect(await back.count(), "it is turned off").toBe(0);
+  });
+});
+
 describe("help and sheets", () => {
   it("one Escape closes a sheet, also while something is searched", async () => {
     const { tablet } = await workshop.fresh(SMALL);

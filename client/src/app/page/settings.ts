@@ -16,6 +16,8 @@ export interface Settings {
   readonly radius: Signal<number>;
   /** How strokes and outlines are repeated about the trunk. */
   readonly symmetry: Signal<Symmetry>;
+  /** Whether the camera moves back when growth leaves the picture. */
+  readonly followsGrowth: Signal<boolean>;
   /** Whether the first stroke has been drawn, after which the hint rests. */
   readonly hasDrawn: Signal<boolean>;
   /** The same for the first outline. */
@@ -49,6 +51,7 @@ export function loadSettings(store: Storage): Settings {
     pressureWidens: kept(store, "pen-pressure", true, (value) => typeof value === "boolean"),
     radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
     symmetry: kept<Symmetry>(store, "symmetry", OFF, isSymmetry),
+    followsGrowth: kept(store, "follow-growth", true, (value) => typeof value === "boolean"),
     hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
     hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
     stretch: kept(store, "stretch", 0.3, (value) => typeof value === "number" && value >= 0 && value <= 1),

@@ -42,6 +42,7 @@ function setUp(table = new TreeTable()) {
     depthBelow: () => null,
     looksDown: () => false,
     showBrush: () => {},
+    widest: () => 40,
     hideBrush: () => {},
   } as unknown as Viewport;
   const submit = (command: Command) => sent.push(command);

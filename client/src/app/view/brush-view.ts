@@ -6,6 +6,8 @@ export interface BrushView {
   pointOnPlane(x: number, y: number, through: Vec3): Vec3 | null;
   /** The branch nearest to a pixel, within a tolerance in pixels. */
   pick(x: number, y: number, tolerance: number): { readonly row: number; readonly point: Vec3 } | null;
+  /** The radius of the widest brush around a point that stays in the picture. */
+  widest(point: Vec3): number;
   /** Shows the brush at one or more places. */
   showBrush(points: readonly Vec3[], radius: number): void;
   hideBrush(): void;

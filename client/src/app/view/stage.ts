@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
 import type { View } from "../../scene/camera/view";
 import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
@@ -6,17 +7,34 @@ import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { Appearance } from "../../wire/generated";
 import type { Settings } from "../page/settings";
+import { MAX_RADIUS } from "../tools/brush/brush-radius";
+import { GrowthFollower } from "./growth-follower";
 import { Holds } from "./holds";
 import { nearestBase, scaleAt } from "./places";
 
 /** How long the brush stays visible after its radius changed. */
 const RADIUS_SHOWN_FOR = 900;
 
+export interface StageOptions {
+  readonly table: TreeTable;
+  readonly settings: Pick<Settings, "radius" | "followsGrowth">;
+  /** Whether a tool shows its own preview; then the radius is not shown. */
+  readonly busy: () => boolean;
+  /** Whether something grows. */
+  readonly growing: () => boolean;
+  /** The radius asked for is wider than the picture. */
+  readonly tooWide: () => void;
+}
+
 /** The picture of the tree as the tools and the interface use it; the view may not exist yet. */
 export class Stage {
+  /** The radius of the widest brush that stays in the picture. */
+  readonly widest = signal(MAX_RADIUS);
+  /** Whether the camera has moved back to show growth, and the user has not moved it since. */
+  readonly widened = signal(false);
+  #options: StageOptions;
   #table: TreeTable;
-  #settings: Settings;
-  #busy: () => boolean;
+  #follower: GrowthFollower;
   #view: Viewport | null = null;
   #canvas: HTMLCanvasElement | null = null;
   #radiusTimer = 0;
@@ -27,13 +45,21 @@ export class Stage {
   #mode: DrawMode = "lit";
   /** What it is to show once it is made. */
   #look: View | null = null;
-  #holds = new Holds((held) => this.#view?.hold(held));
+  #holds = new Holds((held) => {
+    this.#view?.hold(held);
+    this.follow();
+  });
 
-  /** `busy` says whether a tool shows its own preview; then the radius is not shown. */
-  constructor(table: TreeTable, settings: Settings, busy: () => boolean) {
-    this.#table = table;
-    this.#settings = settings;
-    this.#busy = busy;
+  constructor(options: StageOptions) {
+    this.#options = options;
+    this.#table = options.table;
+    this.#follower = new GrowthFollower({
+      view: () => this.#view,
+      box: () => this.#table.bounds(),
+      growing: options.growing,
+      held: () => this.#holds.held,
+      enabled: () => options.settings.followsGrowth.peek(),
+    });
   }
 
   attach(view: Viewport, canvas: HTMLCanvasElement): void {
@@ -77,6 +103,37 @@ export class Stage {
   /** Rows have changed; draw. */
   changed(): void {
     this.#view?.changed();
+    this.follow();
+  }
+
+  /** Growth may have begun, gone on or ended, or a finger has lifted: the camera moves back where that is called for. */
+  follow(): void {
+    this.#follower.follow();
+    this.moved();
+  }
+
+  /** Another session is opened: what it shows has not grown before the user's eyes. */
+  forget(): void {
+    this.#follower.forget();
+  }
+
+  /** The view has another place or size. */
+  moved(): void {
+    if (this.#view) {
+      this.widest.value = Math.min(MAX_RADIUS, Math.floor(10 * this.#view.widest()) / 10);
+      this.widened.value = this.#view.isWidened;
+    }
+  }
+
+  /** Goes back to what was shown before the camera moved back. */
+  unwiden(): void {
+    this.#view?.unwiden();
+    this.moved();
+  }
+
+  /** The brush's radius as it draws: what was chosen, if the picture has room for it. */
+  get radius(): number {
+    return Math.min(this.#options.settings.radius.value, this.widest.value);
   }
 
   setLeafSize(size: number): void {
@@ -137,11 +194,15 @@ export class Stage {
     return this.#view?.pick(x, y, tolerance)?.row ?? null;
   }
 
-  /** Sets the brush's radius and shows it for a moment where it would draw. */
-  setRadius(radius: number): void {
-    this.#settings.radius.value = radius;
+  /** Sets the brush's radius, no wider than the picture, and shows it for a moment where it would draw. */
+  setRadius(wanted: number): void {
+    const radius = Math.min(wanted, this.widest.peek());
+    this.#options.settings.radius.value = radius;
+    if (wanted > radius) {
+      this.#options.tooWide();
+    }
     const [view, canvas] = [this.#view, this.#canvas];
-    if (!view || !canvas || this.#busy()) {
+    if (!view || !canvas || this.#options.busy()) {
       return;
     }
     const { clientWidth: width, clientHeight: height } = canvas;
@@ -151,7 +212,7 @@ export class Stage {
       view.showBrush([place], radius);
       clearTimeout(this.#radiusTimer);
       this.#radiusTimer = window.setTimeout(() => {
-        if (!this.#busy()) {
+        if (!this.#options.busy()) {
           view.hideBrush();
         }
       }, RADIUS_SHOWN_FOR);

@@ -15,6 +15,10 @@ export const BARS = {
     "Skizze: ein einzelner Ast, genau dem Strich nach",
   ],
   "bars.radius.value": ["{radius} internodes", "{radius} Internodien"],
+  "bars.radius.too-wide": [
+    "A wider brush would not fit into the picture; zoom out to draw with one.",
+    "Ein breiterer Pinsel passt nicht ins Bild; verkleinere die Ansicht, um mit ihm zu zeichnen.",
+  ],
   "bars.grow": ["Grow", "Wachsen"],
   "bars.grow.title": ["Push up to grow, pull down to grow backwards", "Nach oben: wachsen; nach unten: zurückwachsen"],
   "bars.grow.rest": ["at rest", "in Ruhe"],

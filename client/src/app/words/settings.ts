@@ -10,5 +10,6 @@ export const SETTINGS = {
   "settings.side.left": ["Left", "Links"],
   "settings.side.right": ["Right", "Rechts"],
   "settings.names": ["Names on all buttons", "Namen an allen Knöpfen"],
+  "settings.follow": ["Move back when growth leaves the picture", "Zurückgehen, wenn Wachstum das Bild verlässt"],
   "settings.pressure": ["Pen pressure widens the brush", "Stiftdruck verbreitert den Pinsel"],
 } as const;

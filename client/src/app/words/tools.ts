@@ -44,6 +44,8 @@ export const TOOLS = {
     "{count}-mal um den Stamm, gespiegelt",
   ],
   "tools.symmetry.end": ["End the symmetry", "Symmetrie beenden"],
+  "tools.widened": ["Moved back to show the growth", "Zurückgegangen, um das Wachstum zu zeigen"],
+  "tools.widened.back": ["Back to my view", "Zurück zu meiner Ansicht"],
   "tools.growing": ["Growing…", "Wächst…"],
   "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],

@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../../test/randoms";
-import { CameraRig, FIELD_OF_VIEW, fitted } from "./camera-rig";
+import { FIELD_OF_VIEW } from "./camera-pose";
+import { CameraRig, fitted } from "./camera-rig";
 
 const tree = { min: [-10, 0, -8], max: [12, 30, 9] } as const;
 

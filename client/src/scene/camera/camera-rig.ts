@@ -1,26 +1,8 @@
 import type { Vec3 } from "../vector";
+import { type Box, type CameraPose, FIELD_OF_VIEW } from "./camera-pose";
 import { Damper } from "./damper";
 import type { View } from "./view";
-
-/** Where the camera is: on a sphere around a target, looking at it. */
-export interface CameraPose {
-  target: [number, number, number];
-  /** Turn around the vertical, in radians; 0 looks along −z. */
-  yaw: number;
-  /** Height above the horizontal through the target, in radians. */
-  pitch: number;
-  /** From the target, in internodes. */
-  distance: number;
-}
-
-/** The box the camera keeps in reach. */
-export interface Box {
-  min: readonly [number, number, number];
-  max: readonly [number, number, number];
-}
-
-/** Full vertical opening angle, in radians. */
-export const FIELD_OF_VIEW = (32 * Math.PI) / 180;
+import { frames, widened } from "./widening";
 
 const HALF_LIFE = 0.06;
 const EASE_HALF_LIFE = 0.18;
@@ -49,6 +31,10 @@ export class CameraRig {
   private before: CameraPose | null = null;
   /** What `fit` showed; it may be about to grow there, and stays in reach until the user moves the camera. */
   private fittedBox: Box | null = null;
+  /** Where the goal was before `widen`, as long as the user has not moved the camera since. */
+  private narrow: CameraPose | null = null;
+  /** How often the user has moved the camera. */
+  moves = 0;
 
   constructor() {
     const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
@@ -112,6 +98,8 @@ export class CameraRig {
 
   /** Eases to a view of the whole box; `covered` is the share of the picture at its foot that something lies over. */
   fit(box: Box, aspect: number, covered = 0): void {
+    this.moves += 1;
+    this.narrow = null;
     this.before = structuredClone(this.goal);
     this.fittedBox = box;
     this.box = union(this.box, box);
@@ -119,6 +107,33 @@ export class CameraRig {
     pose.distance /= 1 - covered;
     pose.target[1] -= covered * pose.distance * Math.tan(FIELD_OF_VIEW / 2);
     Object.assign(this.goal, pose);
+    this.easing = true;
+    this.limit();
+  }
+
+  /** Whether the whole box is in the picture, once the camera has come where it goes. */
+  frames(box: Box, aspect: number): boolean {
+    return frames(box, this.goal, aspect);
+  }
+
+  /** Eases back until the whole box is in the picture. */
+  widen(box: Box, aspect: number): void {
+    this.narrow ??= structuredClone(this.goal);
+    this.box = union(this.box, box);
+    Object.assign(this.goal, widened(box, this.goal, aspect));
+    this.easing = true;
+    this.limit();
+  }
+
+  get isWidened(): boolean {
+    return this.narrow !== null;
+  }
+
+  /** Eases to where the camera was before `widen`, unless the user has moved it since. */
+  unwiden(): void {
+    if (!this.narrow) return;
+    Object.assign(this.goal, this.narrow);
+    this.take();
     this.easing = true;
     this.limit();
   }
@@ -173,6 +188,8 @@ export class CameraRig {
 
   /** The user takes hold of the camera. */
   private take(): void {
+    this.moves += 1;
+    this.narrow = null;
     this.easing = false;
     this.before = null;
     this.fittedBox = null;

@@ -1,7 +1,7 @@
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import type { DrawingPlane } from "../../wire/generated";
 import type { Ray, Vec3 } from "../vector";
-import { type CameraPose, FIELD_OF_VIEW } from "./camera-rig";
+import { type CameraPose, FIELD_OF_VIEW } from "./camera-pose";
 import type { Projection } from "./picking";
 
 /** Ground seen from further off than this many times the eye's distance from the tree is too far to aim at. */
@@ -10,6 +10,9 @@ const FURTHEST_AIM = 4;
 const NEAR_ENOUGH = 150;
 /** An eye that looks down more steeply than this, in radians, sees the ground rather than what rises from it. */
 const LOOKS_DOWN = 0.5;
+
+/** The share of the picture's shorter side that the largest brush has. */
+const FITTING = 0.9;
 
 /** The eye of the camera, and how places on the screen and in the world correspond. Screen places are CSS pixels of the canvas. */
 export class Sight {
@@ -48,6 +51,12 @@ export class Sight {
     const through = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera);
     const direction = through.sub(origin).normalize();
     return { origin: [origin.x, origin.y, origin.z], direction: [direction.x, direction.y, direction.z] };
+  }
+
+  /** The radius of the largest ball around a point that stays in the picture when it is seen in the middle. */
+  widest(point: Vec3): number {
+    const depth = this.depthOf(point, this.camera.getWorldDirection(new Vector3()));
+    return (FITTING * Math.min(this.width, this.height) * Math.max(depth, 0)) / (2 * pixelsPerInternode(this.height));
   }
 
   /** Where a place lies in the plane that faces the eye and holds `through`. */

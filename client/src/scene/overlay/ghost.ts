@@ -1,5 +1,5 @@
 import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector3, Vector4 } from "three";
-import type { Box } from "../camera/camera-rig";
+import type { Box } from "../camera/camera-pose";
 import { LeafRows } from "../foliage/leaf-rows";
 import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
 import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "../glsl/leaf";

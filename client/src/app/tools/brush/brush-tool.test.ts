@@ -16,6 +16,7 @@ function setUp() {
     planes: true,
     bud: null as number | null,
     symmetry: OFF,
+    widest: 40,
     /** How far the view is turned around the vertical through x = 50, in radians. */
     turned: 0,
   };
@@ -28,6 +29,7 @@ function setUp() {
         return world.planes ? [50 + aside * cos + out * sin, (1000 - y) / 10, out * cos - aside * sin] : null;
       },
       pick: () => (world.branch ? { row: 1, point: world.branch } : null),
+      widest: () => world.widest,
       showBrush: (points, radius) => shown.push({ point: points[0]!, points, radius }),
       hideBrush: () => shown.splice(0),
     },
@@ -58,6 +60,20 @@ describe("brush tool", () => {
     tool.end();
     expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_move", "stroke_end"]);
     expect(new Set(sent.map((command) => "stroke" in command && command.stroke))).toEqual(new Set([1]));
+  });
+
+  it("is no wider than the picture, drawn or shown", () => {
+    const { tool, world, samples, shown } = setUp();
+    world.widest = 2.5;
+    tool.hover(20, 900);
+    expect(shown.at(-1)?.radius).toBe(2.5);
+    tool.begin(at(50, 900));
+    world.widest = 30;
+    tool.tick();
+    expect(
+      samples().map(({ radius }) => radius),
+      "the user may zoom out meanwhile",
+    ).toEqual([2.5, 4]);
   });
 
   it("CM5: draws all copies at once, as strokes that overlap in time", () => {

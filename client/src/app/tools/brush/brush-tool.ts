@@ -136,7 +136,7 @@ export class BrushTool implements Tool {
     const { through, copies } = this.#begins(x, y);
     const place = this.#options.view.pointOnPlane(x, y, through);
     if (place) {
-      this.#options.view.showBrush(placesOf(copies, withinReach(place)), this.#options.radius());
+      this.#options.view.showBrush(placesOf(copies, withinReach(place)), this.#radius(null, through));
     } else {
       this.#options.view.hideBrush();
     }
@@ -153,7 +153,7 @@ export class BrushTool implements Tool {
       return;
     }
     const position = withinReach(place);
-    const radius = this.#radius(pressure.value);
+    const radius = this.#radius(pressure.value, through);
     const { latest } = samples;
     if (latest?.radius !== radius || position.some((value, axis) => value !== latest.position[axis])) {
       samples.add({ position, radius });
@@ -184,8 +184,9 @@ export class BrushTool implements Tool {
     }
   }
 
-  #radius(pressure: number | null): number {
-    const radius = this.#options.radius();
+  /** The radius under a pressure; no wider than the picture shows around a point. */
+  #radius(pressure: number | null, through: Vec3): number {
+    const radius = Math.min(this.#options.radius(), this.#options.view.widest(through));
     const share = pressure !== null && this.#options.pressureWidens() ? radiusShare(pressure) : 1;
     return tidy(Math.min(MAX_RADIUS, Math.max(0, radius * share)));
   }

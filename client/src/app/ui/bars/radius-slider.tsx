@@ -1,13 +1,13 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
-import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
+import { placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 
 /** A vertical slider for the brush's radius. */
 export function RadiusSlider({ studio }: { studio: Studio }) {
   const track = useRef<HTMLDivElement>(null);
-  const radius = studio.settings.radius.value;
+  const { radius } = studio.stage;
   const place = placeOf(radius);
 
   const follow = (event: PointerEvent) => {
@@ -21,7 +21,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
     if (notches !== undefined) {
       studio.stage.setRadius(stepRadius(radius, notches));
     } else if (event.key === "Home" || event.key === "End") {
-      studio.stage.setRadius(event.key === "Home" ? 0 : MAX_RADIUS);
+      studio.stage.setRadius(event.key === "Home" ? 0 : studio.stage.widest.peek());
     } else {
       return;
     }
@@ -41,7 +41,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
         aria-label={say("bars.radius")}
         aria-orientation="vertical"
         aria-valuemin={0}
-        aria-valuemax={MAX_RADIUS}
+        aria-valuemax={studio.stage.widest.value}
         aria-valuenow={Math.round(radius * 10) / 10}
         aria-valuetext={
           radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })

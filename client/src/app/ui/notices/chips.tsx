@@ -36,6 +36,14 @@ export function Chips({ studio }: { studio: Studio }) {
         </p>
       )}
       <SymmetryChip studio={studio} />
+      {studio.stage.widened.value && (
+        <p class="chip">
+          {say("tools.widened")}
+          <button type="button" class="chip-stop" onClick={() => studio.stage.unwiden()}>
+            {say("tools.widened.back")}
+          </button>
+        </p>
+      )}
       {studio.bud.row.value !== null && (
         <p class="chip">
           <i class="bud-sign" aria-hidden="true" />

@@ -81,7 +81,7 @@ export function BrushPanel({ studio }: { studio: Studio }) {
 
 /** What a brush as wide as this does: as wide as a bud's own zone it still leads one limb. */
 function deedOf(studio: Studio): "sketch" | "narrow" | "wide" {
-  const radius = studio.settings.radius.value;
+  const { radius } = studio.stage;
   return radius === 0 ? "sketch" : radius <= zoneIn(studio) ? "narrow" : "wide";
 }
 
@@ -91,7 +91,7 @@ const zoneIn = (studio: Studio): number => (studio.parameters.value ?? DEFAULTS)
 const STOPS = 200;
 
 function RadiusField({ studio }: { studio: Studio }) {
-  const radius = studio.settings.radius.value;
+  const { radius } = studio.stage;
   const [place, zone] = [placeOf(radius), zoneIn(studio)];
   const label = say("brush.radius");
   const shown = radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) });

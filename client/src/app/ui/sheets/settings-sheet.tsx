@@ -8,7 +8,7 @@ const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" 
 
 /** What a person chooses for this device. */
 export function SettingsSheet({ studio }: { studio: Studio }) {
-  const { language, theme, side, pressureWidens, namesShown } = studio.settings;
+  const { language, theme, side, pressureWidens, namesShown, followsGrowth } = studio.settings;
   return (
     <div class="options">
       <Segments
@@ -42,6 +42,7 @@ export function SettingsSheet({ studio }: { studio: Studio }) {
       />
       <Check label={say("settings.names")} chosen={namesShown} />
       <Check label={say("settings.pressure")} chosen={pressureWidens} />
+      <Check label={say("settings.follow")} chosen={followsGrowth} />
     </div>
   );
 }
