@@ -1,7 +1,7 @@
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { TreeTable } from "../scene/table/tree-table";
-import type { Command, DocumentState, Parameters } from "../wire/generated";
+import type { Command, DocumentState, Parameters, SavedTree } from "../wire/generated";
 import { rowStore } from "./connection/row-store";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
@@ -36,6 +36,9 @@ import { say } from "./words/say";
 
 /** The side of the pictures of trees that were not saved, in pixels. */
 const UNSAVED_PICTURE = 256;
+
+/** The device remembers the names of so many trees. */
+const KEPT_NAMES = 50;
 
 /** One open page: the session it shows and the tools. */
 export class Studio {
@@ -112,6 +115,7 @@ export class Studio {
   });
   readonly exports = new Exports({
     session: () => this.link.session.peek(),
+    photograph: (size, stop, tell) => this.stage.picture(size, stop, tell),
     give: keepFile,
     failed: (error) => void this.#explain(error),
   });
@@ -171,6 +175,9 @@ export class Studio {
     tapped: (fingers) => undoByTap(this, fingers),
   });
 
+  /** What the tree was saved or opened as on this device; null if it was not. */
+  readonly treeName = computed(() => this.settings.treeNames.value[this.link.session.value ?? ""] ?? null);
+
   readonly tour = new Tour({
     settings: this.settings,
     ready: () => this.link.phase.value === "connected" && this.rows.value > 0 && this.hindrance.value === null,
@@ -206,11 +213,12 @@ export class Studio {
    * Leaves this session for a new one, empty or from a saved tree. What is not saved is kept under Unsaved, unless the
    * user would not have it.
    */
-  async newSession(tree?: string, keeps = true): Promise<void> {
-    const left = await this.#leave(keeps, () => this.link.change(tree));
+  async newSession(tree?: Pick<SavedTree, "id" | "name">, keeps = true): Promise<void> {
+    const left = await this.#leave(keeps, () => this.link.change(tree?.id));
     const session = this.link.session.peek();
     if (left && tree !== undefined && session !== null) {
       this.unsaved.opened(session);
+      this.nameTree(tree.name);
     }
   }
 
@@ -243,6 +251,14 @@ export class Studio {
     return true;
   }
 
+  /** What the tree is called here from now on. */
+  nameTree(name: string): void {
+    const session = this.link.session.peek();
+    if (session !== null) {
+      this.settings.treeNames.value = { ...lastOf(this.settings.treeNames.peek(), KEPT_NAMES - 1), [session]: name };
+    }
+  }
+
   /** Sends a command and gives its number; 0 while no session is open. */
   submit(command: Command): number {
     // The server gives up what it was asked to predict and does not always say so (`PD2`).
@@ -262,6 +278,11 @@ export class Studio {
   async #explain(error: unknown): Promise<void> {
     this.toasts.show(await explained(error));
   }
+}
+
+/** The names that were noted last. */
+function lastOf(names: Readonly<Record<string, string>>, count: number): Readonly<Record<string, string>> {
+  return Object.fromEntries(Object.entries(names).slice(-count));
 }
 
 /** A gesture as a command carries it. */

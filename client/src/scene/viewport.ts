@@ -1,11 +1,11 @@
 import { Scene, Vector4, WebGLRenderer } from "three";
 import type { Appearance, DrawingPlane } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
-import type { Box } from "./camera/camera-pose";
+import type { Box, CameraPose } from "./camera/camera-pose";
 import { CameraRig, fitted, union } from "./camera/camera-rig";
 import { extent } from "./camera/extent";
 import { type Pick, pickBranch } from "./camera/picking";
-import { pixelsPerInternode, Sight } from "./camera/sight";
+import { type PictureSize, pixelsPerInternode, Sight } from "./camera/sight";
 import type { View } from "./camera/view";
 import { Environment } from "./light/environment";
 import { ShadowDue } from "./light/shadow-due";
@@ -18,13 +18,13 @@ import { Ghost, type GhostPose } from "./overlay/ghost";
 import type { Overlay } from "./overlay/overlays";
 import { Painter } from "./painting/painter";
 import type { Fineness } from "./rendering/fineness";
+import type { Tile } from "./rendering/picture-tiles";
 import { followPixelRatio } from "./rendering/pixel-ratio";
 import { OPENING } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { RenderPause } from "./rendering/render-pause";
 import { Screen } from "./rendering/screen";
-import { encodePicture } from "./rendering/thumbnail";
 import type { TreeTable } from "./table/tree-table";
 import { TreeView } from "./tree-view";
 import type { Vec3 } from "./vector";
@@ -65,6 +65,8 @@ export class Viewport {
   private unsettled = false;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
   private lost = false;
+  /** Whether a picture is being made of what the scene is now. */
+  private posing = false;
   private readonly shadow = new ShadowDue();
 
   /**
@@ -354,7 +356,8 @@ export class Viewport {
 
   /** A picture of the whole tree as a data URL of at most 192 KiB, if any can be drawn; too small for every detail. */
   async thumbnail(width: number, height: number): Promise<string | undefined> {
-    if (this.lost) return undefined;
+    const { encodePicture } = await import("./rendering/thumbnail");
+    if (this.lost || this.posing) return undefined;
     const pose = fitted(this.table.bounds(), width / height, this.rig.pose.yaw);
     const passing = [this.brush.mesh, this.ghost.group].filter(({ visible }) => visible);
     for (const object of passing) object.visible = false;
@@ -368,6 +371,35 @@ export class Viewport {
     for (const object of passing) object.visible = true;
     if (mode !== "lit") this.setDrawMode(mode);
     return picture;
+  }
+
+  /** Pixels of the picture across and down where the device draws all of them; null while there is none. */
+  get pixels(): PictureSize | null {
+    const { width, height } = this.sight;
+    const ratio = Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO);
+    return this.lost ? null : { width: Math.round(width * ratio), height: Math.round(height * ratio) };
+  }
+
+  /** The view as PNG, of so many pixels; what is on the canvas stands still meanwhile. */
+  async picture(size: PictureSize, stop: AbortSignal, tell: (share: number) => void): Promise<Blob> {
+    const { pictureInTiles } = await import("./rendering/picture-tiles");
+    if (this.lost) throw new Error("There is no picture.");
+    const [pose, eye] = [structuredClone(this.rig.pose), this.rig.eye()];
+    this.sync();
+    this.posing = true;
+    try {
+      return await pictureInTiles({
+        renderer: this.renderer,
+        ...size,
+        stop,
+        tell,
+        draw: (tile) => this.drawTile(pose, eye, size, tile),
+      });
+    } finally {
+      this.posing = false;
+      this.shadow.stale = true;
+      this.loop.invalidate();
+    }
   }
 
   /** Lets go of the GPU and the canvas. */
@@ -414,7 +446,7 @@ export class Viewport {
 
   private readonly draw = ({ began, step, asked }: RenderTime): boolean => {
     // What changes meanwhile is taken over once there is something to draw on.
-    if (this.lost || !this.rehearsal.prepare()) return false;
+    if (this.lost || this.posing || !this.rehearsal.prepare()) return false;
     const { control } = this.loop;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.sight.camera);
@@ -472,6 +504,24 @@ export class Viewport {
 
   private drawShadow(): void {
     this.sun.render(this.renderer, this.extent(), this.environment.towardsLight);
+  }
+
+  private drawTile(pose: CameraPose, eye: Vec3, size: PictureSize, tile: Tile): void {
+    const brush = this.brush.mesh.visible;
+    const shown = this.screen.size.clone();
+    this.brush.mesh.visible = false;
+    this.sight.aimAtTile(pose, eye, size, tile);
+    this.refine(size.height, 1, pose.distance);
+    if (this.shadow.stale) {
+      const target = this.renderer.getRenderTarget();
+      this.drawShadow();
+      this.renderer.setRenderTarget(target);
+    }
+    this.screen.size.set(tile.width, tile.height);
+    this.drawScene();
+    this.screen.size.copy(shown);
+    this.brush.mesh.visible = brush;
+    this.aimed();
   }
 
   private drawScene(): void {

@@ -1,4 +1,7 @@
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
 import { describe, expect, it } from "vitest";
+import { screenshots } from "./browser";
 import { changed } from "./picture";
 import { LANDSCAPE, loop, PHONE, type Point, SMALL, type Tablet, way } from "./tablet";
 import { SEED, Workshop } from "./workshop";
@@ -144,6 +147,46 @@ describe("the brush and the picture", () => {
     await workshop.act(address, [{ kind: "grow", steps: 12 }]);
     await tablet.untilQuiet();
     expect(await back.count(), "it is turned off").toBe(0);
+  });
+});
+
+describe("files", () => {
+  const dialog = (tablet: Tablet) => tablet.page.getByRole("dialog", { name: "Download this tree" });
+  const fileOf = async (tablet: Tablet, format: string, size?: string) => {
+    const file = tablet.page.waitForEvent("download");
+    await tablet.tap("Download");
+    await dialog(tablet).getByRole("radio", { name: format }).check();
+    if (size) await dialog(tablet).getByRole("radio", { name: size }).check();
+    await dialog(tablet).getByRole("button", { name: "Download file" }).tap();
+    const download = await file;
+    const path = join(screenshots, `downloaded.${format.includes("PNG") ? "png" : "json"}`);
+    await download.saveAs(path);
+    return { name: download.suggestedFilename(), bytes: await readFile(path) };
+  };
+
+  it("a picture of the view and the skeleton come under the tree's name", async () => {
+    const { tablet, metamers } = await workshop.stem(LANDSCAPE);
+    const { page } = tablet;
+    await tablet.tap("Save");
+    await page.getByRole("textbox", { name: "Name" }).fill("Old: oak");
+    await page.getByRole("button", { name: "Save tree" }).tap();
+    await page.getByText("Saved “", { exact: false }).waitFor();
+
+    const json = await fileOf(tablet, "Skeleton (JSON)");
+    expect(json.name).toBe("Old oak.json");
+    const skeleton = JSON.parse(json.bytes.toString()) as { format: string; metamers: unknown[] };
+    expect([skeleton.format, skeleton.metamers.length]).toEqual(["espalier-skeleton", metamers + 1]);
+
+    const { width, height, detail } = LANDSCAPE;
+    const [across, down] = [Math.round(width * detail), Math.round(height * detail)];
+    const large = await fileOf(tablet, "Picture (PNG)", `${2 * across} × ${2 * down}`);
+    expect(large.name).toBe("Old oak.png");
+    // The size stands in the first chunk of a PNG.
+    expect([large.bytes.readUInt32BE(16), large.bytes.readUInt32BE(20)]).toEqual([2 * across, 2 * down]);
+    const shown = await tablet.photograph("view");
+    const drawn = await workshop.darkroom.develop(large.bytes, 2 * detail);
+    const stem = { x: SEED.x - 60, y: 420, width: 120, height: 300 };
+    expect(changed(shown, drawn, stem), "it is the view").toBeLessThan(0.2);
   });
 });
 

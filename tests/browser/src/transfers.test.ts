@@ -1,16 +1,23 @@
 import { describe, expect, it } from "vitest";
 import { gridModel } from "./grid-model";
 import { until } from "./server";
-import { PHONE, SMALL } from "./tablet";
+import { PHONE, SMALL, type Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
+
+/** Has the page make a glTF file. */
+async function downloadModel(tablet: Tablet, open = () => tablet.tap("Download")): Promise<void> {
+  await open();
+  await tablet.page.getByRole("radio", { name: "Model (glTF)" }).check();
+  await tablet.page.getByRole("button", { name: "Download file" }).tap();
+}
 
 describe("long work", () => {
   it("an export ends with a file", async () => {
     const { tablet } = await workshop.drawn();
     const file = tablet.page.waitForEvent("download");
-    await tablet.tap("Download as glTF");
+    await downloadModel(tablet);
     expect((await file).suggestedFilename()).toMatch(/\.glb$/);
   });
 
@@ -25,15 +32,15 @@ describe("long work", () => {
     });
     let files = 0;
     page.on("download", () => files++);
-    await tablet.tap("Download as glTF");
-    await page.getByText("Making the glTF file…").waitFor();
-    const making = page.getByRole("progressbar", { name: "Making the glTF file…" });
+    await downloadModel(tablet);
+    await page.getByText("Making the file…").waitFor();
+    const making = page.getByRole("progressbar", { name: "Making the file…" });
     expect(await making.getAttribute("value"), "how long it takes, nobody knows").toBeNull();
     await page.getByRole("button", { name: "Cancel" }).tap();
-    await page.getByText("Making the glTF file…").waitFor({ state: "detached" });
+    await page.getByText("Making the file…").waitFor({ state: "detached" });
     await tablet.untilSettled();
     expect(await page.locator(".toast").count(), "that is no failure").toBe(0);
-    await tablet.tap("Download as glTF");
+    await downloadModel(tablet);
     await until("the next one comes", () => files > 0);
     expect([asked, files]).toEqual([2, 1]);
   });
@@ -56,12 +63,13 @@ describe("long work", () => {
     let files = 0;
     page.on("download", () => files++);
     await throttle(60_000);
-    const download = async () => {
-      await tablet.tap("More");
-      await page.getByRole("button", { name: "Download as glTF" }).tap();
-    };
+    const download = () =>
+      downloadModel(tablet, async () => {
+        await tablet.tap("More");
+        await page.getByRole("button", { name: "Download" }).tap();
+      });
     await download();
-    const moving = page.getByRole("progressbar", { name: /^Loading the glTF file, \d+\.\d of \d+\.\d MB$/ });
+    const moving = page.getByRole("progressbar", { name: /^Loading the file, \d+\.\d of \d+\.\d MB$/ });
     await moving.waitFor();
     const first = Number(await moving.getAttribute("value"));
     await until("more of it has come", async () => Number(await moving.getAttribute("value")) > first);

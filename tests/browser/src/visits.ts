@@ -3,7 +3,7 @@ import { loop, type Point, type Tab, type Tablet, way } from "./tablet";
 import { SEED } from "./workshop";
 
 export const PANELS = ["Architecture", "Brush", "Leaves", "Branches", "Background", "Scene"];
-export const SHEETS = ["Save", "Library", "Share", "Settings", "Help"];
+export const SHEETS = ["Save", "Library", "Share", "Download", "Settings", "Help"];
 
 /** Where the seedling stands on the glass. */
 export async function seedling(tablet: Tablet): Promise<Point> {

@@ -9,5 +9,4 @@ export type PlaceName =
   | "timeline"
   | "draw-modes"
   | "hide"
-  | "new"
-  | "download";
+  | "new";

@@ -88,7 +88,7 @@ const WHOLE = [
   ["save", { sheet: "save" }],
   ["library", { sheet: "library" }],
   ["share", { sheet: "share" }],
-  ["download", { place: "download" }],
+  ["download", { sheet: "download" }],
   ["install"],
   ["settings", { sheet: "settings" }],
   ["help", { tour: true }],

@@ -1,8 +1,21 @@
 import { askFor } from "../requests/request";
 import { bytesOf, Transfer } from "../requests/transfer";
+import { say } from "../words/say";
+import { fileName } from "./file-name";
+
+/** The formats that the server writes; a picture of the view is made here. */
+export type ServerFormat = "glb" | "json";
+
+/** Makes a picture of so many pixels across and down as PNG, and tells what share of it is done. */
+export type Photographer = (
+  size: { readonly width: number; readonly height: number },
+  stop: AbortSignal,
+  tell: (share: number) => void,
+) => Promise<Blob>;
 
 export interface ExportsOptions {
   readonly session: () => string | null;
+  readonly photograph: Photographer;
   /** What is done with the file once it is whole. */
   readonly give: (file: Blob, name: string) => void;
   readonly failed: (error: unknown) => void;
@@ -11,24 +24,46 @@ export interface ExportsOptions {
 /** The tree as files. */
 export class Exports {
   readonly transfer = new Transfer();
+  /** A picture in the making; its progress counts hundredths, not bytes. */
+  readonly picture = new Transfer();
   #options: ExportsOptions;
 
   constructor(options: ExportsOptions) {
     this.#options = options;
   }
 
-  /** The tree as one binary glTF file. */
-  async gltf(): Promise<void> {
+  /** The tree as a file that the server writes. */
+  async file(format: ServerFormat, name: string): Promise<void> {
     const session = this.#options.session();
-    if (session === null) {
-      return;
-    }
-    try {
-      const file = await this.transfer.run(async (signal, tell) =>
-        bytesOf(await askFor("GET", gltfAddress(session), undefined, signal), tell),
+    if (session !== null) {
+      await this.#give(name, format, () =>
+        this.transfer.run(async (signal, tell) =>
+          bytesOf(await askFor("GET", addressOf(session, format), undefined, signal), tell),
+        ),
       );
+    }
+  }
+
+  /** The view as a picture of so many pixels. */
+  async png(name: string, size: { readonly width: number; readonly height: number }): Promise<void> {
+    await this.#give(name, "png", () =>
+      this.picture.run(async (stop, tell) => {
+        try {
+          return await this.#options.photograph(size, stop, (share) =>
+            tell({ bytes: Math.round(100 * share), total: 100 }),
+          );
+        } catch (cause) {
+          throw new Error(say("transfers.picture.failed"), { cause });
+        }
+      }),
+    );
+  }
+
+  async #give(name: string, ending: string, make: () => Promise<Blob | null>): Promise<void> {
+    try {
+      const file = await make();
       if (file) {
-        this.#options.give(file, `${session}.glb`);
+        this.#options.give(file, fileName(name, ending));
       }
     } catch (error) {
       this.#options.failed(error);
@@ -46,7 +81,7 @@ export function keepFile(file: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/** Where a session's plants can be downloaded as glTF. */
-function gltfAddress(session: string): string {
-  return `/api/sessions/${encodeURIComponent(session)}/tree.glb`;
+/** Where a session's plants can be downloaded. */
+function addressOf(session: string, format: ServerFormat): string {
+  return `/api/sessions/${encodeURIComponent(session)}/tree.${format}`;
 }

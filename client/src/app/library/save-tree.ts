@@ -9,13 +9,16 @@ const MAX_PICTURE = 190 * 1024;
 export interface SavedFrom {
   readonly stage: Pick<Stage, "thumbnail">;
   readonly unsaved: Pick<UnsavedTrees, "saved">;
+  /** Takes what the tree on the page is called from now on. */
+  nameTree(name: string): void;
 }
 
 /** Saves the tree of a session in the library, with its picture. */
-export async function saveWithPicture({ stage, unsaved }: SavedFrom, session: string, name: string): Promise<void> {
-  const thumbnail = await picture(stage);
+export async function saveWithPicture(page: SavedFrom, session: string, name: string): Promise<void> {
+  const thumbnail = await picture(page.stage);
   await saveTree({ session, name, ...(thumbnail === undefined ? {} : { thumbnail }) });
-  unsaved.saved();
+  page.unsaved.saved();
+  page.nameTree(name);
 }
 
 /** The largest picture that fits; a tree can be saved without one. */

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 
 /** Cards over the workspace, one at a time. */
-export const SHEET_NAMES = ["save", "leave", "library", "share", "help", "settings"] as const;
+export const SHEET_NAMES = ["save", "leave", "library", "share", "download", "help", "settings"] as const;
 export type SheetName = (typeof SHEET_NAMES)[number];
 
 /** The panels, as they stand in the tool bar. */

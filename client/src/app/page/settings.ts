@@ -36,6 +36,8 @@ export interface Settings {
   readonly tourSeen: Signal<boolean>;
   /** Whether every button shows its name. */
   readonly namesShown: Signal<boolean>;
+  /** What trees were saved or opened as, by their sessions; the latest last. */
+  readonly treeNames: Signal<Readonly<Record<string, string>>>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
   /** Trees that were left and not saved, the last one first. */
@@ -67,10 +69,15 @@ export function loadSettings(store: Storage): Settings {
     theme: kept<Theme | null>(store, "theme", null, (value) => value === "light" || value === "dark"),
     tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
     namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
+    treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
     savedState: kept<SavedState | null>(store, "saved", null, isSavedState),
   };
+}
+
+function isNames(value: unknown): boolean {
+  return typeof value === "object" && value !== null && Object.values(value).every((name) => typeof name === "string");
 }
 
 function kept<Value>(store: Storage, name: string, fallback: Value, valid: (value: unknown) => boolean): Signal<Value> {

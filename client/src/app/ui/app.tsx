@@ -19,18 +19,7 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import {
-  loadPartsWhenIdle,
-  NAMES,
-  PANELS,
-  PREDICTION,
-  RECENT,
-  SHEETS,
-  SUN,
-  SYMMETRY,
-  TOOL_PARTS,
-  TOUR,
-} from "./parts";
+import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, RECENT, SHEETS, SUN, SYMMETRY, TOOL_PARTS, TOUR } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
 import { useWorkspaceSize } from "./workspace-size";

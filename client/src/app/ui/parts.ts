@@ -46,6 +46,11 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
     height: "9rem",
     part: new Part(async () => (await import("./sheets/share-sheet")).ShareSheet),
   },
+  download: {
+    title: "sheets.download",
+    height: "22rem",
+    part: new Part(async () => (await import("./sheets/download-sheet")).DownloadSheet),
+  },
   help: {
     title: "sheets.help",
     wide: true,

@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import { RADIANS_PER_PIXEL } from "../../scene/camera/camera-rig";
+import type { PictureSize } from "../../scene/camera/sight";
 import type { View } from "../../scene/camera/view";
 import type { DrawMode, Legend } from "../../scene/mode/draw-mode";
 import type { TreeTable } from "../../scene/table/tree-table";
@@ -258,6 +259,16 @@ export class Stage {
   /** How many pixels an internode is long at a point. */
   scaleAt(point: Vec3): number {
     return this.#view ? scaleAt(this.#view, point) : 0;
+  }
+
+  /** Pixels of the view across and down; null where there is none. */
+  pixels(): PictureSize | null {
+    return this.#view?.pixels ?? null;
+  }
+
+  /** The view as a picture of so many pixels. */
+  async picture(size: PictureSize, stop: AbortSignal, tell: (share: number) => void): Promise<Blob> {
+    return await (this.#view?.picture(size, stop, tell) ?? Promise.reject(new Error("no-view")));
   }
 
   /** A picture of the tree as a data URL, or undefined where none can be made. */

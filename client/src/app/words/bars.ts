@@ -34,7 +34,7 @@ export const BARS = {
   "bars.save": ["Save", "Speichern"],
   "bars.library": ["Library", "Bibliothek"],
   "bars.share": ["Share", "Teilen"],
-  "bars.download": ["Download as glTF", "Als glTF laden"],
+  "bars.download": ["Download", "Herunterladen"],
   "bars.settings": ["Settings", "Einstellungen"],
   "bars.help": ["Help", "Hilfe"],
   "bars.help.title": ["Help (?)", "Hilfe (?)"],

@@ -232,10 +232,13 @@ export const HELP = {
   ],
   "help.topic.download": ["Download", "Herunterladen"],
   "help.topic.download.text": [
-    "The tree as a glTF file for other programs; a large one shows how far it is and can be cancelled",
-    "Der Baum als glTF-Datei für andere Programme; bei großen zeigt sich der Fortschritt, und er lässt sich abbrechen",
+    "A picture of the view as PNG, the model as glTF, or the skeleton as JSON, named after the tree; a large one shows how far it is and can be cancelled",
+    "Ein Bild der Ansicht als PNG, das Modell als glTF oder das Skelett als JSON, nach dem Baum benannt; bei großen zeigt sich der Fortschritt, und er lässt sich abbrechen",
   ],
-  "help.topic.download.words": ["export gltf glb file model", "exportieren Export glTF glb Datei Modell"],
+  "help.topic.download.words": [
+    "export gltf glb file model png image picture screenshot photo render print json skeleton blender",
+    "exportieren Export glTF glb Datei Modell png Bild Bildschirmfoto Foto Screenshot drucken json Skelett Blender",
+  ],
   "help.topic.install": ["Install as an app", "Als App installieren"],
   "help.topic.install.text": [
     "Where the address begins with https or names localhost, the browser can put Espalier on the home screen, and the page opens while the server is away. Over plain http from another device neither works.",

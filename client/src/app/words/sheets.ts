@@ -42,6 +42,24 @@ export const SHEETS = {
   "sheets.library.delete.which": ["Delete {name}", "{name} löschen"],
   "sheets.library.delete.sure": ["Delete for good?", "Endgültig löschen?"],
   "sheets.library.keep": ["Keep", "Behalten"],
+  "sheets.download.format": ["As", "Als"],
+  "sheets.download.png": ["Picture (PNG)", "Bild (PNG)"],
+  "sheets.download.png.text": [
+    "What you see of the tree now, without the controls.",
+    "Was du jetzt vom Baum siehst, ohne die Bedienung.",
+  ],
+  "sheets.download.glb": ["Model (glTF)", "Modell (glTF)"],
+  "sheets.download.glb.text": [
+    "Wood and leaves as triangles, in metres, for Blender and other programs.",
+    "Holz und Blätter als Dreiecke, in Metern, für Blender und andere Programme.",
+  ],
+  "sheets.download.json": ["Skeleton (JSON)", "Skelett (JSON)"],
+  "sheets.download.json.text": [
+    "Each internode with its place, thickness, order and birth, for programs of your own.",
+    "Jedes Internodium mit Ort, Dicke, Ordnung und Geburt, für eigene Programme.",
+  ],
+  "sheets.download.size": ["Pixels", "Pixel"],
+  "sheets.download.act": ["Download file", "Datei herunterladen"],
   "sheets.share.advice": [
     "Whoever opens this link sees the same tree grow, and may draw on it.",
     "Wer diesen Link öffnet, sieht denselben Baum wachsen und kann mitzeichnen.",
@@ -61,6 +79,7 @@ export const SHEET_TITLES = {
   "sheets.save": ["Save this tree", "Diesen Baum speichern"],
   "sheets.leave": ["A new tree", "Ein neuer Baum"],
   "sheets.library": ["Library", "Bibliothek"],
+  "sheets.download": ["Download this tree", "Diesen Baum herunterladen"],
   "sheets.share": ["Draw together", "Zusammen zeichnen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],
   "sheets.settings": ["Settings", "Einstellungen"],

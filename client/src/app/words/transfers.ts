@@ -1,12 +1,19 @@
 /** Files on their way. */
 export const TRANSFERS = {
-  "transfers.export": ["Making the glTF file…", "Die glTF-Datei entsteht…"],
-  "transfers.export.moving": ["Loading the glTF file, {megabytes} MB", "Die glTF-Datei wird geladen, {megabytes} MB"],
+  "transfers.export": ["Making the file…", "Die Datei entsteht…"],
+  "transfers.export.moving": ["Loading the file, {megabytes} MB", "Die Datei wird geladen, {megabytes} MB"],
   "transfers.export.part": [
-    "Loading the glTF file, {done} of {megabytes} MB",
-    "Die glTF-Datei wird geladen, {done} von {megabytes} MB",
+    "Loading the file, {done} of {megabytes} MB",
+    "Die Datei wird geladen, {done} von {megabytes} MB",
   ],
-  "transfers.export.read": ["The glTF file is there", "Die glTF-Datei ist da"],
+  "transfers.export.read": ["The file is there", "Die Datei ist da"],
+  "transfers.picture": ["Making the picture…", "Das Bild entsteht…"],
+  "transfers.picture.part": ["Making the picture, {percent} %", "Das Bild entsteht, {percent} %"],
+  "transfers.picture.failed": [
+    "This device could not make the picture. Try a smaller one.",
+    "Dieses Gerät konnte das Bild nicht machen. Versuche es mit einem kleineren.",
+  ],
+  "transfers.picture.read": ["Writing the picture…", "Das Bild wird geschrieben…"],
   "transfers.import": ["Sending the model…", "Das Modell wird gesendet…"],
   "transfers.import.moving": ["Sending the model, {megabytes} MB", "Das Modell wird gesendet, {megabytes} MB"],
   "transfers.import.part": [

@@ -1,3 +1,4 @@
+import { Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import type { Vec3 } from "../vector";
 import { CameraRig } from "./camera-rig";
@@ -21,6 +22,24 @@ const views = [
 ] as const;
 
 describe("sight", () => {
+  it("a tile shows its part of the picture", () => {
+    const pose = { target: [0, 10, 0] as [number, number, number], yaw: 0.7, pitch: 0.2, distance: 50 };
+    const eye = new CameraRig().eye(pose);
+    const sight = new Sight();
+    const point: Vec3 = [3, 14, -5];
+    const seen = () => new Vector3(...point).project(sight.camera);
+    sight.aim(pose, eye, 2);
+    const whole = seen();
+    // In pixels of a picture of 2000 by 1000, and in those of the tile that begins at 800, 200.
+    const [x, y] = [1000 * (1 + whole.x), 500 * (1 - whole.y)];
+    sight.aimAtTile(pose, eye, { width: 2000, height: 1000 }, { x: 800, y: 200, width: 500, height: 400 });
+    const part = seen();
+    expect(250 * (1 + part.x)).toBeCloseTo(x - 800);
+    expect(200 * (1 - part.y)).toBeCloseTo(y - 200);
+    sight.aim(pose, eye, 2);
+    expect(seen().x, "and is forgotten with the next view").toBeCloseTo(whole.x);
+  });
+
   it.each(views)("a drawing plane's coordinates are those of the places drawn (yaw %d, pitch %d)", (yaw, pitch) => {
     const sight = sightFrom(yaw, pitch);
     const through: Vec3 = [3, 4, -5];

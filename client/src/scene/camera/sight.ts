@@ -14,6 +14,12 @@ const LOOKS_DOWN = 0.5;
 /** The share of the picture's shorter side that the largest brush has. */
 const FITTING = 0.9;
 
+/** Pixels across and down. */
+export interface PictureSize {
+  readonly width: number;
+  readonly height: number;
+}
+
 /** The eye of the camera, and how places on the screen and in the world correspond. Screen places are CSS pixels of the canvas. */
 export class Sight {
   readonly camera = new PerspectiveCamera((FIELD_OF_VIEW * 180) / Math.PI, 1, 0.1, 2000);
@@ -37,6 +43,21 @@ export class Sight {
     camera.position.set(...eye);
     camera.lookAt(...pose.target);
     camera.updateMatrixWorld();
+    this.worldFromClip.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
+  }
+
+  /** Puts the eye where a pose has it, for a tile of a picture of so many pixels. */
+  aimAtTile(pose: CameraPose, eye: Vec3, picture: PictureSize, tile: PictureSize & { x: number; y: number }): void {
+    this.aim(pose, eye, picture.width / picture.height);
+    const { camera } = this;
+    const [across, down] = [picture.width / tile.width, picture.height / tile.height];
+    // The tile's middle in the picture, from −1 to 1, goes to the middle of what is drawn.
+    const right = (2 * tile.x + tile.width) / picture.width - 1;
+    const up = 1 - (2 * tile.y + tile.height) / picture.height;
+    camera.projectionMatrix.premultiply(
+      new Matrix4().set(across, 0, 0, -right * across, 0, down, 0, -up * down, 0, 0, 1, 0, 0, 0, 0, 1),
+    );
+    camera.projectionMatrixInverse.copy(camera.projectionMatrix).invert();
     this.worldFromClip.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
   }
 

@@ -38,7 +38,7 @@ export async function encodePicture(
 }
 
 /** The GPU counts lines from below. */
-function upright(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, height: number) {
+export function upright(pixels: Uint8ClampedArray<ArrayBuffer>, width: number, height: number) {
   const out = new Uint8ClampedArray(pixels.length);
   const line = 4 * width;
   for (let y = 0; y < height; y += 1) {

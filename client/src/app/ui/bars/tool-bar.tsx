@@ -62,7 +62,7 @@ const DEEDS: readonly Deed[] = [
   { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
-  { label: "bars.download", place: "download", Icon: DownloadIcon, act: (studio) => void studio.exports.gltf() },
+  { label: "bars.download", Icon: DownloadIcon, act: sheet("download") },
   { label: "bars.settings", Icon: SettingsIcon, act: sheet("settings") },
   { label: "bars.help", title: "bars.help.title", Icon: HelpIcon, act: sheet("help") },
 ];

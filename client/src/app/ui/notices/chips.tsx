@@ -21,6 +21,7 @@ export function Chips({ studio }: { studio: Studio }) {
     <div class="chips" role="status">
       <GrowthChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
+      <TransferChip transfer={studio.exports.picture} name="picture" />
       <TransferChip transfer={studio.obstacles.transfer} name="import" />
       {placing !== null && (
         <p class="chip">
@@ -117,7 +118,7 @@ function GrowthChip({ studio }: { studio: Studio }) {
 }
 
 /** A file on its way, how far it has come, and a way to give it up. */
-function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" | "import" }) {
+function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" | "import" | "picture" }) {
   const progress = transfer.progress.value;
   const shown = useLasting(progress !== null);
   if (!shown || progress === null) {
@@ -132,9 +133,13 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
       ? say(`transfers.${name}`)
       : percent === 100
         ? say(`transfers.${name}.read`)
-        : total === null
+        : total === null && name !== "picture"
           ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
-          : say(`transfers.${name}.part`, { done: megabytes(bytes), megabytes: megabytes(total) });
+          : say(`transfers.${name}.part`, {
+              done: megabytes(bytes),
+              megabytes: megabytes(total ?? 0),
+              percent: percent ?? 0,
+            });
   return (
     <p class="chip">
       {/* Where the duration is not known, the bar only moves. */}

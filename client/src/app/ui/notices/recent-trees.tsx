@@ -26,8 +26,9 @@ export function RecentTrees({ studio }: { studio: Studio }) {
     const show = async () => {
       const trees = await listTrees(MOST);
       setSaved(
-        trees.map(({ id, name, saved_at: at, thumbnail }) => {
-          return { key: id, name, at, thumbnail, open: () => studio.newSession(id) };
+        trees.map((tree) => {
+          const { id, name, saved_at: at, thumbnail } = tree;
+          return { key: id, name, at, thumbnail, open: () => studio.newSession(tree) };
         }),
       );
     };

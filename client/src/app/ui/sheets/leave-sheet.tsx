@@ -7,7 +7,7 @@ import { NameField, usualName } from "./name-field";
 
 /** Asks where the tree on the page stays when a new one is begun: in the library, under Unsaved, or nowhere. */
 export function LeaveSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(usualName);
+  const [name, setName] = useState(() => studio.treeName.peek() ?? usualName());
   const [leaving, setLeaving] = useState(false);
   const trimmed = name.trim();
 
