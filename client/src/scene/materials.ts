@@ -53,7 +53,7 @@ export function makeMaterials(uniforms: Uniforms) {
     polygonOffsetUnits: -4,
   };
   // What a picture leaves out is cut away, as finely as the screen has samples.
-  const cutOut = { side: DoubleSide, alphaToCoverage: true };
+  const cutOut = { side: DoubleSide, ...COVERAGE };
   const caster = { side: DoubleSide, defines: { CASTER: "" } };
   const plane = { PLANE: PLANE_SHOWN.toFixed(1) };
   return {

@@ -20,7 +20,7 @@ import { Painter } from "./painting/painter";
 import type { Fineness } from "./rendering/fineness";
 import type { Tile } from "./rendering/picture-tiles";
 import { followPixelRatio } from "./rendering/pixel-ratio";
-import { OPENING } from "./rendering/quality";
+import { OPENING, PICTURE_SAMPLES, QUALITIES, type Quality } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { RenderPause } from "./rendering/render-pause";
@@ -61,6 +61,8 @@ export class Viewport {
   private drawMode: DrawMode = "lit";
   /** Whether no tree has been shown yet. */
   private empty = true;
+  /** What the last frame was worth. */
+  private drawn = OPENING;
   /** Whether details are still to be chosen. */
   private unsettled = false;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
@@ -91,6 +93,7 @@ export class Viewport {
     this.uniforms.uView = { value: this.eye };
     this.uniforms.uPicture = { value: this.screen.size };
     this.uniforms.uLine = { value: LINE };
+    this.uniforms.uSamples = { value: this.screen.samples };
     this.uniforms.uWorldFromClip = { value: this.sight.worldFromClip };
     this.sun = new Sun(this.uniforms);
     this.materials = makeMaterials(this.uniforms);
@@ -104,7 +107,7 @@ export class Viewport {
     this.sun.casters.add(this.tree.casters, this.obstacles.casters);
     this.loop = new RenderLoop(
       this.draw,
-      () => this.loop.control.quality.scale < 1 || this.shadow.stale || this.tree.ripe,
+      () => this.loop.control.quality !== QUALITIES[0] || this.shadow.stale || this.tree.ripe,
       // Tests and scripts that take pictures of the page can read when this one is finished.
       (still) => canvas.toggleAttribute("data-still", still && this.complete),
     );
@@ -112,7 +115,12 @@ export class Viewport {
     this.loop.control.open(performance.now());
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
-    const essential = [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
+    const essential = [
+      ...this.environment.meshes,
+      ...this.tree.essential,
+      ...this.sun.essential,
+      ...this.screen.essential,
+    ];
     this.rehearsal = new Rehearsal(this.renderer, essential, () => {
       this.loop.control.open(performance.now());
       this.loop.invalidate();
@@ -365,7 +373,7 @@ export class Viewport {
     if (mode !== "lit") this.setDrawMode("lit");
     this.sync();
     this.sight.aim(pose, this.rig.eye(pose), width / height);
-    this.refine(height, 0, pose.distance);
+    this.refine(height, PICTURE_SAMPLES, QUALITIES[1], pose.distance);
     if (this.shadow.stale) this.drawShadow();
     const picture = encodePicture(this.renderer, width, height, () => this.drawScene());
     for (const object of passing) object.visible = true;
@@ -463,40 +471,43 @@ export class Viewport {
     const { camera } = this.aimed();
     // Finer textures wait for the picture at rest, which comes over that before it: nobody sees one put for another.
     const finer = control.resting && this.tree.ripe;
-    const over = finer || (control.resting && this.screen.improves(quality.scale, quality.smooth));
-    if (over) this.screen.remember(this.scene, camera);
+    const better = finer || (control.resting && quality !== this.drawn);
+    const over = better && this.screen.remember(camera);
     if (finer) this.tree.ripen();
     this.shadow.stale ||= finer;
     this.screen.fit(quality.scale, quality.smooth);
-    this.unsettled = this.refine(this.screen.size.y, quality.detailed ? 1 : 0);
+    this.unsettled = this.refine(this.screen.size.y, this.screen.samples, quality);
     if (this.empty)
       this.rehearsal.play(() => {
         this.drawShadow();
-        this.drawScene();
+        this.screen.rehearse(this.scene, camera);
       });
     if (this.shadow.take(began, quality.shadowEvery, growing, this.tree.merged)) this.drawShadow();
     this.screen.draw(this.scene, camera, over);
+    this.drawn = quality;
     return growing || moving || over || this.unsettled;
   };
 
   /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
-  private refine(height: number, ease: number, distance = this.rig.pose.distance): boolean {
-    const fineness = this.fineness(height, ease);
+  private refine(height: number, samples: number, quality: Quality, distance = this.rig.pose.distance): boolean {
+    const fineness = this.fineness(height, quality);
     this.eye.set(...fineness.eye, fineness.pixels);
-    this.uniforms.uShadowTaps!.value = ease > 0.5 ? 3 : 1;
+    this.uniforms.uSamples!.value = samples;
+    this.uniforms.uShadowTaps!.value = quality.detailed ? 3 : 1;
     this.environment.reach(distance);
     return this.tree.detail(fineness, this.loop.control.resting);
   }
 
-  private fineness(height: number, ease: number): Fineness {
+  private fineness(height: number, { detailed, merging, leaves }: Quality): Fineness {
     const { position } = this.sight.camera;
-    return { eye: [position.x, position.y, position.z], pixels: pixelsPerInternode(height), ease };
+    const eye = [position.x, position.y, position.z] as const;
+    return { eye, pixels: pixelsPerInternode(height), detailed, merging, leaves };
   }
 
   /** Takes over what changed in the table. */
   private sync(): void {
     this.aimed();
-    if (!this.tree.sync(this.fineness(this.screen.size.y, 1))) return;
+    if (!this.tree.sync(this.fineness(this.screen.size.y, QUALITIES[0]))) return;
     this.shadow.stale = true;
     this.environment.update(this.table);
     this.rig.keep(this.reach());
@@ -511,7 +522,7 @@ export class Viewport {
     const shown = this.screen.size.clone();
     this.brush.mesh.visible = false;
     this.sight.aimAtTile(pose, eye, size, tile);
-    this.refine(size.height, 1, pose.distance);
+    this.refine(size.height, PICTURE_SAMPLES, QUALITIES[0], pose.distance);
     if (this.shadow.stale) {
       const target = this.renderer.getRenderTarget();
       this.drawShadow();

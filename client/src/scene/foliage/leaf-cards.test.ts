@@ -3,14 +3,14 @@ import { BLADE_CARDS, LEAF_TRIANGLES, levelFor, SPRAY_CARDS } from "./leaf-cards
 
 it("a leaf far off is two triangles", () => {
   for (const levels of [BLADE_CARDS, SPRAY_CARDS]) {
-    expect(levels[levelFor(levels, 200_000, 6, 1)]!.triangles).toBe(2);
-    expect(levels[levelFor(levels, 100, 6, 1)]!.triangles).toBe(2);
+    expect(levels[levelFor(levels, 200_000, 6, true)]!.triangles).toBe(2);
+    expect(levels[levelFor(levels, 100, 6, true)]!.triangles).toBe(2);
   }
 });
 
 it("a leaf under the eye is bent, a spray stands all around", () => {
   for (const levels of [BLADE_CARDS, SPRAY_CARDS]) {
-    expect(levels[levelFor(levels, 2000, 200, 1)]!.triangles).toBeGreaterThanOrEqual(12);
+    expect(levels[levelFor(levels, 2000, 200, true)]!.triangles).toBeGreaterThanOrEqual(12);
   }
 });
 
@@ -18,10 +18,10 @@ it("leaves keep to their triangles at any distance", () => {
   for (const levels of [BLADE_CARDS, SPRAY_CARDS]) {
     for (const leaves of [0, 1000, 30_000, 60_000, 120_000, 200_000, 300_000]) {
       for (const pixels of [2, 12, 40, 500]) {
-        for (const ease of [0, 1]) {
-          const { triangles } = levels[levelFor(levels, leaves, pixels, ease)]!;
+        for (const detailed of [false, true]) {
+          const { triangles } = levels[levelFor(levels, leaves, pixels, detailed)]!;
           expect(triangles * leaves).toBeLessThanOrEqual(LEAF_TRIANGLES);
-          expect(levels[levelFor(levels, leaves, 2 * pixels, ease)]!.triangles).toBeGreaterThanOrEqual(triangles);
+          expect(levels[levelFor(levels, leaves, 2 * pixels, detailed)]!.triangles).toBeGreaterThanOrEqual(triangles);
         }
       }
     }

@@ -39,9 +39,9 @@ export const LEAF_TRIANGLES = 850_000;
 export const LEVEL_PIXELS = [26, 9] as const;
 
 /** Which of the three levels so many leaves are drawn with, the largest of them this long on the screen. */
-export function levelFor(levels: readonly Card[], leaves: number, pixels: number, ease: number): number {
+export function levelFor(levels: readonly Card[], leaves: number, pixels: number, detailed: boolean): number {
   let level = pixels > LEVEL_PIXELS[0] ? 0 : pixels > LEVEL_PIXELS[1] ? 1 : 2;
-  const budget = LEAF_TRIANGLES * (ease > 0.5 ? 1 : 0.4);
+  const budget = LEAF_TRIANGLES * (detailed ? 1 : 0.4);
   while (level < 2 && levels[level]!.triangles * leaves > budget) level += 1;
   return level;
 }

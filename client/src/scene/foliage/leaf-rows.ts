@@ -8,8 +8,6 @@ import { leafAzimuth, leafRandom } from "./leaves";
 import { reachFrom } from "./nearness";
 import { RowInstances } from "./row-instances";
 
-/** While the user moves on a slow device, no more leaves than this are drawn, each the larger for it. */
-const LEAVES_IN_HASTE = 60_000;
 /** The largest leaf is this much longer than the leaf size (LF2). */
 const LARGEST = 1.25;
 const FAR = 2;
@@ -68,15 +66,14 @@ export class LeafRows {
   }
 
   /** Chooses triangles by how large the nearest leaf in the box may be on the screen, and how many leaves may be drawn. */
-  detail({ eye, pixels, ease }: Fineness, box: Box): void {
+  detail({ eye, pixels, detailed, leaves }: Fineness, box: Box): void {
     const { filled, geometries } = this.instances;
     this.follow();
     const size = LARGEST * (this.uniforms.uLeafSize!.value as number);
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
-    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, ease);
+    const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, detailed);
     this.mesh.geometry = geometries[level]!;
-    const share = Math.min(1, LEAVES_IN_HASTE / Math.max(1, filled));
-    (this.uniforms.uLeafLevel!.value as Vector2).set(level, share + (1 - share) * ease);
+    (this.uniforms.uLeafLevel!.value as Vector2).set(level, Math.min(1, leaves / Math.max(1, filled)));
   }
 
   /** Draws them or not. */

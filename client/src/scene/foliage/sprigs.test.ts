@@ -7,6 +7,7 @@ import { ATLAS_TILES, coverageOf, type Levels } from "../painting/leaf-atlas";
 import { leafLevels, reachOf } from "../painting/leaf-pictures";
 import { TILE_MARGIN } from "../painting/leaf-tile";
 import { SPRIG_LEAVES, SPRIG_REACH } from "../painting/sprig-picture";
+import { QUALITIES } from "../rendering/quality";
 import { TreeTable } from "../table/tree-table";
 import { LeafRows } from "./leaf-rows";
 import { bandFor, Sprigs, sprigsOf } from "./sprigs";
@@ -55,7 +56,7 @@ describe("sprigs", () => {
   let sprigs: Sprigs;
   const box = { min: [-10, 0, -10], max: [10, 40, 10] } as const;
   const see = (distance: number) => {
-    const fineness = { eye: [0, 20, 10 + distance] as const, pixels: 1000, ease: 1 };
+    const fineness = { eye: [0, 20, 10 + distance] as const, pixels: 1000, ...QUALITIES[0] };
     const seen = { min: [...box.min], max: [...box.max] } as Parameters<LeafRows["detail"]>[1];
     leaves.detail(fineness, seen);
     sprigs.detail(fineness, seen, leaves);
@@ -131,7 +132,7 @@ describe("sprigs", () => {
     see(700);
     expect(drawn()).toEqual([false, true]);
     expect(sprigs.share).toBe(1);
-    const [low, high] = bandFor(leaves.filled);
+    const [low, high] = bandFor(leaves.filled, 1);
     see(700 / ((low + high) / 2));
     expect(drawn()).toEqual([true, true]);
     expect(leaves.caster.visible).toBe(true);
@@ -150,8 +151,13 @@ describe("sprigs", () => {
   });
 
   it("are of no use to a young tree", () => {
-    expect(bandFor(500)).toEqual([0, 0]);
-    expect(bandFor(250_000)[0]).toBeGreaterThan(bandFor(30_000)[0]);
-    expect(bandFor(4_000_000)).toEqual(bandFor(250_000));
+    expect(bandFor(500, 1)).toEqual([0, 0]);
+    expect(bandFor(250_000, 1)[0]).toBeGreaterThan(bandFor(30_000, 1)[0]);
+    expect(bandFor(4_000_000, 1)).toEqual(bandFor(250_000, 1));
+  });
+
+  it("come sooner in haste", () => {
+    expect(bandFor(30_000, 1.6)[0]).toBeGreaterThan(bandFor(30_000, 1)[0]);
+    expect(bandFor(500, 1.6), "but never to a young tree").toEqual([0, 0]);
   });
 });

@@ -89,10 +89,10 @@ export class Sprigs {
   }
 
   /** Chooses, from where the box is seen, how far its leaves give way; those that are wholly gone are not drawn. */
-  detail({ eye, pixels }: Fineness, box: Box, leaves: LeafRows): void {
+  detail({ eye, pixels, merging }: Fineness, box: Box, leaves: LeafRows): void {
     const size = this.uniforms.uLeafSize!.value as number;
     const { nearest, middle, farthest } = reachFrom(eye, box);
-    const [low, high] = bandFor(leaves.filled);
+    const [low, high] = bandFor(leaves.filled, merging);
     const length = (distance: number) => (size * pixels) / Math.max(0.5, distance);
     const whole = SPRIG_LEAVES * this.count;
     // All sprigs together stand for as many leaves as there are.
@@ -122,10 +122,10 @@ export function sprigsOf(place: number, leaves: number): number {
   return Math.floor(((place + 1) * leaves) / SPRIG_LEAVES) - before;
 }
 
-/** The lengths of a leaf in pixels between which so many leaves give way to sprigs; both 0 where they never do. */
-export function bandFor(leaves: number): readonly [low: number, high: number] {
+/** The lengths of a leaf in pixels between which so many leaves give way to sprigs, times `merging`; both 0 where they never do. */
+export function bandFor(leaves: number, merging: number): readonly [low: number, high: number] {
   if (leaves < FEW) return [0, 0];
-  const sooner = Math.min(SOONER, Math.max(1, Math.sqrt(leaves / MANY)));
+  const sooner = merging * Math.min(SOONER, Math.max(1, Math.sqrt(leaves / MANY)));
   return [BAND[0] * sooner, BAND[1] * sooner];
 }
 

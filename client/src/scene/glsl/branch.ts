@@ -1,6 +1,6 @@
 import { EASES_OVER, NO_SLOPE, SLOPE_STEPS, STEEPEST } from "../table/girth";
 import { BARK } from "./bark";
-import { HEAD, LIGHT, NODES, NOISE } from "./common";
+import { COVER, HEAD, LIGHT, NODES, NOISE } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 
@@ -223,7 +223,7 @@ void main() {
 `;
 
 /** Bark in the light of sun and sky. */
-export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${NOISE}${LIGHT}${MODES}${GHOST_COLOUR}
+export const BRANCH_FRAGMENT = /* glsl */ `${HEAD}${COVER}${NOISE}${LIGHT}${MODES}${GHOST_COLOUR}
 in vec3 vWorld;
 in vec3 vNormal;
 in vec3 vTangent;
@@ -243,13 +243,14 @@ void main() {
   vec3 lengthwise = normalize(vTangent);
   float cover = 1.0;
 #ifdef RIBBON
+  cover = vBark.w;
+  if (uSamples == 1 && cover < 1.0 && cover <= grainAt(vWorld)) discard;
   // The strip stands for a round twig: its normal turns from one side over the eye to the other.
   vec3 front = normalize(sight - lengthwise * dot(sight, lengthwise));
   float across = clamp(vBark.x, -1.0, 1.0);
   vec3 smoothed = normalize(vNormal * across + front * sqrt(1.0 - across * across));
   Bark bark = distantBark(vBark.z);
   vec3 normal = smoothed;
-  cover = vBark.w;
 #else
   vec3 smoothed = normalize(vNormal);
   Bark bark = barkAt(vBark, vBearing);

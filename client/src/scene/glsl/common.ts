@@ -174,6 +174,21 @@ vec3 finished(vec3 colour) {
 }
 `;
 
+/** What covers a part of a pixel, where pixels have no samples that could be covered one by one. */
+export const COVER = /* glsl */ `
+uniform int uSamples;
+/**
+ * A number between 0 and 1 of each place's own, for places a pixel apart (after C. Wyman and M. McGuire, 2017): what covers
+ * less of a pixel than its number is left out, so that many such pixels together are covered as they should be, and the
+ * same ones in the next frame.
+ */
+float grainAt(vec3 place) {
+  float pixel = max(length(dFdx(place)), length(dFdy(place)));
+  vec3 cell = floor(place / exp2(ceil(log2(max(pixel, 1e-5)))));
+  return fract(sin(dot(mod(cell, 4096.0), vec3(12.9898, 78.233, 37.719))) * 43758.5453);
+}
+`;
+
 /** Spreads what lies between two of the screen's colours, so that a soft gradient shows no bands. */
 export const DITHER = /* glsl */ `
 vec3 dithered(vec3 colour) {

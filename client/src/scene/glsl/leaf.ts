@@ -1,6 +1,6 @@
 import { TILE_MARGIN } from "../painting/leaf-tile";
 import { SPRIG_REACH } from "../painting/sprig-picture";
-import { HEAD, LIGHT, NODES } from "./common";
+import { COVER, HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
 import { DEPTH_COLOUR } from "./shadow";
@@ -239,12 +239,19 @@ void main() {
 `;
 
 /** Whether there is anything at a place of a picture, with an edge one pixel wide however large it is drawn. */
-export const CUT = /* glsl */ `
+export const CUT = /* glsl */ `${COVER}
 float cut(float covered) {
   float inside = covered - 0.5;
   float width = 0.7 * length(vec2(dFdx(covered), dFdy(covered)));
   // What is mostly covered is solid, or leaves seen at a slant would let through what is behind them.
   return clamp(max(inside / max(width, 1e-4) + 0.5, 4.0 * inside), 0.0, 1.0);
+}
+/** Least that must be there to be drawn; \`picture\` is the place in an atlas of two tiles a side. */
+float leastAt(vec2 picture, vec3 place) {
+  if (uSamples > 1) return 0.12;
+  // The edge of what is large is a line, and would only be frayed.
+  float pixels = 0.5 / max(length(dFdx(picture)), length(dFdy(picture)));
+  return 0.5 + (2.0 * grainAt(place) - 1.0) * mix(0.45, 0.15, smoothstep(6.0, 12.0, pixels));
 }
 `;
 
@@ -303,7 +310,7 @@ void main() {
 #ifdef GHOST
   if (painted.a < 0.5) discard;
 #else
-  if (there < 0.12) discard;
+  if (there < leastAt(vPicture, vWorld)) discard;
 #endif
   vec4 relief = texture(RELIEF, vPicture, FINER);
   vec3 eye = cameraPosition - vWorld;

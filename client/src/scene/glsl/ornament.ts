@@ -116,7 +116,7 @@ const vec3 STALK = vec3(0.130, 0.130, 0.045);
 void main() {
   vec4 painted = texture(u${name}Colour, vPicture);
   float there = cut(painted.a);
-  if (there < 0.12) discard;
+  if (there < leastAt(vPicture, vWorld)) discard;
   vec4 relief = texture(u${name}Relief, vPicture);
   vec3 eye = cameraPosition - vWorld;
   float away = length(eye);

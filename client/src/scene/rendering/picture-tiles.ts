@@ -1,4 +1,5 @@
 import { LinearFilter, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { PICTURE_SAMPLES } from "./quality";
 import { upright } from "./thumbnail";
 
 /** Pixels of a tile across and down: what is drawn at once, so that a large picture needs no large memory. */
@@ -54,7 +55,7 @@ export async function pictureInTiles({ renderer, width, height, draw, stop, tell
 
 function drawn(renderer: WebGLRenderer, tile: Tile, draw: (tile: Tile) => void): ImageData {
   const { width, height } = tile;
-  const target = new WebGLRenderTarget(width, height, { samples: 4, minFilter: LinearFilter, magFilter: LinearFilter });
+  const target = new WebGLRenderTarget(width, height, { samples: PICTURE_SAMPLES, minFilter: LinearFilter, magFilter: LinearFilter });
   const pixels = new Uint8ClampedArray(4 * width * height);
   try {
     renderer.setRenderTarget(target);

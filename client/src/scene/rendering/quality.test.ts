@@ -1,60 +1,75 @@
 import { describe, expect, it } from "vitest";
-import { QUALITIES, QualityControl, REST_AFTER } from "./quality";
+import { OPENING, QUALITIES, type Quality, QualityControl, REST_AFTER } from "./quality";
 
-/** A device whose frames cost a fixed part and a part for every pixel, shown at most 60 times a second. */
+/** A device whose frames take a fixed time and one that goes with what they cost, shown at most 60 times a second. */
 interface Device {
   fixed: number;
-  pixels: number;
+  whole: number;
 }
 
-const duration = ({ fixed, pixels }: Device, scale: number) => Math.max(16.7, fixed + pixels * scale ** 2);
+const duration = ({ fixed, whole }: Device, { cost }: Quality) => Math.max(16.7, fixed + whole * cost);
+const LAST = QUALITIES.length - 1;
 
-/** Moves for a while; gives the scale of every frame. */
+/** Moves for a while; gives the level of every frame. */
 function move(control: QualityControl, device: Device, milliseconds: number, from = 0): number[] {
-  const scales: number[] = [];
+  const levels: number[] = [];
   control.moved(from);
   for (let now = from; now < from + milliseconds; ) {
-    const { scale } = control.quality;
-    scales.push(scale);
-    const cost = duration(device, scale);
+    levels.push(QUALITIES.indexOf(control.quality));
+    const cost = duration(device, control.quality);
     now += cost;
     control.moved(now);
     control.measured(cost);
   }
-  return scales;
+  return levels;
 }
 
-const changes = (scales: number[]) => scales.filter((scale, i) => i > 0 && scale !== scales[i - 1]).length;
-const tablet = { fixed: 3, pixels: 9 };
-const software = { fixed: 40, pixels: 500 };
+const changes = (levels: number[]) => levels.filter((level, i) => i > 0 && level !== levels[i - 1]).length;
+const tablet = { fixed: 3, whole: 9 };
+const software = { fixed: 40, whole: 900 };
 
 describe("quality control", () => {
   it("a fast device keeps the whole quality", () => {
-    expect(new Set(move(new QualityControl(), tablet, 10_000))).toEqual(new Set([1]));
+    expect(new Set(move(new QualityControl(), tablet, 10_000))).toEqual(new Set([0]));
   });
 
   it("a display of 30 frames a second is not slow", () => {
-    expect(new Set(move(new QualityControl(), { fixed: 33.4, pixels: 0 }, 10_000))).toEqual(new Set([1]));
+    expect(new Set(move(new QualityControl(), { fixed: 33.4, whole: 0 }, 10_000))).toEqual(new Set([0]));
   });
 
   it("a very slow device is quick from its third frame on", () => {
-    const scales = move(new QualityControl(), software, 4000);
-    expect(scales.slice(0, 2)).toEqual([1, 1]);
-    expect(new Set(scales.slice(2))).toEqual(new Set([0.35]));
+    const levels = move(new QualityControl(), software, 4000);
+    expect(levels.slice(0, 2)).toEqual([0, 0]);
+    expect(new Set(levels.slice(2))).toEqual(new Set([LAST]));
   });
 
-  it("a device that is a little slow loses a little", () => {
-    const scales = move(new QualityControl(), { fixed: 5, pixels: 60 }, 4000);
-    expect(scales.at(-1)).toBe(0.7);
-    expect(changes(scales)).toBe(1);
+  it("a device that is a little slow loses a little, and no pixels", () => {
+    const control = new QualityControl();
+    const levels = move(control, { fixed: 5, whole: 60 }, 4000);
+    expect(levels.at(-1)).toBe(1);
+    expect(changes(levels)).toBe(1);
+    expect(control.quality.scale).toBe(1);
+    expect(control.quality.smooth).toBe(true);
+  });
+
+  it("what is seen least is given up first", () => {
+    const shown = QUALITIES.map(({ scale, smooth, leaves, cost }) => [scale, smooth ? 1 : 0, leaves, cost]);
+    for (const [i, column] of shown[0]!.entries()) {
+      const values = shown.map((row) => row[i]!);
+      expect(values, `${column} falls`).toEqual([...values].sort((a, b) => b - a));
+    }
+    const first = (lost: (quality: Quality) => boolean) => QUALITIES.findIndex(lost);
+    expect(first(({ shadowEvery }) => shadowEvery > 0)).toBeLessThan(first(({ scale }) => scale < 1));
+    expect(first(({ scale }) => scale < 1)).toBeLessThan(first(({ smooth }) => !smooth));
+    expect(QUALITIES[LAST]!.scale, "no pixel is a block").toBeGreaterThanOrEqual(0.4);
   });
 
   it("never swings to and fro while a movement goes on", () => {
     for (let fixed = 0; fixed <= 60; fixed += 4) {
-      for (let pixels = 0; pixels <= 400; pixels += 10) {
-        const scales = move(new QualityControl(), { fixed, pixels }, 15_000);
-        expect(changes(scales), `${fixed} + ${pixels} ms`).toBeLessThanOrEqual(QUALITIES.length - 1);
-        expect(scales, `${fixed} + ${pixels} ms`).toEqual([...scales].sort((a, b) => b - a));
+      for (let whole = 0; whole <= 400; whole += 10) {
+        const levels = move(new QualityControl(), { fixed, whole }, 15_000);
+        expect(changes(levels), `${fixed} + ${whole} ms`).toBeLessThanOrEqual(LAST);
+        expect(levels, `${fixed} + ${whole} ms`).toEqual([...levels].sort((a, b) => a - b));
       }
     }
   });
@@ -64,7 +79,7 @@ describe("quality control", () => {
     control.moved(0);
     for (const cost of [17, 17, 400, 17, 17, 17, 900, 17]) {
       control.measured(cost);
-      expect(control.quality.scale).toBe(1);
+      expect(control.quality).toBe(QUALITIES[0]);
     }
   });
 
@@ -85,7 +100,7 @@ describe("quality control", () => {
     const control = new QualityControl();
     move(control, software, 4000);
     control.rest();
-    expect(new Set(move(control, software, 4000, 5000))).toEqual(new Set([0.35]));
+    expect(new Set(move(control, software, 4000, 5000))).toEqual(new Set([LAST]));
   });
 
   it("what was slow for a while becomes whole again", () => {
@@ -95,34 +110,34 @@ describe("quality control", () => {
       control.rest();
       move(control, tablet, 500, 10_000 * turn);
     }
-    expect(control.quality.scale).toBe(1);
+    expect(control.quality).toBe(QUALITIES[0]);
   });
 
   it("a long movement that has become quick gains quality", () => {
     const control = new QualityControl();
     move(control, software, 4000);
     control.rest();
-    const scales = move(control, tablet, 6000, 10_000);
-    expect(scales[0]).toBe(0.35);
-    expect(scales.at(-1)).toBe(1);
-    expect(changes(scales)).toBe(QUALITIES.length - 1);
+    const levels = move(control, tablet, 6000, 10_000);
+    expect(levels[0]).toBe(LAST);
+    expect(levels.at(-1)).toBe(0);
+    expect(changes(levels)).toBe(LAST);
   });
 
   it("shadows wait the longer the less time there is", () => {
     const waits = QUALITIES.map(({ shadowEvery }) => shadowEvery);
     expect(waits[0]).toBe(0);
-    expect(waits.at(-1)).toBe(Number.POSITIVE_INFINITY);
     expect(waits).toEqual([...waits].sort((a, b) => a - b));
   });
 
   it("a page opens modestly, and no movement pays for that", () => {
     const control = new QualityControl();
     control.open(0);
-    expect(control.quality.scale).toBeLessThan(1);
+    expect(control.quality).toBe(OPENING);
+    expect(OPENING.scale).toBeLessThan(1);
     for (const cost of [900, 700, 400, 300]) control.measured(cost);
-    expect(control.quality.scale).toBe(0.5);
+    expect(control.quality).toBe(OPENING);
     control.rest();
     expect(control.quality).toBe(QUALITIES[0]);
-    expect(new Set(move(control, tablet, 1000, 5000))).toEqual(new Set([1]));
+    expect(new Set(move(control, tablet, 1000, 5000))).toEqual(new Set([0]));
   });
 });

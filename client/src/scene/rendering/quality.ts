@@ -8,17 +8,29 @@ export interface Quality {
   readonly shadowEvery: number;
   /** Whether leaves have all their triangles and shadows soft edges. */
   readonly detailed: boolean;
+  /** So many times as long as at rest are leaves, on the screen, that give way to sprigs. */
+  readonly merging: number;
+  /** Leaves drawn at most, each the larger for it. */
+  readonly leaves: number;
+  /** What such a frame is expected to cost, as a share of one at rest: of two neighbours, at most twice as much (`QUICK`, `SLOW`). */
+  readonly cost: number;
 }
 
-/** From the picture at rest to the quickest one. */
-export const QUALITIES: readonly [Quality, ...Quality[]] = [
-  { scale: 1, smooth: true, shadowEvery: 0, detailed: true },
-  { scale: 0.7, smooth: true, shadowEvery: 200, detailed: true },
-  { scale: 0.5, smooth: false, shadowEvery: 800, detailed: false },
-  { scale: 0.35, smooth: false, shadowEvery: Number.POSITIVE_INFINITY, detailed: false },
+/**
+ * From the picture at rest to the quickest one. Given up in this order: shadows that follow at once, round limbs, soft
+ * shadows, single leaves; pixels only then, and edges last, for blocks and steps are what one sees most.
+ */
+export const QUALITIES: readonly [Quality, Quality, ...Quality[]] = [
+  { scale: 1, smooth: true, shadowEvery: 0, detailed: true, merging: 1, leaves: Number.POSITIVE_INFINITY, cost: 1 },
+  { scale: 1, smooth: true, shadowEvery: 800, detailed: false, merging: 1, leaves: 60_000, cost: 0.65 },
+  { scale: 0.7, smooth: true, shadowEvery: 800, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.35 },
+  { scale: 0.5, smooth: false, shadowEvery: 2500, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.18 },
+  { scale: 0.4, smooth: false, shadowEvery: 8000, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.1 },
 ];
 
-const OPENING_LEVEL = 2;
+/** Samples of each pixel of a picture that is kept: of thumbnails and downloads. */
+export const PICTURE_SAMPLES = 4;
+const OPENING_LEVEL = 3;
 /** What a page opens with: something is to be seen soon, and the rest of it comes over that. */
 export const OPENING: Quality = QUALITIES[OPENING_LEVEL]!;
 /** How long nothing moves before the whole quality comes back, in milliseconds. */
@@ -113,11 +125,11 @@ export class QualityControl {
     return sorted.length === 2 && sorted[0]! > VERY_SLOW ? sorted[0]! : 0;
   }
 
-  /** The first level below that should be quick enough if time goes with the number of pixels. */
+  /** The first level below that should be quick enough if frames cost what is expected of them. */
   private quickEnough(cost: number): number {
-    const pixels = (level: number) => QUALITIES[level]!.scale ** 2;
+    const share = (level: number) => QUALITIES[level]!.cost / QUALITIES[this.level]!.cost;
     let level = this.level + 1;
-    while (level < QUALITIES.length - 1 && (cost * pixels(level)) / pixels(this.level) > SLOW) level += 1;
+    while (level < QUALITIES.length - 1 && cost * share(level) > SLOW) level += 1;
     return level;
   }
 

@@ -17,8 +17,6 @@ describe("a rehearsal", () => {
     const renderer = {
       compileAsync: () => linking,
       info: { programs: [program] },
-      setScissor: () => {},
-      setScissorTest: () => {},
     };
     cast = [0, 1].map(() => new Mesh(new InstancedBufferGeometry()));
     for (const { geometry } of cast) geometry.instanceCount = 0;

@@ -1,8 +1,8 @@
 import { InstancedBufferGeometry, type Mesh, PerspectiveCamera, type WebGLRenderer } from "three";
 
 /**
- * Prepares the shader programs in advance. It says when all are linked; and it draws one instance of everything essential
- * before there is anything to draw, outside the visible picture: a linked program is not yet one that the graphics card can
+ * Prepares the shader programs in advance. It says when all are linked; and it has one instance of everything essential
+ * drawn before there is anything to draw, outside the visible picture: a linked program is not yet one that the graphics card can
  * run. Drivers finish it when it is first drawn with, and whatever they are asked next waits for that.
  */
 export class Rehearsal {
@@ -39,14 +39,11 @@ export class Rehearsal {
   play(draw: () => void): void {
     if (this.played) return;
     this.played = true;
-    const { renderer, cast } = this;
+    const { cast } = this;
     const before = cast.map(({ visible }) => visible);
     this.enter(1);
     for (const mesh of cast) mesh.visible = true;
-    renderer.setScissor(0, 0, 1, 1);
-    renderer.setScissorTest(true);
     draw();
-    renderer.setScissorTest(false);
     this.enter(0);
     for (const [i, mesh] of cast.entries()) mesh.visible = before[i]!;
   }

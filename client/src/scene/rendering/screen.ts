@@ -5,52 +5,28 @@ import {
   GLSL3,
   LinearFilter,
   Mesh,
-  NearestFilter,
   RawShaderMaterial,
   Scene,
   Vector2,
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
+import { SCREEN_FRAGMENT, SCREEN_VERTEX } from "../glsl/screen";
 import type { Quality } from "./quality";
 
 const SAMPLES = 4;
-
-const VERTEX = /* glsl */ `
-in vec3 position;
-void main() { gl_Position = vec4(position, 1.0); }
-`;
-const FRAGMENT = /* glsl */ `
-precision highp float;
-uniform sampler2D uPicture;
-uniform sampler2D uBefore;
-uniform float uShare;
-out vec4 colour;
-void main() {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  vec3 picture = texelFetch(uPicture, at, 0).rgb;
-  if (uShare < 1.0) picture = mix(texture(uBefore, gl_FragCoord.xy / vec2(textureSize(uPicture, 0))).rgb, picture, uShare);
-  colour = vec4(picture, 1.0);
-}
-`;
+const LINEAR = { minFilter: LinearFilter, magFilter: LinearFilter, generateMipmaps: false } as const;
 /** How long a better picture takes to come over a lesser one, in milliseconds. */
 const FADE = 260;
 
-/** The canvas's pixels: as many as it shows and antialiased, or fewer and plain where frames must be quick. */
+/** The canvas, and the picture that is shown on it: of as many pixels and antialiased, or of fewer and plain where frames must be quick. */
 export class Screen {
-  private readonly target = new WebGLRenderTarget(1, 1, {
-    samples: SAMPLES,
-    minFilter: NearestFilter,
-    magFilter: NearestFilter,
-    generateMipmaps: false,
-  });
+  private readonly target = new WebGLRenderTarget(1, 1, { ...LINEAR, resolveDepthBuffer: false });
   /** A lesser picture that the present one comes over. */
-  private readonly before = new WebGLRenderTarget(1, 1, {
-    minFilter: LinearFilter,
-    magFilter: LinearFilter,
-    generateMipmaps: false,
-  });
+  private readonly before = new WebGLRenderTarget(1, 1, { ...LINEAR, depthBuffer: false });
   private readonly share = { value: 1 };
+  /** Pixels the canvas shows, across and down. */
+  private readonly shown = { value: new Vector2(1, 1) };
   /** When it began to, or null. */
   private fading: number | null = null;
   private readonly material = new RawShaderMaterial({
@@ -58,10 +34,11 @@ export class Screen {
     uniforms: {
       uPicture: { value: this.target.texture },
       uBefore: { value: this.before.texture },
+      uShown: this.shown,
       uShare: this.share,
     },
-    vertexShader: VERTEX,
-    fragmentShader: FRAGMENT,
+    vertexShader: SCREEN_VERTEX,
+    fragmentShader: SCREEN_FRAGMENT,
     depthTest: false,
     depthWrite: false,
   });
@@ -69,9 +46,6 @@ export class Screen {
   readonly size = new Vector2(1, 1);
   private readonly copy = new Scene();
   private readonly whole: Mesh;
-  private width = 1;
-  private height = 1;
-  private ratio = 1;
   private scale: number;
   private smooth: boolean;
   /** Whether the last picture is in the target still. */
@@ -91,11 +65,22 @@ export class Screen {
     this.copy.add(this.whole);
   }
 
+  /** What shows the picture, so that its program can be made in advance. */
+  get essential(): readonly Mesh[] {
+    return [this.whole];
+  }
+
+  /** Samples of each pixel: what is thinner than a pixel covers some of them. */
+  get samples(): number {
+    return this.smooth ? SAMPLES : 1;
+  }
+
   /** The canvas's size in CSS pixels, and how many of its own make one of those. */
   resize(width: number, height: number, ratio: number): void {
-    this.width = width;
-    this.height = height;
-    this.ratio = ratio;
+    const { renderer, shown } = this;
+    renderer.setDrawingBufferSize(width, height, ratio);
+    const { domElement } = renderer;
+    shown.value.set(domElement.width, domElement.height);
     this.allot();
   }
 
@@ -107,27 +92,22 @@ export class Screen {
     this.allot();
   }
 
-  /** Whether a picture drawn like this would be a better one than the last. */
-  improves(scale: number, smooth: boolean): boolean {
-    return scale > this.scale || (smooth && !this.smooth);
-  }
-
-  /** Keeps the last picture, or draws it once more as coarsely, for the next one to come over it by and by. */
-  remember(scene: Scene, camera: Camera): void {
-    const { renderer, before, size, material } = this;
+  /** Keeps the last picture for the next one to come over it by and by; says whether there is one. */
+  remember(camera: Camera): boolean {
+    if (!this.kept) return false;
+    const { renderer, before, size, shown, share, material } = this;
+    const canvas = shown.value;
+    // What is drawn into must not be read as well.
+    material.uniforms.uBefore!.value = this.target.texture;
+    shown.value = size;
+    share.value = 1;
     before.setSize(size.x, size.y);
     renderer.setRenderTarget(before);
-    renderer.clear();
-    if (this.kept) {
-      // What is drawn into must not be read as well.
-      material.uniforms.uBefore!.value = this.target.texture;
-      this.share.value = 1;
-      renderer.render(this.copy, camera);
-      material.uniforms.uBefore!.value = before.texture;
-    } else {
-      renderer.render(scene, camera);
-    }
+    renderer.render(this.copy, camera);
     renderer.setRenderTarget(null);
+    shown.value = canvas;
+    material.uniforms.uBefore!.value = before.texture;
+    return true;
   }
 
   /** Shows what was drawn a little more, and says whether that goes on; null if it is shown already. */
@@ -142,22 +122,23 @@ export class Screen {
 
   /** Draws the scene; it comes over what was remembered just before, or shows at once. */
   draw(scene: Scene, camera: Camera, over = false): void {
-    const { renderer, target } = this;
     this.share.value = over ? 0 : 1;
     this.fading = null;
-    this.kept = this.smooth;
-    if (!this.smooth) {
-      renderer.clear();
-      renderer.render(scene, camera);
-      return;
-    }
-    renderer.setRenderTarget(target);
-    renderer.clear();
-    renderer.render(scene, camera);
-    renderer.setRenderTarget(null);
-    renderer.render(this.copy, camera);
+    this.kept = true;
+    this.drawInto(scene, camera);
+    this.renderer.render(this.copy, camera);
     // The time it took to draw is no part of the fade.
     if (over) this.fading = performance.now();
+  }
+
+  /** Draws a single pixel of the scene, which nobody sees: for what the graphics card does at a first time only. */
+  rehearse(scene: Scene, camera: Camera): void {
+    const { scissor } = this.target;
+    this.target.scissorTest = true;
+    scissor.set(0, 0, 1, 1);
+    this.drawInto(scene, camera);
+    this.target.scissorTest = false;
+    scissor.set(0, 0, this.size.x, this.size.y);
   }
 
   /** A restored context has lost the pictures that were kept. */
@@ -173,12 +154,22 @@ export class Screen {
     this.whole.geometry.dispose();
   }
 
+  private drawInto(scene: Scene, camera: Camera): void {
+    const { renderer, target } = this;
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    renderer.render(scene, camera);
+    renderer.setRenderTarget(null);
+  }
+
   private allot(): void {
     this.kept = false;
-    const { renderer, width, height } = this;
-    renderer.setDrawingBufferSize(width, height, this.ratio * this.scale);
-    const { domElement } = renderer;
-    this.size.set(domElement.width, domElement.height);
-    if (this.smooth) this.target.setSize(domElement.width, domElement.height);
+    const { size, scale, target } = this;
+    const { x, y } = this.shown.value;
+    size.set(Math.max(1, Math.floor(scale * x)), Math.max(1, Math.floor(scale * y)));
+    const samples = this.smooth ? SAMPLES : 0;
+    if (samples !== target.samples) target.dispose();
+    target.samples = samples;
+    target.setSize(size.x, size.y);
   }
 }

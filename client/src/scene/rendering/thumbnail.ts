@@ -1,4 +1,5 @@
 import { LinearFilter, type WebGLRenderer, WebGLRenderTarget } from "three";
+import { PICTURE_SAMPLES } from "./quality";
 
 /** The server takes no larger pictures. */
 const MAX_URL_LENGTH = 192 * 1024;
@@ -11,7 +12,11 @@ export async function encodePicture(
   height: number,
   draw: () => void,
 ): Promise<string> {
-  const target = new WebGLRenderTarget(width, height, { samples: 4, minFilter: LinearFilter, magFilter: LinearFilter });
+  const target = new WebGLRenderTarget(width, height, {
+    samples: PICTURE_SAMPLES,
+    minFilter: LinearFilter,
+    magFilter: LinearFilter,
+  });
   const pixels = new Uint8ClampedArray(4 * width * height);
   try {
     renderer.setRenderTarget(target);
