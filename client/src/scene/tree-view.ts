@@ -138,6 +138,7 @@ export class TreeView {
     this.branches.restored();
     this.overlays.uploadWhole();
     this.traits.restored();
+    this.skeleton.restored();
     this.foliage.restored();
   }
 

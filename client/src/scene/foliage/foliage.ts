@@ -93,6 +93,8 @@ export class Foliage {
   /** A restored context has lost every texture. */
   restored(): void {
     this.uniforms.restored();
+    this.leaves.restored();
+    this.sprigs.restored();
     this.flowers.restored();
     this.fruits.restored();
   }

@@ -24,7 +24,7 @@ export class LeafRows {
   readonly mesh: Mesh;
   /** Drawn into the shadow map. */
   readonly caster: Mesh;
-  private readonly instances = new RowInstances(BLADE_CARDS);
+  private readonly instances: RowInstances;
   private spray = false;
 
   /** The uniforms are the materials' own. */
@@ -32,6 +32,7 @@ export class LeafRows {
     materials: LeafMaterials,
     private readonly uniforms: Uniforms,
   ) {
+    this.instances = new RowInstances(BLADE_CARDS, [materials.leaf, materials.leafDepth]);
     const { geometries } = this.instances;
     this.mesh = new Mesh(geometries[FAR], materials.leaf);
     this.caster = new Mesh(geometries[FAR], materials.leafDepth);
@@ -73,7 +74,9 @@ export class LeafRows {
     const longest = (size * pixels) / Math.max(0.5, reachFrom(eye, box).nearest - size);
     const level = levelFor(this.spray ? SPRAY_CARDS : BLADE_CARDS, filled, longest, detailed);
     this.mesh.geometry = geometries[level]!;
-    (this.uniforms.uLeafLevel!.value as Vector2).set(level, Math.min(1, leaves / Math.max(1, filled)));
+    const share = Math.min(1, leaves / Math.max(1, filled));
+    (this.uniforms.uLeafLevel!.value as Vector2).set(level, share);
+    this.instances.thin(Math.floor(1 / share));
   }
 
   /** Draws them or not. */
@@ -86,6 +89,11 @@ export class LeafRows {
   upload(): void {
     this.instances.upload();
     this.show(true);
+  }
+
+  /** A restored context has lost the texture. */
+  restored(): void {
+    this.instances.restored();
   }
 
   dispose(): void {

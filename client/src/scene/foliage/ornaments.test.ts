@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
-import { type BufferGeometry, ShaderMaterial } from "three";
+import { ShaderMaterial } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
+import { borneOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
 import { shaderFunctions } from "../../../test/shader-functions";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
@@ -15,17 +16,6 @@ import { Ornaments } from "./ornaments";
 import { isBearing } from "./places";
 
 const LOOK: FlowerLook = { ...DEFAULT_APPEARANCE.flowers, kind: "rosette", share: 0.4 };
-
-/** Rows that bear something, with how many. */
-function borne(geometry: BufferGeometry): Map<number, number> {
-  const counts = new Map<number, number>();
-  const [leaf, tint] = [geometry.getAttribute("leaf"), geometry.getAttribute("tint")];
-  const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-  for (let i = 0; i < count; i += 1) {
-    if (tint.getX(i) >= 0) counts.set(leaf.getX(i), (counts.get(leaf.getX(i)) ?? 0) + 1);
-  }
-  return new Map([...counts].sort((a, b) => a[0] - b[0]));
-}
 
 describe("flowers", () => {
   let table: TreeTable;
@@ -56,7 +46,7 @@ describe("flowers", () => {
   });
 
   it("stand where the look has them", () => {
-    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
+    expect(borneOf(flowers.mesh)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
     for (const look of [
       { ...LOOK, share: 0.9 },
       { ...LOOK, place: "tips" },
@@ -64,7 +54,7 @@ describe("flowers", () => {
     ] as const) {
       flowers.setLook(look);
       flowers.upload(table);
-      expect(borne(flowers.mesh.geometry)).toEqual(expected(look, FLOWERS.kinds.rosette.together));
+      expect(borneOf(flowers.mesh)).toEqual(expected(look, FLOWERS.kinds.rosette.together));
     }
   });
 
@@ -86,21 +76,21 @@ describe("flowers", () => {
       ],
     });
     sync();
-    expect(borne(flowers.mesh.geometry)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
+    expect(borneOf(flowers.mesh)).toEqual(expected(LOOK, FLOWERS.kinds.rosette.together));
   });
 
   it("that are none take nothing to draw", () => {
     flowers.setLook({ ...LOOK, kind: "none" });
     flowers.upload(table);
     expect([flowers.mesh.visible, flowers.caster.visible]).toEqual([false, false]);
-    expect(borne(flowers.mesh.geometry).size).toBe(0);
+    expect(borneOf(flowers.mesh).size).toBe(0);
   });
 
   it("only change colour and size in the shaders", () => {
-    const before = borne(flowers.mesh.geometry);
+    const before = borneOf(flowers.mesh);
     flowers.setLook({ ...LOOK, tint: [255, 0, 0], size: 1.5 });
     flowers.upload(table);
-    expect(borne(flowers.mesh.geometry)).toEqual(before);
+    expect(borneOf(flowers.mesh)).toEqual(before);
     expect(uniforms.uFlowerTint!.value.toArray()).toEqual([1, 0, 0]);
     expect(uniforms.uFlowerFinish!.value.x).toBe(1.5);
   });
@@ -112,7 +102,7 @@ it("a large tree bears fewer at a place, but as many places", () => {
   const flowers = new Ornaments<FlowerLook>(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), {}, new Painter());
   flowers.setLook({ ...LOOK, share: 1 });
   flowers.upload(table);
-  const counts = borne(flowers.mesh.geometry);
+  const counts = borneOf(flowers.mesh);
   const rows = Array.from({ length: table.rows }, (_, row) => row);
   const places = rows.filter((row) => (table.foliage[row]! & 15) > 0 && table.radiusCode[row] !== 0);
   expect(places.length * FLOWERS.kinds.rosette.together).toBeGreaterThan(100_000);

@@ -26,7 +26,7 @@ export class Ornaments<Look extends OrnamentLook> {
   readonly mesh: Mesh;
   /** Drawn into the shadow map. */
   readonly caster: Mesh;
-  private readonly instances = new RowInstances([ORNAMENT_CARDS]);
+  private readonly instances: RowInstances;
   private readonly form = { value: new Vector4(0.5, 0, 0, 0) };
   private readonly finish = { value: new Vector4() };
   private readonly tint = { value: new Vector3() };
@@ -47,6 +47,7 @@ export class Ornaments<Look extends OrnamentLook> {
     uniforms: Uniforms,
     painter: Painter,
   ) {
+    this.instances = new RowInstances([ORNAMENT_CARDS], [material, depth]);
     this.mesh = new Mesh(this.instances.geometries[0], material);
     this.caster = new Mesh(this.instances.geometries[0], depth);
     for (const mesh of [this.mesh, this.caster]) {
@@ -116,6 +117,7 @@ export class Ornaments<Look extends OrnamentLook> {
 
   /** A restored context has lost the textures. */
   restored(): void {
+    this.instances.restored();
     this.textures.restored();
   }
 

@@ -1,5 +1,6 @@
-import { type InstancedBufferGeometry, type Mesh, ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
+import { ShaderMaterial, Vector2, Vector3, Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
+import { countOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
 import type { LeafKind } from "../../wire/generated";
 import type { Uniforms } from "../materials";
@@ -107,7 +108,7 @@ describe("sprigs", () => {
     sprigs.truncate(0);
     sprigs.upload();
     expect(sprigs.count).toBe(0);
-    expect((sprigs.mesh.geometry as InstancedBufferGeometry).instanceCount).toBe(0);
+    expect(countOf(sprigs.mesh)).toBe(0);
   });
 
   it("and leaves of a tree that is small again are as few as its own", () => {
@@ -117,9 +118,8 @@ describe("sprigs", () => {
       part.truncate(kept);
       part.upload();
     }
-    const drawn = ({ geometry }: Mesh) => (geometry as InstancedBufferGeometry).instanceCount;
     expect(leaves.filled).toBe(left);
-    expect(drawn(leaves.mesh)).toBeLessThan(1.3 * left + 300);
+    expect(countOf(leaves.mesh)).toBeLessThan(1.3 * left + 300);
     see(700);
     expect([leaves.mesh.visible, sprigs.mesh.visible], "and none give way").toEqual([true, false]);
   });

@@ -41,7 +41,7 @@ export class Sprigs {
   readonly caster: Mesh;
   /** How far leaves have given way in the middle of the tree, 0 to 1. */
   share = 0;
-  private readonly instances = new RowInstances([SPRIG_CARD]);
+  private readonly instances: RowInstances;
   /** How many metamers come before each on its axis, from a start that differs from axis to axis. */
   private place = new Uint32Array(0);
 
@@ -50,6 +50,7 @@ export class Sprigs {
     materials: SprigMaterials,
     private readonly uniforms: Uniforms,
   ) {
+    this.instances = new RowInstances([SPRIG_CARD], [materials.sprig, materials.sprigDepth]);
     const [geometry] = this.instances.geometries;
     this.mesh = new Mesh(geometry, materials.sprig);
     this.caster = new Mesh(geometry, materials.sprigDepth);
@@ -109,6 +110,11 @@ export class Sprigs {
   /** Uploads what was written since the last call. */
   upload(): void {
     this.instances.upload();
+  }
+
+  /** A restored context has lost the texture. */
+  restored(): void {
+    this.instances.restored();
   }
 
   dispose(): void {

@@ -3,6 +3,7 @@ import { BARK } from "./bark";
 import { COVER, HEAD, LIGHT, NODES, NOISE } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
+import { itemsOf } from "./items";
 
 /** Where a trunk meets the ground. */
 const ROOTS = /* glsl */ `
@@ -71,10 +72,12 @@ Junction junctionAt(vec3 place, vec3 outward, float radius, vec3 heading, Node b
 }
 `;
 
+/** Texels of the numbers of a metamer. */
+export const METAMER_TEXELS = 1;
+
 /** Sweeps a ring along one metamer, from its parent's orientation to its own. */
-export const BRANCH_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}
+export const BRANCH_VERTEX = /* glsl */ `${HEAD}${itemsOf("usampler2D", METAMER_TEXELS)}${NODES}${TRAITS}${GHOST_PLACE}
 in vec4 ring; // cosine, place along the metamer 0 to 1 and on to 2 over a cut end, sine, turn; of a strip, its side first
-in uvec4 metamer; // row, parent's row, row where the limb begins, flags with the slopes of its girth below and above
 uniform vec4 uBarkShape; // relief, root flare, collar, smoothing
 const uint BEGINS_LIMB = 1u;
 const uint FROM_SEED = 2u;
@@ -96,6 +99,13 @@ float woodAt(Node node, bool cut) {
 }
 
 void main() {
+  int number = itemNumber();
+  if (number >= uItemsDrawn[0]) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
+  // Row, parent's row, row where the limb begins, flags with the slopes of its girth below and above.
+  uvec4 metamer = texelFetch(uItems, itemPlace(number), 0);
   Node end = nodeAt(int(metamer.x));
   if (end.look == HIDDEN) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);

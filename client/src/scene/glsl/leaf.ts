@@ -3,6 +3,7 @@ import { SPRIG_REACH } from "../painting/sprig-picture";
 import { COVER, HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
 import { GHOST_COLOUR, GHOST_PLACE } from "./ghost";
+import { itemsOf } from "./items";
 import { DEPTH_COLOUR } from "./shadow";
 
 /** Where rules LF1–LF4 put a leaf, from where its metamer is drawn. */
@@ -118,8 +119,25 @@ Hues leafHues(float vigor, float light, vec3 random) {
 }
 `;
 
+/** Texels of the numbers of a leaf, flower or fruit. */
+export const LEAF_TEXELS = 2;
+
+/** A leaf, flower or fruit as `row-instances.ts` lists it. */
+export const BORNE = /* glsl */ `${itemsOf("sampler2D", LEAF_TEXELS)}
+struct Borne {
+  vec4 at; // row, parent's row, azimuth, share of the way along the metamer
+  float tint; // a random number with the vigor above the point; below 0 where there is none
+};
+Borne borne() {
+  int number = itemNumber();
+  if (number >= uItemsDrawn[0]) return Borne(vec4(0.0), -1.0);
+  ivec2 place = itemPlace(number);
+  return Borne(texelFetch(uItems, place, 0), texelFetch(uItems, place + ivec2(1, 0), 0).x);
+}
+`;
+
 /** Puts one leaf, or one spray of small ones, in its place. */
-export const LEAF_VERTEX = /* glsl */ `${HEAD}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
+export const LEAF_VERTEX = /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${GHOST_PLACE}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform float uLeafSize;
 uniform vec2 uLeafLevel; // 0 near to 2 far, share of the leaves that are drawn
@@ -128,8 +146,6 @@ uniform vec3 uLeafBand; // length of a leaf in pixels up to which all give way t
 uniform float uSprigSpan; // leaves that a sprig is long
 #endif
 in vec3 card; // across −1 to 1, along 0 to 1, which of the crossed ones
-in vec4 leaf; // row, parent's row, azimuth, share of the way along the metamer
-in float tint; // a random number with the vigor above the point; below 0 where there is no leaf
 out vec3 vWorld;
 out vec3 vNormal;
 out vec4 vSide; // across the blade, and ±1 where the picture is mirrored
@@ -141,6 +157,13 @@ out float vTrait;
 const float SECONDS = 0.35;
 ${CARD}${LEAF_SHAPE}${LEAF_COLOUR}
 void main() {
+  Borne own = borne();
+  vec4 leaf = own.at;
+  float tint = own.tint;
+  if (tint < 0.0) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
   Node node = nodeAt(int(leaf.x + 0.5));
   Node from = nodeAt(int(leaf.y + 0.5));
   float random = fract(tint);
@@ -155,8 +178,8 @@ void main() {
   float share = single;
   float haste = uLeafLevel.y;
 #endif
-  float there = presence(uLeafSeason.y, more.z) * presence(haste, more.w) * presence(share, fract(random * 1531.7));
-  if (tint < 0.0 || there <= 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
+  float there = presence(uLeafSeason.y, more.z) * presence(min(1.0, haste * float(uItemsDrawn[1])), more.w) * presence(share, fract(random * 1531.7));
+  if (there <= 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }

@@ -1,6 +1,6 @@
 import { HEAD, LIGHT, NODES } from "./common";
 import { MODES, TRAITS } from "./draw-mode";
-import { CARD, CUT, LEAF_PLACE, THIN_LIGHT } from "./leaf";
+import { BORNE, CARD, CUT, LEAF_PLACE, THIN_LIGHT } from "./leaf";
 import { DEPTH_COLOUR } from "./shadow";
 
 /** What makes a flower or fruit differ from others of its kind; the server's exports compute the same. */
@@ -17,14 +17,12 @@ vec3 ornamentHue(vec3 tint, vec3 more) {
 `;
 
 /** Puts one flower or fruit at the surface of the wood that bears it. */
-export const ornamentVertex = (name: "Flower" | "Fruit") => /* glsl */ `${HEAD}${NODES}${TRAITS}${LEAF_PLACE}
+export const ornamentVertex = (name: "Flower" | "Fruit") => /* glsl */ `${HEAD}${BORNE}${NODES}${TRAITS}${LEAF_PLACE}
 uniform vec3 uSun;
 uniform vec4 u${name}Form; // half width, hanging to upright, turned to the eye or a disc, stalk
 uniform vec4 u${name}Finish; // size, gloss
 uniform vec3 u${name}Tint;
 in vec3 card;
-in vec4 leaf; // row, parent's row, azimuth, share of the way along the metamer
-in float tint; // a random number with the vigor above the point; below 0 where there is nothing
 out vec3 vWorld;
 out vec3 vNormal;
 out vec4 vSide; // across the card, and ±1 where the picture is mirrored
@@ -35,9 +33,16 @@ out float vTrait;
 const float SECONDS = 0.5;
 ${CARD}${ORNAMENT_SHAPE}
 void main() {
+  Borne own = borne();
+  vec4 leaf = own.at;
+  float tint = own.tint;
+  if (tint < 0.0) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
   Node node = nodeAt(int(leaf.x + 0.5));
   Node from = nodeAt(int(leaf.y + 0.5));
-  if (tint < 0.0 || node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
+  if (node.look == HIDDEN || distance(node.position, from.position) < 1e-6) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }

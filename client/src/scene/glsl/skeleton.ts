@@ -1,14 +1,21 @@
+import { METAMER_TEXELS } from "./branch";
 import { HEAD, NODES } from "./common";
+import { itemsOf } from "./items";
 
 /** A strip as wide as a line, from a metamer's parent to where it ends. */
-export const SKELETON_VERTEX = /* glsl */ `${HEAD}${NODES}
+export const SKELETON_VERTEX = /* glsl */ `${HEAD}${itemsOf("usampler2D", METAMER_TEXELS)}${NODES}
 in vec2 strip; // across −1 to 1, along 0 or 1
-in uvec2 metamer; // row, parent's row
 uniform vec2 uPicture; // the picture's size in pixels
 uniform float uLine; // a line's width in pixels
 out float vAcross;
 out float vStrength;
 void main() {
+  int number = itemNumber();
+  if (number >= uItemsDrawn[0]) {
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    return;
+  }
+  uvec4 metamer = texelFetch(uItems, itemPlace(number), 0);
   Node end = nodeAt(int(metamer.x));
   Node start = nodeAt(int(metamer.y));
   if (end.look == HIDDEN) {

@@ -1,17 +1,21 @@
-import { BufferAttribute, InstancedBufferAttribute, InstancedBufferGeometry, Mesh } from "three";
+import { Mesh } from "three";
+import { BlockGeometry } from "../block-geometry";
+import { METAMER_TEXELS } from "../glsl/branch";
+import { ItemTexture } from "../item-texture";
 import type { Materials } from "../materials";
 import type { TreeTable } from "../table/tree-table";
 
-const STRIDE = 2;
+const STRIDE = 4 * METAMER_TEXELS;
 
 /** The axes as thin lines, one strip a metamer; rebuilt when the tree changes, and only while this mode is shown. */
 export class SkeletonLines {
   readonly mesh: Mesh;
-  private geometry = strips(new Uint32Array(0));
+  private readonly items = new ItemTexture(Uint32Array, METAMER_TEXELS);
+  private readonly geometry = new BlockGeometry().shape("strip", [-1, 0, 1, 0, -1, 1, 1, 1], 2, [0, 1, 2, 2, 1, 3]);
   private stale = true;
 
   constructor(materials: Pick<Materials, "skeleton">) {
-    this.mesh = new Mesh(this.geometry, materials.skeleton);
+    this.mesh = new Mesh(this.geometry, this.items.enter(materials.skeleton));
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
   }
@@ -26,30 +30,28 @@ export class SkeletonLines {
     this.mesh.visible = shown && table.rows > 0;
     if (!this.mesh.visible || !this.stale) return;
     this.stale = false;
-    const metamers = new Uint32Array(STRIDE * table.rows);
+    this.items.reserve(table.rows);
+    const { numbers } = this.items;
     let count = 0;
     for (let row = 0; row < table.rows; row += 1) {
       const parent = table.parent[row]!;
       if (parent < 0 || table.radiusCode[row] === 0) continue;
-      metamers[STRIDE * count] = row;
-      metamers[STRIDE * count + 1] = parent;
+      numbers[STRIDE * count] = row;
+      numbers[STRIDE * count + 1] = parent;
       count += 1;
     }
-    this.geometry.dispose();
-    this.geometry = strips(metamers.slice(0, STRIDE * count));
-    this.mesh.geometry = this.geometry;
+    this.items.touch(0, Math.max(1, count));
+    this.items.upload(count);
+    this.geometry.draw(count);
+  }
+
+  /** A restored context has lost the texture. */
+  restored(): void {
+    this.items.uploadWhole();
   }
 
   dispose(): void {
+    this.items.dispose();
     this.geometry.dispose();
   }
-}
-
-function strips(metamers: Uint32Array): InstancedBufferGeometry {
-  const geometry = new InstancedBufferGeometry();
-  geometry.setAttribute("strip", new BufferAttribute(new Float32Array([-1, 0, 1, 0, -1, 1, 1, 1]), 2));
-  geometry.setAttribute("metamer", new InstancedBufferAttribute(metamers, STRIDE));
-  geometry.setIndex([0, 1, 2, 2, 1, 3]);
-  geometry.instanceCount = metamers.length / STRIDE;
-  return geometry;
 }

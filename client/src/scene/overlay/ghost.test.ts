@@ -1,5 +1,6 @@
 import type { Mesh } from "three";
 import { describe, expect, it } from "vitest";
+import { itemsOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
 import { subtreeRows } from "../table/branch-rows";
 import { TreeTable } from "../table/tree-table";
@@ -14,11 +15,9 @@ function tree(): TreeTable {
 /** The rows whose wood is drawn, in any order, by the meshes of one pass. */
 function wood(ghost: Ghost, pass: 1 | 2): number[] {
   const rows: number[] = [];
-  for (const { geometry, renderOrder } of ghost.group.children as Mesh[]) {
-    const metamers = geometry.getAttribute("metamer");
-    if (!metamers || renderOrder !== pass) continue;
-    const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-    for (let i = 0; i < count; i += 1) rows.push(metamers.array[4 * i]!);
+  for (const mesh of ghost.group.children as Mesh[]) {
+    if (!mesh.geometry.hasAttribute("ring") || mesh.renderOrder !== pass) continue;
+    rows.push(...itemsOf(mesh, 4).map(([row]) => row!));
   }
   return rows.sort((a, b) => a - b);
 }

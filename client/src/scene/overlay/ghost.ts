@@ -131,6 +131,8 @@ export class Ghost {
   /** A restored context has lost every texture. */
   restored(): void {
     this.nodes.uploadWhole();
+    this.branches.restored();
+    this.leaves.restored();
   }
 
   dispose(): void {

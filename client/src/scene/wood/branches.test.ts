@@ -1,5 +1,6 @@
-import type { InstancedBufferGeometry, InterleavedBufferAttribute, Mesh } from "three";
+import type { Mesh } from "three";
 import { describe, expect, it } from "vitest";
+import { borneOf, itemsOf, textureOf, trianglesOf } from "../../../test/items";
 import { randoms } from "../../../test/randoms";
 import { sampleTree } from "../../../test/sample-tree";
 import { SMALL, tableOf } from "../../../test/small-tree";
@@ -14,31 +15,14 @@ import { Branches } from "./branches";
 /** Every row that instances of these meshes draw, with its parent. */
 function drawn(meshes: Mesh[]): Map<number, number> {
   const rows = new Map<number, number>();
-  for (const { geometry } of meshes) {
-    const { array } = geometry.getAttribute("metamer");
-    const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-    for (let i = 0; i < count; i += 1) {
-      expect(rows.has(array[4 * i]!), `row ${array[4 * i]} is drawn twice`).toBe(false);
-      rows.set(array[4 * i]!, array[4 * i + 1]!);
-    }
+  for (const [row, parent] of meshes.flatMap((mesh) => itemsOf(mesh, 4))) {
+    expect(rows.has(row!), `row ${row} is drawn twice`).toBe(false);
+    rows.set(row!, parent!);
   }
   return rows;
 }
 
 const wood = (branches: Branches) => branches.meshes.filter((mesh) => mesh !== branches.faces);
-
-/** How many leaves of each row are drawn. */
-function leaves(mesh: Mesh): Map<number, number> {
-  const counts = new Map<number, number>();
-  const { geometry } = mesh;
-  const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-  const leaf = geometry.getAttribute("leaf");
-  const tint = geometry.getAttribute("tint");
-  for (let i = 0; i < count; i += 1) {
-    if (tint.getX(i) >= 0) counts.set(leaf.getX(i), (counts.get(leaf.getX(i)) ?? 0) + 1);
-  }
-  return counts;
-}
 
 it("exactly the living metamers and their leaves are drawn, whatever was changed", { timeout: 30_000 }, () => {
   const random = randoms(31);
@@ -106,7 +90,7 @@ it("exactly the living metamers and their leaves are drawn, whatever was changed
       if (count > 0) expectedLeaves.set(row, count);
     }
     expect(new Map([...drawn(wood(branches))].sort((a, b) => a[0] - b[0]))).toEqual(expected);
-    expect(new Map([...leaves(foliage.meshes[0]!)].sort((a, b) => a[0] - b[0]))).toEqual(expectedLeaves);
+    expect(borneOf(foliage.meshes[0]!)).toEqual(expectedLeaves);
   }
 });
 
@@ -121,14 +105,6 @@ function branchesOf(table: TreeTable): Branches {
   return branches;
 }
 
-/** Triangles that meshes draw. */
-function triangles(meshes: Mesh[]): number {
-  return meshes.reduce((sum, { geometry }) => {
-    const count = "instanceCount" in geometry ? Number(geometry.instanceCount) : 0;
-    return sum + (count * geometry.getIndex()!.count) / 3;
-  }, 0);
-}
-
 describe("branches", { timeout: 30_000 }, () => {
   const large = sampleTree({ seed: 4, height: 90, orders: 5 });
 
@@ -138,7 +114,7 @@ describe("branches", { timeout: 30_000 }, () => {
     expect(table.rows).toBeGreaterThan(100_000);
     const branches = branchesOf(table);
     branches.see(table, { eye: [0, 45, 190], pixels: 1600 }, true);
-    expect(triangles(branches.meshes) * (100_000 / table.rows)).toBeLessThan(500_000);
+    expect(trianglesOf(branches.meshes) * (100_000 / table.rows)).toBeLessThan(500_000);
   });
 
   it("are rounder from near than from far", () => {
@@ -146,9 +122,9 @@ describe("branches", { timeout: 30_000 }, () => {
     table.apply(sampleTree({ seed: 4, height: 30, orders: 3 }));
     const branches = branchesOf(table);
     branches.see(table, { eye: [0, 15, 400], pixels: 1000 }, true);
-    const far = triangles(branches.meshes);
+    const far = trianglesOf(branches.meshes);
     branches.see(table, { eye: [0, 3, 5], pixels: 1000 }, true);
-    expect(triangles(branches.meshes)).toBeGreaterThan(5 * far);
+    expect(trianglesOf(branches.meshes)).toBeGreaterThan(5 * far);
   });
 
   it("are looked at a few a frame, until all have been", () => {
@@ -160,7 +136,7 @@ describe("branches", { timeout: 30_000 }, () => {
     while (branches.see(table, onlooker, false)) frames += 1;
     expect(frames).toBeGreaterThan(3);
     atOnce.see(other, onlooker, true);
-    expect(triangles(branches.meshes)).toBe(triangles(atOnce.meshes));
+    expect(trianglesOf(branches.meshes)).toBe(trianglesOf(atOnce.meshes));
     expect(branches.see(table, onlooker, false)).toBe(false);
   });
 
@@ -176,14 +152,10 @@ describe("branches", { timeout: 30_000 }, () => {
       branches.see(table, { eye, pixels: 1000 }, true);
       const level = new Map(wood(branches).flatMap((mesh, i) => [...drawn([mesh]).keys()].map((row) => [row, i])));
       let joints = 0;
-      for (const { geometry } of wood(branches)) {
-        const { array } = geometry.getAttribute("metamer");
-        for (let i = 0; i < Number((geometry as unknown as { instanceCount: number }).instanceCount); i += 1) {
-          const [row, parent, flags] = [array[4 * i]!, array[4 * i + 1]!, array[4 * i + 3]!];
-          const passes = table.limbs.begins[row] === 0 && level.has(parent) && level.get(parent) !== level.get(row);
-          expect((flags & 16) !== 0, `row ${row}`).toBe(passes);
-          if (passes) joints += 1;
-        }
+      for (const [row, parent, , flags] of wood(branches).flatMap((mesh) => itemsOf(mesh, 4))) {
+        const passes = table.limbs.begins[row!] === 0 && level.has(parent!) && level.get(parent!) !== level.get(row!);
+        expect((flags! & 16) !== 0, `row ${row}`).toBe(passes);
+        if (passes) joints += 1;
       }
       expect(joints).toBeGreaterThan(5);
     }
@@ -201,13 +173,9 @@ describe("branches", { timeout: 30_000 }, () => {
     const thick = (radius: number) => tableOf(SMALL.map((twig, row) => (row > 9 ? { ...twig, radius } : twig)));
     const faces = (branches: Branches) => [...drawn([branches.faces]).keys()].sort((a, b) => a - b);
     const cut = (branches: Branches) =>
-      wood(branches).flatMap(({ geometry }) => {
-        const { array } = geometry.getAttribute("metamer");
-        const count = (geometry as InstancedBufferGeometry).instanceCount;
-        return Array.from({ length: count }, (_, i) => i).flatMap((i) =>
-          array[4 * i + 3]! & 8 ? [array[4 * i]!] : [],
-        );
-      });
+      wood(branches)
+        .flatMap((mesh) => itemsOf(mesh, 4))
+        .flatMap(([row, , , flags]) => (flags! & 8 ? [row!] : []));
     for (const [before, after] of [
       [0.07, 0.3],
       [0.3, 0.07],
@@ -275,9 +243,11 @@ it("wood and leaves that change while they are hidden are uploaded with what cha
   };
   for (let row = 0; row < table.rows; row += 1) foliage.update(table, row, 2);
   foliage.upload(table);
-  const leaf = (foliage.meshes[0]!.geometry.getAttribute("leaf") as InterleavedBufferAttribute).data;
-  // As three.js does once it has uploaded a buffer.
+  const leaf = textureOf(foliage.meshes[0]!);
+  const leafNumbers = leaf.image.data as unknown as Float32Array;
+  // As three.js does once it has uploaded a texture.
   leaf.clearUpdateRanges();
+  leaf.onUpdate?.(leaf);
   const chunk = { change: "patch", chunk: 0, generation: 2, column: "foliage" } as const;
   const changed = [table.rows > CHUNK_ROWS ? 200 : 20, 10];
   const places: number[] = [];
@@ -285,7 +255,7 @@ it("wood and leaves that change while they are hidden are uploaded with what cha
     const changes = [{ ...chunk, rows: Uint8Array.of(row), values: Uint8Array.of(0x13 + i) }];
     table.apply({ epoch: 1, sequence: sample.sequence + 1 + i, catchUp: false, changes });
     follow();
-    for (let at = 0; at < leaf.array.length; at += 5) if (leaf.array[at] === row) places.push(at);
+    for (let at = 0; at < leafNumbers.length; at += 8) if (leafNumbers[at] === row) places.push(at);
   }
   expect(places.length).toBeGreaterThan(4);
   const waits = (at: number) => leaf.updateRanges.some(({ start, count }) => start <= at && at < start + count);

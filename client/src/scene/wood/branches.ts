@@ -1,5 +1,6 @@
-import { type InstancedBufferGeometry, Mesh, type RawShaderMaterial } from "three";
+import { Mesh, type RawShaderMaterial } from "three";
 import { type BarkLook, RADIUS_LOG_STEP } from "../../wire/generated";
+import type { BlockGeometry } from "../block-geometry";
 import { grown } from "../table/column";
 import { slopeCode } from "../table/girth";
 import type { TreeTable } from "../table/tree-table";
@@ -64,9 +65,9 @@ export class Branches {
   readonly casters: Mesh[];
   /** Where branches were cut. */
   readonly faces: Mesh;
-  private readonly fine: InstancedBufferGeometry[];
-  private readonly quick: InstancedBufferGeometry[];
-  private readonly shadow: InstancedBufferGeometry[];
+  private readonly fine: BlockGeometry[];
+  private readonly quick: BlockGeometry[];
+  private readonly shadow: BlockGeometry[];
   private readonly bins: BranchBin[];
   private readonly ends: BranchBin;
   private readonly bark: Bark | null;
@@ -95,11 +96,15 @@ export class Branches {
     const ends = face(FACE_SIDES);
     this.ends = new BranchBin([ends]);
     this.bins = levels.map((_, i) => new BranchBin([this.fine[i]!, this.quick[i]!, this.shadow[i]!]));
-    this.meshes = levels.map(({ sides }, i) => mesh(this.fine[i]!, sides > 0 ? materials.bark : materials.twig));
-    this.faces = mesh(ends, materials.bark);
+    this.meshes = levels.map(({ sides }, i) =>
+      mesh(this.fine[i]!, this.bins[i]!.materialLike(sides > 0 ? materials.bark : materials.twig)),
+    );
+    this.faces = mesh(ends, this.ends.materialLike(materials.bark));
     this.meshes.push(this.faces);
-    this.casters = levels.map((_, i) => mesh(strips ? this.shadow[i]! : this.quick[i]!, materials.branchDepth));
-    if (!strips) this.casters.push(mesh(ends, materials.branchDepth));
+    this.casters = levels.map((_, i) =>
+      mesh(strips ? this.shadow[i]! : this.quick[i]!, this.bins[i]!.materialLike(materials.branchDepth)),
+    );
+    if (!strips) this.casters.push(mesh(ends, this.ends.materialLike(materials.branchDepth)));
   }
 
   /** One tube, one strip and one shadow: what nearly every tree has. */
@@ -199,6 +204,7 @@ export class Branches {
 
   /** A restored context has lost every texture. */
   restored(): void {
+    for (const bin of [...this.bins, this.ends]) bin.restored();
     this.bark?.restored();
   }
 
@@ -342,7 +348,7 @@ function thinnestOf({ rows, radiusCode }: TreeTable): number {
   return least;
 }
 
-function mesh(geometry: InstancedBufferGeometry, material: RawShaderMaterial): Mesh {
+function mesh(geometry: BlockGeometry, material: RawShaderMaterial): Mesh {
   const made = new Mesh(geometry, material);
   made.frustumCulled = false;
   return made;
