@@ -45,6 +45,8 @@ export class Studio {
   readonly settings = loadSettings(localStorage);
   readonly toasts = new Toasts();
   readonly hindrance = signal<Hindrance | null>(null);
+  /** Why the picture is slow however coarse it is: for want of a graphics card, or for the size of the tree. */
+  readonly slowness = signal<"cardless" | "tree" | null>(null);
   readonly document = signal<DocumentState | null>(null);
   /** What trees grow by, as it is set here and by others. */
   readonly growing = new Draft<Parameters, null>({

@@ -23,7 +23,15 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
   const loss = new PictureLoss(studio.hindrance);
   let viewport: Viewport;
   try {
-    viewport = new Viewport(canvas, studio.table, loss.tell, () => studio.stage.moved());
+    viewport = new Viewport(
+      canvas,
+      studio.table,
+      loss.tell,
+      () => studio.stage.moved(),
+      (cardless) => {
+        studio.slowness.value = cardless ? "cardless" : "tree";
+      },
+    );
   } catch (error) {
     console.error(error);
     studio.stage.darken();

@@ -126,7 +126,7 @@ export class TreeView {
   /** Chooses how finely everything is drawn, for a picture that stays at once; says whether some is left to the next frame. */
   detail(fineness: Fineness, stays: boolean): boolean {
     const unsettled = this.branches.see(this.table, fineness, stays);
-    this.branches.detail(fineness.detailed);
+    this.branches.detail(fineness.detailed, fineness.twigs);
     this.foliage.detail(fineness, this.table.bounds());
     this.showMode();
     return unsettled;

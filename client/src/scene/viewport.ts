@@ -18,9 +18,11 @@ import { Ghost, type GhostPose } from "./overlay/ghost";
 import type { Overlay } from "./overlay/overlays";
 import { Painter } from "./painting/painter";
 import type { Fineness } from "./rendering/fineness";
+import { FrameFence } from "./rendering/frame-fence";
+import { drawsWithProcessor } from "./rendering/graphics-card";
 import type { Tile } from "./rendering/picture-tiles";
 import { followPixelRatio } from "./rendering/pixel-ratio";
-import { OPENING, PICTURE_SAMPLES, QUALITIES, type Quality } from "./rendering/quality";
+import { OPENING, PICTURE_SAMPLES, QUALITIES, type Quality, QualityControl } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { RenderPause } from "./rendering/render-pause";
@@ -30,6 +32,8 @@ import { TreeView } from "./tree-view";
 import type { Vec3 } from "./vector";
 
 const MAX_PIXEL_RATIO = 2;
+/** The same where the processor draws each of them. */
+const MAX_CARDLESS_RATIO = 1;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** A line's width in pixels of the page. */
@@ -70,21 +74,26 @@ export class Viewport {
   /** Whether a picture is being made of what the scene is now. */
   private posing = false;
   private readonly shadow = new ShadowDue();
+  /** Whether the processor draws. */
+  private readonly cardless: boolean;
 
   /**
-   * Calls `lossChanged` with true when the picture is lost, and with false when it is back; and `moved` when the view
-   * has another place or size.
+   * Calls `lossChanged` with true when the picture is lost, and with false when it is back; `moved` when the view has
+   * another place or size; and `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
     private readonly table: TreeTable,
     private readonly lossChanged: (lost: boolean) => void = () => {},
     private readonly moved: () => void = () => {},
+    private readonly slowed: (cardless: boolean) => void = () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
     // Asked for later, its answer would wait for all that is drawn by then.
     this.renderer.capabilities.getMaxAnisotropy();
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    this.cardless = drawsWithProcessor(gl);
     this.screen = new Screen(this.renderer, OPENING);
     this.uniforms.uTime = { value: 0 };
     this.uniforms.uLeafSize = { value: 0.7 };
@@ -110,6 +119,8 @@ export class Viewport {
       () => this.loop.control.quality !== QUALITIES[0] || this.shadow.stale || this.tree.ripe,
       // Tests and scripts that take pictures of the page can read when this one is finished.
       (still) => canvas.toggleAttribute("data-still", still && this.complete),
+      new FrameFence(gl),
+      new QualityControl(this.cardless),
     );
     this.pause = new RenderPause(canvas, this.resume);
     this.loop.control.open(performance.now());
@@ -466,6 +477,7 @@ export class Viewport {
     const moving = this.rig.step(step);
     if (growing || moving) control.moved(began);
     if (moving) this.moved();
+    if (control.overtaxed) this.slowed(this.cardless);
     if (this.pause.on) return growing || moving;
     const { quality } = control;
     const { camera } = this.aimed();
@@ -498,10 +510,10 @@ export class Viewport {
     return this.tree.detail(fineness, this.loop.control.resting);
   }
 
-  private fineness(height: number, { detailed, merging, leaves }: Quality): Fineness {
+  private fineness(height: number, { detailed, merging, leaves, sprigs, twigs }: Quality): Fineness {
     const { position } = this.sight.camera;
     const eye = [position.x, position.y, position.z] as const;
-    return { eye, pixels: pixelsPerInternode(height), detailed, merging, leaves };
+    return { eye, pixels: pixelsPerInternode(height), detailed, merging, leaves, sprigs, twigs };
   }
 
   /** Takes over what changed in the table. */
@@ -562,7 +574,7 @@ export class Viewport {
     if (width === 0 || height === 0) return;
     this.sight.width = width;
     this.sight.height = height;
-    const ratio = Math.min(globalThis.devicePixelRatio, MAX_PIXEL_RATIO);
+    const ratio = Math.min(globalThis.devicePixelRatio, this.cardless ? MAX_CARDLESS_RATIO : MAX_PIXEL_RATIO);
     this.screen.resize(width, height, ratio);
     if (this.sun.fit(Math.max(width, height) * ratio)) this.shadow.stale = true;
     this.loop.invalidate();

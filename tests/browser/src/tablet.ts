@@ -136,6 +136,9 @@ export class Tablet {
     // Who tests knows the gestures; a test of the tour says otherwise and loads the page again.
     await context.addInitScript(() => {
       if (localStorage.getItem("espalier.tour") === null) localStorage.setItem("espalier.tour", "true");
+      // And that the processor draws.
+      if (localStorage.getItem("espalier.slowness-read") === null)
+        localStorage.setItem("espalier.slowness-read", "true");
     });
     if (!watched) await context.addInitScript(lookAway, { canvas: CANVAS, unseen: UNSEEN });
     if (client) await context.route("**/*", (route) => substitute(route, client));

@@ -38,6 +38,8 @@ export interface Settings {
   readonly namesShown: Signal<boolean>;
   /** What trees were saved or opened as, by their sessions; the latest last. */
   readonly treeNames: Signal<Readonly<Record<string, string>>>;
+  /** Whether it was read that the picture is slow here. */
+  readonly slownessRead: Signal<boolean>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
   /** Trees that were left and not saved, the last one first. */
@@ -70,6 +72,7 @@ export function loadSettings(store: Storage): Settings {
     tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
     namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
     treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
+    slownessRead: kept(store, "slowness-read", false, (value) => typeof value === "boolean"),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
     savedState: kept<SavedState | null>(store, "saved", null, isSavedState),

@@ -90,7 +90,7 @@ export class Sprigs {
   }
 
   /** Chooses, from where the box is seen, how far its leaves give way; those that are wholly gone are not drawn. */
-  detail({ eye, pixels, merging }: Fineness, box: Box, leaves: LeafRows): void {
+  detail({ eye, pixels, merging, sprigs }: Fineness, box: Box, leaves: LeafRows): void {
     const size = this.uniforms.uLeafSize!.value as number;
     const { nearest, middle, farthest } = reachFrom(eye, box);
     const [low, high] = bandFor(leaves.filled, merging);
@@ -98,7 +98,9 @@ export class Sprigs {
     const whole = SPRIG_LEAVES * this.count;
     // All sprigs together stand for as many leaves as there are.
     const swell = whole > 0 ? Math.min(1.3, Math.max(0.75, Math.sqrt(leaves.filled / whole))) : 1;
-    (this.uniforms.uLeafBand!.value as Vector3).set(low, high, swell);
+    const step = Math.max(1, Math.ceil(this.count / sprigs));
+    this.instances.thin(step);
+    (this.uniforms.uLeafBand!.value as Vector3).set(low, high, swell * Math.sqrt(step));
     this.share = high > 0 ? 1 - rise(low, high, length(middle)) : 0;
     const any = high > 0 && this.count > 0;
     const merged = any && length(farthest + size) < high;

@@ -123,6 +123,25 @@ describe("quality control", () => {
     expect(changes(levels)).toBe(LAST);
   });
 
+  it("a device that is slow at its quickest is told of, and no other", () => {
+    for (const [device, overtaxed] of [
+      [software, true],
+      [{ fixed: 5, whole: 200 }, false],
+      [tablet, false],
+    ] as const) {
+      const control = new QualityControl();
+      move(control, device, 4000);
+      expect(control.overtaxed).toBe(overtaxed);
+    }
+  });
+
+  it("a device that is known to be slow begins with its quickest frames, and gains from there", () => {
+    const control = new QualityControl(true);
+    expect(new Set(move(control, software, 4000))).toEqual(new Set([LAST]));
+    control.rest();
+    expect(move(control, tablet, 6000, 10_000).at(-1)).toBe(0);
+  });
+
   it("shadows wait the longer the less time there is", () => {
     const waits = QUALITIES.map(({ shadowEvery }) => shadowEvery);
     expect(waits[0]).toBe(0);

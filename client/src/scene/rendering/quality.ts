@@ -12,20 +12,29 @@ export interface Quality {
   readonly merging: number;
   /** Leaves drawn at most, each the larger for it. */
   readonly leaves: number;
+  /** The same of sprigs. */
+  readonly sprigs: number;
+  /** Metamers of thin wood drawn at most. */
+  readonly twigs: number;
   /** What such a frame is expected to cost, as a share of one at rest: of two neighbours, at most twice as much (`QUICK`, `SLOW`). */
   readonly cost: number;
 }
 
+const LEAST = { scale: 0.4, smooth: false, shadowEvery: 8000, detailed: false, merging: 1.6 };
+const ALL = { leaves: Number.POSITIVE_INFINITY, sprigs: Number.POSITIVE_INFINITY, twigs: Number.POSITIVE_INFINITY };
+
 /**
  * From the picture at rest to the quickest one. Given up in this order: shadows that follow at once, round limbs, soft
- * shadows, single leaves; pixels only then, and edges last, for blocks and steps are what one sees most.
+ * shadows, single leaves; pixels only then, and edges last, for blocks and steps are what one sees most. What the quickest
+ * draws is bounded, however large the tree is.
  */
 export const QUALITIES: readonly [Quality, Quality, ...Quality[]] = [
-  { scale: 1, smooth: true, shadowEvery: 0, detailed: true, merging: 1, leaves: Number.POSITIVE_INFINITY, cost: 1 },
-  { scale: 1, smooth: true, shadowEvery: 800, detailed: false, merging: 1, leaves: 60_000, cost: 0.65 },
-  { scale: 0.7, smooth: true, shadowEvery: 800, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.35 },
-  { scale: 0.5, smooth: false, shadowEvery: 2500, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.18 },
-  { scale: 0.4, smooth: false, shadowEvery: 8000, detailed: false, merging: 1.6, leaves: 40_000, cost: 0.1 },
+  { scale: 1, smooth: true, shadowEvery: 0, detailed: true, merging: 1, ...ALL, cost: 1 },
+  { scale: 1, smooth: true, shadowEvery: 800, detailed: false, merging: 1, ...ALL, leaves: 60_000, cost: 0.65 },
+  { scale: 0.7, smooth: true, shadowEvery: 800, detailed: false, merging: 1.6, ...ALL, leaves: 40_000, cost: 0.35 },
+  { scale: 0.5, smooth: false, shadowEvery: 2500, detailed: false, merging: 1.6, ...ALL, leaves: 40_000, cost: 0.18 },
+  { ...LEAST, leaves: 20_000, sprigs: 20_000, twigs: 150_000, cost: 0.1 },
+  { ...LEAST, leaves: 7_000, sprigs: 7_000, twigs: 50_000, cost: 0.06 },
 ];
 
 /** Samples of each pixel of a picture that is kept: of thumbnails and downloads. */
@@ -49,7 +58,7 @@ const JUDGED = 3;
 export class QualityControl {
   private level = 0;
   /** Where the next movement begins: a slow device need not find out again. */
-  private first = 0;
+  private first: number;
   private moving = false;
   private lastMoved = Number.NEGATIVE_INFINITY;
   private recent: number[] = [];
@@ -58,6 +67,14 @@ export class QualityControl {
   private opening = false;
   /** The best level this movement may use; a failed try is not repeated before the next rest. */
   private best = 0;
+
+  /** Whether even the quickest frames of a movement were slow. */
+  overtaxed = false;
+
+  /** `weak` says that the device is known to be slow. */
+  constructor(weak = false) {
+    this.first = weak ? QUALITIES.length - 1 : 0;
+  }
 
   /** What the next frame is worth. */
   get quality(): Quality {
@@ -93,6 +110,7 @@ export class QualityControl {
     if (this.recent.length > JUDGED) this.recent.shift();
     this.quickInRow = duration <= QUICK ? this.quickInRow + 1 : 0;
     const cost = this.judged();
+    this.overtaxed ||= cost > SLOW && this.level === QUALITIES.length - 1;
     if (cost > SLOW && this.level < QUALITIES.length - 1) {
       this.best = Math.max(this.best, this.level + 1);
       this.go(this.quickEnough(cost));

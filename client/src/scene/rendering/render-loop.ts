@@ -1,4 +1,5 @@
-import { QualityControl } from "./quality";
+import type { FrameFence } from "./frame-fence";
+import type { QualityControl } from "./quality";
 
 /** What the first frame after a pause counts as, in seconds: the pause itself is no part of any movement. */
 const FIRST_STEP = 1 / 60;
@@ -15,7 +16,6 @@ export interface RenderTime {
 
 /** Draws frames only when needed, as well as the device can while something moves, and as well as can be at rest. */
 export class RenderLoop {
-  readonly control = new QualityControl();
   private request = 0;
   private asked = false;
   /** When the movement in progress was last drawn. */
@@ -30,12 +30,15 @@ export class RenderLoop {
 
   /**
    * `draw` says whether more is to move by itself; `lacking` whether the last frame was less than the one at rest;
-   * `tell` hears when the picture comes to rest for good, and when it no longer is.
+   * `tell` hears when the picture comes to rest for good, and when it no longer is; no frame is drawn while the card is
+   * behind its `fence`.
    */
   constructor(
     private readonly draw: (time: RenderTime) => boolean,
     private readonly lacking: () => boolean,
     private readonly tell: (still: boolean) => void,
+    private readonly fence: FrameFence,
+    readonly control: QualityControl,
   ) {}
 
   /** Has a frame drawn. */
@@ -71,6 +74,10 @@ export class RenderLoop {
 
   private readonly frame = (milliseconds: number): void => {
     const began = performance.now();
+    if (this.fence.behind(began)) {
+      this.request = requestAnimationFrame(this.frame);
+      return;
+    }
     const { control } = this;
     this.request = 0;
     if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
@@ -79,6 +86,7 @@ export class RenderLoop {
     const { asked } = this;
     this.asked = false;
     const goesOn = this.draw({ began, step, asked });
+    this.fence.set(began);
     // A frame at rest is followed by a pause, which tells nothing.
     this.began = control.resting ? null : began;
     this.awaitRest();

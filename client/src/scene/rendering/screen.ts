@@ -27,7 +27,7 @@ export class Screen {
   private readonly share = { value: 1 };
   /** Pixels the canvas shows, across and down. */
   private readonly shown = { value: new Vector2(1, 1) };
-  /** When it began to, or null. */
+  /** When it began to, which is infinite until it is there; or null. */
   private fading: number | null = null;
   private readonly material = new RawShaderMaterial({
     glslVersion: GLSL3,
@@ -113,6 +113,8 @@ export class Screen {
   /** Shows what was drawn a little more, and says whether that goes on; null if it is shown already. */
   fade(camera: Camera): boolean | null {
     if (this.fading === null) return null;
+    // The time it took to draw is no part of the fade.
+    this.fading = Math.min(this.fading, performance.now());
     const share = Math.min(1, (performance.now() - this.fading) / FADE);
     this.share.value = share * share * (3 - 2 * share);
     this.renderer.render(this.copy, camera);
@@ -127,8 +129,7 @@ export class Screen {
     this.kept = true;
     this.drawInto(scene, camera);
     this.renderer.render(this.copy, camera);
-    // The time it took to draw is no part of the fade.
-    if (over) this.fading = performance.now();
+    if (over) this.fading = Number.POSITIVE_INFINITY;
   }
 
   /** Draws a single pixel of the scene, which nobody sees: for what the graphics card does at a first time only. */

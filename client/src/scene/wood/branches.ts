@@ -185,8 +185,11 @@ export class Branches {
     return this.unseen > 0;
   }
 
-  /** Whether branches are as round and smooth as they can be. */
-  detail(detailed: boolean): void {
+  /** Whether branches are as round and smooth as they can be, and how many metamers are drawn as strips at most. */
+  detail(detailed: boolean, twigs = Number.POSITIVE_INFINITY): void {
+    const strips = this.bins.filter((_, i) => LEVELS[i]!.sides === 0);
+    const count = strips.reduce((sum, bin) => sum + bin.count, 0);
+    for (const bin of strips) bin.thin(Math.max(1, Math.ceil(count / twigs)));
     for (const [i, geometry] of (detailed ? this.fine : this.quick).entries()) this.meshes[i]!.geometry = geometry;
   }
 

@@ -20,6 +20,7 @@ export function Chips({ studio }: { studio: Studio }) {
   return (
     <div class="chips" role="status">
       <GrowthChip studio={studio} />
+      <SlownessChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
       <TransferChip transfer={studio.obstacles.transfer} name="import" />
@@ -77,6 +78,29 @@ function SymmetryChip({ studio }: { studio: Studio }) {
         title={say("tools.symmetry.end")}
         onClick={() => {
           studio.settings.symmetry.value = { ...symmetry, kind: "off" };
+        }}
+      >
+        <CloseIcon />
+      </button>
+    </p>
+  );
+}
+
+/** Why the picture is coarse, until it has been read. */
+function SlownessChip({ studio }: { studio: Studio }) {
+  const slowness = studio.slowness.value;
+  if (slowness === null || studio.settings.slownessRead.value) {
+    return null;
+  }
+  return (
+    <p class="chip" data-slowness={slowness}>
+      {say(slowness === "cardless" ? "notices.slow.cardless" : "notices.slow")}
+      <button
+        type="button"
+        aria-label={say("notices.slow.close")}
+        title={say("notices.slow.close")}
+        onClick={() => {
+          studio.settings.slownessRead.value = true;
         }}
       >
         <CloseIcon />
