@@ -9,6 +9,7 @@ export const ARCHITECTURE = {
     "A small flat tree that grows as the settings below say",
     "Ein kleiner flacher Baum, der wächst, wie es die Einstellungen darunter sagen",
   ],
+  "architecture.sketch.growing": ["The sketch is growing…", "Die Skizze wächst …"],
   "architecture.sketch.failed": ["No sketch just now", "Gerade keine Skizze"],
   "architecture.own": ["Your own", "Eigene Art"],
   "architecture.changed": ["{name}, changed", "{name}, verändert"],

@@ -9,6 +9,7 @@ import { useEased } from "./eased";
 import { Grip } from "./grip";
 import { arc, away, type Place, short } from "./place";
 import { layoutOf, pictureOf, type SchematicPicture } from "./schematic-picture";
+import { sketchSettled, sketchState } from "./sketch-patience";
 import { setpointAt } from "./tropism";
 import type { WidgetProps } from "./widget";
 
@@ -30,7 +31,8 @@ export function SchematicTree({ studio }: WidgetProps) {
   const frame = useRef<HTMLDivElement>(null);
   const now = studio.parameters.value;
   const { width, height } = useSize(frame);
-  const { picture, of, failed } = useSketch(studio);
+  const { picture, of, unanswered } = useSketch(studio);
+  const state = sketchState(of !== null, unanswered);
   const wanted = layoutOf(picture, width, height);
   const scale = useEased(wanted.scale, false);
   const ground = useEased(wanted.ground, false);
@@ -58,7 +60,11 @@ export function SchematicTree({ studio }: WidgetProps) {
           )}
         </svg>
       )}
-      {failed && <p class="schematic-note">{say("architecture.sketch.failed")}</p>}
+      {state !== "grown" && (
+        <p class="schematic-note" role="status">
+          {say(`architecture.sketch.${state}`)}
+        </p>
+      )}
       {now !== null && width > 0 && <Arrow {...{ studio, now, width, height }} />}
     </div>
   );
@@ -109,20 +115,24 @@ interface Sketch {
   readonly picture: SchematicPicture;
   /** The parameters it grew with; none for the seedling. */
   readonly of: Parameters | null;
-  /** That it was asked for a newer one and grew none. */
-  readonly failed: boolean;
+  /** How often in a row it was asked for a newer one and grew none. */
+  readonly unanswered: number;
 }
 
 /** The tree of the parameters as the user has them; the old one stays until the new one is there. */
 function useSketch(studio: WidgetProps["studio"]): Sketch {
-  const [sketch, setSketch] = useState<Sketch>({ picture: SEEDLING, of: null, failed: false });
+  const [sketch, setSketch] = useState<Sketch>({ picture: SEEDLING, of: null, unanswered: 0 });
   useEffect(() => {
     let retry: ReturnType<typeof setTimeout> | undefined;
     const gardener = new NewestOnly(
-      async (of: Parameters) => ({ picture: pictureOf(await growSchematic(of)), of, failed: false }),
-      setSketch,
+      async (of: Parameters) => ({ picture: pictureOf(await growSchematic(of)), of, unanswered: 0 }),
+      (sketch) => {
+        setSketch(sketch);
+        sketchSettled.value = true;
+      },
       () => {
-        setSketch((sketch) => ({ ...sketch, failed: true }));
+        setSketch((sketch) => ({ ...sketch, unanswered: sketch.unanswered + 1 }));
+        sketchSettled.value = true;
         // A server that is busy, or comes back, is asked again.
         clearTimeout(retry);
         retry = setTimeout(ask, RETRY_AFTER);

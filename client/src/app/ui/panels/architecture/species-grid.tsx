@@ -7,6 +7,7 @@ import type { Studio } from "../../../studio";
 import { softly } from "../../../words/joints";
 import { say } from "../../../words/say";
 import { LeafSketch } from "./leaf-sketch";
+import { sketchSettled } from "./sketch-patience";
 import { kinNow, lastPicked, useSpecies } from "./species-list";
 import type { WidgetProps } from "./widget";
 
@@ -100,13 +101,13 @@ function SpeciesCard({ species, state, onPick }: SpeciesCardProps) {
   );
 }
 
-/** A grown tree; a leaf while its picture is on the way, or where there is none. */
+/** A grown tree; a leaf while its picture is on the way, or where there is none. The sketch beside it is drawn before. */
 export function SpeciesPicture({ species }: { species: Species }) {
   const [state, setState] = useState<"coming" | "there" | "none">("coming");
   return (
     <span class="species-picture" data-state={state}>
       {state !== "there" && <LeafSketch species={species} />}
-      {state !== "none" && (
+      {state !== "none" && sketchSettled.value && (
         <img
           src={pictureOf(species.slug)}
           alt=""
