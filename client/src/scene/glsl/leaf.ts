@@ -261,20 +261,29 @@ void main() {
 }
 `;
 
-/** Whether there is anything at a place of a picture, with an edge one pixel wide however large it is drawn. */
-export const CUT = /* glsl */ `${COVER}
-float cut(float covered) {
+/** Where a picture ends, and what is drawn of its edge. */
+export const EDGE = /* glsl */ `
+/** How much of a pixel is inside, from what the picture says of its middle and how that changes from pixel to pixel. */
+float edgeOf(float covered, vec2 slope) {
   float inside = covered - 0.5;
-  float width = 0.7 * length(vec2(dFdx(covered), dFdy(covered)));
+  float width = 0.7 * length(slope);
   // What is mostly covered is solid, or leaves seen at a slant would let through what is behind them.
   return clamp(max(inside / max(width, 1e-4) + 0.5, 4.0 * inside), 0.0, 1.0);
 }
+/** Least that must be there to be drawn, of a grain between 0 and 1 and for a picture so many pixels long. */
+float leastOf(float grain, float pixels) {
+  // The edge of what is large is a line, and would only be frayed.
+  return 0.5 + (2.0 * grain - 1.0) * mix(0.45, 0.15, smoothstep(6.0, 12.0, pixels));
+}
+`;
+
+/** Whether there is anything at a place of a picture, with an edge one pixel wide however large it is drawn. */
+export const CUT = /* glsl */ `${COVER}${EDGE}
+float cut(float covered) { return edgeOf(covered, vec2(dFdx(covered), dFdy(covered))); }
 /** Least that must be there to be drawn; \`picture\` is the place in an atlas of two tiles a side. */
 float leastAt(vec2 picture, vec3 place) {
   if (uSamples > 1) return 0.12;
-  // The edge of what is large is a line, and would only be frayed.
-  float pixels = 0.5 / max(length(dFdx(picture)), length(dFdy(picture)));
-  return 0.5 + (2.0 * grainAt(place) - 1.0) * mix(0.45, 0.15, smoothstep(6.0, 12.0, pixels));
+  return leastOf(grainAt(place), 0.5 / max(length(dFdx(picture)), length(dFdy(picture))));
 }
 `;
 

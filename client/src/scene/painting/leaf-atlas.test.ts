@@ -1,5 +1,7 @@
 import { describe, expect, it } from "vitest";
+import { shaderFunctions } from "../../../test/shader-functions";
 import type { LeafKind } from "../../wire/generated";
+import { EDGE } from "../glsl/leaf";
 import { laminaOf } from "./lamina";
 import { ATLAS_TILES, atlasLevels, coverageOf } from "./leaf-atlas";
 import { paintLeaf, seeded } from "./leaf-painter";
@@ -14,6 +16,29 @@ function levelsOf(kind: LeafKind, coarsest?: number) {
     return (side: number) => paintLeaf(lamina, seeded(7 + i), side);
   });
   return atlasLevels(paintings, TILE_SIDE, coarsest);
+}
+
+const { edgeOf, leastOf } = shaderFunctions<{
+  edgeOf(covered: number, slope: readonly number[]): number;
+  leastOf(grain: number, pixels: number): number;
+}>(EDGE, ["edgeOf", "leastOf"]);
+
+/** The share of a tile that is drawn where a texel is a pixel: of a pixel's samples, or of many pixels of a grain each. */
+function drawnOf(level: Uint8Array, side: number, tile: number) {
+  const span = side / ATLAS_TILES;
+  const corner = (tile % ATLAS_TILES) * span + Math.floor(tile / ATLAS_TILES) * span * side;
+  const [least, most] = [leastOf(0, span), leastOf(1, span)];
+  const sum = { samples: 0, grain: 0 };
+  for (let y = 0; y < span; y += 1) {
+    for (let x = 0; x < span; x += 1) {
+      const at = (dx: number, dy: number) =>
+        level[4 * (corner + Math.min(y + dy, span - 1) * side + Math.min(x + dx, span - 1)) + 3]! / 255;
+      const there = edgeOf(at(0, 0), [at(1, 0) - at(0, 0), at(0, 1) - at(0, 0)]);
+      sum.samples += there < 0.12 ? 0 : there;
+      sum.grain += Math.min(1, Math.max(0, (there - least) / (most - least)));
+    }
+  }
+  return { samples: sum.samples / span ** 2, grain: sum.grain / span ** 2 };
 }
 
 describe.each([
@@ -31,6 +56,17 @@ describe.each([
       for (let level = 1; SIDE >> level >= 32; level += 1) {
         const afar = coverageOf(colour[level]!, SIDE >> level, tile);
         expect(Math.abs(afar - near), `tile ${tile} at ${SIDE >> level} texels`).toBeLessThan(0.09);
+      }
+    }
+  });
+
+  it("cover as much through the edges that shaders draw, with samples and without", () => {
+    for (let tile = 0; tile < 4; tile += 1) {
+      const near = coverageOf(colour[0]!, SIDE, tile);
+      for (let level = 0; SIDE >> level >= 32; level += 1) {
+        const drawn = drawnOf(colour[level]!, SIDE >> level, tile);
+        expect(Math.abs(drawn.samples - near), `tile ${tile} at ${SIDE >> level}, samples`).toBeLessThan(0.09);
+        expect(Math.abs(drawn.grain - near), `tile ${tile} at ${SIDE >> level}, none`).toBeLessThan(0.09);
       }
     }
   });
@@ -64,6 +100,11 @@ it("what is outside lends no colour to what is inside", () => {
     return tile;
   };
   const { colour } = atlasLevels([half, half, half, half]);
+  const [finest] = colour;
+  const middle = (TILE_SIDE / 2) * SIDE;
+  const right = Array.from({ length: TILE_SIDE / 2 + 8 }, (_, x) => 4 * (middle + TILE_SIDE / 2 - 4 + x));
+  const outside = right.filter((at) => finest![at + 3] === 0).slice(0, 4);
+  expect(outside.map((at) => finest![at]! > 186)).toEqual([true, true, true, true]);
   for (const level of colour) {
     const brightness = level.filter((_, i) => i % 4 === 0 && level[i + 3]! > 127);
     if (level.length > 16) expect(brightness.length).toBeGreaterThan(0);

@@ -5,6 +5,8 @@ import { type LeafTile, TILE_SIDE } from "./leaf-tile";
 export const ATLAS_TILES = 2;
 /** Where the shaders draw the line between a leaf and none. */
 const THRESHOLD = 0.5;
+/** Texels outside a leaf that have the colour of its edge: looked at between texels, an edge would else be dark. */
+const BLEED = 4;
 
 /** The levels of a mipmap, the finest first: four bytes a texel. */
 export interface Levels {
@@ -64,8 +66,35 @@ function paint(levels: Levels, tiles: readonly LeafTile[]): void {
       relief[to + 3] = byte(tile.margin[at]!);
     }
   });
+  bleed(colour, relief, side);
   levels.colour.push(colour);
   levels.relief.push(relief);
+}
+
+/** Gives what lies just outside the colour and relief of what is next to it; its coverage stays none. */
+function bleed(colour: Uint8Array, relief: Uint8Array, side: number): void {
+  const known = new Uint8Array(side * side);
+  for (let at = 0; at < known.length; at += 1) known[at] = colour[4 * at + 3]! > 0 ? 1 : 0;
+  const around = (at: number) => {
+    const x = at % side;
+    return [x > 0 ? at - 1 : -1, x < side - 1 ? at + 1 : -1, at - side, at + side < known.length ? at + side : -1];
+  };
+  for (let round = 0; round < BLEED; round += 1) {
+    const edge: number[] = [];
+    for (let at = 0; at < known.length; at += 1) {
+      if (known[at] === 0 && around(at).some((next) => next >= 0 && known[next] === 1)) edge.push(at);
+    }
+    for (const at of edge) {
+      const nexts = around(at).filter((next) => next >= 0 && known[next] === 1);
+      const mean = (texels: Uint8Array, i: number) =>
+        nexts.reduce((sum, next) => sum + texels[4 * next + i]!, 0) / nexts.length;
+      for (let i = 0; i < 4; i += 1) {
+        if (i < 3) colour[4 * at + i] = Math.round(mean(colour, i));
+        relief[4 * at + i] = Math.round(mean(relief, i));
+      }
+    }
+    for (const at of edge) known[at] = 1;
+  }
 }
 
 /** What share of a tile's texels is inside, if coverages count `factor` times. */
