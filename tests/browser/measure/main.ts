@@ -4,6 +4,7 @@ import type { Browser, Page } from "playwright-core";
 import { perform } from "../gallery/performance";
 import { launchBrowser } from "../src/browser";
 import { inTime, Server, until } from "../src/server";
+import { withClient } from "../src/tablet";
 import { A_TREE, type FrameRecord, instrument } from "./instruments";
 
 /** Metamers of the tree that budgets are for; it has about twice as many leaves. */
@@ -12,6 +13,8 @@ const SCREEN = { width: 1194, height: 834 };
 /** Frames whose script is timed, after some in which everything is used for the first time. */
 const FRAMES = 240;
 const WARMING = 40;
+/** So long the tree is turned to see how long a frame takes to be drawn, in milliseconds. */
+const TURNED = 10_000;
 
 /** What the browser calls all callbacks of one animation frame in its traces. */
 const ALL_CALLBACKS = "PageAnimator::serviceScriptedAnimations";
@@ -41,6 +44,8 @@ export async function main(words: readonly string[]): Promise<number> {
     );
     const rows = await page.evaluate(() => window.rowsAt);
     const still = await atRest(page);
+    const rested = await done(page);
+    const shown = await turningShown(page);
     const files = await loaded(page);
     const all = await sizeOf(page, files);
     const needed = await sizeOf(
@@ -65,6 +70,9 @@ export async function main(words: readonly string[]): Promise<number> {
       },
       { what: "all that is loaded once the page is idle, gzip, bytes", value: all, print: thousands },
       { what: "its rows received, ms", value: rows, print: whole },
+      { what: "picture at rest and drawn, ms", value: rested, print: whole },
+      { what: "a frame while the tree is turned, as it is drawn, ms", value: shown.frame, print: whole },
+      { what: "the picture behind the finger then, ms", value: shown.behind, print: whole },
       { what: "first tree handed to the graphics card, ms", value: first, most: BUDGET.first, print: whole },
     ];
     console.log(`${cpus()[0]?.model ?? "an unknown processor"}, ${cpus().length} cores`);
@@ -128,6 +136,7 @@ async function grow(blank: Page, browser: Browser, address: string, session: str
 
 async function openMeasured(browser: Browser, address: string): Promise<Page> {
   const context = await browser.newContext({ viewport: SCREEN, hasTouch: true, deviceScaleFactor: 1 });
+  await withClient(context);
   const page = await context.newPage();
   await page.addInitScript(instrument, A_TREE);
   await page.goto(address, { waitUntil: "commit" });
@@ -186,6 +195,36 @@ async function atRest(page: Page): Promise<FrameRecord> {
   const last = whole.at(-1);
   if (!last || !shadow) throw new Error("no frame at rest was seen");
   return { ...last, shadow };
+}
+
+/** Waits until all that was asked of WebGL is drawn, which it says only by giving pixels back; gives the time, since the navigation. */
+async function done(page: Page): Promise<number> {
+  return page.evaluate(() => {
+    const gl = document.querySelector<HTMLCanvasElement>("#workspace")!.getContext("webgl2")!;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    return performance.now();
+  });
+}
+
+/** Turns the tree for a while, all of it drawn: milliseconds a frame takes, and for how long it is drawn on afterwards. */
+async function turningShown(page: Page): Promise<{ frame: number; behind: number }> {
+  const { began, ended, frames } = await page.getByRole("slider", { name: "Turn the tree" }).evaluate(
+    (strip, lasts) =>
+      new Promise<{ began: number; ended: number; frames: number }>((resolve) => {
+        window.measured.length = 0;
+        const began = performance.now();
+        const step = () => {
+          const ended = performance.now();
+          if (ended - began > lasts) return resolve({ began, ended, frames: Math.max(1, window.measured.length) });
+          strip.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true, cancelable: true }));
+          requestAnimationFrame(step);
+        };
+        step();
+      }),
+    TURNED,
+  );
+  const behind = (await done(page)) - ended;
+  return { frame: (ended + behind - began) / frames, behind };
 }
 
 /**

@@ -78,6 +78,11 @@ export const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
 /** A folder with another build of the client than the one that is part of the program; for work on the client alone. */
 const client = process.env.ESPALIER_CLIENT;
 
+/** Has the pages of a context take that build, if there is one. */
+export async function withClient(context: BrowserContext): Promise<void> {
+  if (client) await context.route("**/*", (route) => substitute(route, client));
+}
+
 /** Answers with the file of the folder that stands in for the one asked for, if there is one. */
 async function substitute(route: Route, folder: string): Promise<void> {
   const { pathname } = new URL(route.request().url());
@@ -141,7 +146,7 @@ export class Tablet {
         localStorage.setItem("espalier.slowness-read", "true");
     });
     if (!watched) await context.addInitScript(lookAway, { canvas: CANVAS, unseen: UNSEEN });
-    if (client) await context.route("**/*", (route) => substitute(route, client));
+    await withClient(context);
     const page = await context.newPage();
     const tablet = new Tablet(context, page, await context.newCDPSession(page), darkroom, screen);
     await page.goto(address);
