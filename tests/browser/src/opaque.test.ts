@@ -62,7 +62,7 @@ function turnThroughQualities(strip: Element, [sizes, most]: readonly [readonly 
   });
 }
 
-test("FT1 the page never shines through the picture, however quickly it is drawn", async () => {
+test("the page never shines through the picture, however quickly it is drawn", async () => {
   const { tablet } = await workshop.drawn(WATCHED);
   await tablet.untilStill();
   const strip = tablet.page.getByRole("slider", { name: "Turn the tree" });
