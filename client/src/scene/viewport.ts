@@ -494,7 +494,8 @@ export class Viewport {
         this.drawShadow();
         this.screen.rehearse(this.scene, camera);
       });
-    if (this.shadow.take(began, quality.shadowEvery, growing, this.tree.merged)) this.drawShadow();
+    if (this.shadow.take(began, quality.shadowEvery, growing, quality.detailed ? this.tree.merged : null))
+      this.drawShadow();
     this.screen.draw(this.scene, camera, over);
     this.drawn = quality;
     return growing || moving || over || this.unsettled;

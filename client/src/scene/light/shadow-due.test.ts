@@ -38,4 +38,12 @@ describe("the map of shadows", () => {
     ]);
     expect(due.take(32, 0, false, 0.5), "and back").toBe(true);
   });
+
+  it("is not drawn again because leaves give way in haste", () => {
+    const due = new ShadowDue();
+    due.take(0, 0, false, 0.1);
+    expect(due.take(9000, 0, false, null)).toBe(false);
+    expect(due.take(10_000, 0, false, 0.15), "nor at rest, where they are as before").toBe(false);
+    expect(due.take(11_000, 0, false, 0.9)).toBe(true);
+  });
 });

@@ -11,14 +11,14 @@ export class ShadowDue {
 
   /**
    * Whether it is to be drawn at a time, in milliseconds, and then counts as drawn. `merged` says how far leaves have
-   * given way to sprigs, `every` how many milliseconds lie between two maps at least.
+   * given way to sprigs, or is null where they do so in haste only; `every` how many milliseconds lie between two maps at least.
    */
-  take(now: number, every: number, growing: boolean, merged: number): boolean {
+  take(now: number, every: number, growing: boolean, merged: number | null): boolean {
     // Shadows are those of the leaves that are drawn, near enough.
-    this.stale ||= growing || Math.abs(merged - this.#merged) > MERGED_STEP;
+    this.stale ||= growing || Math.abs((merged ?? this.#merged) - this.#merged) > MERGED_STEP;
     if (!this.stale || now - this.#drawnAt < every) return false;
     this.#drawnAt = now;
-    this.#merged = merged;
+    this.#merged = merged ?? this.#merged;
     // One more frame after the last growth shows everything full grown.
     this.stale = growing;
     return true;
