@@ -55,7 +55,11 @@ export async function pictureInTiles({ renderer, width, height, draw, stop, tell
 
 function drawn(renderer: WebGLRenderer, tile: Tile, draw: (tile: Tile) => void): ImageData {
   const { width, height } = tile;
-  const target = new WebGLRenderTarget(width, height, { samples: PICTURE_SAMPLES, minFilter: LinearFilter, magFilter: LinearFilter });
+  const target = new WebGLRenderTarget(width, height, {
+    samples: PICTURE_SAMPLES,
+    minFilter: LinearFilter,
+    magFilter: LinearFilter,
+  });
   const pixels = new Uint8ClampedArray(4 * width * height);
   try {
     renderer.setRenderTarget(target);
