@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Command, Programme } from "../../../wire/generated";
-import { ProgrammeControl, valuesAt, withChanges } from "./programme-control";
+import { grownUp, ProgrammeControl, valuesAt, withChanges } from "./programme-control";
 
 const pine: Programme = {
   species: "scots-pine",
@@ -30,6 +30,16 @@ describe("a programme", () => {
   it("has the parameters of the stage that an age lies in", () => {
     expect([0, 9, 10, 99].map((age) => valuesAt(pine, age).shedding_threshold)).toEqual([0.9, 0.9, 0.25, 0.25]);
     expect(valuesAt(pine, 3).max_shoot_length).toBe(3);
+  });
+
+  it("shows a tree as it will be, with what is set by hand", () => {
+    const young = valuesAt(pine, 2);
+    expect(grownUp(pine, 2, young).shedding_threshold).toBe(0.25);
+    expect(grownUp(pine, 2, { ...young, shedding_threshold: 0.6, leaf_size: 2 })).toEqual({
+      ...valuesAt(pine, 23),
+      shedding_threshold: 0.6,
+      leaf_size: 2,
+    });
   });
 
   it("keeps its stages in order when one is moved", () => {

@@ -94,6 +94,13 @@ export function valuesAt(programme: Programme, age: number): Parameters {
   return { ...DEFAULT_PARAMETERS, ...programme.parameters, ...stage?.parameters };
 }
 
+/** The parameters that a grown-up tree has by a programme, where those in force at an age differ by hand from it. */
+export function grownUp(programme: Programme, age: number, now: Parameters): Parameters {
+  const own = new Map<string, unknown>(Object.entries(valuesAt(programme, age)));
+  const byHand = Object.entries(now).filter(([name, value]) => !alike(value, own.get(name)));
+  return { ...valuesAt(programme, programme.age), ...Object.fromEntries(byHand) };
+}
+
 /** The stages in which parameters change, in order. */
 export function changesOf({ stages }: Programme): readonly Change[] {
   return stages.filter((stage) => stage.kind === "change");

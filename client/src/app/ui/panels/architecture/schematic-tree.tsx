@@ -2,6 +2,7 @@ import { effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Parameters } from "../../../../wire/generated";
 import { NUMBERS, nameOf, shownValue } from "../../../document/growth/growth-parameters";
+import { grownUp } from "../../../document/growth/programme-control";
 import { growSchematic } from "../../../document/growth/schematic-api";
 import { NewestOnly } from "../../../requests/newest-only";
 import { say } from "../../../words/say";
@@ -125,7 +126,7 @@ function useSketch(studio: WidgetProps["studio"]): Sketch {
   useEffect(() => {
     let retry: ReturnType<typeof setTimeout> | undefined;
     const gardener = new NewestOnly(
-      async (of: Parameters) => ({ picture: pictureOf(await growSchematic(of)), of, unanswered: 0 }),
+      async (of: Parameters) => ({ picture: pictureOf(await growSchematic(matured(studio, of))), of, unanswered: 0 }),
       (sketch) => {
         setSketch(sketch);
         sketchSettled.value = true;
@@ -146,6 +147,7 @@ function useSketch(studio: WidgetProps["studio"]): Sketch {
     };
     const stop = effect(() => {
       if (studio.parameters.value !== null) {
+        void studio.programme.inForce.value;
         ask();
       }
     });
@@ -156,6 +158,12 @@ function useSketch(studio: WidgetProps["studio"]): Sketch {
     };
   }, [studio]);
   return sketch;
+}
+
+/** What the sketch grows by: by a programme the tree that it leads to, for a young one shows nothing of it. */
+function matured(studio: WidgetProps["studio"], now: Parameters): Parameters {
+  const programme = studio.programme.inForce.peek()?.programme;
+  return programme ? grownUp(programme, studio.document.peek()?.age ?? 0, now) : now;
 }
 
 function useSize(element: { readonly current: HTMLElement | null }): {
