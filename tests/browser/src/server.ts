@@ -34,7 +34,8 @@ export class ServerAt extends RunningServer {
 /** One that is started here, with a database of its own. */
 export class Server extends RunningServer {
   port = 0;
-  readonly #folder = mkdtempSync(join(tmpdir(), "espalier-browser-"));
+  /** Where it keeps what it keeps. */
+  readonly folder = mkdtempSync(join(tmpdir(), "espalier-browser-"));
   #child: ChildProcess | null = null;
 
   get address(): string {
@@ -43,7 +44,7 @@ export class Server extends RunningServer {
 
   /** Starts it, on the same port as before if there was one. */
   async start(): Promise<void> {
-    const database = join(this.#folder, "trees.db");
+    const database = join(this.folder, "trees.db");
     const child = spawn(
       program,
       ["serve", "--host", "127.0.0.1", "--port", String(this.port), "--database", database],
@@ -92,7 +93,7 @@ export class Server extends RunningServer {
 
   async stop(): Promise<void> {
     await this.kill();
-    rmSync(this.#folder, { recursive: true, force: true });
+    rmSync(this.folder, { recursive: true, force: true });
   }
 }
 
