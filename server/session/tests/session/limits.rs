@@ -84,18 +84,18 @@ fn unreadable_fields_are_named() {
 #[test]
 fn lm13_programmes_have_bounds() {
     let programme = |stages: serde_json::Value, age: u32| {
-        let programme = serde_json::json!({ "parameters": {}, "stages": stages, "age": age });
-        serde_json::json!({ "kind": "set_programme", "programme": programme }).to_string()
+        let programme = json!({ "parameters": {}, "stages": stages, "age": age });
+        json!({ "kind": "set_programme", "programme": programme }).to_string()
     };
-    let change = |age: u32| serde_json::json!({ "kind": "change", "age": age, "parameters": {} });
+    let change = |age: u32| json!({ "kind": "change", "age": age, "parameters": {} });
     check(&programme(vec![change(10_000); 128].into(), 10_000), Ok(()));
     let many = programme(vec![change(1); 129].into(), 9);
     check(&many, Err((ProblemCode::TooMany, Some("programme.stages"))));
     check(&programme([change(10_001)].to_vec().into(), 9), Err((OUT, Some("programme.stages[0].age"))));
-    check(&programme([].to_vec().into(), 10_001), Err((OUT, Some("programme.age"))));
-    let high = serde_json::json!([{ "kind": "seed", "age": 1, "position": [0, 1, 0] }]);
+    check(&programme(json!([]), 10_001), Err((OUT, Some("programme.age"))));
+    let high = json!([{ "kind": "seed", "age": 1, "position": [0, 1, 0] }]);
     check(&programme(high, 9), Err((OUT, Some("programme.stages[0].position[1]"))));
-    let still = serde_json::json!([{ "kind": "stroke", "age": 1, "samples": [] }]);
+    let still = json!([{ "kind": "stroke", "age": 1, "samples": [] }]);
     check(&programme(still, 9), Err((OUT, Some("programme.stages[0].samples"))));
 }
 
