@@ -71,7 +71,7 @@ pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
 
-const ALL: [&Kind; 13] = [
+const ALL: [&Kind; 14] = [
     &PLANT,
     &TIMELINE,
     &WIDTHS,
