@@ -71,7 +71,7 @@ pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
 
-const ALL: [&Kind; 14] = [
+const ALL: &[&Kind] = &[
     &PLANT,
     &TIMELINE,
     &WIDTHS,
@@ -91,6 +91,6 @@ const ALL: [&Kind; 14] = [
 impl Kind {
     /// The kind with this tag, if it is known.
     pub(super) fn of(tag: [u8; 4]) -> Option<&'static Self> {
-        ALL.into_iter().find(|kind| kind.tag == tag)
+        ALL.iter().copied().find(|kind| kind.tag == tag)
     }
 }
