@@ -1,0 +1,62 @@
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import type { Browser } from "playwright-core";
+import { build } from "vite";
+
+/** What three.js found in a file. */
+export interface Found {
+  readonly generator: string;
+  /** Of the plants. */
+  readonly names: readonly string[];
+  readonly meshes: number;
+  readonly triangles: number;
+  readonly textures: number;
+}
+
+/** The client's own copy of three.js. */
+const three = dirname(
+  dirname(createRequire(join(import.meta.dirname, "../../../client/package.json")).resolve("three")),
+);
+
+/** Loads a glTF file with three.js and takes a picture of it. */
+export class Viewer {
+  private constructor(
+    private readonly browser: Browser,
+    private readonly script: string,
+  ) {}
+
+  static async open(browser: Browser): Promise<Viewer> {
+    const built = await build({
+      configFile: false,
+      logLevel: "warn",
+      resolve: { alias: { three } },
+      build: {
+        write: false,
+        minify: false,
+        lib: { entry: join(import.meta.dirname, "page.js"), formats: ["iife"], name: "viewer" },
+      },
+    });
+    const [bundle] = Array.isArray(built) ? built : [built];
+    const chunk = bundle && "output" in bundle ? bundle.output[0] : null;
+    if (!chunk) throw new Error("the viewer was not built");
+    return new Viewer(browser, chunk.code);
+  }
+
+  async see(file: Buffer, width: number, height: number): Promise<{ found: Found; picture: Buffer }> {
+    const page = await this.browser.newPage({ viewport: { width, height } });
+    try {
+      const address = "http://viewer.test/";
+      await page.route(`${address}**`, (route) =>
+        route.request().url().endsWith(".glb")
+          ? route.fulfill({ body: file, contentType: "model/gltf-binary" })
+          : route.fulfill({ body: "<!doctype html><body style='margin:0'></body>", contentType: "text/html" }),
+      );
+      await page.goto(address);
+      await page.addScriptTag({ content: this.script });
+      const found = (await page.evaluate("show('/tree.glb')")) as Found;
+      return { found, picture: await page.screenshot() };
+    } finally {
+      await page.close();
+    }
+  }
+}

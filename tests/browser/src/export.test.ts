@@ -1,0 +1,54 @@
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { validateBytes } from "gltf-validator";
+import { afterAll, beforeAll, expect, it } from "vitest";
+import { program } from "./server";
+
+const run = promisify(execFile);
+let folder = "";
+
+beforeAll(async () => {
+  folder = await mkdtemp(join(tmpdir(), "espalier-export-"));
+});
+
+afterAll(async () => {
+  await rm(folder, { recursive: true, force: true });
+});
+
+/** A tree as a glTF file. */
+async function grown(name: string, options: readonly string[]): Promise<Uint8Array> {
+  const file = join(folder, `${name}.glb`);
+  await run(program, ["grow", ...options, "--export", file]);
+  const bytes = await readFile(file);
+  await rm(file);
+  return bytes;
+}
+
+/** Names of all species, as the program lists them. */
+async function species(): Promise<string[]> {
+  const { stdout } = await run(program, ["species"]);
+  const slugs = stdout.split("\n").map((line) => /^([a-z][a-z-]*)\s/.exec(line)?.[1]);
+  return slugs.filter((slug) => slug !== undefined);
+}
+
+it("files of every species are glTF without error or warning, says Khronos' validator", async () => {
+  const slugs = await species();
+  expect(slugs.length).toBeGreaterThan(20);
+  for (const slug of slugs) {
+    const { issues, info } = await validateBytes(await grown(slug, ["--species", slug, "--author", "Ada"]));
+    expect(issues.messages, slug).toEqual([]);
+    expect([issues.numErrors, issues.numWarnings], slug).toEqual([0, 0]);
+    expect(info.totalTriangleCount, slug).toBeGreaterThan(1000);
+    // Wood, and leaves or flowers: each with its textures.
+    expect(info.materialCount, slug).toBeGreaterThanOrEqual(2);
+    expect(info.resources?.filter((resource) => resource.mimeType === "image/png").length).toBeGreaterThanOrEqual(5);
+  }
+}, 1_200_000);
+
+it("so is the file of a tree of no species", async () => {
+  const { issues } = await validateBytes(await grown("tree", ["--metamers", "500", "--licence", "CC0-1.0"]));
+  expect([issues.numErrors, issues.numWarnings]).toEqual([0, 0]);
+});
