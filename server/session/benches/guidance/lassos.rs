@@ -1,6 +1,9 @@
 //! Lassos: how much of a drawn outline the tree covers, seen from the front, and how much it sticks out.
 
-use espalier_mesh::{Style, leaf_mesh, leaves};
+use espalier_mesh::{
+    Style,
+    leaves::{self, Leaf},
+};
 use espalier_plant::MetamerId;
 use espalier_proto::{Action, Depth, Direction, DrawingPlane, PlanePoint, Position};
 use espalier_session::{Document, style_options};
@@ -15,6 +18,10 @@ const PIXEL: f32 = 0.25;
 const COVERED: f32 = 1.0;
 /// A tree that covers less than this of its outline is dead.
 const DEAD: f32 = 0.5;
+
+/// Half the width of a leaf, and how far from its base it is widest, in its length.
+const HALF_WIDTH: f32 = 0.3;
+const WIDEST: f32 = 0.42;
 
 /// The overlaps of one tree with its outline: area in both over area in either.
 #[derive(Clone, Copy, Debug)]
@@ -78,10 +85,10 @@ impl Overlaps {
             .map(MetamerId::new)
             .filter(|&id| plant.is_alive(id) && !plant.is_seed(id))
             .collect();
-        let all: Vec<_> = living.iter().flat_map(|&id| leaves::of(plant, id, &style)).collect();
-        let blades = leaf_mesh(&all);
+        let blades: Vec<[Vec2; 4]> =
+            living.iter().flat_map(|&id| leaves::of(plant, id, &style)).map(|leaf| blade(&leaf)).collect();
         let nodes: Vec<Vec2> = living.iter().map(|&id| plant.metamers().end(id).truncate()).collect();
-        let corners = blades.positions.iter().map(|corner| corner.truncate());
+        let corners = blades.iter().flatten().copied();
         let (mut low, mut high) = (Vec2::INFINITY, Vec2::NEG_INFINITY);
         for point in outline.iter().chain(&nodes).copied().chain(corners) {
             (low, high) = (low.min(point - COVERED), high.max(point + COVERED));
@@ -99,17 +106,21 @@ impl Overlaps {
                 .map(|i| ends[0].lerp(ends[1], f32::from(i) / 8.0))
                 .for_each(|p| picture.fill(p, p, |_| true));
         }
-        for corners in blades.indices.as_chunks::<3>().0 {
-            let [a, b, c] = corners.map(|corner| blades.positions[corner as usize].truncate());
-            let turn = |a: Vec2, b: Vec2, p: Vec2| (b - a).perp_dot(p - a);
-            picture.fill(a.min(b).min(c), a.max(b).max(c), |p| {
-                let sides = [turn(a, b, p), turn(b, c, p), turn(c, a, p)];
-                sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
-            });
+        for &[base, left, tip, right] in &blades {
+            picture.fill_triangle([base, left, tip]);
+            picture.fill_triangle([base, tip, right]);
         }
         picture.close_gaps();
         Self { metamers, leaves: picture.overlap(outline), count: plant.living_count() }
     }
+}
+
+/// A leaf as seen from the front: from its base by its widest place, on both sides, to its tip.
+fn blade(leaf: &Leaf) -> [Vec2; 4] {
+    let side = leaf.direction.cross(leaf.normal) * HALF_WIDTH;
+    let widest = leaf.direction * WIDEST;
+    [Vec3::ZERO, widest - side, leaf.direction, widest + side]
+        .map(|place| (leaf.base + leaf.size * place).truncate())
 }
 
 /// Which pixels are covered.
@@ -132,6 +143,14 @@ impl Picture {
     /// Covers the pixels of a box for which something holds.
     fn fill(&mut self, low: Vec2, high: Vec2, is_covered: impl Fn(Vec2) -> bool) {
         self.visit(low, high, |covered, p| *covered |= is_covered(p));
+    }
+
+    fn fill_triangle(&mut self, [a, b, c]: [Vec2; 3]) {
+        let turn = |a: Vec2, b: Vec2, p: Vec2| (b - a).perp_dot(p - a);
+        self.fill(a.min(b).min(c), a.max(b).max(c), |p| {
+            let sides = [turn(a, b, p), turn(b, c, p), turn(c, a, p)];
+            sides.iter().all(|&side| side >= 0.0) || sides.iter().all(|&side| side <= 0.0)
+        });
     }
 
     /// Calls `visit` with the pixels of a box.
