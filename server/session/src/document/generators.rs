@@ -150,8 +150,9 @@ impl Generators {
                 Deed::Follow(_) => self.be_at_least(scene, age + 1),
                 Deed::Settle(stroke, end) => {
                     // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
-                    self.be_at_least(scene, if outcome == StepOutcome::default() { end } else { age + 1 });
-                    if self.age(scene) >= end {
+                    let is_settled = outcome == StepOutcome::default();
+                    self.be_at_least(scene, if is_settled { end.min(until) } else { age + 1 });
+                    if is_settled || self.age(scene) >= end {
                         self.end_stroke(stroke);
                     }
                 }
