@@ -4,6 +4,7 @@ use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
+use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 
 use crate::document::{FORMATS, Format};
@@ -21,6 +22,8 @@ Without a command, espalier serves. Every option of `serve` can be set by the en
 
 /// Budgets of metamers; ids of metamers must fit many times over.
 const BUDGETS: std::ops::RangeInclusive<i64> = 1..=100_000_000;
+/// The same of a session, whose document is kept.
+const SESSION_BUDGETS: std::ops::RangeInclusive<i64> = 1..=MAX_METAMER_BUDGET as i64;
 
 const SERVE_NOTES: &str = "\
 The server prints its address, the address for tablets in the same network, and a QR code of it.
@@ -78,7 +81,7 @@ pub struct Serve {
         env = "ESPALIER_METAMER_BUDGET",
         default_value_t = DEFAULT_METAMER_BUDGET,
         value_name = "N",
-        value_parser = clap::value_parser!(u32).range(BUDGETS)
+        value_parser = clap::value_parser!(u32).range(SESSION_BUDGETS)
     )]
     pub metamer_budget: u32,
     /// What to log to stderr: error, warn, info, debug, trace, or a filter such as espalier=debug,sqlx=warn.

@@ -48,6 +48,11 @@ impl Future {
     pub fn metamers(&self) -> usize {
         self.metamers.parent.len()
     }
+
+    /// Metamers of before it that die in it.
+    pub fn dying(&self) -> usize {
+        self.deaths.len()
+    }
 }
 
 /// A future as plain columns; `u32::MAX` stands for none and for alive.

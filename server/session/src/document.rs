@@ -25,8 +25,8 @@ use espalier_plant::{MetamerId, Plant, hash::StableHash};
 use espalier_proto::{Action, Command, Position, Problem, ProblemCode};
 use espalier_settings::{Appearance, ParameterValues};
 
-pub use self::bytes::DocumentError;
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
+pub use self::bytes::{DocumentError, MAX_METAMER_BUDGET};
 use self::{
     bending::OpenBends,
     bytes::Section,

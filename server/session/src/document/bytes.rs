@@ -6,6 +6,7 @@ mod fields;
 mod format_4;
 mod gestures;
 mod growth;
+mod packing;
 mod programmes;
 mod sections;
 mod settings;
@@ -17,6 +18,7 @@ use std::{collections::VecDeque, sync::Arc};
 use espalier_growth::{Simulation, simulation_version};
 use espalier_plant::{Plant, PlantParts};
 
+pub use self::packing::MAX_METAMER_BUDGET;
 pub(crate) use self::{
     container::{Container, Section},
     fields::{Reader, Writer},

@@ -15,10 +15,10 @@ use super::{
 };
 use crate::cause::Cause;
 
-/// Metamers that all futures may hold (`LM11`).
-const MAX_METAMERS: usize = 4_000_000;
+/// Metamers that may be born and die in all futures (`LM11`).
+pub(super) const MAX_METAMERS: usize = 4_000_000;
 /// Places of wood that was moved, in the present line and all futures (`LM11`).
-const MAX_PLACES: u64 = 4_000_000;
+pub(super) const MAX_PLACES: u64 = 4_000_000;
 
 /// A line of time from where it leaves another one.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,8 +113,8 @@ impl Futures {
         }
     }
 
-    fn metamers(&self) -> usize {
-        self.all.iter().map(|future| future.rows.metamers()).sum()
+    pub(super) fn metamers(&self) -> usize {
+        self.all.iter().map(|future| future.rows.metamers() + future.rows.dying()).sum()
     }
 
     pub fn hash(&self, hash: &mut StableHash) {

@@ -23,7 +23,7 @@ use crate::{
 pub(super) type Standings = Arc<Vec<Standing>>;
 
 /// Triangles of all meshes that the scene or an operation holds on to; undo needs them (`LM6`).
-const MAX_HELD_TRIANGLES: usize = 1_000_000;
+pub(super) const MAX_HELD_TRIANGLES: usize = 1_000_000;
 
 /// The obstacles in the scene.
 #[derive(Clone, Debug, Default, PartialEq)]

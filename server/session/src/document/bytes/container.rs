@@ -2,14 +2,13 @@
 //!
 //! `docs/document.md` has the layout. What a section holds is of no concern here.
 
-use std::io::{Read, Write};
-
-use flate2::{Compression, Crc, read::DeflateDecoder, write::DeflateEncoder};
+use flate2::Crc;
 
 use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
     later,
+    packing::{MAX_UNPACKED, deflate, inflate},
     sections::{Kind, Release},
 };
 
@@ -22,8 +21,6 @@ const ENTRY: usize = 28;
 const MAX_SECTIONS: usize = 256;
 /// It carries along so many sections that this program does not know, so that there is room for its own.
 const MAX_UNKNOWN: usize = 64;
-/// No document unpacks to more: the budget's metamers with all their columns fit many times over.
-const MAX_UNPACKED: u64 = 4 << 30;
 
 const REQUIRED: u8 = 1;
 const RAW: u8 = 0;
@@ -69,14 +66,13 @@ impl Section {
 
     /// What it holds, within what was announced.
     pub(crate) fn unpack(&self) -> Result<Vec<u8>, DocumentError> {
-        let mut bytes = Vec::new();
-        let read = match self.codec {
-            RAW => (&*self.packed).take(self.unpacked + 1).read_to_end(&mut bytes),
-            DEFLATED => DeflateDecoder::new(&*self.packed).take(self.unpacked + 1).read_to_end(&mut bytes),
+        let bytes = match self.codec {
+            RAW => Some(self.packed.clone()),
+            DEFLATED => inflate(&self.packed, self.unpacked)?,
             codec => return Err(later(format!("it is packed by codec {codec}"))),
         };
-        read.map_err(|_| damaged("it does not unpack"))?;
-        if bytes.len() as u64 == self.unpacked { Ok(bytes) } else { Err(damaged("it has another length")) }
+        let whole = bytes.filter(|bytes| bytes.len() as u64 == self.unpacked);
+        whole.ok_or_else(|| damaged("it has another length"))
     }
 
     fn is_required(&self) -> bool {
@@ -148,7 +144,10 @@ impl Container {
             }
             unpacked = unpacked.saturating_add(section.unpacked);
             if unpacked > MAX_UNPACKED {
-                return Err(damaged(format!("its section {} is too long to be true", section.name())));
+                let name = section.name();
+                return Err(damaged(format!(
+                    "with its section {name} it is longer than any document can be"
+                )));
             }
             let is_later = Kind::of(section.tag).map(|kind| section.version > kind.version);
             if is_later.unwrap_or(section.is_required()) {
@@ -213,13 +212,6 @@ fn read_section(entries: &mut Reader<'_>, sections: &mut Reader<'_>) -> Result<S
     }
     section.packed = packed.to_vec();
     Ok(section)
-}
-
-fn deflate(bytes: &[u8]) -> Vec<u8> {
-    let mut deflate = DeflateEncoder::new(Vec::with_capacity(bytes.len() / 2), Compression::new(3));
-    // Writing into memory does not fail.
-    let _ = deflate.write_all(bytes);
-    deflate.finish().unwrap_or_default()
 }
 
 fn checksum(parts: &[&[u8]]) -> u32 {

@@ -2,10 +2,7 @@
 //!
 //! Frozen: this finds where one part ends and the next begins, and puts each into the first version of its section.
 
-use std::io::Read;
-
 use espalier_plant::hash::StableHash;
-use flate2::read::DeflateDecoder;
 
 use super::{
     DocumentError,
@@ -13,6 +10,7 @@ use super::{
     damaged,
     fields::Reader,
     gestures, growth,
+    packing::{MAX_UNPACKED, inflate},
     programmes::Programmes,
     sections::{self, Kind},
     settings::{self, Pool},
@@ -20,7 +18,6 @@ use super::{
 };
 
 const FORMAT: u32 = 4;
-const MAX_BODY: u64 = 4 << 30;
 
 /// The same document in sections; nothing if the bytes are not of this format.
 pub(super) fn upgrade(bytes: &[u8]) -> Result<Option<Container>, DocumentError> {
@@ -30,15 +27,16 @@ pub(super) fn upgrade(bytes: &[u8]) -> Result<Option<Container>, DocumentError> 
         return Ok(None);
     }
     let (simulation, expected) = (header.u32()?, header.u64()?);
-    let mut body = Vec::new();
-    DeflateDecoder::new(header.rest())
-        .take(MAX_BODY)
-        .read_to_end(&mut body)
-        .map_err(|_| damaged("it does not unpack"))?;
+    let body = unpacked(header.rest(), MAX_UNPACKED)?;
     if checksum(&body) != expected {
         return Err(damaged("its checksum differs"));
     }
     Ok(Some(Container { simulation, sections: to_sections(&body)? }))
+}
+
+/// The body, if it is no longer than that.
+fn unpacked(packed: &[u8], most: u64) -> Result<Vec<u8>, DocumentError> {
+    inflate(packed, most)?.ok_or_else(|| damaged("it is longer than any document can be"))
 }
 
 fn to_sections(body: &[u8]) -> Result<Vec<Section>, DocumentError> {
@@ -96,4 +94,17 @@ fn checksum(body: &[u8]) -> u64 {
         hash.word(chunk.iter().rev().fold(0, |word, &byte| word << 8 | u64::from(byte)));
     }
     hash.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{super::packing::deflate, *};
+
+    #[test]
+    fn a_body_that_unpacks_to_too_much_is_refused() {
+        let packed = deflate(&[0; 5000]);
+        let error = unpacked(&packed, 4999).expect_err("one byte too many").to_string();
+        assert_eq!(error, "the document is damaged: it is longer than any document can be");
+        assert_eq!(unpacked(&packed, 5000), Ok(vec![0; 5000]));
+    }
 }

@@ -85,6 +85,18 @@ fn lm11_the_oldest_futures_are_forgotten() {
 }
 
 #[test]
+fn lm11_what_dies_in_a_future_counts_as_what_is_born() {
+    let mut document = tree();
+    let (living, branch) = (document.metamers() as usize, laterals(&document)[0]);
+    apply(&mut document, &plain(Action::Prune { rows: list(vec![branch.raw()]) }));
+    let cut = living - document.metamers() as usize;
+    assert!(cut > 0);
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::PlantSeed { position: Position::nearest(Vec3::X * 5.0) }));
+    assert_eq!(document.futures.metamers(), cut);
+}
+
+#[test]
 fn cm5_a_stroke_that_goes_on_after_a_cut_is_another_operation() {
     let mut document = tree();
     let stroke = |x: f32| {
