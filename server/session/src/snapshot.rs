@@ -84,6 +84,7 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Snapshot, RestoreError> {
 type Progress = (u64, BTreeMap<Arc<str>, LastCommand>);
 
 fn read_session(reader: &mut Reader<'_>) -> Result<Progress, DocumentError> {
+    reader.up_to(1)?;
     let through = reader.u64()?;
     let last_commands = reader.list(|r| {
         let key = Arc::from(r.text()?);

@@ -24,7 +24,10 @@ pub(crate) use self::{
     fields::{Reader, Writer},
     sections::SESSION,
 };
-use self::{sections::Kind, settings::Pool};
+use self::{
+    sections::{Kind, Release},
+    settings::Pool,
+};
 use super::{Document, Generators, futures::Futures, obstacles::Obstacles};
 use crate::habit::Habit;
 
@@ -111,8 +114,9 @@ impl Document {
         if self.strokes.begun > 0 || self.bends.begun > 0 {
             add(&sections::GESTURES, &|out| gestures::write(out, &self.strokes, &self.bends));
         }
+        add(&sections::WRITER, &|out| out.u32(Release::THIS.to_number()));
         sections.extend(self.unknown.iter().cloned());
-        Container { simulation: simulation_version(), sections }
+        Container { simulation: simulation_version(), writer: Some(Release::THIS), sections }
     }
 
     /// Reads a document; any bytes at all give a document or an error.

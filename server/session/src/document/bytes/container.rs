@@ -9,7 +9,7 @@ use super::{
     fields::{Reader, Writer},
     later,
     packing::{MAX_UNPACKED, deflate, inflate},
-    sections::{Kind, Release},
+    sections::{Kind, Release, WRITER},
 };
 
 pub(crate) const MAGIC: [u8; 8] = *b"ESPALIER";
@@ -43,6 +43,8 @@ pub(crate) struct Section {
 pub(crate) struct Container {
     /// The version of the simulation that was at work when it was written.
     pub(crate) simulation: u32,
+    /// The program that wrote it, where it was read and says so.
+    pub(super) writer: Option<Release>,
     pub(crate) sections: Vec<Section>,
 }
 
@@ -61,7 +63,8 @@ impl Section {
     /// The same in any version, not packed.
     pub(crate) fn raw(kind: &Kind, version: u16, bytes: Vec<u8>) -> Self {
         let unpacked = bytes.len() as u64;
-        Self { tag: kind.tag, version, flags: REQUIRED, codec: RAW, unpacked, packed: bytes }
+        let flags = if kind.is_required { REQUIRED } else { 0 };
+        Self { tag: kind.tag, version, flags, codec: RAW, unpacked, packed: bytes }
     }
 
     /// What it holds, within what was announced.
@@ -162,7 +165,12 @@ impl Container {
         if sections.iter().filter(|section| Kind::of(section.tag).is_none()).count() > MAX_UNKNOWN {
             return Err(damaged(format!("it has more than {MAX_UNKNOWN} unknown sections")));
         }
-        Ok(Self { simulation, sections })
+        let mut container = Self { simulation, writer: None, sections };
+        container.writer = container.read(&WRITER, |r| {
+            r.up_to(1)?;
+            r.u32().map(Release::from_number)
+        })?;
+        Ok(container)
     }
 
     /// What a section of this kind holds; nothing if it is not there. All of it must be read.
@@ -174,12 +182,22 @@ impl Container {
         let Some(section) = self.sections.iter().find(|section| section.tag == kind.tag) else {
             return Ok(None);
         };
-        let within = |error: DocumentError| error.within(kind.name);
+        let within = |error: DocumentError| self.with_writer(error.within(kind.name));
         let bytes = section.unpack().map_err(within)?;
-        let mut reader = Reader::new(&bytes);
+        let mut reader = Reader::of_version(&bytes, section.version);
         let value = read(&mut reader).map_err(within)?;
         reader.end().map_err(within)?;
         Ok(Some(value))
+    }
+
+    /// Names the program that wrote what this one does not know.
+    fn with_writer(&self, error: DocumentError) -> DocumentError {
+        match (error, self.writer) {
+            (DocumentError::Later(what), Some(writer)) => {
+                later(format!("{what}, which version {writer} and later ones read"))
+            }
+            (error, _) => error,
+        }
     }
 
     /// The same of a section that every document has.

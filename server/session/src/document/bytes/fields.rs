@@ -3,7 +3,7 @@
 use espalier_plant::{AxisId, MetamerId};
 use glam::{Quat, Vec3};
 
-use super::{DocumentError, damaged};
+use super::{DocumentError, damaged, later};
 
 /// Items are made room for up to this number at a time, whatever length is announced.
 const ROOM: usize = 1 << 20;
@@ -81,35 +81,52 @@ impl Writer {
     }
 }
 
-/// Bytes still to be read.
+/// Bytes still to be read, in one version of their section.
 #[derive(Clone, Debug)]
-pub(crate) struct Reader<'a>(&'a [u8]);
+pub(crate) struct Reader<'a> {
+    rest: &'a [u8],
+    version: u16,
+}
 
 impl<'a> Reader<'a> {
+    /// Bytes of what has one version alone.
     pub(crate) fn new(bytes: &'a [u8]) -> Self {
-        Self(bytes)
+        Self::of_version(bytes, 1)
+    }
+
+    /// Bytes of a section in this version.
+    pub(crate) fn of_version(bytes: &'a [u8], version: u16) -> Self {
+        Self { rest: bytes, version }
+    }
+
+    /// The version to be read. Whoever reads knows all versions up to one; a later program wrote any other.
+    pub(crate) fn up_to(&self, newest: u16) -> Result<u16, DocumentError> {
+        if self.version > newest {
+            return Err(later(format!("it has version {}", self.version)));
+        }
+        Ok(self.version)
     }
 
     /// What has not been read.
     pub(crate) fn rest(&self) -> &'a [u8] {
-        self.0
+        self.rest
     }
 
     /// Nothing may be left.
     pub(crate) fn end(&self) -> Result<(), DocumentError> {
-        if self.0.is_empty() { Ok(()) } else { Err(damaged("something follows its end")) }
+        if self.rest.is_empty() { Ok(()) } else { Err(damaged("something follows its end")) }
     }
 
     /// So many bytes.
     pub(crate) fn slice(&mut self, len: usize) -> Result<&'a [u8], DocumentError> {
-        let (taken, rest) = self.0.split_at_checked(len).ok_or_else(cut_short)?;
-        self.0 = rest;
+        let (taken, rest) = self.rest.split_at_checked(len).ok_or_else(cut_short)?;
+        self.rest = rest;
         Ok(taken)
     }
 
     pub(crate) fn array<const N: usize>(&mut self) -> Result<[u8; N], DocumentError> {
-        let (taken, rest) = self.0.split_first_chunk::<N>().ok_or_else(cut_short)?;
-        self.0 = rest;
+        let (taken, rest) = self.rest.split_first_chunk::<N>().ok_or_else(cut_short)?;
+        self.rest = rest;
         Ok(*taken)
     }
 
@@ -196,7 +213,7 @@ impl<'a> Reader<'a> {
     ) -> Result<Vec<T>, DocumentError> {
         let len = self.u32()? as usize;
         // Every item takes a byte at least, so a length beyond the rest is a lie not worth allocating for.
-        if len > self.0.len() {
+        if len > self.rest.len() {
             return Err(damaged("a list is longer than what is left"));
         }
         let mut items = Vec::with_capacity(len.min(ROOM));

@@ -31,7 +31,7 @@ pub(super) fn upgrade(bytes: &[u8]) -> Result<Option<Container>, DocumentError> 
     if checksum(&body) != expected {
         return Err(damaged("its checksum differs"));
     }
-    Ok(Some(Container { simulation, sections: to_sections(&body)? }))
+    Ok(Some(Container { simulation, writer: None, sections: to_sections(&body)? }))
 }
 
 /// The body, if it is no longer than that.
@@ -40,7 +40,8 @@ fn unpacked(packed: &[u8], most: u64) -> Result<Vec<u8>, DocumentError> {
 }
 
 fn to_sections(body: &[u8]) -> Result<Vec<Section>, DocumentError> {
-    let mut parts = Parts(Reader::new(body));
+    // Whatever later versions of the sections hold, these are the first.
+    let mut parts = Parts(Reader::of_version(body, 1));
     let (_, timeline) = parts.next(wood::read_timeline)?;
     let (_, widths) = parts.next(wood::read_widths)?;
     let (_, plant) = parts.next(wood::read_columns)?;

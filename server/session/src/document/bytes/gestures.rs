@@ -18,6 +18,7 @@ pub(super) fn write(out: &mut Writer, strokes: &OpenStrokes, bends: &OpenBends) 
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<(OpenStrokes, OpenBends), DocumentError> {
+    reader.up_to(1)?;
     Ok((read_strokes(reader)?, read_bends(reader)?))
 }
 

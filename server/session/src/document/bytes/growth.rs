@@ -38,6 +38,7 @@ pub(super) fn write(out: &mut Writer, state: &SimulationState) {
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentError> {
+    reader.up_to(1)?;
     let (seed, metamer_budget, tick) = (reader.u32()?, reader.u32()?, reader.u32()?);
     let parameters = settings::read_set(reader)?;
     let markers = reader.list(|r| {
@@ -83,6 +84,7 @@ pub(super) fn write_sweeps(out: &mut Writer, guides: &BTreeMap<StrokeId, Guide>)
 pub(super) fn read_sweeps(
     reader: &mut Reader<'_>,
 ) -> Result<Vec<(StrokeId, MetamerId, Sweep)>, DocumentError> {
+    reader.up_to(1)?;
     reader.list(|r| {
         let (stroke, first_born) = (StrokeId(r.u32()?), r.u32()?);
         if first_born == u32::MAX {

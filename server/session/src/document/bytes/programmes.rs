@@ -58,6 +58,7 @@ pub(super) fn write(
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError> {
+    reader.up_to(1)?;
     let plans = reader.list(|r| {
         let plan = Plan::new(read_json(r)?).map_err(|problem| damaged(problem.message))?;
         Ok(Arc::new(plan))

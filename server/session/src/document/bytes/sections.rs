@@ -7,6 +7,13 @@ use std::fmt;
 pub(super) struct Release(pub u8, pub u8, pub u16);
 
 impl Release {
+    /// This program.
+    pub(super) const THIS: Self = Self(
+        decimal(env!("CARGO_PKG_VERSION_MAJOR")) as u8,
+        decimal(env!("CARGO_PKG_VERSION_MINOR")) as u8,
+        decimal(env!("CARGO_PKG_VERSION_PATCH")),
+    );
+
     /// Patch in the low 16 bits, minor and major above.
     pub(super) fn to_number(self) -> u32 {
         u32::from(self.0) << 24 | u32::from(self.1) << 16 | u32::from(self.2)
@@ -15,6 +22,15 @@ impl Release {
     pub(super) fn from_number(number: u32) -> Self {
         Self((number >> 24) as u8, (number >> 16) as u8, number as u16)
     }
+}
+
+const fn decimal(digits: &str) -> u16 {
+    let (mut number, mut rest) = (0, digits.as_bytes());
+    while let [digit, behind @ ..] = rest {
+        number = number * 10 + (*digit - b'0') as u16;
+        rest = behind;
+    }
+    number
 }
 
 impl fmt::Display for Release {
@@ -33,13 +49,15 @@ pub(crate) struct Kind {
     pub(super) version: u16,
     /// The first release that reads this version.
     pub(super) since: Release,
+    /// Whether a program that does not know the section cannot read the document.
+    pub(super) is_required: bool,
 }
 
 /// The first release with sections.
 const FIRST: Release = Release(0, 2, 0);
 
 const fn first(tag: [u8; 4], name: &'static str) -> Kind {
-    Kind { tag, name, version: 1, since: FIRST }
+    Kind { tag, name, version: 1, since: FIRST, is_required: true }
 }
 
 /// Rows: metamers and axes.
@@ -68,6 +86,8 @@ pub(super) const HISTORY: Kind = first(*b"HIST", "history");
 pub(super) const FUTURES: Kind = first(*b"FUTU", "futures");
 /// Strokes and bends in progress; none if it is not there.
 pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
+/// The program that wrote the document; none if it is not there.
+pub(super) const WRITER: Kind = Kind { is_required: false, ..first(*b"WRIT", "writer") };
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
 
@@ -85,6 +105,7 @@ const ALL: &[&Kind] = &[
     &HISTORY,
     &FUTURES,
     &GESTURES,
+    &WRITER,
     &SESSION,
 ];
 

@@ -156,10 +156,12 @@ pub(super) fn read_set(reader: &mut Reader<'_>) -> Result<Parameters, DocumentEr
 }
 
 pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<ParametersPatch>, DocumentError> {
+    reader.up_to(1)?;
     reader.list(read_json)
 }
 
 pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>, DocumentError> {
+    reader.up_to(1)?;
     reader.list(|r| {
         let patch: AppearancePatch = read_json(r)?;
         let change = AppearanceChange::parse(&patch).map_err(|problem| damaged(problem.message))?;
@@ -169,6 +171,7 @@ pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>
 
 /// All sets of obstacles.
 pub(super) fn read_obstacles(reader: &mut Reader<'_>) -> Result<Vec<Standings>, DocumentError> {
+    reader.up_to(1)?;
     let meshes = reader
         .list(|r| Mesh::from_bytes(r.bytes()?).map(Arc::new).map_err(|fault| damaged(fault.to_string())))?;
     // An obstacle that was moved stands in many sets, but its mesh is made once.
@@ -215,7 +218,9 @@ fn read_standing(
 pub(super) fn read_json<T: DeserializeOwned>(reader: &mut Reader<'_>) -> Result<T, DocumentError> {
     serde_json::from_str(reader.text()?).map_err(|error| {
         let sentence = error.to_string();
-        if sentence.starts_with("unknown ") { later(sentence) } else { damaged(sentence) }
+        // What would be known fills a page.
+        let fault = sentence.split(", expected").next().unwrap_or_default();
+        if fault.starts_with("unknown ") { later(fault) } else { damaged(sentence) }
     })
 }
 

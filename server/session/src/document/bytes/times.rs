@@ -43,6 +43,7 @@ fn read_latest(reader: &mut Reader<'_>) -> Result<Option<Latest>, DocumentError>
 }
 
 pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<History, DocumentError> {
+    reader.up_to(1)?;
     let initial = pool.read_setting(reader)?;
     let done = reader.u32()? as usize;
     let operations = read_operations(reader, pool)?;
@@ -73,6 +74,7 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
 }
 
 pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futures, DocumentError> {
+    reader.up_to(1)?;
     let (present, newest) = (reader.u32()?, reader.u32()?);
     let all = reader.list(|r| {
         let (line, on) = (r.u32()?, r.option()?);

@@ -24,6 +24,7 @@ pub(super) fn write_columns(out: &mut Writer, parts: &PlantParts) {
 
 /// A plant of these columns, without time, widths and given radii.
 pub(super) fn read_columns(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
+    reader.up_to(1)?;
     Ok(PlantParts {
         parent: reader.numbers()?,
         axis: reader.numbers()?,
@@ -45,6 +46,7 @@ pub(super) fn write_timeline(out: &mut Writer, parts: &PlantParts) {
 
 /// The present step, where steps end, and what was done to wood; without rows.
 pub(super) fn read_timeline(reader: &mut Reader<'_>) -> Result<PlantParts, DocumentError> {
+    reader.up_to(1)?;
     let (now, ends, edits) = (reader.u32()?, read_ends(reader)?, reader.list(read_edit)?);
     Ok(PlantParts { now, ends, edits, ..PlantParts::default() })
 }
@@ -57,6 +59,7 @@ pub(super) fn write_widths(out: &mut Writer, parts: &PlantParts) {
 }
 
 pub(super) fn read_widths(reader: &mut Reader<'_>) -> Result<Vec<(u32, f32)>, DocumentError> {
+    reader.up_to(1)?;
     reader.list(|r| Ok((r.u32()?, r.f32()?)))
 }
 
@@ -68,6 +71,7 @@ pub(super) fn write_given_radii(out: &mut Writer, parts: &PlantParts) {
 }
 
 pub(super) fn read_given_radii(reader: &mut Reader<'_>) -> Result<Vec<(u32, f32)>, DocumentError> {
+    reader.up_to(1)?;
     reader.list(|r| Ok((r.u32()?, r.f32()?)))
 }
 

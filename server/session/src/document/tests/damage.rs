@@ -65,10 +65,10 @@ fn what_is_no_document_is_called_so() {
 
 #[test]
 fn a_document_cut_off_anywhere_is_refused() {
-    for len in (0..BYTES.len()).step_by(7).chain(0..TABLE + 12 * ENTRY) {
+    for len in (0..BYTES.len()).step_by(7).chain(0..TABLE + 13 * ENTRY) {
         assert!(Document::from_bytes(&BYTES[..len]).is_err(), "{len} bytes are not all");
     }
-    assert!(sentence(&BYTES[..BYTES.len() - 1]).contains("section gestures is cut short"));
+    assert!(sentence(&BYTES[..BYTES.len() - 1]).contains("section writer is cut short"));
     let longer = [&**BYTES, b"x"].concat();
     assert!(sentence(&longer).contains("something follows its end"));
 }
@@ -78,7 +78,7 @@ fn a_section_that_was_changed_is_named() {
     let mut bytes = BYTES.clone();
     let last = bytes.len() - 1;
     bytes[last] ^= 16;
-    assert!(sentence(&bytes).contains("section gestures differs from its checksum"));
+    assert!(sentence(&bytes).contains("section writer differs from its checksum"));
     let mut header = BYTES.clone();
     header[16] ^= 1;
     assert!(sentence(&header).contains("checksum of its table of sections differs"));
@@ -102,7 +102,7 @@ fn a_missing_section_is_named_unless_it_stands_for_nothing() {
         let mut without = container();
         without.sections.retain(|other| other.tag != name);
         let read = Document::from_bytes(&without.to_bytes());
-        if [*b"WIDT", *b"FUTU", *b"GEST", *b"PROG"].contains(&name) {
+        if [*b"WIDT", *b"FUTU", *b"GEST", *b"PROG", *b"WRIT"].contains(&name) {
             assert!(read.is_ok(), "{}", name.escape_ascii());
         } else {
             let error = read.expect_err("it cannot do without").to_string();
@@ -132,8 +132,7 @@ fn announced_lengths_cost_nothing() {
     assert!(sentence(&resealed(&[(20, &u32::MAX.to_le_bytes())])).contains("sections"));
     // A list that says it has four billion items.
     let error = changed(|sections| {
-        let section = &mut sections[0];
-        *section = Section { codec: 0, unpacked: 4, packed: vec![0xff; 4], ..section.clone() };
+        refill(&mut sections[0], vec![0xff; 4]);
     });
     assert!(error.contains("in its section plant, it is cut short"), "{error}");
 }
@@ -168,6 +167,70 @@ fn a_later_program_is_named() {
     assert!(sentence(&resealed(&[(8, &[3])])).contains("it has format 3, which no released version wrote"));
 }
 
+/// Puts other contents into a section.
+fn refill(section: &mut Section, contents: Vec<u8>) {
+    *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
+}
+
+/// Says that version 1.12.3 wrote it.
+fn written_later(sections: &mut [Section]) {
+    let writer =
+        sections.iter_mut().find(|section| section.tag == *b"WRIT").expect("documents say who wrote them");
+    refill(writer, vec![3, 0, 12, 1]);
+}
+
+#[test]
+fn names_that_a_later_program_added_name_that_program() {
+    for tag in [*b"PARA", *b"LOOK"] {
+        let with_name = |sections: &mut Vec<Section>| {
+            let section =
+                sections.iter_mut().find(|section| section.tag == tag).expect("every document has it");
+            let mut contents = section.unpack().expect("our own section");
+            // The first text becomes an object with one name; its length stands behind the count.
+            let length = u32::from_le_bytes(contents[4..8].try_into().expect("four bytes")) as usize;
+            let text = br#"{"sap":1}"#;
+            contents.splice(4..8 + length, [&(text.len() as u32).to_le_bytes(), &text[..]].concat());
+            refill(section, contents);
+        };
+        let error = changed(|sections| {
+            with_name(sections);
+            written_later(sections);
+        });
+        let name = if tag == *b"PARA" { "parameters" } else { "looks" };
+        let expected = format!(
+            "a later version of Espalier wrote the document: in its section {name}, unknown field `sap`, \
+             which version 1.12.3 and later ones read"
+        );
+        assert_eq!(error, expected);
+        let nameless = changed(|sections| {
+            with_name(sections);
+            sections.retain(|section| section.tag != *b"WRIT");
+        });
+        assert!(nameless.ends_with("unknown field `sap`"), "{nameless}");
+    }
+}
+
+#[test]
+fn each_reader_refuses_a_later_version_of_its_section() {
+    let absent =
+        [*b"RADI", *b"SWEP", *b"PROG"].map(|tag| Section { tag, codec: 0, unpacked: 6, ..unknown(1) });
+    for section in container().sections.into_iter().chain(absent) {
+        // The table of kinds knows the version, the reader does not: as if only the table had been changed.
+        let mut later = container();
+        later.sections.retain(|other| other.tag != section.tag);
+        later.sections.push(Section { version: 2, ..section.clone() });
+        let read = Document::from_container(&later).map(drop);
+        if section.tag == *b"WRIT" {
+            assert_eq!(read, Ok(()), "it was read with the container");
+            continue;
+        }
+        let error = read.expect_err("nobody reads that").to_string();
+        let program = env!("CARGO_PKG_VERSION");
+        let end = format!("it has version 2, which version {program} and later ones read");
+        assert!(error.contains("wrote the document: in its section") && error.ends_with(&end), "{error}");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
@@ -191,8 +254,12 @@ proptest! {
     #[test]
     fn any_contents_give_a_document_or_an_error(at: Index, contents in prop::collection::vec(any::<u8>(), 0..200)) {
         let mut container = container();
-        let section = at.get_mut(&mut container.sections);
-        *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
+        // Any number can be a version of the program.
+        let (writer, others): (Vec<Section>, Vec<Section>) =
+            std::mem::take(&mut container.sections).into_iter().partition(|section| section.tag == *b"WRIT");
+        container.sections = others;
+        refill(at.get_mut(&mut container.sections), contents);
+        container.sections.extend(writer);
         prop_assert!(Document::from_bytes(&container.to_bytes()).is_err());
     }
 
@@ -204,7 +271,7 @@ proptest! {
         let mut contents = section.unpack().expect("our own section");
         *place.get_mut(&mut contents) ^= with;
         contents.truncate(contents.len() - cut.min(contents.len()));
-        *section = Section { codec: 0, unpacked: contents.len() as u64, packed: contents, ..section.clone() };
+        refill(section, contents);
         if let Ok(mut read) = Document::from_bytes(&container.to_bytes()) {
             // Whatever it is, it is a document: it can be gone through and grows on.
             while read.apply("ann", &plain(Action::Undo {})).is_ok() {}
