@@ -74,7 +74,8 @@ pub enum CloseCode {
     UnknownSession = 4003,
     /// The same client key connected again; this older socket ends.
     Replaced = 4004,
-    /// The session cannot be opened by this server, however often one asks: it needs a newer program, or is damaged.
+    /// The session cannot be opened by this server, however often one asks: it needs a newer program, or is damaged;
+    /// or this client may not join it.
     CannotOpen = 4007,
 }
 

@@ -1,6 +1,6 @@
 //! Who may do what: the one place that decides.
 
-use espalier_session::Principal;
+use espalier_session::{Access, Principal, Rights};
 
 /// What is asked for, at an address or for something that a request names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,9 +8,10 @@ pub enum Action {
     BeginSession,
     SeeSession,
     JoinSession,
+    /// Does a command in a session, uploads included.
+    EditSession,
     /// Takes the tree of a session, as a file or into the library.
     TakeTree,
-    PlaceObstacle,
     SeeObstacle,
     SeeSpecies,
     DrawSchematic,
@@ -37,6 +38,18 @@ pub enum Object<'a> {
 /// Decides whether somebody may do something.
 pub type Authority = fn(&Principal, Action, Object<'_>) -> bool;
 
+/// What a session asks, of this authority and under its name.
+pub fn over(authority: Authority, session: &str) -> Rights {
+    let session = session.to_owned();
+    Rights::new(move |principal, access| {
+        let action = match access {
+            Access::Join => Action::JoinSession,
+            Access::Edit => Action::EditSession,
+        };
+        authority(principal, action, Object::Session(&session))
+    })
+}
+
 /// Who may do an action.
 enum Right {
     /// Whoever reaches the server; for sessions and trees this means who knows the name.
@@ -50,7 +63,7 @@ impl Action {
             | Self::SeeSession
             | Self::JoinSession
             | Self::TakeTree
-            | Self::PlaceObstacle
+            | Self::EditSession
             | Self::SeeObstacle
             | Self::SeeSpecies
             | Self::DrawSchematic

@@ -78,7 +78,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let store = Arc::new(AnyStore::Sqlite(SqliteStore::open(&options.database).await?));
 
     let stop = CancellationToken::new();
-    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
+    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), authority::may, stop.clone());
     let shared = Shared {
         store: Arc::clone(&store),
         sessions: sessions.clone(),

@@ -29,6 +29,7 @@ use crate::{
     journal::Journal,
     obstacle::Mesh,
     prediction::Prediction,
+    rights::Rights,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
     window::MAX_UNREAD,
@@ -67,6 +68,7 @@ pub struct Session {
     /// Predictions that are being made.
     predictions: usize,
     upkeep: Upkeep,
+    rights: Rights,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
     failed: bool,
@@ -208,6 +210,7 @@ impl Session {
             predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
+            rights: Rights::default(),
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
@@ -218,6 +221,11 @@ impl Session {
     pub fn notify(&mut self, notices: impl IntoIterator<Item = Notice>) {
         self.notices.extend(notices);
         self.upkeep.keep_through(self.journal.last());
+    }
+
+    /// Asks these rights from now on, for everybody who comes and for each command.
+    pub fn guard(&mut self, rights: Rights) {
+        self.rights = rights;
     }
 
     /// Something happened at this time, in milliseconds of a clock that never goes back.
@@ -306,11 +314,11 @@ impl Session {
         }
         let message = ClientMessage::from_json(text);
         let Some(guest) = guest else { return self.greet(client, text, message) };
-        let key = Arc::clone(guest.principal.name());
+        let principal = guest.principal.clone();
         match message {
             Ok(ClientMessage::Command { id, command }) => {
                 self.end_prediction(client);
-                self.take(client, &key, id, Ok(command));
+                self.take(client, &principal, id, Ok(command));
             }
             Ok(ClientMessage::Received { sequence, kind }) => match kind {
                 FrameKind::MeshDelta => self.received(client, sequence),
@@ -326,7 +334,7 @@ impl Session {
                 self.send(client, &ServerMessage::Problem { problem });
             }
             Err(Unreadable { id: Some(id), problem }) => {
-                self.take(client, &key, id, Err(problem));
+                self.take(client, &principal, id, Err(problem));
             }
             Err(Unreadable { id: None, problem }) => self.send(client, &ServerMessage::Problem { problem }),
         }

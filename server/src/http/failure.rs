@@ -36,8 +36,7 @@ impl Failure {
     }
 
     pub(super) fn forbidden() -> Self {
-        let problem = Problem::new(ProblemCode::Refused, "You may not do this here.");
-        Self { status: StatusCode::FORBIDDEN, problem }
+        Self { status: StatusCode::FORBIDDEN, problem: espalier_session::forbidden() }
     }
 
     pub(super) fn too_large(field: Option<&str>, allowed: &str, sentence: String) -> Self {

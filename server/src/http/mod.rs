@@ -97,7 +97,7 @@ fn routes() -> Vec<Route> {
         ),
         route(
             "POST /api/sessions/{session}/obstacles",
-            Action::PlaceObstacle,
+            Action::EditSession,
             post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))),
         ),
         route("GET /api/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh)),
@@ -140,8 +140,9 @@ pub fn router(shared: Shared) -> Router {
         .layer(from_fn(guard::time_limit));
     Router::new()
         .merge(requests)
-        // A socket lasts as long as its drawing, so no time limit holds here.
-        .route(path_of(SOCKET), get(sessions::socket).layer(asks(Action::JoinSession)))
+        // A socket lasts as long as its drawing, so no time limit holds here. Who comes is known by its hello: the session
+        // asks then.
+        .route(path_of(SOCKET), get(sessions::socket))
         .route("/", get(client::page))
         .route("/s/{name}", get(client::page))
         .fallback(client::file)
@@ -181,7 +182,7 @@ mod tests {
         };
         store.save_tree(ash).await.unwrap();
         router(Shared {
-            sessions: Sessions::new(Arc::clone(&store), pool.clone(), CancellationToken::new()),
+            sessions: Sessions::new(Arc::clone(&store), pool.clone(), authority, CancellationToken::new()),
             store,
             pool,
             metamer_budget: 1000,
@@ -210,7 +211,7 @@ mod tests {
     #[tokio::test]
     async fn au1_every_address_asks_whether_one_may() {
         let (closed, open) = (server(|_, _, _| false).await, server(authority::may).await);
-        for address in routes().into_iter().map(|route| route.address).chain([SOCKET]) {
+        for Route { address, .. } in routes() {
             let (method, path) = (method_of(address), filled(path_of(address)));
             assert_eq!(status(&closed, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");
             assert_ne!(status(&open, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");

@@ -21,6 +21,7 @@ use tokio_util::sync::CancellationToken;
 use super::outbox::{Outbox, Outgoing};
 use crate::{
     SIMULATION_VERSION,
+    authority::{self, Authority},
     pool::SimulationPool,
     store::{AnyStore, Lease, NewSnapshot, Store},
 };
@@ -132,6 +133,7 @@ impl SessionHandle {
 pub(super) struct Services {
     pub(super) store: Arc<AnyStore>,
     pub(super) pool: SimulationPool,
+    pub(super) authority: Authority,
     pub(super) stop: CancellationToken,
     pub(super) started: Instant,
 }
@@ -169,10 +171,11 @@ enum End {
 impl Actor {
     pub(super) fn new(
         name: String,
-        session: Session,
+        mut session: Session,
         lease: Lease,
         services: Services,
     ) -> (Self, SessionHandle) {
+        session.guard(authority::over(services.authority, &name));
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (errand, errands) = mpsc::unbounded_channel();
         let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };

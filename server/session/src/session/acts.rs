@@ -20,7 +20,7 @@ pub(super) struct Act {
 impl Session {
     /// Takes a command from outside into the order.
     pub(super) fn act(&mut self, id: ActId, principal: &Principal, command: Command) {
-        match self.check(command) {
+        match self.check(principal, command) {
             Ok((command, text)) => {
                 let entry = self.accept(principal.name(), 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });

@@ -8,6 +8,8 @@ use super::Session;
 use crate::{
     form::{self, read_command},
     io::{ActId, ClientId},
+    principal::Principal,
+    rights::Access,
     work::{Order, SLICE_STEPS},
 };
 
@@ -85,14 +87,15 @@ impl Session {
     pub(super) fn take(
         &mut self,
         client: ClientId,
-        key: &Arc<str>,
+        principal: &Principal,
         id: u32,
         command: Result<Command, Problem>,
     ) {
+        let key = principal.name();
         let author = self.authors.enter(key);
         let next = author.taken.saturating_add(1);
         if id <= author.taken && id > 0 {
-            return self.take_again(client, key, id, command);
+            return self.take_again(client, principal, id, command);
         }
         if id != next && !(author.forgot_refusals && id > next) {
             let problem = Problem {
@@ -105,7 +108,7 @@ impl Session {
         }
         author.taken = id;
         author.forgot_refusals = false;
-        match command.and_then(|command| self.check(command)) {
+        match command.and_then(|command| self.check(principal, command)) {
             Ok((command, text)) => {
                 self.accept(key, id, command, text, None);
             }
@@ -114,7 +117,14 @@ impl Session {
     }
 
     /// A command came whose number was taken before: it is answered again, not done again (`CM1`).
-    fn take_again(&mut self, client: ClientId, key: &Arc<str>, id: u32, command: Result<Command, Problem>) {
+    fn take_again(
+        &mut self,
+        client: ClientId,
+        principal: &Principal,
+        id: u32,
+        command: Result<Command, Problem>,
+    ) {
+        let key = principal.name();
         let durable = self.authors.get(key).map_or(0, |author| author.durable);
         if id <= durable {
             return self.send(client, &ServerMessage::Acknowledged { id: durable });
@@ -122,15 +132,21 @@ impl Session {
         if self.journal.is_waiting(key, id) {
             return;
         }
-        let problem = match command.and_then(|command| self.check(command)) {
+        let problem = match command.and_then(|command| self.check(principal, command)) {
             Err(problem) => problem,
             Ok(_) => Problem::new(ProblemCode::Refused, format!("command {id} was refused before")),
         };
         self.send(client, &ServerMessage::Refused { id, problem });
     }
 
-    /// A command in good form, read back from the very text the journal will hold, so that a replay cannot differ.
-    pub(super) fn check(&self, mut command: Command) -> Result<(Command, String), Problem> {
+    /// A command that its author may do, in good form, read back from the very text the journal will hold, so that a
+    /// replay cannot differ.
+    pub(super) fn check(
+        &self,
+        principal: &Principal,
+        mut command: Command,
+    ) -> Result<(Command, String), Problem> {
+        self.rights.ask(principal, Access::Edit)?;
         form::check(&command.action)?;
         if let Action::Stop { .. } = command.action {
             command.action = self.stop_now();

@@ -14,6 +14,7 @@ use crate::{
     clients::{Client, Guest, View, Vision, Watch},
     io::ClientId,
     principal::Principal,
+    rights::Access,
     to_proto::Held,
     window::Window,
 };
@@ -34,7 +35,10 @@ impl Session {
                 self.close_version(client)
             }
             Ok(ClientMessage::Hello { client: key, resume, .. }) => match Principal::client(&key) {
-                Some(principal) => self.welcome(client, principal, resume),
+                Some(principal) => match self.rights.ask(&principal, Access::Join) {
+                    Ok(()) => self.welcome(client, principal, resume),
+                    Err(problem) => self.close(client, CloseCode::CannotOpen, &problem.message),
+                },
                 None => {
                     let sentence = "a client key has 8 to 64 letters, digits, hyphens and underscores";
                     self.close(client, CloseCode::HelloExpected, sentence);

@@ -17,6 +17,7 @@ mod looks;
 mod mirror;
 mod obstacles;
 mod refusals;
+mod rights;
 mod rows;
 mod shaping;
 mod stopping;

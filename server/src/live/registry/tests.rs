@@ -15,6 +15,7 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
+    authority::{self, Action, Object},
     store::{Breakable, Lease, MemoryStore, NewSession, NewSnapshot},
 };
 
@@ -34,8 +35,12 @@ impl House {
     }
 
     fn at(store: Arc<AnyStore>) -> Self {
-        let stop = CancellationToken::new();
-        let sessions = Sessions::new(Arc::clone(&store), SimulationPool::new(None).unwrap(), stop.clone());
+        Self::ruled(store, authority::may)
+    }
+
+    fn ruled(store: Arc<AnyStore>, authority: Authority) -> Self {
+        let (pool, stop) = (SimulationPool::new(None).unwrap(), CancellationToken::new());
+        let sessions = Sessions::new(Arc::clone(&store), pool, authority, stop.clone());
         Self { store, stop, sessions }
     }
 
@@ -127,6 +132,33 @@ impl Visitor {
         timeout(Duration::from_secs(20), self.outgoings.closing.decided()).await.unwrap();
         self.outgoings.closing.farewell().code
     }
+}
+
+#[tokio::test]
+async fn au2_a_session_asks_the_authority_under_its_name() {
+    let house = House::new().await;
+    let house = House::ruled(house.store, |who, action, object| {
+        let is_member = who.to_string() == "test-client";
+        object == Object::Session("oak") && (action == Action::EditSession || is_member)
+    });
+    house.begin("elm", SIMULATION_VERSION, None).await;
+    assert_eq!(house.visit_to("elm").await.close_code().await, CloseCode::CannotOpen);
+    let mut member = house.visit().await;
+    member.welcome().await;
+    member.grow(1).await;
+    assert_eq!(member.acknowledged().await, 1);
+    let house = House::ruled(house.store, |_, action, _| action == Action::JoinSession);
+    house.begin("ash", SIMULATION_VERSION, None).await;
+    let mut viewer = house.visit_to("ash").await;
+    viewer.grow(1).await;
+    let refused = viewer.hear(|message| match message {
+        ServerMessage::Refused { problem, .. } => Some(problem),
+        _ => None,
+    });
+    assert_eq!(refused.await, espalier_session::forbidden());
+    let command = espalier_session::read_command(r#"{"kind":"grow","steps":1}"#).unwrap();
+    let uploaded = viewer.session.act(Principal::visitor(), command).await.unwrap();
+    assert_eq!(uploaded, Err(espalier_session::forbidden()));
 }
 
 #[tokio::test]

@@ -1,0 +1,50 @@
+//! What a session asks before it lets somebody in, or takes a command (`AU2`). Who may do what is for others to say.
+
+use std::{fmt, sync::Arc};
+
+use espalier_proto::{Problem, ProblemCode};
+
+use crate::principal::Principal;
+
+/// What somebody wants of a session.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Access {
+    /// To come in and see it.
+    Join,
+    /// To have a command done.
+    Edit,
+}
+
+/// Says who may do what in a session. Unless told otherwise, everybody may do everything.
+#[derive(Clone)]
+pub struct Rights(Arc<May>);
+
+type May = dyn Fn(&Principal, Access) -> bool + Send + Sync;
+
+impl Rights {
+    /// The rights that this function gives.
+    pub fn new(may: impl Fn(&Principal, Access) -> bool + Send + Sync + 'static) -> Self {
+        Self(Arc::new(may))
+    }
+
+    pub(crate) fn ask(&self, principal: &Principal, access: Access) -> Result<(), Problem> {
+        if (self.0)(principal, access) { Ok(()) } else { Err(forbidden()) }
+    }
+}
+
+impl Default for Rights {
+    fn default() -> Self {
+        Self::new(|_, _| true)
+    }
+}
+
+impl fmt::Debug for Rights {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Rights")
+    }
+}
+
+/// What whoever may not do something is told.
+pub fn forbidden() -> Problem {
+    Problem::new(ProblemCode::Refused, "You may not do this here.")
+}
