@@ -9,7 +9,6 @@ import "./app/ui/styles/labels.css";
 import "./app/ui/styles/status.css";
 import "./app/ui/styles/tools.css";
 import "./app/ui/styles/draw-modes.css";
-import "./app/ui/styles/timeline.css";
 import "./app/ui/styles/sheets.css";
 
 const root = document.getElementById("app");

@@ -53,7 +53,7 @@ export class Exports {
             tell({ bytes: Math.round(100 * share), total: 100 }),
           );
         } catch (cause) {
-          throw new Error(say("transfers.picture.failed"), { cause });
+          throw new Error(say("notices.picture-failed"), { cause });
         }
       }),
     );

@@ -181,10 +181,11 @@ describe("toolbox", () => {
     expect(radii.at(-1)! / radii[0]!).toBeCloseTo(1.8, 1);
   });
 
-  it("a stroke goes to the tool that was chosen", () => {
+  it("a stroke goes to the tool that was chosen", async () => {
     const { tools, sent, outline, draw } = setUp();
     draw(ring);
     expect(kinds(sent)).toEqual(["stroke_begin", "stroke_move", "stroke_end"]);
+    await tools.load("lasso");
     tools.choose("lasso");
     draw(ring);
     expect(kinds(sent.splice(0)).slice(3)).toEqual(["lasso"]);
@@ -211,10 +212,12 @@ describe("toolbox", () => {
     expect(kinds(sent).at(-1)).toBe("stroke_end");
   });
 
-  it("cancelling forgets an outline and ends a brush stroke", () => {
+  it("cancelling forgets an outline and ends a brush stroke", async () => {
     const { tools, sent, outline, begin } = setUp();
+    await tools.load("lasso");
     tools.choose("lasso");
     begin(ring);
+    expect(outline.shown.value?.stage).toBe("drawing");
     tools.cancel();
     tools.gesture({ kind: "stroke-end" });
     expect([sent, outline.shown.value, tools.drawing.value]).toEqual([[], null, false]);

@@ -10,7 +10,6 @@ import { RotationStrip } from "./bars/rotation-strip";
 import { ShowAll } from "./bars/show-all";
 import { SideBar } from "./bars/side-bar";
 import { ToolBar } from "./bars/tool-bar";
-import { Chips } from "./notices/chips";
 import { HindranceCard, Hint, ToastList } from "./notices/notices";
 import { Status } from "./notices/status";
 import { BudMarker, HoldRing } from "./overlays/bud-marker";
@@ -19,9 +18,22 @@ import { Seedlings } from "./overlays/seedling";
 import { Panel } from "./panels/panel";
 import type { Part } from "./part";
 import { PartView } from "./part-view";
-import { loadPartsWhenIdle, NAMES, PANELS, PREDICTION, RECENT, SHEETS, SUN, SYMMETRY, TOOL_PARTS, TOUR } from "./parts";
+import {
+  CHIPS,
+  loadPartsWhenIdle,
+  NAMES,
+  PANELS,
+  PREDICTION,
+  RECENT,
+  SHEETS,
+  SUN,
+  SYMMETRY,
+  TIMELINE,
+  TOOL_PARTS,
+  TOUR,
+} from "./parts";
 import { Sheet } from "./sheets/sheet";
-import { hasTimeline, TimelineStrip } from "./timeline/timeline-strip";
+import { hasTimeline, isWorthShowing } from "./timeline/has-timeline";
 import { useWorkspaceSize } from "./workspace-size";
 
 /** The whole page: the workspace, around it as little as possible, and beside it the panel that is pulled down. */
@@ -132,6 +144,8 @@ function Bars({ studio }: { studio: Studio }) {
   const made = studio.tools.made.value?.[name];
   const predicted = studio.branches.prediction.rows.value !== null;
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
+  const TimelineStrip = usePart(studio, TIMELINE, isWorthShowing(studio.time.timeline.value));
+  const Chips = usePart(studio, CHIPS, studio.document.value !== null);
   const isFirst = isFirstScreen(studio);
   const RecentTrees = usePart(studio, RECENT, isFirst);
   return (
@@ -143,11 +157,13 @@ function Bars({ studio }: { studio: Studio }) {
       <Hint studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
-        <TimelineStrip studio={studio} />
+        {TimelineStrip && <TimelineStrip studio={studio} />}
       </div>
       {TourCard && <TourCard studio={studio} />}
       {RecentTrees && isFirst && <RecentTrees studio={studio} />}
-      <Chips studio={studio} />
+      <div class="chips" role="status">
+        {Chips && <Chips studio={studio} />}
+      </div>
       <DrawModeLegend studio={studio} />
     </>
   );

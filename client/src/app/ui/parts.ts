@@ -79,6 +79,12 @@ export const TOOL_PARTS = Object.fromEntries(
   TOOL_NAMES.map((name) => [name, new Part(() => descriptorOf(name).later())]),
 ) as Readonly<Record<ToolName, Part<ToolLater>>>;
 
+/** What is in progress and can be ended. */
+export const CHIPS = new Part(async () => (await import("./notices/chips")).Chips);
+
+/** The line of time, once anything was done. */
+export const TIMELINE = new Part(async () => (await import("./timeline/timeline-strip")).TimelineStrip);
+
 export const SYMMETRY = new Part(async () => (await import("./overlays/symmetry-mark")).SymmetryMark);
 
 export const SUN = new Part(async () => (await import("./overlays/sun-handle")).SunHandle);
@@ -92,6 +98,8 @@ export const RECENT = new Part(async () => (await import("./notices/recent-trees
 
 /** All of them, those first that are needed first. */
 const ALL: readonly Part<unknown>[] = [
+  CHIPS,
+  TIMELINE,
   PREDICTION,
   ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),

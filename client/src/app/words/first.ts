@@ -6,9 +6,8 @@ import { REQUESTS } from "./problems";
 import { ROTATION } from "./rotation";
 import { MESHES } from "./scene";
 import { SHEET_TITLES } from "./sheets";
-import { TIMELINE } from "./timeline";
+import { OPERATIONS } from "./timeline";
 import { TOOLS } from "./tools";
-import { TRANSFERS } from "./transfers";
 
 /** The texts that a page may need before it has loaded any of its parts, in every language. */
 export const FIRST = {
@@ -16,11 +15,10 @@ export const FIRST = {
   ...DRAWMODE,
   ...MESHES,
   ...NOTICES,
+  ...OPERATIONS,
   ...PANELS,
   ...REQUESTS,
   ...ROTATION,
   ...SHEET_TITLES,
-  ...TIMELINE,
   ...TOOLS,
-  ...TRANSFERS,
 } as const satisfies Record<string, readonly [string, string]>;

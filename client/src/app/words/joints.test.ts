@@ -9,7 +9,7 @@ const LONG_CHOICE = 9;
 
 const entries = Object.entries(TABLE) as [string, readonly [string, string]][];
 /** What stands under pictures: the kinds, shapes and places to choose from. */
-const CHOICE = /^(?!timeline).*\.(kind|shape|place|sky|ground|vigor_model)\.(?!help)\w+$/;
+const CHOICE = /^(?!operations).*\.(kind|shape|place|sky|ground|vigor_model)\.(?!help)\w+$/;
 
 function unbroken(labels: readonly string[], length: number): string[] {
   return labels.flatMap((label) => softly(label).match(/\p{L}+/gu) ?? []).filter((word) => word.length >= length);

@@ -2,6 +2,7 @@ import { ARCHITECTURE } from "./architecture";
 import { BACKGROUND } from "./background";
 import { BRANCHES } from "./branches";
 import { BRUSH } from "./brush";
+import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
 import { CONTROLS } from "./controls";
 import { HELP } from "./help";
@@ -12,7 +13,9 @@ import { SCENE } from "./scene";
 import { SETTINGS } from "./settings";
 import { SHEETS } from "./sheets";
 import { SUN } from "./sun";
+import { TIMELINE } from "./timeline";
 import { SHAPING } from "./tools";
+import { TRANSFERS } from "./transfers";
 
 /** The texts of the parts that are loaded when they are first needed; a page loads them in one language. */
 export const LATER = {
@@ -31,4 +34,7 @@ export const LATER = {
   ...SUN,
   ...SHAPING,
   ...HELP,
+  ...CHIPS,
+  ...TRANSFERS,
+  ...TIMELINE,
 } as const satisfies Record<string, readonly [string, string]>;

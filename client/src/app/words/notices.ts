@@ -35,15 +35,10 @@ export const NOTICES = {
     "Der Baum, den du verlassen hast, ist in der Bibliothek unter Ungespeichert.",
   ],
   "notices.unsaved-gone": ["The server no longer has this tree.", "Der Server hat diesen Baum nicht mehr."],
-  "notices.slow.cardless": [
-    "Without a graphics card the picture is coarse while it moves. If this device has one, turn on hardware acceleration in the browser's settings.",
-    "Ohne Grafikkarte ist das Bild grob, solange es sich bewegt. Hat dieses Gerät eine, dann schalte in den Einstellungen des Browsers die Hardwarebeschleunigung ein.",
+  "notices.picture-failed": [
+    "This device could not make the picture. Try a smaller one.",
+    "Dieses Gerät konnte das Bild nicht machen. Versuche es mit einem kleineren.",
   ],
-  "notices.slow": [
-    "This tree is large for this device: the picture is coarse while it moves.",
-    "Dieser Baum ist groß für dieses Gerät: Das Bild ist grob, solange es sich bewegt.",
-  ],
-  "notices.slow.close": ["Got it", "Verstanden"],
   "notices.part-loading": ["Loading…", "Lädt…"],
   "notices.part-lost": [
     "This part of the page could not be loaded. Is the server still there?",

@@ -1,4 +1,24 @@
-/** The line of time, and what was done on it. */
+/** What was done, and what is said where it is undone. */
+export const OPERATIONS = {
+  "operations.undone": ["Undone: {what}", "Rückgängig: {what}"],
+  "operations.redone": ["Redone: {what}", "Wiederholt: {what}"],
+  "operations.undo.none": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
+  "operations.redo.none": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
+  "operations.kind.stroke": ["Stroke", "Strich"],
+  "operations.kind.growth": ["Growth", "Wachstum"],
+  "operations.kind.lasso": ["Lasso", "Lasso"],
+  "operations.kind.parameters": ["Parameters", "Parameter"],
+  "operations.kind.appearance": ["Appearance", "Aussehen"],
+  "operations.kind.seed": ["Seed", "Samen"],
+  "operations.kind.obstacle": ["Obstacle", "Hindernis"],
+  "operations.kind.bend": ["Bend", "Biegung"],
+  "operations.kind.width": ["Width", "Dicke"],
+  "operations.kind.prune": ["Pruning", "Schnitt"],
+  "operations.kind.turn": ["Turn", "Drehung"],
+  "operations.kind.graft": ["Graft", "Pfropfung"],
+} as const;
+
+/** The line of time. */
 export const TIMELINE = {
   "timeline.label": ["Timeline", "Zeitleiste"],
   "timeline.time": ["Time", "Zeit"],
@@ -25,20 +45,4 @@ export const TIMELINE = {
   "timeline.summary.many": ["{count} operations, {steps}", "{count} Arbeitsgänge, {steps}"],
   "timeline.summary.from": ["from step {step}", "ab Schritt {step}"],
   "timeline.summary.by": ["from step {step}, by {people}", "ab Schritt {step}, {people}"],
-  "timeline.undone": ["Undone: {what}", "Rückgängig: {what}"],
-  "timeline.redone": ["Redone: {what}", "Wiederholt: {what}"],
-  "timeline.undo.none": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
-  "timeline.redo.none": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
-  "timeline.kind.stroke": ["Stroke", "Strich"],
-  "timeline.kind.growth": ["Growth", "Wachstum"],
-  "timeline.kind.lasso": ["Lasso", "Lasso"],
-  "timeline.kind.parameters": ["Parameters", "Parameter"],
-  "timeline.kind.appearance": ["Appearance", "Aussehen"],
-  "timeline.kind.seed": ["Seed", "Samen"],
-  "timeline.kind.obstacle": ["Obstacle", "Hindernis"],
-  "timeline.kind.bend": ["Bend", "Biegung"],
-  "timeline.kind.width": ["Width", "Dicke"],
-  "timeline.kind.prune": ["Pruning", "Schnitt"],
-  "timeline.kind.turn": ["Turn", "Drehung"],
-  "timeline.kind.graft": ["Graft", "Pfropfung"],
 } as const;

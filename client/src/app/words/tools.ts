@@ -26,16 +26,6 @@ export const TOOLS = {
     "There is no connection to ask; try again in a moment.",
     "Gerade ist keine Verbindung da; versuche es gleich noch einmal.",
   ],
-  "tools.placing.copy": [
-    "Tap the limb for the copy, drag to aim it",
-    "Ast für die Kopie antippen, ziehen zum Ausrichten",
-  ],
-  "tools.placing.move": ["Tap the limb to move it to, drag to aim it", "Neuen Ast antippen, ziehen zum Ausrichten"],
-  "tools.placing.cancel": ["Leave the branch where it is", "Den Ast lassen, wo er ist"],
-  "tools.placing.cancel.title": ["Leave the branch where it is (Esc)", "Den Ast lassen, wo er ist (Esc)"],
-  "tools.bud": ["Only this branch grows", "Nur dieser Ast wächst"],
-  "tools.bud.release": ["Let every branch grow", "Alle Äste wachsen lassen"],
-  "tools.bud.release.title": ["Let every branch grow (Esc)", "Alle Äste wachsen lassen (Esc)"],
   "tools.symmetry.off": ["No symmetry", "Keine Symmetrie"],
   "tools.symmetry.mirror": ["Mirrored across the trunk", "Gespiegelt am Stamm"],
   "tools.symmetry.around": ["{count} times around the trunk", "{count}-mal um den Stamm"],
@@ -43,14 +33,6 @@ export const TOOLS = {
     "{count} times around the trunk, mirrored",
     "{count}-mal um den Stamm, gespiegelt",
   ],
-  "tools.symmetry.end": ["End the symmetry", "Symmetrie beenden"],
-  "tools.widened": ["Moved back to show the growth", "Zurückgegangen, um das Wachstum zu zeigen"],
-  "tools.widened.back": ["Back to my view", "Zurück zu meiner Ansicht"],
-  "tools.growing": ["Growing…", "Wächst…"],
-  "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
-  "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
-  "tools.growing.stop": ["Stop", "Anhalten"],
-  "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
 } as const;
 
 /** Options of the tools that shape what has grown, and what is done with a branch that is held. */

@@ -9,10 +9,6 @@ export const TRANSFERS = {
   "transfers.export.read": ["The file is there", "Die Datei ist da"],
   "transfers.picture": ["Making the picture…", "Das Bild entsteht…"],
   "transfers.picture.part": ["Making the picture, {percent} %", "Das Bild entsteht, {percent} %"],
-  "transfers.picture.failed": [
-    "This device could not make the picture. Try a smaller one.",
-    "Dieses Gerät konnte das Bild nicht machen. Versuche es mit einem kleineren.",
-  ],
   "transfers.picture.read": ["Writing the picture…", "Das Bild wird geschrieben…"],
   "transfers.import": ["Sending the model…", "Das Modell wird gesendet…"],
   "transfers.import.moving": ["Sending the model, {megabytes} MB", "Das Modell wird gesendet, {megabytes} MB"],

@@ -19,14 +19,14 @@ export function undoByTap(page: UndoTargets, fingers: number): void {
     return;
   }
   if (!document[`can_${kind}`]) {
-    page.toasts.show(say(`timeline.${kind}.none`));
+    page.toasts.show(say(`operations.${kind}.none`));
     return;
   }
   const timeline = page.time.timeline.peek();
   const operation = timeline && operationOf(timeline, kind);
   page.submit({ kind });
   if (operation) {
-    page.toasts.show(say(`timeline.${kind === "undo" ? "undone" : "redone"}`, { what: say(operation) }));
+    page.toasts.show(say(`operations.${kind === "undo" ? "undone" : "redone"}`, { what: say(operation) }));
   }
 }
 
@@ -36,5 +36,5 @@ function operationOf({ operations, done, step }: Timeline, kind: "undo" | "redo"
   // Where a journey in time has stopped within an operation, redo goes to its end.
   const isInPart = current !== undefined && step < current.last;
   const operation = kind === "undo" || isInPart ? current : operations[done];
-  return operation && (`timeline.kind.${operation.kind}` as const);
+  return operation && (`operations.kind.${operation.kind}` as const);
 }

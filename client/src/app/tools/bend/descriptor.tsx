@@ -1,4 +1,4 @@
-import { BendIcon } from "../../ui/timeline/timeline-icons";
+import { BendIcon } from "../../ui/shaping-icons";
 import type { ToolDescriptor } from "../descriptor";
 import { BendPoses } from "./bend-poses";
 import type { BendTool } from "./bend-tool";

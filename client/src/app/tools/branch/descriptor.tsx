@@ -1,4 +1,4 @@
-import { TurnIcon } from "../../ui/timeline/timeline-icons";
+import { TurnIcon } from "../../ui/shaping-icons";
 import type { ToolDescriptor } from "../descriptor";
 import type { BranchTool } from "./branch-tool";
 

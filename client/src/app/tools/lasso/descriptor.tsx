@@ -1,6 +1,6 @@
 import { LassoIcon } from "../../ui/icons";
 import type { ToolDescriptor } from "../descriptor";
-import { LassoTool } from "./lasso-tool";
+import type { LassoTool } from "./lasso-tool";
 
 export const LASSO: ToolDescriptor<LassoTool> = {
   key: "L",
@@ -8,13 +8,13 @@ export const LASSO: ToolDescriptor<LassoTool> = {
   title: ["Lasso: draw the outline the tree grows to fill", "Lasso: den Umriss zeichnen, den der Baum ausfüllt"],
   Icon: LassoIcon,
   group: "drawing",
-  atOnce: true,
   choosesBranches: true,
   isSymmetric: true,
   hint: ({ settings, outlined }) =>
     outlined || settings.hasOutlined.value ? null : ["Draw the outline of a crown", "Zeichne den Umriss einer Krone"],
-  make: ({ view, submit, next, settings, bud, base, copies, outline, say }) =>
-    new LassoTool({
+  make: async ({ view, submit, next, settings, bud, base, copies, outline, say }) => {
+    const { LassoTool } = await import("./lasso-tool");
+    return new LassoTool({
       view,
       submit,
       bud: () => bud.row.peek(),
@@ -29,6 +29,7 @@ export const LASSO: ToolDescriptor<LassoTool> = {
       },
       tooSmall: () => say("tools.outline-small"),
       refused: () => outline.clear(),
-    }),
+    });
+  },
   later: () => import("./later"),
 };

@@ -1,4 +1,4 @@
-import { PruneIcon } from "../../ui/timeline/timeline-icons";
+import { PruneIcon } from "../../ui/shaping-icons";
 import type { ToolDescriptor } from "../descriptor";
 import { PruneTool } from "./prune-tool";
 

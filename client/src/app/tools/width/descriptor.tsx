@@ -1,4 +1,4 @@
-import { WidthIcon } from "../../ui/timeline/timeline-icons";
+import { WidthIcon } from "../../ui/shaping-icons";
 import { scaleAt } from "../../view/places";
 import type { ToolDescriptor } from "../descriptor";
 import type { WidthTool } from "./width-tool";

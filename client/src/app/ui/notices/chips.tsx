@@ -18,7 +18,7 @@ const STAYS = 300;
 export function Chips({ studio }: { studio: Studio }) {
   const placing = studio.branches.held.placing.value;
   return (
-    <div class="chips" role="status">
+    <>
       <GrowthChip studio={studio} />
       <SlownessChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
@@ -60,7 +60,7 @@ export function Chips({ studio }: { studio: Studio }) {
           </button>
         </p>
       )}
-    </div>
+    </>
   );
 }
 
@@ -74,8 +74,8 @@ function SymmetryChip({ studio }: { studio: Studio }) {
       {symmetryText(symmetry)}
       <button
         type="button"
-        aria-label={say("tools.symmetry.end")}
-        title={say("tools.symmetry.end")}
+        aria-label={say("chips.symmetry.end")}
+        title={say("chips.symmetry.end")}
         onClick={() => {
           studio.settings.symmetry.value = { ...symmetry, kind: "off" };
         }}
@@ -94,11 +94,11 @@ function SlownessChip({ studio }: { studio: Studio }) {
   }
   return (
     <p class="chip" data-slowness={slowness}>
-      {say(slowness === "cardless" ? "notices.slow.cardless" : "notices.slow")}
+      {say(slowness === "cardless" ? "chips.slow.cardless" : "chips.slow")}
       <button
         type="button"
-        aria-label={say("notices.slow.close")}
-        title={say("notices.slow.close")}
+        aria-label={say("chips.slow.close")}
+        title={say("chips.slow.close")}
         onClick={() => {
           studio.settings.slownessRead.value = true;
         }}

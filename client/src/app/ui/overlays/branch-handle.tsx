@@ -5,7 +5,8 @@ import { type BranchTool, RING } from "../../tools/branch/branch-tool";
 import type { ToolViewProps } from "../../tools/descriptor";
 import { say } from "../../words/say";
 import { Icon } from "../icons";
-import { GraftIcon, PruneIcon, TimeIcon } from "../timeline/timeline-icons";
+import { GraftIcon, PruneIcon } from "../shaping-icons";
+import { TimeIcon } from "../timeline/timeline-icons";
 import { useAnimationFrames } from "../use-animation-frames";
 
 /** Room the menu needs below the ring, in pixels, and beside its middle. */

@@ -1,4 +1,5 @@
 // The styles of everything that is loaded later, in an order in which later ones may refine earlier ones.
+import "./timeline.css";
 import "./shaping.css";
 import "./panels.css";
 import "./controls.css";

@@ -4,6 +4,7 @@ import { authorColour, authorName } from "../../document/timeline/authors";
 import { clusters, peopleOf } from "../../document/timeline/timeline";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
+import { isWorthShowing } from "./has-timeline";
 import { stepsOf } from "./step-count";
 import { Forks } from "./timeline-forks";
 import { BackIcon, FoldIcon, ForthIcon, sortOf, TimeIcon } from "./timeline-icons";
@@ -16,7 +17,7 @@ const ROOM = 32;
 export function TimelineStrip({ studio }: { studio: Studio }) {
   const timeline = studio.time.timeline.value;
   const { timelineOpen } = studio.settings;
-  if (timeline === null || !isWorthShowing(timeline)) {
+  if (!isWorthShowing(timeline)) {
     return null;
   }
   if (!timelineOpen.value) {
@@ -73,17 +74,6 @@ export function TimelineStrip({ studio }: { studio: Studio }) {
       </button>
     </section>
   );
-}
-
-/** Whether the strip lies along the bottom. */
-export function hasTimeline(studio: Studio): boolean {
-  const timeline = studio.time.timeline.value;
-  return timeline !== null && isWorthShowing(timeline) && studio.settings.timelineOpen.value;
-}
-
-/** Before anything was done there is nowhere to travel. */
-function isWorthShowing({ operations, futures }: Timeline): boolean {
-  return operations.length > 0 || futures.length > 0;
 }
 
 function Track({ studio, timeline }: { studio: Studio; timeline: Timeline }) {

@@ -1,0 +1,30 @@
+/** What is in progress and can be ended, but for files on their way. */
+export const CHIPS = {
+  "tools.placing.copy": [
+    "Tap the limb for the copy, drag to aim it",
+    "Ast für die Kopie antippen, ziehen zum Ausrichten",
+  ],
+  "tools.placing.move": ["Tap the limb to move it to, drag to aim it", "Neuen Ast antippen, ziehen zum Ausrichten"],
+  "tools.placing.cancel": ["Leave the branch where it is", "Den Ast lassen, wo er ist"],
+  "tools.placing.cancel.title": ["Leave the branch where it is (Esc)", "Den Ast lassen, wo er ist (Esc)"],
+  "tools.bud": ["Only this branch grows", "Nur dieser Ast wächst"],
+  "tools.bud.release": ["Let every branch grow", "Alle Äste wachsen lassen"],
+  "tools.bud.release.title": ["Let every branch grow (Esc)", "Alle Äste wachsen lassen (Esc)"],
+  "chips.symmetry.end": ["End the symmetry", "Symmetrie beenden"],
+  "tools.widened": ["Moved back to show the growth", "Zurückgegangen, um das Wachstum zu zeigen"],
+  "tools.widened.back": ["Back to my view", "Zurück zu meiner Ansicht"],
+  "tools.growing": ["Growing…", "Wächst…"],
+  "tools.growing.steps": ["Growing… {count} steps to go", "Wächst… noch {count} Schritte"],
+  "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
+  "tools.growing.stop": ["Stop", "Anhalten"],
+  "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
+  "chips.slow.cardless": [
+    "Without a graphics card the picture is coarse while it moves. If this device has one, turn on hardware acceleration in the browser's settings.",
+    "Ohne Grafikkarte ist das Bild grob, solange es sich bewegt. Hat dieses Gerät eine, dann schalte in den Einstellungen des Browsers die Hardwarebeschleunigung ein.",
+  ],
+  "chips.slow": [
+    "This tree is large for this device: the picture is coarse while it moves.",
+    "Dieser Baum ist groß für dieses Gerät: Das Bild ist grob, solange es sich bewegt.",
+  ],
+  "chips.slow.close": ["Got it", "Verstanden"],
+} as const;
