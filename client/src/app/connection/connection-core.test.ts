@@ -90,7 +90,7 @@ describe("handshake", () => {
     core.effects();
     welcome(0, 0, { resumed: false });
     const done = core.effects().map((effect) => (effect.kind === "message" ? effect.message.type : effect.kind));
-    expect(done).toEqual(["forget-rows", "parameters", "state", "obstacles", "widths"]);
+    expect(done).toEqual(["forget-rows", "parameters", "state", "programme", "obstacles", "widths"]);
   });
 
   it("keeps its rows when the resume was taken up", () => {

@@ -9,7 +9,7 @@ const SERVER = join(import.meta.dirname, "../../../../server");
 
 /** Where the server makes problems, and where the errors are worded that it passes on. */
 const SOURCES = ["session/src", "src/http"];
-const PASSED_ON = ["growth/src/edit_error.rs", "src/live/registry.rs", "../proto/src/mesh.rs"];
+const PASSED_ON = ["growth/src/edit_error.rs", "src/live/restoring.rs", "../proto/src/mesh.rs"];
 /** What the types of `proto` allow that a person can get wrong. */
 const OF_TYPES = ["1 to 1000", "0.01 to 100", "box, sphere or plane"];
 /** What `proto/src/reading.rs` puts together from a field and what stands there. */
@@ -120,7 +120,7 @@ const known = (table: typeof REFUSALS, words: string) => table.some(([pattern]) 
 
 /** What a client of this very server can only say wrongly; it is shown in one sentence. */
 const FOR_PROGRAMMERS =
-  /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has/;
+  /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has|a page begins behind/;
 /** Why a session was not restored is written to the log, why a socket closes to nobody. */
 const FOR_THE_LOG = /^The session cannot be read|^7: 7$/;
 
