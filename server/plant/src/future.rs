@@ -7,12 +7,13 @@ use glam::Vec3;
 
 use crate::{
     axes::{Axes, stored_order},
+    births::Births,
     deaths::Deaths,
     edits::Edit,
     given_radius::GivenRadii,
     id::{AxisId, MetamerId},
     metamers::{Condition, Metamers},
-    parts::{BrokenPlant, check_edit, from_ends, id_of, to_ends},
+    parts::{BrokenPlant, from_ends, id_of, to_ends},
     plant::Plant,
     timeline::StepEnd,
 };
@@ -185,9 +186,7 @@ impl Future {
             None => plant.metamers.axis[id.index()],
         };
         let is_known = |axis: AxisId| axis.index() < all_axes;
-        if !self.metamers.axis.iter().all(|&axis| is_known(axis))
-            || !self.metamers.lateral.iter().all(|&axis| axis == AxisId::NONE || is_known(axis))
-        {
+        if !self.metamers.axis.iter().all(|&axis| is_known(axis)) {
             return Err(broken("a metamer belongs to no axis"));
         }
         for (at, &bearer) in self.axes.bearer.iter().enumerate() {
@@ -210,15 +209,18 @@ impl Future {
             return Err(broken("something dies that never was"));
         }
         let ends = to_ends(&std::iter::once(self.from).chain(self.ends.iter().copied()).collect::<Vec<_>>());
-        for pair in ends.windows(2) {
-            let range = (pair[0][2] - self.from.edits) as usize..(pair[1][2] - self.from.edits) as usize;
-            let parent = |id: MetamerId| match id.index().checked_sub(rows) {
+        let births = Births {
+            ends: &ends,
+            edits: &self.edits,
+            parent: |row| match (row as usize).checked_sub(rows) {
                 Some(at) => self.metamers.parent[at].raw(),
-                None => plant.metamers.parent[id.index()].raw(),
-            };
-            for edit in &self.edits[range] {
-                check_edit(edit, pair[0], pair[1], parent, |axis| bearer(axis).raw())?;
-            }
+                None => plant.metamers.parent[row as usize].raw(),
+            },
+            axis: |row| axis_of(MetamerId::new(row as usize)).raw(),
+            bearer: |axis| bearer(AxisId::new(axis as usize)).raw(),
+        };
+        if births.laterals()? != self.metamers.lateral {
+            return Err(broken("a metamer has the laterals of another"));
         }
         Ok(())
     }

@@ -7,6 +7,7 @@
 
 pub mod axes;
 pub mod bend;
+mod births;
 pub mod checks;
 pub mod columns;
 mod deaths;

@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use crate::{
     axes::Axes,
+    births::Births,
     checks,
     deaths::Deaths,
     edits::Edit,
@@ -76,24 +77,12 @@ impl Plant {
 
     /// Puts a plant together.
     pub fn from_parts(parts: PlantParts) -> Result<Self, BrokenPlant> {
-        check_shape(&parts)?;
+        let lateral = check_shape(&parts)?;
         let (metamers, axes) = (parts.parent.len(), parts.bearer.len());
         let mut order = Vec::with_capacity(axes);
         for &bearer in &parts.bearer {
             let below = (bearer != u32::MAX).then(|| order[parts.axis[bearer as usize] as usize]);
             order.push(below.map_or(0, |below: u16| below.saturating_add(1)));
-        }
-        let mut lateral = vec![AxisId::NONE; metamers];
-        let mut is_graft = vec![false; axes];
-        for edit in &parts.edits {
-            if let Edit::Grafted(axis) = edit {
-                is_graft[axis.index()] = true;
-            }
-        }
-        for (axis, &bearer) in parts.bearer.iter().enumerate().rev() {
-            if bearer != u32::MAX && !is_graft[axis] {
-                lateral[bearer as usize] = AxisId::new(axis);
-            }
         }
         let mut plant = Self {
             metamers: Metamers {
@@ -147,8 +136,9 @@ pub(crate) fn from_ends(ends: &[[u32; 4]]) -> Vec<StepEnd> {
     ends.iter().map(end).collect()
 }
 
-/// Checks that every index points at an earlier row, so that nothing below can go out of bounds.
-fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
+/// Checks that every index points at an earlier row, so that nothing below can go out of bounds. Returns the first
+/// lateral axis of each metamer.
+fn check_shape(parts: &PlantParts) -> Result<Vec<AxisId>, BrokenPlant> {
     let broken = |what: &str| Err(BrokenPlant(what.to_owned()));
     let (metamers, axes, edits) = (parts.parent.len(), parts.bearer.len(), parts.edits.len());
     let columns = [
@@ -192,14 +182,6 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
     if !parts.given_radii.is_sorted_by(|a, b| a.0 < b.0) || !parts.given_radii.iter().all(is_held) {
         return broken("a radius is given to nothing");
     }
-    let mut edited = 0;
-    for (step, end) in parts.ends.iter().enumerate() {
-        let before = step.checked_sub(1).map_or([0; 4], |step| parts.ends[step]);
-        for edit in &parts.edits[edited..end[2] as usize] {
-            check_edit(edit, before, *end, |id| parts.parent[id.index()], |axis| parts.bearer[axis.index()])?;
-        }
-        edited = end[2] as usize;
-    }
     // Every metamer grows from the bud of its axis: a seed founds it, others follow its last metamer or bearer.
     let mut last = vec![u32::MAX; axes];
     for (row, (&parent, &axis)) in parts.parent.iter().zip(&parts.axis).enumerate() {
@@ -211,7 +193,15 @@ fn check_shape(parts: &PlantParts) -> Result<(), BrokenPlant> {
         }
         *tip = row as u32;
     }
-    Ok(())
+    let ends: Vec<[u32; 4]> = std::iter::once([0; 4]).chain(parts.ends.iter().copied()).collect();
+    let births = Births {
+        ends: &ends,
+        edits: &parts.edits,
+        parent: |row| parts.parent[row as usize],
+        axis: |row| parts.axis[row as usize],
+        bearer: |axis| parts.bearer[axis as usize],
+    };
+    births.laterals()
 }
 
 /// Checks that an edit of a step concerns what is there by then; `parent` and `bearer` give raw rows.

@@ -231,6 +231,32 @@ fn each_reader_refuses_a_later_version_of_its_section() {
     }
 }
 
+/// The plant fits together in the present; at another step a metamer would have laterals that are not there.
+#[test]
+fn a_step_that_ends_before_its_buds_is_refused() {
+    const FIRST_END: usize = 8;
+    let is_timeline = |section: &Section| section.tag == *b"TIME";
+    let timeline = container().sections.into_iter().find(is_timeline).expect("every document has one");
+    let mut contents = timeline.unpack().expect("our own section");
+    let number =
+        |contents: &[u8], at: usize| u32::from_le_bytes(contents[at..at + 4].try_into().expect("four bytes"));
+    let steps = number(&contents, 4) as usize;
+    let axes_of = |step: usize| FIRST_END + 16 * step + 4;
+    let growing = (1..steps - 1).find(|&step| {
+        let [before, axes, after] = [step - 1, step, step + 1].map(|step| number(&contents, axes_of(step)));
+        before < axes && axes < after
+    });
+    let at = axes_of(growing.expect("a step that lays down buds"));
+    let fewer = number(&contents, at) - 1;
+    contents[at..at + 4].copy_from_slice(&fewer.to_le_bytes());
+    let error = changed(|sections| {
+        let section =
+            sections.iter_mut().find(|section| is_timeline(section)).expect("every document has one");
+        refill(section, contents);
+    });
+    assert!(error.contains("a bud is not laid down with the metamer that bears it"), "{error}");
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
