@@ -388,7 +388,7 @@ fn umbrella_acacia() -> Species {
         stand: Stand::Ground,
         schedule: life(
             pole(&parameters, 4),
-            [Grow(8), level, canopy(29.0, 1.0, 24.0, 4.0), cleared, Grow(1)],
+            [Grow(8), level, canopy(29.0, 1.0, 25.0, 4.0), cleared, Grow(1)],
         ),
         parameters,
     }
