@@ -29,5 +29,7 @@ export default defineConfig({
     include: ["src/**/*.test.{ts,tsx}", "test/**/*.test.ts"],
     environment: "node",
     setupFiles: ["test/words.ts"],
+    // Only keeps a test from hanging: a busy machine is slow.
+    testTimeout: 60_000,
   },
 });
