@@ -1,7 +1,7 @@
-import { computed, signal } from "@preact/signals";
+import { signal } from "@preact/signals";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { TreeTable } from "../scene/table/tree-table";
-import type { Command, DocumentState, Parameters, SavedTree } from "../wire/generated";
+import type { Command, DocumentState, Parameters } from "../wire/generated";
 import { rowStore } from "./connection/row-store";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
@@ -14,6 +14,7 @@ import { TimelineControl } from "./document/timeline/timeline-control";
 import { undoByTap } from "./document/timeline/undo-by-tap";
 import { Tour } from "./help/tour";
 import { Exports, keepFile } from "./library/exports";
+import { Trees } from "./library/trees";
 import { UnsavedTrees } from "./library/unsaved-trees";
 import { browserClock } from "./page/clock";
 import type { Hindrance } from "./page/hindrance";
@@ -36,9 +37,6 @@ import { say } from "./words/say";
 
 /** The side of the pictures of trees that were not saved, in pixels. */
 const UNSAVED_PICTURE = 256;
-
-/** The device remembers the names of so many trees. */
-const KEPT_NAMES = 50;
 
 /** One open page: the session it shows and the tools. */
 export class Studio {
@@ -115,6 +113,13 @@ export class Studio {
     metamers: () => this.document.peek()?.metamers ?? 0,
     picture: () => this.stage.thumbnail(UNSAVED_PICTURE),
   });
+  readonly trees = new Trees({
+    link: this.link,
+    unsaved: this.unsaved,
+    names: this.settings.treeNames,
+    sheet: this.layout.sheet,
+    say: (text) => this.toasts.show(say(text)),
+  });
   readonly exports = new Exports({
     session: () => this.link.session.peek(),
     photograph: (size, stop, tell) => this.stage.picture(size, stop, tell),
@@ -177,9 +182,6 @@ export class Studio {
     tapped: (fingers) => undoByTap(this, fingers),
   });
 
-  /** What the tree was saved or opened as on this device; null if it was not. */
-  readonly treeName = computed(() => this.settings.treeNames.value[this.link.session.value ?? ""] ?? null);
-
   readonly tour = new Tour({
     settings: this.settings,
     ready: () => this.link.phase.value === "connected" && this.rows.value > 0 && this.hindrance.value === null,
@@ -202,65 +204,6 @@ export class Studio {
     askAs(() => this.link.key);
   }
 
-  /** Begins a new tree; one that is not saved is first asked where it stays. */
-  beginTree(): void {
-    if (this.unsaved.isUnsaved) {
-      this.layout.sheet.value = "leave";
-    } else {
-      void this.newSession();
-    }
-  }
-
-  /**
-   * Leaves this session for a new one, empty or from a saved tree. What is not saved is kept under Unsaved, unless the
-   * user would not have it.
-   */
-  async newSession(tree?: Pick<SavedTree, "id" | "name">, keeps = true): Promise<void> {
-    const left = await this.#leave(keeps, () => this.link.change(tree?.id));
-    const session = this.link.session.peek();
-    if (left && tree !== undefined && session !== null) {
-      this.unsaved.opened(session);
-      this.nameTree(tree.name);
-    }
-  }
-
-  /** Goes on with a tree that was left. */
-  async goOnWith(session: string): Promise<void> {
-    await this.#leave(true, async () => {
-      const came = await this.link.reopen(session);
-      if (came === "gone") {
-        this.unsaved.forget(session);
-        this.toasts.show(say("notices.unsaved-gone"));
-      }
-      return came === "opened";
-    });
-  }
-
-  /** Leaves this session for another one; false if there is none to be had. */
-  async #leave(keeps: boolean, open: () => Promise<boolean>): Promise<boolean> {
-    const from = this.layout.sheet.peek();
-    const kept = keeps && (await this.unsaved.keep());
-    if (!(await open())) {
-      return false;
-    }
-    // The user may have closed the sheet meanwhile and opened another one.
-    if (this.layout.sheet.peek() === from) {
-      this.layout.sheet.value = null;
-    }
-    if (kept) {
-      this.toasts.show(say("notices.kept-unsaved"));
-    }
-    return true;
-  }
-
-  /** What the tree is called here from now on. */
-  nameTree(name: string): void {
-    const session = this.link.session.peek();
-    if (session !== null) {
-      this.settings.treeNames.value = { ...lastOf(this.settings.treeNames.peek(), KEPT_NAMES - 1), [session]: name };
-    }
-  }
-
   /** Sends a command and gives its number; 0 while no session is open. */
   submit(command: Command): number {
     // The server gives up what it was asked to predict and does not always say so (`PD2`).
@@ -280,11 +223,6 @@ export class Studio {
   async #explain(error: unknown): Promise<void> {
     this.toasts.show(await explained(error));
   }
-}
-
-/** The names that were noted last. */
-function lastOf(names: Readonly<Record<string, string>>, count: number): Readonly<Record<string, string>> {
-  return Object.fromEntries(Object.entries(names).slice(-count));
 }
 
 /** A gesture as a command carries it. */

@@ -1,5 +1,6 @@
 import type { Stage } from "../view/stage";
 import { saveTree } from "./library-api";
+import type { Trees } from "./trees";
 import type { UnsavedTrees } from "./unsaved-trees";
 
 /** A picture larger than this would be refused; the limit is 192 KiB. */
@@ -9,8 +10,7 @@ const MAX_PICTURE = 190 * 1024;
 export interface SavedFrom {
   readonly stage: Pick<Stage, "thumbnail">;
   readonly unsaved: Pick<UnsavedTrees, "saved">;
-  /** Takes what the tree on the page is called from now on. */
-  nameTree(name: string): void;
+  readonly trees: Pick<Trees, "call">;
 }
 
 /** Saves the tree of a session in the library, with its picture. */
@@ -18,7 +18,7 @@ export async function saveWithPicture(page: SavedFrom, session: string, name: st
   const thumbnail = await picture(page.stage);
   await saveTree({ session, name, ...(thumbnail === undefined ? {} : { thumbnail }) });
   page.unsaved.saved();
-  page.nameTree(name);
+  page.trees.call(name);
 }
 
 /** The largest picture that fits; a tree can be saved without one. */

@@ -58,7 +58,7 @@ const DEEDS: readonly Deed[] = [
       studio.layout.bare.value = true;
     },
   },
-  { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => studio.beginTree() },
+  { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => studio.trees.begin() },
   { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },

@@ -14,7 +14,7 @@ export function HindranceCard({ studio }: { studio: Studio }) {
       <h2>{say(`notices.${hindrance}`)}</h2>
       <p>{hindrance === "cannot-open" ? studio.link.refusal.value : say(`notices.${hindrance}.text`)}</p>
       {(hindrance === "unknown-session" || hindrance === "cannot-open") && (
-        <button type="button" class="primary" onClick={() => studio.newSession()}>
+        <button type="button" class="primary" onClick={() => studio.trees.leave()}>
           {say("notices.unknown-session.way")}
         </button>
       )}

@@ -28,7 +28,7 @@ export function RecentTrees({ studio }: { studio: Studio }) {
       setSaved(
         trees.map((tree) => {
           const { id, name, saved_at: at, thumbnail } = tree;
-          return { key: id, name, at, thumbnail, open: () => studio.newSession(tree) };
+          return { key: id, name, at, thumbnail, open: () => studio.trees.leave(tree) };
         }),
       );
     };
@@ -39,7 +39,7 @@ export function RecentTrees({ studio }: { studio: Studio }) {
   const left = studio.unsaved.list.value
     .filter(({ session }) => session !== here)
     .map(({ session, left: at, thumbnail }) => {
-      return { key: session, name: say("sheets.unsaved"), at, thumbnail, open: () => studio.goOnWith(session) };
+      return { key: session, name: say("sheets.unsaved"), at, thumbnail, open: () => studio.trees.goOnWith(session) };
     });
   const recent = [...left, ...saved].sort((a, b) => Date.parse(b.at) - Date.parse(a.at)).slice(0, MOST);
   if (hidden || recent.length === 0) {

@@ -11,7 +11,7 @@ const LARGE = 3840;
 
 /** Names and gives the tree as a file: a picture of the view, a model, or its skeleton. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => studio.treeName.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
   const [format, setFormat] = useState<Format>("png");
   const sizes = sizesOf(studio.stage.pixels());
   const [chosen, setChosen] = useState(0);

@@ -7,7 +7,7 @@ import { NameField, usualName } from "./name-field";
 
 /** Asks where the tree on the page stays when a new one is begun: in the library, under Unsaved, or nowhere. */
 export function LeaveSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => studio.treeName.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
   const [leaving, setLeaving] = useState(false);
   const trimmed = name.trim();
 
@@ -18,7 +18,7 @@ export function LeaveSheet({ studio }: { studio: Studio }) {
     setLeaving(true);
     try {
       await first();
-      await studio.newSession(undefined, keeps);
+      await studio.trees.leave(undefined, keeps);
     } catch (error) {
       studio.toasts.show(sentence(error));
     }

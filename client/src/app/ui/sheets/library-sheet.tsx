@@ -91,7 +91,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
         type="button"
         class="card-open"
         aria-label={say("sheets.library.open", { name: tree.name })}
-        onClick={() => studio.newSession(tree)}
+        onClick={() => studio.trees.leave(tree)}
       >
         <TreePicture url={tree.thumbnail} />
       </button>

@@ -7,7 +7,7 @@ import { NameField, usualName } from "./name-field";
 
 /** Asks for a name and saves the tree with its picture. */
 export function SaveSheet({ studio }: { studio: Studio }) {
-  const [name, setName] = useState(() => studio.treeName.peek() ?? usualName());
+  const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
   const [saving, setSaving] = useState(false);
   const trimmed = name.trim();
 

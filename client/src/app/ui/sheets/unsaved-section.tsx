@@ -37,7 +37,7 @@ function UnsavedCard({ studio, tree }: { studio: Studio; tree: UnsavedTree }) {
         type="button"
         class="card-open"
         aria-label={say("sheets.unsaved.open", { date })}
-        onClick={() => studio.goOnWith(session)}
+        onClick={() => studio.trees.goOnWith(session)}
       >
         <TreePicture url={thumbnail} />
       </button>
