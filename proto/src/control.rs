@@ -10,6 +10,7 @@ use crate::{
     command::Command,
     envelope::FrameKind,
     obstacle::PlacedObstacle,
+    place::Position,
     problem::Problem,
     programme::Programme,
     reading::{self, tagged_enum},
@@ -162,6 +163,32 @@ pub enum Notice {
     },
 }
 
+/// What somebody drew where nothing can grow (`SG2`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Hint {
+    /// The command with which it became known: the lasso, or the last one of the stroke.
+    pub id: u32,
+    /// The number of the stroke, if it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub stroke: Option<u32>,
+    /// Why nothing grows.
+    pub reason: HintReason,
+    /// Where the brush or the end of the outline was.
+    pub position: Position,
+}
+
+/// Why nothing grows where somebody draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum HintReason {
+    /// No bud is within 25 internodes.
+    OutOfReach,
+    /// Buds are near, and none could grow there: the space is taken, or something stands in the way.
+    NothingGrew,
+}
+
 /// From the server.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
@@ -238,6 +265,11 @@ pub enum ServerMessage {
     Notice {
         /// What happened.
         notice: Notice,
+    },
+    /// What this client draws comes to nothing (`SG2`).
+    Hint {
+        /// What and why.
+        hint: Hint,
     },
     /// The answer to a ping.
     Pong {

@@ -32,7 +32,9 @@ pub use bounded::{
     Age, BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
 };
 pub use command::{Action, Command, StrokeSample};
-pub use control::{ClientMessage, DocumentState, Notice, Resume, ServerMessage, Unreadable};
+pub use control::{
+    ClientMessage, DocumentState, Hint, HintReason, Notice, Resume, ServerMessage, Unreadable,
+};
 pub use envelope::FrameKind;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;

@@ -112,6 +112,8 @@ pub fn declarations() -> String {
         control::DocumentState::decl(&config),
         control::ClientMessage::decl(&config),
         control::Notice::decl(&config),
+        control::HintReason::decl(&config),
+        control::Hint::decl(&config),
         control::ServerMessage::decl(&config),
         library::NewSession::decl(&config),
         library::SessionCreated::decl(&config),

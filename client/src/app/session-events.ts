@@ -12,6 +12,7 @@ import type { UnsavedTrees } from "./library/unsaved-trees";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedPoses } from "./tools/bend/shared-poses";
+import type { DrawnInVain } from "./tools/drawn-in-vain";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
 import { toolFor } from "./tools/tools";
 import type { WidthList } from "./tools/width/width-list";
@@ -37,6 +38,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly revision: Signal<number>;
   readonly stage: Pick<Stage, "changed" | "forget">;
   readonly firstView: FirstView;
+  readonly drawnInVain: Pick<DrawnInVain, "show" | "clear">;
 }
 
 /** What a page does with the messages of the server: a row for each. */
@@ -61,6 +63,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },
+    hint: ({ hint }) => page.drawnInVain.show(hint),
     notice: async ({ notice }) => {
       const words = await plainWords().catch(() => null);
       page.toasts.show(words ? words.noticed(notice) : say("notices.unread"));
@@ -128,6 +131,7 @@ function forget(page: SessionTargets): void {
   page.time.clear();
   page.unsaved.clear();
   page.branches.clear();
+  page.drawnInVain.clear();
   page.firstView.forget();
   page.stage.forget();
   page.table.clear();

@@ -28,6 +28,7 @@ import { SharedPoses } from "./tools/bend/shared-poses";
 import { BranchWork } from "./tools/branch/branch-work";
 import { chooseBud } from "./tools/bud-choice";
 import { ChosenBud } from "./tools/chosen-bud";
+import { DrawnInVain } from "./tools/drawn-in-vain";
 import { OutlineTrace } from "./tools/lasso/outline-trace";
 import { Toolbox } from "./tools/toolbox";
 import { WidthList } from "./tools/width/width-list";
@@ -96,6 +97,7 @@ export class Studio {
   });
   readonly bud = new ChosenBud(this.table);
   readonly outline = new OutlineTrace();
+  readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
   readonly poses = new SharedPoses();
   readonly obstacles = new ObstacleList({

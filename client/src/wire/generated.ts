@@ -1551,6 +1551,26 @@ to: number, } | { "kind": "damaged",
  */
 entry: number, };
 
+export type HintReason = "out_of_reach" | "nothing_grew";
+
+export type Hint = { 
+/**
+ * The command with which it became known: the lasso, or the last one of the stroke.
+ */
+id: number, 
+/**
+ * The number of the stroke, if it is one.
+ */
+stroke?: number, 
+/**
+ * Why nothing grows.
+ */
+reason: HintReason, 
+/**
+ * Where the brush or the end of the outline was.
+ */
+position: [number, number, number], };
+
 export type ServerMessage = { "type": "welcome", 
 /**
  * [`crate::version::PROTOCOL_VERSION`].
@@ -1627,7 +1647,11 @@ widths: Array<WidthConstraint>, } | { "type": "notice",
 /**
  * What happened.
  */
-notice: Notice, } | { "type": "pong", 
+notice: Notice, } | { "type": "hint", 
+/**
+ * What and why.
+ */
+hint: Hint, } | { "type": "pong", 
 /**
  * The ping's.
  */

@@ -113,6 +113,11 @@ impl Growth {
         self.guides.keys().copied()
     }
 
+    /// What guides growth along a stroke.
+    pub fn guide(&self, stroke: StrokeId) -> Option<&Guide> {
+        self.guides.get(&stroke)
+    }
+
     /// Forgets the path of one stroke.
     pub fn end_stroke(&mut self, stroke: StrokeId) {
         self.guides.remove(&stroke);

@@ -50,8 +50,8 @@ const LEAST_SPACING: f32 = 0.05;
 const ASSURED_LENGTH: f32 = 0.5;
 /// Points remembered at most: a leader that cannot follow is not waited for.
 const MAX_WAYPOINTS: usize = 4096;
-/// How far from a bud a stroke may begin: so far, a limb grows to where it begins.
-const REACH: f32 = 25.0;
+/// How far from a bud a stroke may begin, in internodes: so far, a limb grows to where it begins.
+pub const REACH: f32 = 25.0;
 /// What a turn by a right angle counts for, and an obstacle in between, when a leader is chosen; in internodes.
 const TURN_COST: f32 = 0.75;
 const OBSTACLE_COST: f32 = 10.0;

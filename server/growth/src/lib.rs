@@ -55,7 +55,7 @@ pub use edits::Original;
 pub use generator::{Change, Generator, StepOutcome};
 pub use gravimorphism::propensity;
 pub use growth::Growth;
-pub use guide::{Guide, Waypoint};
+pub use guide::{Guide, REACH, Waypoint};
 pub use lasso::{Envelope, LassoError, MAX_OUTLINE, Plane};
 pub use light::ShadowGrid;
 pub use markers::{Marker, MarkerSource, Markers};

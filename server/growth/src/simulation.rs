@@ -9,6 +9,7 @@ use crate::{
     brush::StrokeId,
     generator::{Generator, StepOutcome},
     growth::Growth,
+    guide::Guide,
     lasso::Envelope,
     markers::Marker,
     observer::Observer,
@@ -134,6 +135,11 @@ impl<G: Generator + AsRef<Growth> + AsMut<Growth>> Simulation<G> {
     /// Forgets the markers of envelopes, for nothing grows into them any more.
     pub fn drop_envelopes(&mut self) {
         self.generator.as_mut().drop_envelopes();
+    }
+
+    /// What guides growth along a stroke.
+    pub fn guide(&self, stroke: StrokeId) -> Option<&Guide> {
+        self.generator.as_ref().guide(stroke)
     }
 
     /// Forgets the path of one stroke.

@@ -6,6 +6,7 @@ mod bytes;
 mod futures;
 mod generators;
 mod growing;
+mod hints;
 mod history;
 mod notifications;
 mod obstacles;
@@ -32,12 +33,14 @@ use self::{
     bytes::Section,
     futures::Futures,
     growing::{MAX_SETTLING_STEPS, Pending},
+    hints::Hints,
     history::{History, Kind, Setting},
     obstacles::Obstacles,
     strokes::OpenStrokes,
 };
 pub(crate) use self::{
     generators::{Generators, Step},
+    hints::Silence,
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
@@ -56,6 +59,7 @@ pub struct Document {
     obstacles: Obstacles,
     appearance: Arc<Appearance>,
     pending: VecDeque<Pending>,
+    hints: Hints,
     steps_begun: u32,
     /// Where growth ends, as counted by `steps_begun`.
     stop_at: Option<u32>,
@@ -118,6 +122,7 @@ impl Document {
             obstacles,
             appearance,
             pending: VecDeque::new(),
+            hints: Hints::default(),
             steps_begun: 0,
             stop_at: None,
             unknown: Vec::new(),
@@ -144,8 +149,8 @@ impl Document {
                 Ok(())
             }
             Action::StrokeEnd { stroke } => {
-                let (stroke, chosen) = self.strokes.close(author, *stroke)?;
-                self.pending.push_back(Pending::Settle { stroke, left: MAX_SETTLING_STEPS, chosen });
+                let stroke = self.strokes.close(author, *stroke)?;
+                self.pending.push_back(Pending::Settle { stroke, left: MAX_SETTLING_STEPS });
                 Ok(())
             }
             Action::Grow { steps, until, bud } => self.begin_growth(cause, *steps, *until, *bud),

@@ -6,11 +6,11 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{Command, PlacedObstacle, PoseFrame, Problem, RowMotion};
+use espalier_proto::{Command, Hint, PlacedObstacle, PoseFrame, Position, Problem, RowMotion};
 
 use crate::{
     author::{LastCommand, note_last},
-    document::Document,
+    document::{Document, Silence},
     io::{ActId, ClientId, ReadId},
     prediction::{PredictionRun, Question},
     snapshot,
@@ -57,6 +57,13 @@ pub(crate) struct Refusal {
     pub(crate) problem: Problem,
 }
 
+/// Something that a client drew, and that came to nothing.
+#[derive(Debug)]
+pub(crate) struct Unheard {
+    pub(crate) author: Arc<str>,
+    pub(crate) hint: Hint,
+}
+
 /// A bend as clients are told it.
 #[derive(Clone, Debug)]
 pub(crate) struct Posed {
@@ -73,6 +80,7 @@ pub(crate) struct Report {
     pub(crate) delta: Option<Arc<[u8]>>,
     pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
     pub(crate) refused: Vec<Refusal>,
+    pub(crate) unheard: Vec<Unheard>,
     /// New poses of open bends with their sequences, by bend; without a frame's motions a bend is over.
     pub(crate) poses: Vec<Posed>,
     /// Predictions to be made.
@@ -109,6 +117,8 @@ pub struct Work {
     pub(crate) delta_wanted: bool,
     /// Whether a command is still being done.
     pub(crate) busy: bool,
+    /// Whose command was taken on last, and its number.
+    doing: Option<(Arc<str>, u32)>,
     /// The frame with all rows, kept while it is current: people often come in groups.
     complete: Option<(u32, Arc<[u8]>)>,
     /// The poses that were reported last.
@@ -121,11 +131,13 @@ pub struct Work {
 impl Work {
     /// A document nobody has seen yet.
     pub(crate) fn new(
-        document: Document,
+        mut document: Document,
         epoch: u32,
         applied: u64,
         last_commands: BTreeMap<Arc<str>, LastCommand>,
     ) -> Self {
+        // Whoever drew what was replayed has long lifted the finger.
+        document.take_silences();
         let busy = document.pending_steps() > 0;
         let style = Style::new(to_proto::style_options(&document.parameters()));
         let mut work = Self {
@@ -144,6 +156,7 @@ impl Work {
             snapshot_wanted: false,
             delta_wanted: false,
             busy,
+            doing: None,
             complete: None,
             poses: BTreeMap::new(),
             pose_sequence: 0,
@@ -188,6 +201,7 @@ impl Work {
         loop {
             if self.busy {
                 if self.document.advance() {
+                    self.report_hints();
                     steps += 1;
                     if steps == SLICE_STEPS
                         || self.document.metamers() >= start.saturating_add(SLICE_METAMERS)
@@ -213,6 +227,7 @@ impl Work {
         self.stops.forget_through(order.number);
         self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
+        self.doing = Some((Arc::clone(&order.author), order.id));
         let begun = self.document.begin(&order.author, &order.command);
         if let Some(act) = order.act {
             let placed = begun.clone().map(|()| self.document.obstacles().pop());
@@ -221,6 +236,15 @@ impl Work {
         match begun {
             Ok(()) => self.busy = true,
             Err(problem) => self.report.refused.push(Refusal { author: order.author, id: order.id, problem }),
+        }
+    }
+
+    /// All that is hinted at comes of the command that is being done.
+    fn report_hints(&mut self) {
+        let Some((author, id)) = &self.doing else { return };
+        for Silence { stroke, reason, place } in self.document.take_silences() {
+            let hint = Hint { id: *id, stroke, reason, position: Position::nearest(place) };
+            self.report.unheard.push(Unheard { author: Arc::clone(author), hint });
         }
     }
 

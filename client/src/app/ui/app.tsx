@@ -31,6 +31,7 @@ import {
   TIMELINE,
   TOOL_PARTS,
   TOUR,
+  VAIN,
 } from "./parts";
 import { Sheet } from "./sheets/sheet";
 import { hasTimeline, isWorthShowing } from "./timeline/has-timeline";
@@ -86,6 +87,7 @@ function Workspace({ studio }: { studio: Studio }) {
   const prediction = usePart(studio, PREDICTION, studio.branches.prediction.rows.value !== null);
   const repeats = descriptorOf(studio.tools.chosen.value).isSymmetric === true && isRepeating(studio);
   const SymmetryMark = usePart(studio, SYMMETRY, repeats);
+  const VainMark = usePart(studio, VAIN, studio.drawnInVain.shown.value !== null);
   const SunHandle = usePart(studio, SUN, studio.sunPinned.value || studio.layout.panel.value === "background");
   return (
     <main
@@ -102,6 +104,7 @@ function Workspace({ studio }: { studio: Studio }) {
       {tool?.views.Marks && <tool.views.Marks tool={tool.made} page={studio} />}
       {prediction && <prediction.PredictionMarks studio={studio} />}
       <HoldRing studio={studio} />
+      {VainMark && <VainMark studio={studio} />}
       {studio.layout.bare.value ? <ShowAll studio={studio} /> : <Bars studio={studio} />}
       {SunHandle && <SunHandle studio={studio} />}
       {prediction && <prediction.PredictionBar studio={studio} />}

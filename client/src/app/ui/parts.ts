@@ -87,6 +87,8 @@ export const TIMELINE = new Part(async () => (await import("./timeline/timeline-
 
 export const SYMMETRY = new Part(async () => (await import("./overlays/symmetry-mark")).SymmetryMark);
 
+export const VAIN = new Part(async () => (await import("./overlays/vain-mark")).VainMark);
+
 export const SUN = new Part(async () => (await import("./overlays/sun-handle")).SunHandle);
 
 export const TOUR = new Part(async () => (await import("./notices/tour-card")).TourCard);
@@ -104,6 +106,7 @@ const ALL: readonly Part<unknown>[] = [
   ...Object.values(TOOL_PARTS),
   ...Object.values(PANELS),
   SYMMETRY,
+  VAIN,
   SUN,
   RECENT,
   ...Object.values(SHEETS).map(({ part }) => part),

@@ -4,6 +4,11 @@ export const PROBLEMS = {
     "That branch is gone: someone has just cut it, or the tree has shed it.",
     "Diesen Ast gibt es nicht mehr: Jemand hat ihn gerade geschnitten, oder der Baum hat ihn abgeworfen.",
   ],
+  "problems.out-of-reach": ["No bud is near enough to grow here.", "Keine Knospe ist nah genug, um hier zu wachsen."],
+  "problems.nothing-grew": [
+    "Nothing could grow here: the space is taken, or something is in the way.",
+    "Hier konnte nichts wachsen: Der Platz ist besetzt, oder etwas ist im Weg.",
+  ],
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
   "problems.nothing-to-ungrow": [

@@ -28,7 +28,7 @@ use self::{
     sections::{Kind, Release},
     settings::Pool,
 };
-use super::{Document, Generators, futures::Futures, obstacles::Obstacles};
+use super::{Document, Generators, futures::Futures, hints::Hints, obstacles::Obstacles};
 use crate::habit::Habit;
 
 /// Bytes are not a document that this program reads.
@@ -180,6 +180,7 @@ impl Document {
             obstacles,
             appearance: pool.look(look)?,
             pending: VecDeque::new(),
+            hints: Hints::default(),
             steps_begun,
             stop_at: None,
             unknown: container.unknown(),

@@ -3,9 +3,9 @@
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 use espalier_proto::{Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
-use super::{Document, generators::Step, history::Kind, refused};
+use super::{Document, generators::Step, hints::Silence, history::Kind, refused, strokes::OpenStroke};
 use crate::cause::Cause;
 
 /// A stroke that still grows so many steps after its end is left as it is.
@@ -20,10 +20,10 @@ pub(super) enum Pending {
     Brush(StepInput),
     /// So many steps alike, without guidance by hand; whether any of them has changed anything so far.
     Steps { left: u32, has_grown: bool, step: Step },
-    /// At most so many steps, while the markers of a lasso make anything grow.
-    Lasso { left: u32, chosen: Option<MetamerId> },
+    /// At most so many steps, while the markers of a lasso make anything grow; what is to be said if nothing does.
+    Lasso { left: u32, chosen: Option<MetamerId>, silence: Option<Silence> },
     /// At most so many steps for a lifted brush, while anything grows into what it left.
-    Settle { stroke: StrokeId, left: u32, chosen: Option<MetamerId> },
+    Settle { stroke: OpenStroke, left: u32 },
 }
 
 impl Document {
@@ -37,8 +37,10 @@ impl Document {
         let Some(pending) = self.pending.pop_front() else { return false };
         match pending {
             Pending::Brush(input) => {
+                let strokes: Vec<StrokeId> = input.pieces.iter().map(|piece| piece.stroke).collect();
                 self.resume_stroke();
                 self.step(&Step::Growth(input), observer);
+                strokes.into_iter().for_each(|stroke| self.hint_out_of_reach(stroke));
             }
             Pending::Steps { left, has_grown, step } => {
                 let (now, age) = (self.plant().step(), self.age());
@@ -53,32 +55,34 @@ impl Document {
                     }
                 }
             }
-            Pending::Lasso { left, chosen } => {
+            Pending::Lasso { left, chosen, silence } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() {
                     let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if grows && !self.simulation.is_out_of_budget() {
-                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen });
+                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen, silence: None });
                 } else {
                     self.simulation.drop_envelopes();
+                    self.hints.say(silence.filter(|_| !grows && !self.is_stopped()));
                 }
             }
-            Pending::Settle { stroke, left, chosen } => {
+            Pending::Settle { stroke, left } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() && self.simulation.has_guidance() {
                     self.resume_stroke();
-                    let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
+                    let step = Step::Growth(StepInput { chosen: stroke.chosen, ..StepInput::default() });
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if !grows {
-                    self.simulation.end_stroke(stroke);
+                    self.hint_nothing_grew(&stroke);
+                    self.simulation.end_stroke(stroke.id);
                     if self.strokes.is_empty() {
                         self.simulation.drop_guidance();
                     }
                 } else {
-                    self.pending.push_front(Pending::Settle { stroke, left: left - 1, chosen });
+                    self.pending.push_front(Pending::Settle { stroke, left: left - 1 });
                 }
             }
         }
@@ -189,7 +193,9 @@ impl Document {
             self.record(Kind::Lasso, cause);
         }
         self.simulation.enclose(&envelope);
-        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen });
+        let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
+        let silence = self.silence_of_lasso(&envelope, &places);
+        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen, silence });
         Ok(())
     }
 

@@ -59,11 +59,10 @@ impl OpenStrokes {
         Ok(())
     }
 
-    /// Ends a stroke; its name and what it had chosen.
-    pub fn close(&mut self, author: &str, number: u32) -> Result<(StrokeId, Option<MetamerId>), Problem> {
+    /// Ends a stroke.
+    pub fn close(&mut self, author: &str, number: u32) -> Result<OpenStroke, Problem> {
         let index = self.find(author, number).ok_or_else(|| unknown(number))?;
-        let stroke = self.open.remove(index);
-        Ok((stroke.id, stroke.chosen))
+        Ok(self.open.remove(index))
     }
 
     pub fn close_all(&mut self) {

@@ -9,7 +9,7 @@ use crate::{
     clients::{Guest, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
-    work::{CatchUp, Report, Work},
+    work::{CatchUp, Report, Unheard, Work},
 };
 
 impl Session {
@@ -25,7 +25,8 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, poses, runs, acts, documents, snapshot } = work.take_report();
+        let Report { delta, catch_ups, refused, unheard, poses, runs, acts, documents, snapshot } =
+            work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
         for (client, frame) in catch_ups {
@@ -38,6 +39,12 @@ impl Session {
             let client = self.authors.get(&refusal.author).and_then(|author| author.client);
             if let Some(client) = client.filter(|_| refusal.id > 0) {
                 self.send(client, &ServerMessage::Refused { id: refusal.id, problem: refusal.problem });
+            }
+        }
+        for Unheard { author, hint } in unheard {
+            let client = self.authors.get(&author).and_then(|author| author.client);
+            if let Some(client) = client.filter(|_| hint.id > 0) {
+                self.send(client, &ServerMessage::Hint { hint });
             }
         }
         for (act, outcome) in acts {

@@ -11,6 +11,7 @@ mod futures;
 mod fuzz;
 mod guiding;
 mod handshake;
+mod hints;
 mod kept;
 mod limits;
 mod looks;

@@ -7,11 +7,11 @@ use serde_json::{Value, json};
 
 use crate::world::{World, grow};
 
-fn at(x: f32, y: f32, z: f32) -> Value {
+pub fn at(x: f32, y: f32, z: f32) -> Value {
     json!({ "position": [x, y, z], "rotation": [0.0, 0.0, 0.0, 1.0] })
 }
 
-fn place(shape: Value, pose: Value) -> Value {
+pub fn place(shape: Value, pose: Value) -> Value {
     json!({ "kind": "place_obstacle", "obstacle": json!({ "shape": shape, "pose": pose }) })
 }
 

@@ -12,3 +12,4 @@ import "./branch.css";
 import "./sheet-contents.css";
 import "./help.css";
 import "./recent.css";
+import "./vain.css";

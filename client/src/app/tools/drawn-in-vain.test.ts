@@ -1,0 +1,52 @@
+import { beforeEach, describe, expect, it, vi } from "vitest";
+import type { Hint } from "../../wire/generated";
+import { handle, type MessageHandlers } from "../connection/page-message";
+import { messageHandlers, type SessionTargets } from "../session-events";
+import { DrawnInVain } from "./drawn-in-vain";
+
+const stroke: Hint = { id: 3, stroke: 1, reason: "out_of_reach", position: [0, 70, 0] };
+const lasso: Hint = { id: 9, reason: "nothing_grew", position: [4, 2, 0] };
+
+describe("what was drawn in vain", () => {
+  let timers: { run: () => void; cancelled: boolean }[] = [];
+  const clock = {
+    now: () => 0,
+    after: (_: number, run: () => void) => {
+      const timer = { run, cancelled: false };
+      timers.push(timer);
+      return () => {
+        timer.cancelled = true;
+      };
+    },
+  };
+  const pass = () => timers.splice(0).forEach((timer) => void (timer.cancelled || timer.run()));
+
+  beforeEach(() => {
+    timers = [];
+  });
+
+  it("is shown for a while", () => {
+    const vain = new DrawnInVain(clock);
+    vain.show(stroke);
+    expect(vain.shown.value).toBe(stroke);
+    pass();
+    expect(vain.shown.value).toBeNull();
+  });
+
+  it("gives way to the next, which has its whole time", () => {
+    const vain = new DrawnInVain(clock);
+    vain.show(stroke);
+    const [first] = timers;
+    vain.show(lasso);
+    expect(first?.cancelled).toBe(true);
+    expect(vain.shown.value).toBe(lasso);
+  });
+
+  it("SG2: is what the server hints at", () => {
+    const show = vi.fn();
+    const page = { drawnInVain: { show, clear: vi.fn() } } as Partial<SessionTargets> as SessionTargets;
+    const handlers: MessageHandlers = messageHandlers(page);
+    handle(handlers, { type: "hint", hint: lasso });
+    expect(show).toHaveBeenCalledWith(lasso);
+  });
+});

@@ -1,0 +1,108 @@
+//! `SG2`: who draws in vain is told.
+
+use espalier_proto::{Hint, HintReason, ServerMessage};
+use serde_json::{Value, json};
+
+use crate::{
+    obstacles::{at, place},
+    world::{World, grow},
+};
+
+fn hints(world: &World, client: u64) -> Vec<Hint> {
+    let hint = |message: &ServerMessage| match message {
+        ServerMessage::Hint { hint } => Some(hint.clone()),
+        _ => None,
+    };
+    world.peer(client).texts.iter().filter_map(hint).collect()
+}
+
+/// Draws a stroke through these places as two moves; the number of the next command.
+fn stroke(world: &mut World, client: u64, id: u32, places: [[f32; 3]; 2]) -> u32 {
+    world.command(client, id, json!({ "kind": "stroke_begin", "stroke": 5 }));
+    for (at, place) in (1..).zip(places) {
+        let samples = vec![json!({ "position": place, "radius": 0.5 })];
+        world.command(client, id + at, json!({ "kind": "stroke_move", "stroke": 5, "samples": samples }));
+    }
+    world.command(client, id + 3, json!({ "kind": "stroke_end", "stroke": 5 }));
+    world.settle();
+    id + 4
+}
+
+/// A square whose lower left corner is here.
+fn square(x: f32, y: f32, side: f32) -> Value {
+    let outline = vec![[x, y], [x + side, y], [x + side, y + side], [x, y + side]];
+    let plane = json!({ "origin": [0.0, 0.0, 0.0], "right": [1.0, 0.0, 0.0], "up": [0.0, 1.0, 0.0] });
+    json!({ "kind": "lasso", "outline": outline, "plane": plane, "depth": 1.0 })
+}
+
+#[test]
+fn sg2_a_stroke_out_of_reach_is_hinted_at_once() {
+    let mut world = World::new();
+    let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
+    stroke(&mut world, birch, 1, [[0.0, 60.0, 0.0], [0.0, 70.0, 0.0]]);
+    assert_eq!(world.document().metamers(), 0);
+    let [hint] = &hints(&world, birch)[..] else { panic!("one hint for one stroke") };
+    assert_eq!((hint.id, hint.stroke, hint.reason), (3, Some(5), HintReason::OutOfReach));
+    assert_eq!(json!(hint.position), json!([0.0, 70.0, 0.0]));
+    assert_eq!(hints(&world, maple), [], "others did not draw it");
+}
+
+#[test]
+fn sg2_a_replay_hints_at_nothing() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    stroke(&mut world, client, 1, [[0.0, 60.0, 0.0], [0.0, 70.0, 0.0]]);
+    world.crash();
+    let client = world.join("birch-01");
+    world.settle();
+    assert_eq!(hints(&world, client), []);
+    assert_eq!(world.document().hash(), world.replayed_hash());
+}
+
+#[test]
+fn sg2_what_grows_needs_no_hint() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let next = stroke(&mut world, client, 1, [[0.0, 1.0, 0.0], [0.0, 12.0, 0.0]]);
+    // A limb connects to where this one begins.
+    let next = stroke(&mut world, client, next, [[20.0, 10.0, 0.0], [24.0, 14.0, 0.0]]);
+    world.command(client, next, square(-4.0, 8.0, 9.0));
+    world.settle();
+    assert!(world.document().metamers() > 40);
+    assert_eq!(hints(&world, client), []);
+}
+
+#[test]
+fn sg2_a_stroke_in_which_nothing_grew_is_hinted_at() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let block = json!({ "kind": "box", "size": [18.0, 18.0, 18.0] });
+    world.command(client, 1, place(block, at(0.0, 12.0, 0.0)));
+    world.command(client, 2, grow(1));
+    world.settle();
+    stroke(&mut world, client, 3, [[0.0, 12.0, 0.0], [0.0, 12.0, 0.0]]);
+    let reasons: Vec<_> = hints(&world, client).iter().map(|hint| (hint.stroke, hint.reason)).collect();
+    assert_eq!(reasons, [(Some(5), HintReason::NothingGrew)]);
+}
+
+#[test]
+fn sg2_a_lasso_in_which_nothing_grows_says_why() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, square(60.0, 0.0, 10.0));
+    world.settle();
+    let [far] = &hints(&world, client)[..] else { panic!("one hint for one lasso") };
+    assert_eq!((far.id, far.stroke, far.reason), (1, None, HintReason::OutOfReach));
+    assert_eq!(json!(far.position), json!([60.0, 10.0, 0.0]));
+}
+
+#[test]
+fn sg2_a_lasso_in_the_ground_is_not_out_of_reach() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    // An edge passes the seed; its corners are far.
+    world.command(client, 1, square(-90.0, -181.0, 180.0));
+    world.settle();
+    let reasons: Vec<_> = hints(&world, client).iter().map(|hint| hint.reason).collect();
+    assert_eq!(reasons, [HintReason::NothingGrew]);
+}
