@@ -6,32 +6,63 @@ use measure::{densities, light, limbs, mean};
 
 use super::*;
 
-/// Buds that answer to strong light only make fewer and stronger limbs, and leave less wood in the shade.
+/// Buds that answer to strong light only make a sparser crown with more light in it; it takes them longer, and its
+/// limbs are as many and as strong as those of any tree of that size. `--nocapture` prints what is measured.
 #[test]
-fn sensitivity_to_light_makes_fewer_stronger_limbs() {
+fn sensitivity_to_light_makes_a_sparser_lighter_crown_of_the_same_limbs() {
     let forms = [1.0, 3.0, 6.0].map(|kappa| {
-        let trees: Vec<Simulation> = (1..=4)
-            .map(|seed| {
-                let mut tree = seedling(seed, |values| {
-                    (values.apical_control, values.light_sensitivity) = (0.5, kappa);
-                });
-                grow(&mut tree, 12);
-                tree.show();
-                tree
-            })
-            .collect();
-        let of_all: Vec<Vec<f32>> = trees.iter().map(|tree| limbs(tree.plant(), 0.01)).collect();
+        let trees = grown_to_3000(kappa, 0.0);
+        let over = |measure: &dyn Fn(&Plant) -> f32| mean(trees.iter().map(|tree| measure(tree.plant())));
         [
-            mean(of_all.iter().map(|limbs| limbs.len() as f32)),
-            mean(of_all.iter().map(|limbs| mean(limbs.iter().copied()))),
-            mean(trees.iter().map(|tree| light(tree.plant()))),
+            over(&|plant| plant.growths() as f32),
+            over(&|plant| densities(plant).0),
+            over(&|plant| densities(plant).1),
+            over(&light),
+            over(&|plant| limbs(plant, 0.01).len() as f32),
+            over(&|plant| mean(limbs(plant, 0.01))),
         ]
     });
     let column = |i: usize| forms.map(|form| form[i]);
-    let [number, strength, light] = [column(0), column(1), column(2)];
-    assert!(number.is_sorted_by(|a, b| *a > 1.1 * b), "limbs: {number:?}");
-    assert!(strength.is_sorted_by(|a, b| 1.05 * a < *b), "share of a limb: {strength:?}");
+    let [steps, inner, outer, light, number, strength] = [0, 1, 2, 3, 4, 5].map(column);
+    println!("steps {steps:?}\nnodes inside {inner:?}, outside {outer:?}\nlight {light:?}");
+    println!("limbs of a hundredth {number:?}, mean share of one {strength:?}");
+    assert!(steps.is_sorted_by(|a, b| a + 1.0 < *b), "steps: {steps:?}");
+    assert!(inner.is_sorted_by(|a, b| *a > 1.1 * b), "nodes inside: {inner:?}");
+    assert!(outer.is_sorted_by(|a, b| *a > 1.3 * b), "nodes outside: {outer:?}");
     assert!(light.is_sorted_by(|a, b| a + 0.04 < *b), "light: {light:?}");
+    for limbs in [number, strength] {
+        let [one, other, another] = limbs;
+        let (least, most) = (one.min(other).min(another), one.max(other).max(another));
+        assert!(most < 1.2 * least, "limbs of trees of one size: {limbs:?}");
+    }
+}
+
+/// Shedding judges vigor, which sensitivity takes from all that is not in full light: it grows and sheds more.
+#[test]
+fn sensitivity_to_light_sheds_more() {
+    let shed = [1.0, 3.0, 6.0].map(|kappa| mean(grown_to_3000(kappa, 0.2).iter().map(shed_share)));
+    println!("shed of what was grown {shed:?}");
+    assert!(shed[0] < 0.01, "shed: {shed:?}");
+    assert!(shed.is_sorted_by(|a, b| a + 0.1 < *b), "shed: {shed:?}");
+}
+
+/// Trees of four seeds with this sensitivity to light and this threshold of shedding.
+fn grown_to_3000(kappa: f32, threshold: f32) -> [Simulation; 4] {
+    [1, 2, 3, 4].map(|seed| {
+        let mut tree = seedling(seed, |values| {
+            (values.apical_control, values.light_sensitivity) = (0.5, kappa);
+            values.shedding_threshold = threshold;
+        });
+        grow_to(&mut tree, 3000);
+        tree.show();
+        tree
+    })
+}
+
+/// The share of all wood ever grown that was shed.
+fn shed_share(tree: &Simulation) -> f32 {
+    let seeds = 1.0;
+    1.0 - tree.plant().living_count() as f32 / (tree.plant().metamer_count() as f32 - seeds)
 }
 
 /// Shedding thins the inside of the crown and leaves its outside as it is.
