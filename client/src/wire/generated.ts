@@ -52,7 +52,7 @@ export const PARAMETERS = {
   maturity_steps: {"kind":"number","least":0.0,"most":500.0,"step":1.0,"unit":"steps","group":"sharing"},
   light_sensitivity: {"kind":"number","least":0.0,"most":6.0,"step":0.1,"symbol":"κ","group":"vigor"},
   max_shoot_length: {"kind":"number","least":1.0,"most":20.0,"step":1.0,"symbol":"nₘₐₓ","group":"vigor"},
-  shedding_threshold: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"Th","group":"vigor"},
+  shedding_threshold: {"kind":"number","least":0.0,"most":1.0,"step":0.01,"symbol":"Th","travel":[0.3,0.6],"group":"vigor"},
   vigor_gain: {"kind":"number","least":0.1,"most":10.0,"step":0.1,"group":"sharing"},
   vigor_model: {"kind":"choice","choices":["borchert_honda","priority"],"group":"sharing"},
   priority_least_weight: {"kind":"number","least":0.001,"most":1.0,"step":0.001,"symbol":"wₘᵢₙ","group":"sharing"},
@@ -189,6 +189,11 @@ symbol?: string,
  * What it is counted in; none for plain numbers.
  */
 unit?: Unit, 
+/**
+ * The part of its range that gets most of a control's travel, because most happens there; none where the range
+ * is even.
+ */
+travel?: readonly [number, number], 
 /**
  * The settings it stands with in a panel; none where a whole table stands together.
  */

@@ -58,7 +58,7 @@ settings! {
         /// Internodes the most vigorous enabled bud adds in one step.
         max_shoot_length: u32 = 4, range(1.0, 20.0), symbol("nₘₐₓ"), group("vigor");
         /// Vigor per internode, over the vigor gain, below which a branch is shed.
-        shedding_threshold: f32 = 0.0, range(0.0, 1.0), symbol("Th"), group("vigor");
+        shedding_threshold: f32 = 0.0, range(0.0, 1.0), travel(0.3, 0.6), symbol("Th"), group("vigor");
         /// Vigor the whole plant receives per unit of light at its base (α of Borchert-Honda).
         vigor_gain: f32 = 2.0, range(0.1, 10.0), step(0.1), group("sharing");
         /// How vigor is shared out among branches.

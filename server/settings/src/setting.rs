@@ -66,6 +66,11 @@ pub struct Setting {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub unit: Option<Unit>,
+    /// The part of its range that gets most of a control's travel, because most happens there; none where the range
+    /// is even.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[ts(type = "readonly [number, number]", optional)]
+    pub travel: Option<[f32; 2]>,
     /// The settings it stands with in a panel; none where a whole table stands together.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[ts(type = "string", optional)]
@@ -76,7 +81,7 @@ impl Setting {
     /// A row for values of type `V`.
     pub(crate) const fn new<V: Value>(name: &'static str, sentence: &'static str) -> Self {
         let sentence = sentence.trim_ascii();
-        Self { name, sentence, kind: V::KIND, symbol: None, unit: None, group: None }
+        Self { name, sentence, kind: V::KIND, symbol: None, unit: None, travel: None, group: None }
     }
 
     /// The same for numbers from `least` to `most`, both included.
@@ -102,6 +107,14 @@ impl Setting {
     /// The same, counted in this unit.
     pub(crate) const fn unit(mut self, unit: Unit) -> Self {
         self.unit = Some(unit);
+        self
+    }
+
+    /// The same with most of a control's travel for a part of the range.
+    pub(crate) const fn travel(mut self, from: f32, to: f32) -> Self {
+        let Kind::Number { least, most, .. } = self.kind else { panic!("only numbers have a travel") };
+        assert!(least <= from && from < to && to <= most, "a travel lies within the range");
+        self.travel = Some([from, to]);
         self
     }
 

@@ -145,3 +145,44 @@ test("a species that is picked is what resets go back to", async () => {
   await tablet.tap("Reset Kind of bark");
   await until("it is the birch’s bark", papery);
 });
+
+test("the slider of shedding has most of its travel where most happens, and all of the range", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const { page } = tablet;
+  await openPart(tablet, { panel: "Architecture", tab: "Growth", least: 0 });
+  const slider = page.getByRole("slider", { name: "Shedding", exact: true });
+  const typed = page.getByLabel("Shedding: value", { exact: true });
+  const shown = async () => Number(await typed.inputValue());
+  const shows = (value: number) => expect.poll(shown).toBe(value);
+  await shows(0);
+  for (const [key, value] of [
+    ["ArrowRight", 0.01],
+    ["PageUp", 0.11],
+    ["ArrowLeft", 0.1],
+    ["End", 1],
+    ["Home", 0],
+  ] as const) {
+    await slider.press(key);
+    await shows(value);
+  }
+  await slider.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await tablet.boxOf(slider);
+  // On an even track these places would be their values.
+  for (const [place, least, most] of [
+    [0.25, 0.28, 0.4],
+    [0.5, 0.42, 0.52],
+    [0.7, 0.52, 0.62],
+  ] as const) {
+    await tablet.tapAt({ x: x + place * width, y: y + height / 2 });
+    await expect.poll(shown, { message: `at ${place}` }).toBeGreaterThan(least);
+    expect(await shown(), `at ${place}`).toBeLessThan(most);
+  }
+  await typed.fill("0.9");
+  await typed.press("Enter");
+  await shows(0.9);
+  await tablet.untilQuiet();
+  await page.reload();
+  await tablet.untilReady();
+  await openPart(tablet, { panel: "Architecture", tab: "Growth", least: 0 });
+  await shows(0.9);
+});

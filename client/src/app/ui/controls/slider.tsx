@@ -1,16 +1,14 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { numberText, unitText } from "../../words/number-text";
+import { numberText, onStep, unitText } from "../../words/number-text";
 import { Field } from "./field";
+import { placeOf, type Scale, stepsOf, valueAt } from "./travel";
 import { type Notation, TypedNumber } from "./typed-number";
 
-export interface SliderProps {
+export interface SliderProps extends Scale {
   readonly label: string;
   readonly symbol?: string | undefined;
   readonly unit?: string | undefined;
-  readonly least: number;
-  readonly most: number;
-  readonly step: number;
   readonly value: number;
   /** What reset puts it back to. */
   readonly standard: number;
@@ -68,7 +66,11 @@ export function Slider(props: SliderProps) {
     [],
   );
 
-  const place = most > least ? Math.min(1, Math.max(0, (shown - least) / (most - least))) : 0;
+  const place = placeOf(props, shown);
+  // A track that is not even goes by places, and its keys by steps of the value.
+  const input = props.travel
+    ? { min: 0, max: 1, step: "any", value: place }
+    : { min: least, max: most, step, value: shown };
   const isStandard = Math.abs(value - standard) < step / 2;
   return (
     <Field
@@ -93,21 +95,26 @@ export function Slider(props: SliderProps) {
             aria-valuetext={
               props.inWords?.(shown) ?? props.notation?.write(shown) ?? `${numberText(shown, step)}${unitText(unit)}`
             }
-            min={least}
-            max={most}
-            step={step}
-            value={shown}
+            {...input}
             disabled={disabled}
             data-track={track}
             style={{ "--place": place }}
-            onInput={(event) => drag(Number(event.currentTarget.value))}
+            onInput={(event) => {
+              const to = Number(event.currentTarget.value);
+              drag(props.travel ? valueAt(props, to) : to);
+            }}
             onChange={() => {
               if (!keyed.current) {
                 commit();
               }
             }}
-            onKeyDown={() => {
+            onKeyDown={(event) => {
               keyed.current = true;
+              const steps = props.travel ? stepsOf(event.key) : null;
+              if (steps !== null) {
+                event.preventDefault();
+                drag(onStep((open.current ?? value) + steps * step, least, most, step));
+              }
             }}
             onKeyUp={() => {
               keyed.current = false;

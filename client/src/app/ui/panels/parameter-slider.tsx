@@ -17,7 +17,7 @@ interface ParameterSliderProps {
 
 /** A slider for one number that trees grow by. */
 export function ParameterSlider({ studio, parameter }: ParameterSliderProps) {
-  const { name, symbol, least, most, step } = parameter;
+  const { name, symbol, least, most, step, travel } = parameter;
   const now = studio.parameters.value;
   const patch = (value: number) => patchFor(name, value, now ?? DEFAULTS);
   return (
@@ -26,7 +26,7 @@ export function ParameterSlider({ studio, parameter }: ParameterSliderProps) {
       symbol={symbol}
       unit={unitOf(parameter)}
       help={helpOf(parameter)}
-      {...{ least, most, step }}
+      {...{ least, most, step, travel }}
       value={now?.[name] ?? DEFAULTS[name]}
       standard={standardOf(studio)[name]}
       disabled={now === null}

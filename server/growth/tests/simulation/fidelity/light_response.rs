@@ -65,6 +65,25 @@ fn shed_share(tree: &Simulation) -> f32 {
     1.0 - tree.plant().living_count() as f32 / (tree.plant().metamer_count() as f32 - seeds)
 }
 
+/// The part of the threshold's range that its control gets most of its travel for is where most happens.
+#[test]
+fn shedding_does_most_where_its_control_is_widest() {
+    let row = ParameterValues::ROWS.iter().find(|row| row.name == "shedding_threshold").expect("a row");
+    let [from, to] = row.travel.expect("a part of the range");
+    let living = |threshold| {
+        mean([1, 2, 3, 4].map(|seed| {
+            let mut tree = seedling(seed, |values| values.shedding_threshold = threshold);
+            grow(&mut tree, 14);
+            tree.plant().living_count() as f32
+        }))
+    };
+    let course = [0.0, from, 0.4, 0.5, to, 0.8, 1.0].map(living);
+    println!("metamers after 14 steps at Th = 0, {from}, 0.4, 0.5, {to}, 0.8, 1: {course:?}");
+    let [none, begins, _, _, ends, _, all] = course;
+    assert!(begins - ends > 0.7 * (none - all), "metamers: {course:?}");
+    assert!(begins > 0.95 * none && ends < 0.3 * none, "metamers: {course:?}");
+}
+
 /// Shedding thins the inside of the crown and leaves its outside as it is.
 #[test]
 fn shedding_thins_the_inside_of_the_crown() {
