@@ -32,14 +32,14 @@ export class Player {
   readonly #browser: Browser;
   readonly #darkroom: Darkroom;
   /** A page of the server without the client, for its sockets and its canvas. */
-  readonly #blank: Page;
+  readonly blank: Page;
   readonly #care: Care;
 
   private constructor(server: RunningServer, browser: Browser, darkroom: Darkroom, blank: Page, care: Care) {
     this.#server = server;
     this.#browser = browser;
     this.#darkroom = darkroom;
-    this.#blank = blank;
+    this.blank = blank;
     this.#care = care;
   }
 
@@ -52,12 +52,12 @@ export class Player {
   /** Plays the commands of a sketch and gives its picture as JPEG. */
   async play(entry: Entry, commands: readonly string[]): Promise<Buffer> {
     const address = await this.#server.newSession(entry.seed);
-    const session = address.slice(address.lastIndexOf("/") + 1);
-    await perform(this.#blank, session, commands);
-    return this.#photograph(address, session, entry);
+    await perform(this.blank, sessionAt(address), commands);
+    return this.photograph(address, entry);
   }
 
-  async #photograph(address: string, session: string, { shot, undone = 0 }: Entry): Promise<Buffer> {
+  /** Takes the picture of the session at an address as JPEG. */
+  async photograph(address: string, { shot, undone = 0 }: Pick<Entry, "shot" | "undone">): Promise<Buffer> {
     const { size, oversampling } = this.#care;
     const [width, height] = [Math.round(shot.width * size), Math.round(shot.height * size)];
     const screen = { width, height, detail: oversampling, watched: true };
@@ -69,16 +69,20 @@ export class Player {
       const pictures = [await atRest(tablet.page)];
       if (undone > 0) {
         // The camera stays where it is: the two can be compared.
-        await perform(this.#blank, session, Array(undone).fill('{"kind":"undo"}'));
+        await perform(this.blank, sessionAt(address), Array(undone).fill('{"kind":"undo"}'));
         await tablet.untilQuiet();
         pictures.unshift(await atRest(tablet.page));
       }
       if (tablet.errors.length > 0) throw new Error(tablet.errors.join("; "));
-      return await print(this.#blank, pictures, width, height);
+      return await print(this.blank, pictures, width, height);
     } finally {
       await tablet.close();
     }
   }
+}
+
+function sessionAt(address: string): string {
+  return address.slice(address.lastIndexOf("/") + 1);
 }
 
 /** What a page shows once its picture is finished. */

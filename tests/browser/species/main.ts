@@ -1,0 +1,87 @@
+import { writeFile } from "node:fs/promises";
+import { join, resolve } from "node:path";
+import { parseArgs } from "node:util";
+import { FINAL, Player } from "../gallery/player";
+import { launchBrowser } from "../src/browser";
+import { growByHand, treeAt, treeOfTheSheet } from "../src/by-hand";
+import { Darkroom } from "../src/picture";
+import { Server } from "../src/server";
+import { SMALL, Tablet } from "../src/tablet";
+import { layOut, type Pair, SIZE } from "./pairs";
+
+const PICTURE = join(import.meta.dirname, "../../../docs/species-by-hand.jpg");
+/** The seed of the contact sheet. */
+const SEED = 1;
+/** A processor that has other work as well may need long to grow a tree, in milliseconds. */
+const PATIENCE = 300_000;
+/** From the front, as on the sheet. */
+const SHOT = { yaw: 0, pitch: 4, zoom: 1.15, ...SIZE };
+
+interface Species {
+  readonly slug: string;
+  readonly name: string;
+}
+
+/**
+ * Grows the species with these names, or all, by hand in the page, holds each tree against that of the contact sheet,
+ * and writes one picture of the pairs. Gives the exit code.
+ */
+export async function main(words: readonly string[]): Promise<number> {
+  const { values, positionals } = parseArgs({
+    args: [...words],
+    allowPositionals: true,
+    options: { out: { type: "string" } },
+  });
+  const out = values.out === undefined ? PICTURE : resolve(process.env.INIT_CWD ?? process.cwd(), values.out);
+  const server = new Server();
+  const browser = await launchBrowser();
+  let failed = 0;
+  try {
+    await server.start();
+    const species = await chosen(server, positionals);
+    const player = await Player.open(server, browser, FINAL);
+    const darkroom = await Darkroom.open(browser);
+    const pairs: Pair[] = [];
+    for (const { slug, name } of species) {
+      try {
+        const address = await server.newSession(SEED);
+        const tablet = await Tablet.open(browser, darkroom, address, SMALL);
+        tablet.page.setDefaultTimeout(PATIENCE);
+        try {
+          await growByHand(tablet, slug);
+        } finally {
+          await tablet.close();
+        }
+        const isSame = (await treeAt(address)).equals(treeOfTheSheet(slug, server.folder));
+        const byHand = await player.photograph(address, { shot: SHOT });
+        pairs.push({ name, sheet: await pictureOf(server, slug), byHand });
+        console.log(`${slug}  ${isSame ? "the tree of the sheet" : "ANOTHER TREE"}`);
+        if (!isSame) failed += 1;
+      } catch (error) {
+        failed += 1;
+        console.error(`${slug}: ${error instanceof Error ? error.message : error}`);
+      }
+    }
+    await writeFile(out, await layOut(player.blank, pairs));
+    console.log(`${pairs.length} of ${species.length} in ${out}`);
+  } finally {
+    await browser.close();
+    await server.stop();
+  }
+  return failed === 0 ? 0 : 1;
+}
+
+/** The species with these names, or all; a name that is not there is an error. */
+async function chosen({ address }: Server, slugs: readonly string[]): Promise<readonly Species[]> {
+  const all = (await (await fetch(`${address}/api/species`)).json()) as Species[];
+  const unknown = slugs.filter((slug) => !all.some((one) => one.slug === slug));
+  if (unknown.length > 0) throw new Error(`no such species: ${unknown.join(", ")}`);
+  return slugs.length === 0 ? all : all.filter(({ slug }) => slugs.includes(slug));
+}
+
+/** The tree of the contact sheet, drawn by the server as it is there. */
+async function pictureOf({ address }: Server, slug: string): Promise<Buffer> {
+  const answer = await fetch(`${address}/api/species/${slug}/picture`);
+  if (!answer.ok) throw new Error(`no picture of ${slug}`);
+  return Buffer.from(await answer.arrayBuffer());
+}
