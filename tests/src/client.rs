@@ -389,6 +389,8 @@ impl Client {
                 self.appearances += 1;
             }
             ServerMessage::Notice { notice } => self.notices.push(notice),
+            // Said to a person, who is not here.
+            ServerMessage::Hint { .. } => {}
             ServerMessage::Pong { nonce } => self.pongs.push(nonce),
         }
     }
