@@ -54,6 +54,9 @@ pub const MAX_MESH_TRIANGLES: usize = 131_072;
 /// The largest glTF file that can be posted as an obstacle, in bytes (`LM6`).
 pub const MAX_GLB_BYTES: usize = 16 * 1024 * 1024;
 
+/// The largest file that can be posted to become a tree, in bytes (`LM14`).
+pub const MAX_WOOD_BYTES: usize = 64 * 1024 * 1024;
+
 /// Why the server closes a socket. Standard codes below 4000 keep their meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u16)]

@@ -7,7 +7,10 @@ use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
 use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-use crate::document::{FORMATS, Format};
+use crate::{
+    document::{FORMATS, Format},
+    import,
+};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -15,6 +18,7 @@ Examples:
   espalier serve --port 8080 --database trees.db
   espalier grow --metamers 20000 --seed 3 --export tree.glb
   espalier grow --species scots-pine --export pine.png
+  espalier import scan.csv --grow 3 --export scan.glb
   espalier replay strokes.jsonl --export tree.json --stats json
 
 Without a command, espalier serves. Every option of `serve` can be set by the environment variable named in
@@ -58,6 +62,8 @@ pub enum Command {
     Replay(Replay),
     /// Grow a tree on its own, without a server.
     Grow(Grow),
+    /// Make a tree of a scan or a file of another program, without a server.
+    Import(Import),
     /// List the species, or draw them all on one sheet.
     Species(Species),
 }
@@ -122,6 +128,36 @@ pub struct Grow {
     pub results: Results,
 }
 
+/// Options of `import`.
+#[derive(Debug, Args)]
+pub struct Import {
+    /// The file: .csv (cylinders of a QSM), .mtg (a multiscale tree graph), .json (a skeleton) or .espalier.
+    #[arg(value_parser = parse_import)]
+    pub file: ImportFile,
+    /// Metres in one unit of the file, for .csv and .mtg: 0.001 for millimetres.
+    #[arg(long, default_value_t = 1.0, value_name = "METRES", value_parser = parse_unit)]
+    pub unit: f64,
+    /// Grow on for so many steps.
+    #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
+    pub grow: Option<u32>,
+    /// Seed of all randomness, where the file has none.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u32,
+    #[command(flatten)]
+    pub start: Start,
+    #[command(flatten)]
+    pub results: Results,
+}
+
+/// A file to read, in the format that its name tells.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ImportFile {
+    /// Where.
+    pub path: PathBuf,
+    /// As what.
+    pub format: import::Format,
+}
+
 /// Options of `species`.
 #[derive(Debug, Args)]
 pub struct Species {
@@ -150,7 +186,8 @@ pub struct Start {
 /// What comes out, and with how many threads.
 #[derive(Debug, Args)]
 pub struct Results {
-    /// Write the plants to a file: .glb (triangles for any glTF viewer), .json (the skeleton) or .png (a picture).
+    /// Write the plants to a file, in the format of its ending: .glb, .json, .mtg, .csv, .ply, .png or .espalier;
+    /// docs/formats.md says what is in them.
     #[arg(long, value_name = "OUT", value_parser = parse_export)]
     pub export: Option<Export>,
     /// Say in a glTF file who made the plants.
@@ -195,6 +232,18 @@ fn parse_export(path: &str) -> Result<Export, String> {
         format!("the name must end in one of: {}", all.join(", "))
     })?;
     Ok(Export { path, format })
+}
+
+fn parse_import(path: &str) -> Result<ImportFile, String> {
+    let path = PathBuf::from(path);
+    let ending = path.extension().map(|extension| extension.to_string_lossy().into_owned());
+    let format = import::format_of(&ending.unwrap_or_default())?;
+    Ok(ImportFile { path, format })
+}
+
+fn parse_unit(text: &str) -> Result<f64, String> {
+    let unit = text.parse().ok().filter(|unit: &f64| unit.is_finite() && *unit > 0.0);
+    unit.ok_or_else(|| "it must be a number above 0".to_owned())
 }
 
 fn parse_species(slug: &str) -> Result<&'static species::Species, String> {
@@ -289,6 +338,9 @@ mod tests {
             ("espalier grow --metamers 9 --stats xml", ErrorKind::InvalidValue),
             ("espalier grow --metamers 9 --threads 0", ErrorKind::ValueValidation),
             ("espalier replay a.jsonl --export a.txt", ErrorKind::ValueValidation),
+            ("espalier import tree.glb", ErrorKind::ValueValidation),
+            ("espalier import tree.csv --unit 0", ErrorKind::ValueValidation),
+            ("espalier import tree.csv --grow 0", ErrorKind::ValueValidation),
             ("espalier dig", ErrorKind::InvalidSubcommand),
         ] {
             assert_eq!(parse(line).unwrap_err().kind(), kind, "{line}");

@@ -6,6 +6,7 @@ mod cli;
 mod document;
 mod headless;
 mod http;
+mod import;
 mod listener;
 mod live;
 mod name;
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
         Some(Command::Serve(options)) => served(serve::run(&options)),
         Some(Command::Replay(options)) => done(headless::replay(&options)),
         Some(Command::Grow(options)) => done(headless::grow(&options)),
+        Some(Command::Import(options)) => done(headless::import(&options)),
         Some(Command::Species(options)) => done(headless::species(&options)),
     }
 }
@@ -50,9 +52,10 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("{error}");
     match error {
-        HeadlessError::Script(_) | HeadlessError::Read { .. } | HeadlessError::Parameters(_) => {
-            ExitCode::from(USAGE)
-        }
+        HeadlessError::Script(_)
+        | HeadlessError::Read { .. }
+        | HeadlessError::Import { .. }
+        | HeadlessError::Parameters(_) => ExitCode::from(USAGE),
         _ => ExitCode::FAILURE,
     }
 }

@@ -5,6 +5,7 @@
 use std::{collections::BTreeMap, sync::LazyLock};
 
 use espalier_settings::{BarkKind, FlowerKind, FruitKind, LeafKind};
+use glam::Vec2;
 use serde::Deserialize;
 
 /// How the pictures are laid out, and what their bytes mean.
@@ -74,6 +75,13 @@ impl Painted {
     pub(crate) fn bark(kind: BarkKind) -> Self {
         Self::read(kept!(kind.name(), "bark":
             "smooth" "furrowed" "plated" "papery" "flaking" "banded" "stringy"))
+    }
+
+    /// Whether there is anything at a place of an atlas, upwards from its foot.
+    pub(crate) fn covers(&self, uv: Vec2) -> bool {
+        let [column, line] =
+            uv.to_array().map(|share| ((share * self.side as f32) as usize).min(self.side - 1));
+        self.colours[line * self.side + column][3] >= 128
     }
 
     fn read(png: &[u8]) -> Self {

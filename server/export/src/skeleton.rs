@@ -1,74 +1,154 @@
-//! The skeleton as JSON: living metamers, their radii and how they hang together.
+//! The skeleton as JSON: axes and buds, metamers with their radii, leaves, and what the plant grew by.
 
+use std::cell::Cell;
+
+use espalier_growth::simulation_version;
 use espalier_mesh::Style;
-use espalier_plant::{MetamerId, Plant, Widths};
-use serde::{Serialize, Serializer, ser::SerializeSeq};
+use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_settings::{Appearance, ParameterValues};
+use glam::DVec3;
+use serde::{Serialize, Serializer};
+
+use crate::{
+    ExportError,
+    foliage::{Foliage, living},
+    structure::{Structure, rounded},
+};
 
 /// The version of the format; it changes when a reader must.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
-/// The living metamers of the present, seeds included, in birth order; see `docs/formats.md`.
-pub fn skeleton_json(plant: &Plant, style: &Style) -> Vec<u8> {
+/// Where a plant comes from, as far as files say it.
+#[derive(Clone, Copy, Debug)]
+pub struct Origin<'a> {
+    /// The short name of its species, if it is one.
+    pub species: Option<&'a str>,
+    /// The seed of all randomness.
+    pub seed: u32,
+    /// The parameters in force.
+    pub parameters: &'a ParameterValues,
+    /// How it looks.
+    pub looks: &'a Appearance,
+}
+
+/// The living plants of the present, in metres; see `docs/formats.md`.
+///
+/// # Errors
+/// Where an internode cannot be as long as the parameters say.
+pub fn skeleton_json(plant: &Plant, style: &Style, origin: &Origin<'_>) -> Result<Vec<u8>, ExportError> {
+    let structure = Structure::of(plant, style, origin.parameters.internode_length)?;
+    let foliage = Foliage::of(plant, style, origin.looks);
     let file = File {
         format: "espalier-skeleton",
         version: VERSION,
-        unit: "internode",
-        metamers: Living { plant, widths: Widths::of(plant, style.girth()) },
+        unit: "metre",
+        generator: concat!("Espalier ", env!("CARGO_PKG_VERSION")),
+        simulation: simulation_version(),
+        species: origin.species,
+        seed: origin.seed,
+        parameters: origin.parameters,
+        axes: Each::of(structure.axes.iter().map(|&id| axis(&structure, id))),
+        metamers: Each::of(structure.metamers.iter().map(|&id| metamer(&structure, id))),
+        leaves: Each::of(living(plant).flat_map(|id| {
+            let structure = &structure;
+            foliage.leaves(id).map(move |(leaf, _)| Leaf {
+                metamer: structure.number(id),
+                position: place(leaf.base.as_dvec3() * structure.metres(1.0)),
+                direction: leaf.direction.to_array(),
+                normal: leaf.normal.to_array(),
+                length: rounded(structure.metres(leaf.size)),
+            })
+        })),
     };
     let mut bytes = Vec::new();
     // Writing to memory does not fail, and all keys are strings.
     serde_json::to_writer(&mut bytes, &file).expect("a skeleton is always JSON");
-    bytes
+    Ok(bytes)
 }
 
 #[derive(Serialize)]
-struct File<'a> {
+#[serde(bound = "")]
+struct File<'a, A: Iterator<Item: Serialize>, M: Iterator<Item: Serialize>, L: Iterator<Item: Serialize>> {
     format: &'static str,
     version: u32,
     unit: &'static str,
-    metamers: Living<'a>,
+    generator: &'static str,
+    simulation: u32,
+    species: Option<&'a str>,
+    seed: u32,
+    parameters: &'a ParameterValues,
+    axes: Each<A>,
+    metamers: Each<M>,
+    leaves: Each<L>,
+}
+
+#[derive(Serialize)]
+struct Axis {
+    bearer: Option<u32>,
+    order: u32,
+    direction: [f32; 3],
+    bud: bool,
 }
 
 #[derive(Serialize)]
 struct Metamer {
     parent: Option<u32>,
-    position: [f32; 3],
-    radius: f32,
-    order: u32,
+    axis: u32,
+    position: [f64; 3],
+    normal: [f32; 3],
+    radius: f64,
     birth: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    width: Option<f64>,
 }
 
-/// Writes one metamer after the other, so that only the text is held in memory.
-struct Living<'a> {
-    plant: &'a Plant,
-    widths: Widths<'a>,
+#[derive(Serialize)]
+struct Leaf {
+    metamer: u32,
+    position: [f64; 3],
+    direction: [f32; 3],
+    normal: [f32; 3],
+    length: f64,
 }
 
-impl Serialize for Living<'_> {
+/// A list that is made while it is written, so that only the text is held in memory.
+struct Each<I>(Cell<Option<I>>);
+
+impl<I> Each<I> {
+    fn of(items: I) -> Self {
+        Self(Cell::new(Some(items)))
+    }
+}
+
+impl<I: Iterator<Item: Serialize>> Serialize for Each<I> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut list = serializer.serialize_seq(None)?;
-        // Dead rows are left out, so those after them move up.
-        let mut place_of_row = vec![0; self.plant.metamer_count()];
-        let living =
-            (0..self.plant.metamer_count()).map(MetamerId::new).filter(|&id| self.plant.is_alive(id));
-        for (place, id) in living.enumerate() {
-            place_of_row[id.index()] = place as u32;
-            list.serialize_element(&self.metamer(id, &place_of_row))?;
-        }
-        list.end()
+        serializer.collect_seq(self.0.take().into_iter().flatten())
     }
 }
 
-impl Living<'_> {
-    fn metamer(&self, id: MetamerId, place_of_row: &[u32]) -> Metamer {
-        let metamers = self.plant.metamers();
-        let is_seed = self.plant.is_seed(id);
-        Metamer {
-            parent: metamers.parent(id).map(|parent| place_of_row[parent.index()]),
-            position: metamers.end(id).to_array(),
-            radius: if is_seed { 0.0 } else { self.widths.radius(id) },
-            order: self.plant.axes().order(metamers.axis(id)),
-            birth: self.plant.birth(id),
-        }
+fn axis(structure: &Structure<'_>, id: AxisId) -> Axis {
+    let (plant, axes) = (structure.plant, structure.plant.axes());
+    Axis {
+        bearer: axes.bearer(id).map(|bearer| structure.number(bearer)),
+        order: axes.order(id),
+        direction: axes.direction(id).to_array(),
+        bud: plant.is_axis_alive(id),
     }
+}
+
+fn metamer(structure: &Structure<'_>, id: MetamerId) -> Metamer {
+    let (plant, metamers) = (structure.plant, structure.plant.metamers());
+    Metamer {
+        parent: metamers.parent(id).map(|parent| structure.number(parent)),
+        axis: structure.axis_number(metamers.axis(id)),
+        position: place(structure.place(id)),
+        normal: metamers.normal(id).to_array(),
+        radius: rounded(structure.metres(structure.radius(id))),
+        birth: plant.birth(id),
+        width: structure.wanted(id).map(|diameter| rounded(structure.metres(diameter))),
+    }
+}
+
+fn place(place: DVec3) -> [f64; 3] {
+    place.to_array().map(rounded)
 }

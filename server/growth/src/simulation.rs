@@ -107,6 +107,11 @@ impl<G: Generator + AsRef<Growth> + AsMut<Growth>> Simulation<G> {
         }
     }
 
+    /// Seed of all randomness.
+    pub fn seed(&self) -> u32 {
+        self.generator.as_ref().seed
+    }
+
     /// The parameters in force.
     pub fn parameters(&self) -> &Parameters {
         self.generator.as_ref().parameters()

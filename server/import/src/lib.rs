@@ -1,15 +1,18 @@
-//! File formats in: the triangles of glTF 2.0 files.
+//! File formats in: the triangles of glTF 2.0 files, and wood from files of structure.
 //!
-//! Only what an obstacle needs is read: triangles, where the nodes of the scene put them. Any bytes at all give
-//! a mesh or an error, and the work is bounded by the limits and the file's size, so files from outside are safe
+//! Of glTF only what an obstacle needs is read: triangles, where the nodes of the scene put them. Any bytes at all give
+//! a mesh, wood or an error, and the work is bounded by the limits and the file's size, so files from outside are safe
 //! to try.
 
 mod accessor;
 mod container;
 mod document;
 mod scene;
+mod wood;
 
 use glam::Vec3;
+
+pub use self::wood::{Fault, FaultKind, Place, WoodFile, WoodFormat, WoodOptions, read_wood};
 
 /// The most a file may hold; more is refused before it is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

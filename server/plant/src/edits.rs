@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// A shorter internode has no direction.
-pub(crate) const SHORTEST: f32 = 0.01;
+pub const SHORTEST: f32 = 0.01;
 
 /// One edit, as the timeline keeps it.
 #[derive(Clone, Debug, PartialEq)]

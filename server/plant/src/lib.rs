@@ -26,6 +26,7 @@ pub mod room;
 pub mod time_travel;
 pub mod timeline;
 pub mod widths;
+pub mod wood;
 
 pub use axes::Axes;
 pub use bend::{Bend, BendState};
@@ -43,3 +44,4 @@ pub use plant::{Internode, Plant};
 pub use room::make_room;
 pub use time_travel::TimeShift;
 pub use widths::{Width, Widths};
+pub use wood::{Wood, WoodAxis, WoodNode};

@@ -16,6 +16,7 @@ mod settings;
 mod strokes;
 #[cfg(test)]
 mod tests;
+mod transplanting;
 mod travelling;
 mod widths;
 
@@ -27,7 +28,6 @@ use espalier_proto::{Action, Command, Position, Problem, ProblemCode};
 use espalier_settings::{Appearance, ParameterValues};
 
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
-pub use self::bytes::{DocumentError, MAX_METAMER_BUDGET};
 use self::{
     bending::OpenBends,
     bytes::Section,
@@ -37,6 +37,10 @@ use self::{
     history::{History, Kind, Setting},
     obstacles::Obstacles,
     strokes::OpenStrokes,
+};
+pub use self::{
+    bytes::{DocumentError, MAX_METAMER_BUDGET},
+    transplanting::TransplantError,
 };
 pub(crate) use self::{
     generators::{Generators, Step},
@@ -224,6 +228,11 @@ impl Document {
     /// The parameters in force.
     pub fn parameters(&self) -> ParameterValues {
         self.simulation.parameters().values().clone()
+    }
+
+    /// The seed of all randomness.
+    pub fn seed(&self) -> u32 {
+        self.simulation.seed()
     }
 
     /// The plants.

@@ -27,7 +27,7 @@ mod to_proto;
 mod window;
 mod work;
 
-pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET};
+pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError};
 pub use form::read_command;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadId};
 pub use prediction::PredictionRun;

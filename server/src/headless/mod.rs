@@ -19,8 +19,9 @@ use espalier_session::Document;
 pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
 use crate::{
-    cli::{Grow, Replay, Results, Start},
+    cli::{self, Grow, Replay, Results, Start},
     document::{self, Provenance},
+    import as imports,
     pool::SimulationPool,
 };
 
@@ -35,13 +36,21 @@ pub enum HeadlessError {
     /// The script cannot be done.
     #[error(transparent)]
     Script(#[from] ScriptError),
-    /// The script cannot be read.
-    #[error("The script {} cannot be read: {cause}.", path.display())]
+    /// The script or file cannot be read.
+    #[error("The file {} cannot be read: {cause}.", path.display())]
     Read {
         /// Which file.
         path: PathBuf,
         /// Why not.
         cause: io::Error,
+    },
+    /// The file cannot become a tree.
+    #[error("The file {} cannot become a tree: {cause}.", path.display())]
+    Import {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        cause: imports::ImportError,
     },
     /// The parameters given are out of range.
     #[error("A parameter cannot be set: {0}.")]
@@ -65,6 +74,9 @@ pub enum HeadlessError {
         /// Living metamers asked for.
         wanted: u32,
     },
+    /// The tree cannot grow on.
+    #[error("The tree cannot grow on: {0}.")]
+    Growth(Problem),
     /// The threads cannot be made.
     #[error("The simulation's threads cannot be started: {0}.")]
     Pool(#[from] rayon::ThreadPoolBuildError),
@@ -89,7 +101,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         }
         Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, Provenance { seed: Some(options.seed), ..Provenance::default() }, &options.results)
+    finish(bench, Provenance::default(), &options.results)
 }
 
 /// `espalier grow`.
@@ -122,8 +134,33 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         }
         Ok(bench)
     })?;
-    let seed = Some(options.seed);
-    finish(bench, Provenance { species: options.species, seed, ..Provenance::default() }, &options.results)
+    finish(bench, Provenance { species: options.species, ..Provenance::default() }, &options.results)
+}
+
+/// `espalier import`.
+pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
+    let path = options.file.path.clone();
+    let bytes = read(&path).map_err(|cause| HeadlessError::Read { path: path.clone(), cause })?;
+    let budget = options.start.budget.unwrap_or(DEFAULT_METAMER_BUDGET);
+    let import = imports::Import {
+        format: options.file.format,
+        unit: options.unit,
+        seed: options.seed,
+        parameters: options.start.parameters.clone(),
+        metamers: budget,
+    };
+    let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
+        let made = imports::document(&bytes, &import);
+        let mut document = made.map_err(|cause| HeadlessError::Import { path, cause })?;
+        document.set_metamer_budget(budget);
+        let mut bench = bench(document, &options.results);
+        if let Some(steps) = options.grow.map(Steps::nearest) {
+            let grow = Action::Grow { steps, until: None, bud: None }.into();
+            bench.act(AUTHOR, &grow).map_err(HeadlessError::Growth)?;
+        }
+        Ok::<_, HeadlessError>(bench)
+    })?;
+    finish(bench, Provenance::default(), &options.results)
 }
 
 /// A seedling as the options want it.

@@ -2,7 +2,10 @@
 
 use axum::{
     Json,
-    extract::{FromRequest, Request, rejection::JsonRejection},
+    extract::{
+        FromRequest, Request,
+        rejection::{BytesRejection, JsonRejection, QueryRejection},
+    },
     http::StatusCode,
     response::{IntoResponse, Response},
 };
@@ -37,6 +40,22 @@ impl Failure {
 
     pub(super) fn forbidden() -> Self {
         Self { status: StatusCode::FORBIDDEN, problem: espalier_session::forbidden() }
+    }
+
+    /// What stands behind the question mark cannot be read.
+    pub(super) fn bad_query(rejection: &QueryRejection) -> Self {
+        let sentence = format!("The request cannot be read: {}.", rejection.body_text());
+        Problem::new(ProblemCode::Malformed, sentence).into()
+    }
+
+    /// A file of which so many bytes are taken did not arrive.
+    pub(super) fn unread(rejection: &BytesRejection, most: usize) -> Self {
+        if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
+            let allowed = format!("{} MiB", most >> 20);
+            let sentence = format!("The file is larger than {allowed}.");
+            return Self::too_large(None, &allowed, sentence);
+        }
+        Problem::new(ProblemCode::Malformed, "The file did not arrive whole.").into()
     }
 
     pub(super) fn too_large(field: Option<&str>, allowed: &str, sentence: String) -> Self {

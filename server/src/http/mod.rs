@@ -3,6 +3,7 @@
 mod client;
 mod failure;
 mod guard;
+mod imports;
 mod obstacles;
 mod schematic;
 mod sessions;
@@ -14,17 +15,18 @@ use std::sync::Arc;
 
 use axum::{
     Router,
-    extract::DefaultBodyLimit,
+    extract::{DefaultBodyLimit, Path, State},
     middleware::{from_fn, from_fn_with_state, map_response},
     routing::{MethodRouter, delete, get, patch, post},
 };
-use espalier_proto::version::MAX_GLB_BYTES;
+use espalier_proto::version::{MAX_GLB_BYTES, MAX_WOOD_BYTES};
 use espalier_session::Principal;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
-use self::{failure::Failure, guard::Asked};
+use self::{failure::Failure, guard::Asked, sessions::Download};
 use crate::{
     authority::{Action, Authority, Object},
+    document::Format,
     live::Sessions,
     pool::SimulationPool,
     portrait::Portraits,
@@ -82,19 +84,22 @@ fn routes() -> Vec<Route> {
     let route = |address, action, answer| Route { address, action, answer };
     let at_once = GlobalConcurrencyLimitLayer::new;
     let body = DefaultBodyLimit::max;
+    let exports = at_once(MAX_EXPORTS);
+    let take = |address: &'static str, format, media_type| {
+        let ending = address.rsplit_once('.').map_or("", |(_, ending)| ending);
+        let download = Download { format, ending, media_type };
+        let answer =
+            get(move |state: State<Shared>, path: Path<String>| sessions::export(state, path, download));
+        route(address, Action::TakeTree, answer.layer(exports.clone()))
+    };
     vec![
         route("POST /api/sessions", Action::BeginSession, post(sessions::create)),
         route("GET /api/sessions/{session}", Action::SeeSession, get(sessions::find)),
-        route(
-            "GET /api/sessions/{session}/tree.glb",
-            Action::TakeTree,
-            get(sessions::glb).layer(at_once(MAX_EXPORTS)),
-        ),
-        route(
-            "GET /api/sessions/{session}/tree.json",
-            Action::TakeTree,
-            get(sessions::skeleton).layer(at_once(MAX_EXPORTS)),
-        ),
+        take("GET /api/sessions/{session}/tree.glb", Format::Glb, "model/gltf-binary"),
+        take("GET /api/sessions/{session}/tree.json", Format::Skeleton, "application/json"),
+        take("GET /api/sessions/{session}/tree.mtg", Format::Mtg, "text/plain"),
+        take("GET /api/sessions/{session}/tree.csv", Format::Qsm, "text/csv"),
+        take("GET /api/sessions/{session}/tree.ply", Format::Cloud, "application/octet-stream"),
         route(
             "POST /api/sessions/{session}/obstacles",
             Action::EditSession,
@@ -114,6 +119,11 @@ fn routes() -> Vec<Route> {
         ),
         route("GET /api/trees", Action::ListTrees, get(trees::list)),
         route("POST /api/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY))),
+        route(
+            "POST /api/trees/import",
+            Action::SaveTree,
+            post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))),
+        ),
         route("PATCH /api/trees/{tree}", Action::RenameTree, patch(trees::rename)),
         route("DELETE /api/trees/{tree}", Action::DeleteTree, delete(trees::delete)),
         route("GET /api/trees/{tree}/thumbnail", Action::SeeThumbnail, get(trees::thumbnail)),

@@ -26,7 +26,7 @@ pub(super) async fn upload(
     Path(session): Path<String>,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<impl IntoResponse, Failure> {
-    let file = body.map_err(unreadable)?;
+    let file = body.map_err(|rejection| Failure::unread(&rejection, MAX_GLB_BYTES))?;
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
     let mesh = shared.pool.run(move || mesh_of(&file)).await?;
@@ -58,13 +58,4 @@ pub(super) async fn mesh(
 fn mesh_of(file: &[u8]) -> Result<Mesh, ImportError> {
     let read = espalier_import::read(file, LIMITS)?;
     Ok(Mesh { vertices: read.vertices, triangles: read.corners })
-}
-
-fn unreadable(rejection: BytesRejection) -> Failure {
-    if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-        let allowed = format!("{} MiB", MAX_GLB_BYTES >> 20);
-        let sentence = format!("The file is larger than {allowed}.");
-        return Failure::too_large(None, &allowed, sentence);
-    }
-    Problem::new(ProblemCode::Malformed, "The file did not arrive whole.").into()
 }

@@ -22,7 +22,7 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     authority::{Action, Object},
-    document::{self, Format},
+    document,
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
     name,
     store::{self, Store, StoreError},
@@ -32,6 +32,14 @@ use crate::{
 const READ_BUFFER: usize = 8 * 1024;
 /// Frames are written one at a time, so this only has to hold the largest one.
 const MAX_WRITE_BUFFER: usize = espalier_proto::frame::MAX_BODY_BYTES + 1024 * 1024;
+
+/// What a session's tree is downloaded as.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Download {
+    pub format: document::Format,
+    pub ending: &'static str,
+    pub media_type: &'static str,
+}
 
 pub(super) async fn create(
     State(shared): State<Shared>,
@@ -64,37 +72,22 @@ pub(super) async fn find(
     }
 }
 
-pub(super) async fn glb(
+pub(super) async fn export(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-) -> Result<Response, Failure> {
-    export(&shared, &session, Format::Glb, "model/gltf-binary", "attachment; filename=\"tree.glb\"").await
-}
-
-pub(super) async fn skeleton(
-    State(shared): State<Shared>,
-    Path(session): Path<String>,
-) -> Result<Response, Failure> {
-    export(&shared, &session, Format::Skeleton, "application/json", "attachment; filename=\"tree.json\"")
-        .await
-}
-
-/// A session's plants in a file format, as a download.
-async fn export(
-    shared: &Shared,
-    session: &str,
-    format: Format,
-    media_type: &'static str,
-    disposition: &'static str,
-) -> Result<Response, Failure> {
-    let document = open(shared, session).await?.read().await?;
-    let file =
-        shared.pool.run(move || document::export(&document.bytes, format)).await?.map_err(|error| {
-            tracing::error!(session, %error, "a document cannot be exported");
-            Failure::unavailable("The tree cannot be exported.")
-        })?;
-    Ok(([(header::CONTENT_TYPE, media_type), (header::CONTENT_DISPOSITION, disposition)], file)
-        .into_response())
+    Download { format, ending, media_type }: Download,
+) -> Result<impl IntoResponse, Failure> {
+    let document = open(&shared, &session).await?.read().await?;
+    let file = shared.pool.run(move || document::export(&document.bytes, format)).await?;
+    let file = file.map_err(|error| {
+        tracing::error!(session, %error, "a document cannot be exported");
+        Failure::unavailable("The tree cannot be exported.")
+    })?;
+    let headers = [
+        (header::CONTENT_TYPE, media_type.to_owned()),
+        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"tree.{ending}\"")),
+    ];
+    Ok((headers, file))
 }
 
 pub(super) async fn socket(

@@ -24,7 +24,7 @@ use crate::{
     SIMULATION_VERSION,
     authority::{Action, Object},
     name,
-    store::{NewTree, Store, StoredTree, TreeDocument, TreeKey},
+    store::{NewTree, Picture, Store, StoredTree, TreeDocument, TreeKey},
 };
 
 const MAX_NAME_CHARACTERS: usize = 80;
@@ -65,12 +65,7 @@ pub(super) async fn list(
     State(shared): State<Shared>,
     page: Result<Query<Page>, QueryRejection>,
 ) -> Result<Json<Vec<SavedTree>>, Failure> {
-    let Query(page) = page.map_err(|rejection| {
-        Problem::new(
-            ProblemCode::Malformed,
-            format!("The request cannot be read: {}.", rejection.body_text()),
-        )
-    })?;
+    let Query(page) = page.map_err(|rejection| Failure::bad_query(&rejection))?;
     let limit = page.limit.unwrap_or(MAX_TREES);
     if !(1..=MAX_TREES).contains(&limit) {
         return Err(Problem::out_of_range("limit", limit, format!("1 to {MAX_TREES}")).into());
@@ -89,17 +84,29 @@ pub(super) async fn save(
     let thumbnail = save.thumbnail.as_deref().map(thumbnail::parse).transpose()?;
     shared.ask(&principal, Action::TakeTree, Object::Session(&save.session))?;
     let document = sessions::open(&shared, &save.session).await?.read().await?;
+    let tree = keep(&shared, name, document.metamers, document.bytes, thumbnail).await?;
+    Ok((StatusCode::CREATED, Json(tree)))
+}
+
+/// Puts a document into the library.
+pub(super) async fn keep(
+    shared: &Shared,
+    name: String,
+    metamers: u32,
+    bytes: Vec<u8>,
+    thumbnail: Option<Picture>,
+) -> Result<SavedTree, Failure> {
     let id = name::unguessable();
     let tree = NewTree {
         id: id.clone(),
         name,
-        metamers: document.metamers,
+        metamers,
         saved_at: humantime::format_rfc3339_millis(SystemTime::now()).to_string(),
-        document: TreeDocument { simulation_version: SIMULATION_VERSION, bytes: document.bytes },
+        document: TreeDocument { simulation_version: SIMULATION_VERSION, bytes },
         thumbnail,
     };
     shared.store.save_tree(tree).await?;
-    Ok((StatusCode::CREATED, Json(find(&shared, &id).await?)))
+    find(shared, &id).await
 }
 
 pub(super) async fn rename(
@@ -153,7 +160,7 @@ fn to_proto(tree: StoredTree) -> SavedTree {
     }
 }
 
-fn parse_name(name: &str) -> Result<String, Problem> {
+pub(super) fn parse_name(name: &str) -> Result<String, Problem> {
     let name = name.trim();
     let length = name.chars().count();
     if !(1..=MAX_NAME_CHARACTERS).contains(&length) {

@@ -12,6 +12,10 @@ pub mod gltf;
 pub mod journal;
 pub mod mesh;
 pub mod message;
+pub mod mtg;
+pub mod qsm;
+pub mod skeleton;
+mod wood;
 
 /// A reader.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +29,7 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 7] = [
+pub const TARGETS: [Target; 10] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
@@ -33,6 +37,9 @@ pub const TARGETS: [Target; 7] = [
     Target { name: "journal", read: journal::read, seeds: journal::seeds },
     Target { name: "mesh", read: mesh::read, seeds: mesh::seeds },
     Target { name: "message", read: message::read, seeds: message::seeds },
+    Target { name: "mtg", read: mtg::read, seeds: mtg::seeds },
+    Target { name: "qsm", read: qsm::read, seeds: qsm::seeds },
+    Target { name: "skeleton", read: skeleton::read, seeds: skeleton::seeds },
 ];
 
 /// A session's document may hold so many metamers, so that growth takes no time.

@@ -176,3 +176,18 @@ fn meshes_survive_damage() {
 fn messages_survive_damage() {
     check("message", 600);
 }
+
+#[test]
+fn graphs_survive_damage() {
+    check("mtg", 5000);
+}
+
+#[test]
+fn cylinders_survive_damage() {
+    check("qsm", 5000);
+}
+
+#[test]
+fn skeletons_survive_damage() {
+    check("skeleton", 5000);
+}

@@ -211,7 +211,7 @@ fn replay_writes_the_skeleton_as_json() {
     // The seed is in the list, and is no metamer.
     assert_eq!(metamers.len() as u64, stats["metamers_alive"].as_u64().expect("a number") + 1);
     for (i, metamer) in metamers.iter().enumerate() {
-        for key in ["parent", "position", "radius", "order", "birth"] {
+        for key in ["parent", "axis", "position", "normal", "radius", "birth"] {
             assert!(metamer.get(key).is_some(), "{key} in {metamer}");
         }
         assert_eq!(metamer["position"].as_array().map(Vec::len), Some(3));

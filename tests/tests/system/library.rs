@@ -162,7 +162,7 @@ async fn tree_json_is_the_skeleton() {
     let library = Library::new().await;
     let answer = library.ask("GET", &format!("/api/sessions/{}/tree.json", library.client.session), None);
     assert_eq!((answer.status, answer.header("content-type")), (200, Some("application/json")));
-    let skeleton: serde_json::Value = serde_json::from_slice(&answer.body).expect("it is JSON");
+    let skeleton: Value = serde_json::from_slice(&answer.body).expect("it is JSON");
     assert_eq!(skeleton["format"], "espalier-skeleton");
     assert_eq!(library.ask("GET", "/api/sessions/nowhere/tree.json", None).status, 404);
 }

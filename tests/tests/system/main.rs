@@ -7,6 +7,7 @@ mod commands;
 mod crashes;
 mod guiding;
 mod handshake;
+mod imports;
 mod library;
 mod obstacles;
 mod shaping;

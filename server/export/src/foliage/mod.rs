@@ -4,9 +4,13 @@ pub(crate) mod cards;
 pub(crate) mod leaf_look;
 pub(crate) mod ornaments;
 
-use espalier_mesh::{Style, foliage, leaves};
+use espalier_mesh::{
+    Style, foliage,
+    leaves::{self, Leaf},
+};
 use espalier_plant::{MetamerId, Plant, Widths};
 use espalier_settings::Appearance;
+use glam::Vec3;
 
 use self::{
     cards::{Cards, Fineness, LeafForm},
@@ -40,13 +44,16 @@ impl<'a> Foliage<'a> {
         }
     }
 
+    /// The leaves of a metamer as they hang, and their colours.
+    pub(crate) fn leaves(&self, id: MetamerId) -> impl Iterator<Item = (Leaf, Vec3)> {
+        let shoot = Shoot::of(self.plant, id);
+        leaves::of(self.plant, id, self.style).filter_map(move |leaf| self.painter.paint(&leaf, &shoot))
+    }
+
     /// Adds the leaves of a metamer.
     pub(crate) fn add_leaves(&self, cards: &mut Cards, id: MetamerId) {
-        let shoot = Shoot::of(self.plant, id);
-        for leaf in leaves::of(self.plant, id, self.style) {
-            if let Some((leaf, hue)) = self.painter.paint(&leaf, &shoot) {
-                self.form.add(cards, &leaf, hue);
-            }
+        for (leaf, hue) in self.leaves(id) {
+            self.form.add(cards, &leaf, hue);
         }
     }
 

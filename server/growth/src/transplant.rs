@@ -1,0 +1,346 @@
+//! Wood from elsewhere becomes a plant that growth goes on with: rows, axes, given radii, and the buds that growth
+//! would have laid down.
+
+use espalier_plant::{BrokenPlant, Edit, Given, GivenRadii, MetamerId, Plant, PlantParts, Wood};
+use glam::Vec3;
+
+use crate::{
+    direction::{across, transport, turn},
+    parameters::Parameters,
+};
+
+/// No row.
+const NONE: u32 = u32::MAX;
+/// A lateral that stands off its bearer by a smaller sine says nothing of where the normal points.
+const LEAST_SINE: f32 = 0.05;
+
+/// A plant of this wood, in the step of its last birth. Its radii are given ones. Where the wood knows no buds, each
+/// node bears as many laterals as the parameters say, those that have not grown dormant.
+///
+/// # Errors
+/// Where nodes and axes do not fit together, or an internode has no length.
+pub fn transplant(wood: &Wood, parameters: &Parameters) -> Result<Plant, BrokenPlant> {
+    check(wood)?;
+    let borne = Borne::of(wood);
+    let mut rooting =
+        Rooting { wood, parameters, borne, parts: PlantParts::default(), rows_of_axes: Vec::new() };
+    rooting.rows_of_axes.resize(wood.axes.len(), NONE);
+    for node in 0..wood.nodes.len() {
+        rooting.add(node);
+    }
+    rooting.bury_buds();
+    rooting.record_time();
+    Plant::from_parts(rooting.parts)
+}
+
+/// Checks what else would lead out of bounds; the rest is checked with the parts.
+fn check(wood: &Wood) -> Result<(), BrokenPlant> {
+    let broken = |what: &str| Err(BrokenPlant(what.to_owned()));
+    let nodes = wood.nodes.len() as u32;
+    if wood.nodes.first().is_none_or(|first| first.birth > 0) {
+        return broken("there is no first seed");
+    }
+    if !wood.nodes.is_sorted_by(|a, b| a.birth <= b.birth) {
+        return broken("births are out of order");
+    }
+    if wood.nodes.iter().zip(0..).any(|(node, at)| node.parent.is_some_and(|parent| parent >= at)) {
+        return broken("a node stands before its parent");
+    }
+    // Time goes back no farther than to the first step.
+    if wood.nodes.iter().any(|node| node.parent.is_some() && node.birth == 0) {
+        return broken("wood is as old as the first seed");
+    }
+    if wood.nodes.iter().any(|node| node.axis as usize >= wood.axes.len()) {
+        return broken("a node belongs to no axis");
+    }
+    if wood.axes.iter().any(|axis| axis.bearer.is_some_and(|bearer| bearer >= nodes)) {
+        return broken("an axis is borne by nothing");
+    }
+    let is_borne = |axis: u32| wood.axes[axis as usize].bearer.is_some();
+    if wood.nodes.iter().any(|node| node.parent.is_none() && is_borne(node.axis)) {
+        return broken("a seed stands on a branch");
+    }
+    Ok(())
+}
+
+/// Which axes each node bears, and where axes begin.
+struct Borne {
+    /// Bearers and axes, in order.
+    axes: Vec<(u32, u32)>,
+    /// The first node of each axis.
+    first: Vec<u32>,
+}
+
+impl Borne {
+    fn of(wood: &Wood) -> Self {
+        let bearers = wood.axes.iter().zip(0..).filter_map(|(axis, number)| Some((axis.bearer?, number)));
+        let mut axes: Vec<_> = bearers.collect();
+        axes.sort_unstable();
+        let mut first = vec![NONE; wood.axes.len()];
+        for (number, node) in wood.nodes.iter().enumerate().rev() {
+            first[node.axis as usize] = number as u32;
+        }
+        Self { axes, first }
+    }
+
+    /// The axes that a node bears.
+    fn by(&self, node: u32) -> &[(u32, u32)] {
+        let from = self.axes.partition_point(|&(bearer, _)| bearer < node);
+        let to = self.axes.partition_point(|&(bearer, _)| bearer <= node);
+        &self.axes[from..to]
+    }
+}
+
+struct Rooting<'a> {
+    wood: &'a Wood,
+    parameters: &'a Parameters,
+    borne: Borne,
+    parts: PlantParts,
+    /// The row of each axis of the wood, once it has one.
+    rows_of_axes: Vec<u32>,
+}
+
+impl Rooting<'_> {
+    /// Adds a node, and the axes that it bears.
+    fn add(&mut self, number: usize) {
+        let node = self.wood.nodes[number];
+        while self.parts.ends.len() <= node.birth as usize {
+            let growths = self.parts.ends.len() as u32;
+            let [metamers, axes, ..] = self.parts.ends.last().copied().unwrap_or_default();
+            self.parts.ends.push([metamers, axes, 0, growths]);
+        }
+        let Some(parent) = node.parent else {
+            self.rows_of_axes[node.axis as usize] = self.push_axis(NONE, Vec3::Y);
+            self.push_row(number, Vec3::X);
+            return;
+        };
+        let heading = (node.end - self.parts.end[parent as usize]).normalize_or(Vec3::Y);
+        let laterals: Vec<(u32, Vec3)> = (self.borne.by(number as u32).iter())
+            .map(|&(_, axis)| (axis, self.direction(axis, node.end, heading)))
+            .collect();
+        let normal = node.normal.unwrap_or_else(|| self.normal(number, heading, &laterals));
+        self.push_row(number, normal);
+        for &(axis, direction) in &laterals {
+            self.rows_of_axes[axis as usize] = self.push_axis(number as u32, direction);
+        }
+        if !self.wood.has_buds {
+            let (sin, cos) = self.parameters.branching;
+            let buds = self.parameters.buds_per_node as usize;
+            for &around in self.parameters.whorl.iter().take(buds).skip(laterals.len()) {
+                let direction = (heading * cos + turn(normal, heading, around) * sin).normalize_or(heading);
+                self.push_axis(number as u32, direction);
+            }
+        }
+    }
+
+    /// Where the bud of a lateral pointed: where its wood goes, if nothing else is known.
+    fn direction(&self, axis: u32, from: Vec3, heading: Vec3) -> Vec3 {
+        let first = self.wood.nodes.get(self.borne.first[axis as usize] as usize);
+        let known = self.wood.axes[axis as usize].direction;
+        known.or_else(|| (first?.end - from).try_normalize()).unwrap_or(heading)
+    }
+
+    /// The unit vector across an internode towards its first lateral, or as growth would turn it.
+    fn normal(&self, number: usize, heading: Vec3, laterals: &[(u32, Vec3)]) -> Vec3 {
+        let sideways = laterals.first().map(|&(_, direction)| direction.reject_from_normalized(heading));
+        if let Some(sideways) = sideways.filter(|sideways| sideways.length() > LEAST_SINE) {
+            return across(sideways.normalize(), heading);
+        }
+        let node = &self.wood.nodes[number];
+        let below = node.parent.filter(|&parent| self.wood.nodes[parent as usize].axis == node.axis);
+        let begins = below.and_then(|below| {
+            let before = self.wood.nodes[below as usize];
+            let base = self.parts.end[before.parent? as usize];
+            Some((self.parts.normal[below as usize], (before.end - base).try_normalize()?))
+        });
+        match begins {
+            Some((normal, before)) => {
+                let carried = across(transport(normal, before, heading), heading);
+                across(turn(carried, heading, self.parameters.phyllotaxis), heading)
+            }
+            None => across(heading.cross(Vec3::Y), heading),
+        }
+    }
+
+    fn push_row(&mut self, number: usize, normal: Vec3) {
+        let node = self.wood.nodes[number];
+        self.parts.parent.push(node.parent.unwrap_or(NONE));
+        self.parts.axis.push(self.rows_of_axes[node.axis as usize]);
+        self.parts.death.push(NONE);
+        self.parts.end.push(node.end);
+        self.parts.normal.push(normal);
+        self.count();
+    }
+
+    fn push_axis(&mut self, bearer: u32, direction: Vec3) -> u32 {
+        self.parts.bearer.push(bearer);
+        self.parts.direction.push(direction);
+        self.parts.axis_death.push(NONE);
+        self.count();
+        self.parts.bearer.len() as u32 - 1
+    }
+
+    /// The step in progress ends behind what there is.
+    fn count(&mut self) {
+        if let Some(end) = self.parts.ends.last_mut() {
+            (end[0], end[1]) = (self.parts.parent.len() as u32, self.parts.bearer.len() as u32);
+        }
+    }
+
+    /// Axes whose bud was cut lost it when they got their last node.
+    fn bury_buds(&mut self) {
+        for node in &self.wood.nodes {
+            if !self.wood.axes[node.axis as usize].has_bud {
+                let axis = self.rows_of_axes[node.axis as usize];
+                if let Some(death) = self.parts.axis_death.get_mut(axis as usize) {
+                    *death = node.birth;
+                }
+            }
+        }
+    }
+
+    /// Each step gives radii and widths to what is born in it.
+    fn record_time(&mut self) {
+        let Wood { nodes, widths, .. } = self.wood;
+        let radius = |row: usize| nodes[row].parent.and(nodes[row].radius);
+        let mut wanted = widths.iter().peekable();
+        let mut from = 0;
+        for end in &mut self.parts.ends {
+            let born = from..end[0] as usize;
+            from = born.end;
+            let rows: Vec<usize> = born.filter(|&row| radius(row).is_some()).collect();
+            if !rows.is_empty() {
+                // What an edit keeps is what was before it.
+                let radii = GivenRadii(vec![GivenRadii::NONE; rows.len()]);
+                let metamers = rows.iter().map(|&row| MetamerId::new(row)).collect();
+                self.parts.edits.push(Edit::Given(Box::new(Given { metamers, radii })));
+            }
+            while let Some((row, _)) = wanted.next_if(|(row, _)| (*row as usize) < from) {
+                self.parts.edits.push(Edit::Width(MetamerId::new(*row as usize), None));
+            }
+            end[2] = self.parts.edits.len() as u32;
+        }
+        self.parts.given_radii =
+            (0..nodes.len()).filter_map(|row| Some((row as u32, radius(row)?))).collect();
+        self.parts.widths.clone_from(widths);
+        self.parts.now = self.parts.ends.len() as u32 - 1;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_plant::{Girth, Widths, WoodAxis, WoodNode, checks};
+
+    use super::*;
+    use crate::{NoObserver, Simulation, SimulationState, StepInput};
+
+    fn node(parent: Option<u32>, axis: u32, end: [f32; 3], birth: u32) -> WoodNode {
+        let radius = parent.map(|_| 0.25);
+        WoodNode { parent, axis, end: Vec3::from_array(end), normal: None, radius, birth }
+    }
+
+    fn axis(bearer: Option<u32>) -> WoodAxis {
+        WoodAxis { bearer, direction: None, has_bud: true }
+    }
+
+    /// A trunk of three internodes with a branch of one at its first node.
+    fn sapling() -> Wood {
+        Wood {
+            nodes: vec![
+                node(None, 0, [0.0, 0.0, 0.0], 0),
+                node(Some(0), 0, [0.0, 1.0, 0.0], 1),
+                node(Some(1), 0, [0.0, 2.0, 0.1], 1),
+                node(Some(1), 1, [0.8, 1.5, 0.0], 2),
+                node(Some(2), 0, [0.0, 3.0, 0.1], 2),
+            ],
+            axes: vec![axis(None), axis(Some(1))],
+            ..Wood::default()
+        }
+    }
+
+    fn planted(wood: &Wood) -> Plant {
+        let plant = transplant(wood, &Parameters::default()).expect("it fits together");
+        assert_eq!(checks::all(&plant), Ok(()));
+        plant
+    }
+
+    #[test]
+    fn wood_becomes_rows_with_given_radii_and_buds() {
+        let plant = planted(&sapling());
+        assert_eq!((plant.step(), plant.living_count(), plant.living_axes_count()), (2, 4, 2));
+        let births: Vec<_> = (0..5).map(|row| plant.birth(MetamerId::new(row))).collect();
+        assert_eq!(births, [0, 1, 1, 2, 2]);
+        let girth = Girth::new(2.5, 0.1);
+        let widths = Widths::of(&plant, &girth);
+        assert!((1..5).all(|row| (widths.radius(MetamerId::new(row)) - 0.25).abs() < 1e-6));
+        // Each node bears one lateral; that of the first has grown, and the normal points to it.
+        let buds: Vec<_> = (1..5).map(|row| plant.laterals(MetamerId::new(row)).count()).collect();
+        assert_eq!(buds, [1, 1, 1, 1]);
+        assert!(plant.metamers().normal(MetamerId::new(1)).distance(Vec3::X) < 1e-6);
+    }
+
+    #[test]
+    fn it_goes_back_to_its_seed_and_forth_again() {
+        let mut wood = sapling();
+        wood.widths = vec![(2, 1.5)];
+        let mut plant = planted(&wood);
+        let hash = plant.hash();
+        plant.go_to(0);
+        assert_eq!((plant.living_count(), plant.widths().count()), (0, 0));
+        assert_eq!(checks::all(&plant), Ok(()));
+        plant.go_to(2);
+        assert_eq!((plant.hash(), plant.widths().count()), (hash, 1));
+        assert_eq!(Plant::from_parts(plant.to_parts()), Ok(plant));
+    }
+
+    #[test]
+    fn it_grows_on() {
+        let parameters = Parameters::default();
+        let state = SimulationState {
+            seed: 1,
+            parameters,
+            markers: Vec::new(),
+            guides: Default::default(),
+            obstacles: Vec::new(),
+            metamer_budget: 1000,
+            tick: 2,
+        };
+        let mut simulation = Simulation::from_state(planted(&sapling()), state);
+        let grown = simulation.step(&StepInput { autonomous: true, ..StepInput::default() }, &mut NoObserver);
+        assert!(grown.metamers_grown > 0);
+        assert_eq!(checks::all(simulation.plant()), Ok(()));
+    }
+
+    #[test]
+    fn a_cut_axis_has_no_bud_and_known_buds_are_all_there_are() {
+        let mut wood = sapling();
+        wood.has_buds = true;
+        wood.axes[1].has_bud = false;
+        wood.axes.push(WoodAxis { bearer: Some(2), direction: Some(Vec3::Z), has_bud: true });
+        let mut plant = planted(&wood);
+        let branch = plant.metamers().axis(MetamerId::new(3));
+        assert_eq!((plant.axis_count(), plant.is_axis_alive(branch)), (3, false));
+        plant.go_to(1);
+        assert!(plant.is_axis_alive(branch), "it was a bud then");
+    }
+
+    #[test]
+    fn wood_that_does_not_fit_together_is_refused() {
+        let broken: [fn(&mut Wood); 9] = [
+            |wood| wood.nodes.clear(),
+            |wood| wood.nodes[0].birth = 1,
+            |wood| wood.nodes[4].birth = 0,
+            |wood| wood.nodes[1].birth = 0,
+            |wood| wood.nodes[2].parent = Some(2),
+            |wood| wood.nodes[3].axis = 9,
+            |wood| wood.axes[1].bearer = Some(99),
+            |wood| wood.axes[1].bearer = Some(4),
+            |wood| wood.nodes[4].end = wood.nodes[2].end,
+        ];
+        for (case, damage) in broken.into_iter().enumerate() {
+            let mut wood = sapling();
+            damage(&mut wood);
+            assert!(transplant(&wood, &Parameters::default()).is_err(), "case {case}");
+        }
+    }
+}

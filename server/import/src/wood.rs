@@ -1,0 +1,142 @@
+//! Wood from files of structure: MTG, QSM as comma-separated values, and skeletons.
+//!
+//! Any bytes at all give wood or a fault; work and memory are bounded by the file's size and the limit of nodes.
+
+mod mtg;
+mod pieces;
+mod qsm;
+mod skeleton;
+
+use std::fmt;
+
+use espalier_plant::Wood;
+use espalier_settings::ParametersPatch;
+
+/// Steps of birth that a file may name.
+const MAX_STEP: u32 = 100_000;
+
+/// A format of structure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WoodFormat {
+    /// A multiscale tree graph of OpenAlea.
+    Mtg,
+    /// Cylinders as comma-separated values.
+    Qsm,
+    /// A skeleton as JSON.
+    Skeleton,
+}
+
+/// What turns metres into internodes, and what bounds the work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WoodOptions {
+    /// Length of one internode in metres, where the file does not say.
+    pub internode_length: f32,
+    /// Metres in one unit of the file; skeletons know their own.
+    pub unit: f64,
+    /// Internodes that an axis is given in one step, where the file does not say when it grew.
+    pub shoot: u32,
+    /// The most nodes.
+    pub nodes: usize,
+    /// How far from the first trunk's base wood may be on each axis, in internodes.
+    pub extent: f32,
+}
+
+/// What a file holds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WoodFile {
+    /// The wood.
+    pub wood: Wood,
+    /// The parameters it grew by, as far as the file says.
+    pub parameters: ParametersPatch,
+    /// The short name of its species.
+    pub species: Option<String>,
+    /// The seed of its randomness.
+    pub seed: Option<u32>,
+}
+
+/// What kind of fault it is; programs branch on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FaultKind {
+    /// It is not a file of this format, or its parts contradict each other.
+    Malformed,
+    /// A number lies outside its range.
+    OutOfRange,
+    /// More than the limit allows.
+    TooMany,
+}
+
+/// Where a file is at fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line, counted from 1.
+    Line(u64),
+    /// A line, and a cell or character of it, both counted from 1.
+    Cell(u64, u64),
+    /// A member of JSON: `metamers[3].parent`.
+    Member(String),
+}
+
+/// A file cannot be read; the message ends a sentence.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}{what}", place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default())]
+pub struct Fault {
+    /// What kind.
+    pub kind: FaultKind,
+    /// Where.
+    pub place: Option<Place>,
+    /// What is wrong.
+    pub what: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Cell(line, column) => write!(f, "line {line}, column {column}"),
+            Self::Member(path) => f.write_str(path),
+        }
+    }
+}
+
+/// Reads a file of structure.
+///
+/// # Errors
+/// Where it is not of this format, a number is out of range, parts contradict each other, or there is too much of it.
+pub fn read_wood(format: WoodFormat, bytes: &[u8], options: &WoodOptions) -> Result<WoodFile, Fault> {
+    let wood = match format {
+        WoodFormat::Mtg => pieces::join(&mtg::read(bytes, options)?, options)?,
+        WoodFormat::Qsm => pieces::join(&qsm::read(bytes, options)?, options)?,
+        WoodFormat::Skeleton => return skeleton::read(bytes, options),
+    };
+    Ok(WoodFile { wood, ..WoodFile::default() })
+}
+
+fn malformed(place: Option<Place>, what: impl Into<String>) -> Fault {
+    Fault { kind: FaultKind::Malformed, place, what: what.into() }
+}
+
+fn out_of_range(place: Option<Place>, what: impl Into<String>) -> Fault {
+    Fault { kind: FaultKind::OutOfRange, place, what: what.into() }
+}
+
+fn too_many(place: Option<Place>, options: &WoodOptions) -> Fault {
+    let what = format!("it has more than {} nodes", options.nodes);
+    Fault { kind: FaultKind::TooMany, place, what }
+}
+
+/// A number as text, which must be finite.
+fn number(text: &str, place: Place, name: &str) -> Result<f64, Fault> {
+    let read: f64 = text.trim().parse().map_err(|_| {
+        malformed(Some(place.clone()), format!("{name} is `{}`, which is no number", excerpt(text)))
+    })?;
+    if read.is_finite() {
+        return Ok(read);
+    }
+    Err(out_of_range(Some(place), format!("{name} is {read}; allowed: finite numbers")))
+}
+
+/// As much of a text as a message tells again.
+fn excerpt(text: &str) -> String {
+    const LONGEST: usize = 40;
+    text.chars().filter(|c| !c.is_control()).take(LONGEST).collect()
+}

@@ -1,0 +1,284 @@
+//! Files of other programs, and files that are none.
+
+use espalier_growth::{Parameters, transplant};
+use espalier_import::{Fault, FaultKind, Place, WoodFormat, WoodOptions, read_wood};
+use espalier_plant::{MetamerId, Plant, Wood, checks};
+use glam::Vec3;
+
+fn options() -> WoodOptions {
+    WoodOptions { internode_length: 0.1, unit: 1.0, shoot: 4, nodes: 10_000, extent: 1000.0 }
+}
+
+fn wood(format: WoodFormat, text: &str) -> Wood {
+    let file = read_wood(format, text.as_bytes(), &options());
+    file.unwrap_or_else(|fault| panic!("{fault}: {text}")).wood
+}
+
+fn planted(wood: &Wood) -> Plant {
+    let plant = transplant(wood, &Parameters::default()).expect("it fits together");
+    assert_eq!(checks::all(&plant), Ok(()));
+    plant
+}
+
+fn fault(format: WoodFormat, text: &str) -> Fault {
+    read_wood(format, text.as_bytes(), &options()).expect_err(text)
+}
+
+/// A trunk of 1 m and a branch of 0.5 m that begins half a metre up on its surface, as rTwig has them, from a scanner
+/// that stood elsewhere.
+const RTWIG: &str = "\
+\"\",\"id\",\"parent\",\"start_x\",\"start_y\",\"start_z\",\"end_x\",\"end_y\",\"end_z\",\"radius\",\"length\",\"branch\",\"branch_order\"
+\"1\",1,0,20,30,5,20,30,6,0.05,1,1,0
+\"2\",2,1,20.1,30,5.5,20.6,30,5.5,0.02,0.5,2,1
+\"3\",3,1,20,30,6,20,30.04,6.3,0.03,0.3026,1,0
+";
+
+#[test]
+fn cylinders_become_internodes_from_the_origin_up() {
+    let plant = planted(&wood(WoodFormat::Qsm, RTWIG));
+    // The trunk 10 and 3; the branch 5, and the internode to where it begins.
+    assert_eq!((plant.living_count(), plant.living_axes_count()), (13 + 6, 2));
+    let ends: Vec<Vec3> =
+        (0..plant.metamer_count()).map(|row| plant.metamers().end(MetamerId::new(row))).collect();
+    assert_eq!(ends[0], Vec3::ZERO);
+    for wanted in [[0.0, 10.0, 0.0], [1.0, 5.0, 0.0], [6.0, 5.0, 0.0], [0.0, 13.0, -0.4], [0.0, 5.0, 0.0]] {
+        assert!(ends.iter().any(|end| end.distance(Vec3::from_array(wanted)) < 1e-5), "{wanted:?}");
+    }
+    let thick = |row| plant.given_radius(MetamerId::new(row));
+    assert_eq!((thick(0), thick(1)), (None, Some(0.5)));
+    // Without births all axes have grown as fast as buds may.
+    assert_eq!(plant.step(), 4);
+}
+
+#[test]
+fn programs_name_their_columns_each_in_their_own_way() {
+    let heads = [
+        "radius,length,start.x,start.y,start.z,axis.x,axis.y,axis.z,parent,extension,branch,BranchOrder",
+        "radius;length;startX;startY;startZ;axisX;axisY;axisZ;parentID;ID;branchID;branchOrder",
+        "radius\tlength\tsx\tsy\tsz\tax\tay\taz\tp2\tp1\tnbranch\tbranch_order",
+        "radius_cyl,length,startX,startY,startZ,axisX,axisY,axisZ,parent_ID,cyl_ID,branch_ID,branching_order",
+    ];
+    let rows = ["0.05,1,0,0,0,0,0,1,0,1,1,0", "0.04,1,0,0,1,0,0,1,1,2,1,0"];
+    for head in heads {
+        let mark = if head.contains(';') {
+            ";"
+        } else if head.contains('\t') {
+            "\t"
+        } else {
+            ","
+        };
+        let text = format!("{head}\r\n{}\r\n{}\r\n", rows[0].replace(',', mark), rows[1].replace(',', mark));
+        let plant = planted(&wood(WoodFormat::Qsm, &text));
+        assert_eq!((plant.living_count(), plant.living_axes_count()), (20, 1), "{head}");
+    }
+}
+
+#[test]
+fn bad_cylinders_are_named_by_line_and_column() {
+    let cases = [
+        (
+            RTWIG.replace("0.02,0.5", "-0.02,0.5"),
+            FaultKind::OutOfRange,
+            Place::Cell(3, 10),
+            "radius is -0.02",
+        ),
+        (RTWIG.replace("0.02,0.5", "NaN,0.5"), FaultKind::OutOfRange, Place::Cell(3, 10), "radius is NaN"),
+        (RTWIG.replace("0.02,0.5", "wide,0.5"), FaultKind::Malformed, Place::Cell(3, 10), "`wide`"),
+        (RTWIG.replace("2,1,20.1", "2,7,20.1"), FaultKind::Malformed, Place::Line(3), "its parent 7"),
+        (
+            RTWIG.replace("3,1,20,", "2,1,20,"),
+            FaultKind::Malformed,
+            Place::Line(4),
+            "cylinder 2 is there twice",
+        ),
+        (RTWIG.replace("1,0,20,30,5,", "1,3,20,30,5,"), FaultKind::Malformed, Place::Line(2), "bears itself"),
+        (RTWIG.replace("\"1\",1,0", "1,0"), FaultKind::Malformed, Place::Line(2), "12 cells"),
+        (RTWIG.replace("20.6", "2e9"), FaultKind::OutOfRange, Place::Line(3), "m from the first trunk"),
+        (RTWIG.replace("20.6", "1e300"), FaultKind::OutOfRange, Place::Line(3), "m from the first trunk"),
+        (
+            "name,height,dbh\noak,12,0.4\n".into(),
+            FaultKind::Malformed,
+            Place::Line(1),
+            "`name`, `height`, `dbh`",
+        ),
+        ("../../etc/passwd".into(), FaultKind::Malformed, Place::Line(1), "are not those of a QSM"),
+    ];
+    for (text, kind, place, what) in cases {
+        let found = fault(WoodFormat::Qsm, &text);
+        assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{found}");
+        assert!(found.to_string().contains(what), "{found}");
+    }
+    assert_eq!(fault(WoodFormat::Qsm, RTWIG.lines().next().expect("a head")).kind, FaultKind::Malformed);
+    let few = WoodOptions { nodes: 12, ..options() };
+    let found = read_wood(WoodFormat::Qsm, RTWIG.as_bytes(), &few).expect_err("more than 12 internodes");
+    assert_eq!((found.kind, found.place), (FaultKind::TooMany, Some(Place::Line(3))));
+}
+
+/// In the manner of OpenAlea's own examples: growth units between axes and internodes, values of some only.
+const OPENALEA: &str = "\
+# A young tree, in millimetres
+CODE :\tFORM-A
+
+CLASSES:
+SYMBOL\tSCALE\tDECOMPOSITION\tINDEXATION\tDEFINITION
+$ \t0\tFREE\tFREE\tIMPLICIT
+P\t1\tCONNECTED\tFREE\tEXPLICIT
+U\t2\tFREE\tFREE\tEXPLICIT
+E\t3\tNONE\tFREE\tEXPLICIT
+
+DESCRIPTION :
+LEFT\tRIGHT\tRELTYPE\tMAX
+U\tU\t<\t1
+U\tU\t+\t?
+E\tE\t<\t1
+E\tE\t+\t1
+
+FEATURES:
+NAME\tTYPE
+XX\tREAL
+YY\tREAL
+ZZ\tREAL
+TopDia\tREAL
+
+MTG:
+ENTITY-CODE\t\t\tXX\tYY\tZZ\tTopDia
+/P1/U90\t\t\t0\t0\t0\t40\t# the foot
+^/E1<<E3\t\t\t0\t0\t300\t30
+\t+U91/E1\t\t100\t0\t350\t12
+\t^<E2<<E4\t\t250\t0\t400\t8
+^<U91/E4\t\t\t0\t0\t500\t20
+^<E5\t\t\t0\t50\t700\t10
+";
+
+#[test]
+fn a_graph_of_growth_units_becomes_a_tree() {
+    let options = WoodOptions { unit: 0.001, ..options() };
+    let file = read_wood(WoodFormat::Mtg, OPENALEA.as_bytes(), &options).expect("it is a graph");
+    let plant = planted(&file.wood);
+    // 3, 2 and 2 internodes of the trunk, and a branch of 1 and 2.
+    assert_eq!((plant.living_count(), plant.living_axes_count()), (10, 2));
+    let ends: Vec<Vec3> =
+        (0..plant.metamer_count()).map(|row| plant.metamers().end(MetamerId::new(row))).collect();
+    for wanted in [[0.0, 3.0, 0.0], [0.0, 5.0, 0.0], [0.0, 7.0, -0.5], [1.0, 3.5, 0.0], [2.5, 4.0, 0.0]] {
+        assert!(
+            ends.iter().any(|end| end.distance(Vec3::from_array(wanted)) < 1e-5),
+            "{wanted:?} in {ends:?}"
+        );
+    }
+}
+
+#[test]
+fn codes_from_the_whole_lead_to_what_is_there_already() {
+    let text = OPENALEA.split("ENTITY").next().expect("a head").to_owned()
+        + "TOPO\tXX\tYY\tZZ\tTopDia\n/P1/U1/E1\t0\t0\t0\t1\n/P1/U1/E1<E2\t0\t0\t0.1\t1\n/P1/U1/E1<E2<E3\t0\t0\t0.2\t1\n\
+           /P1/U1/E1<E2+U2/E1\t0.1\t0\t0.1\t1\n";
+    let plant = planted(&wood(WoodFormat::Mtg, &text));
+    assert_eq!((plant.living_count(), plant.living_axes_count()), (3, 2));
+}
+
+#[test]
+fn bad_graphs_are_named_by_line_and_column() {
+    let cases = [
+        ("FORM-A", "FORM-B", FaultKind::Malformed, Place::Line(2), "FORM-A"),
+        ("U\t2\tFREE", "U\ttwo\tFREE", FaultKind::Malformed, Place::Cell(8, 2), "`two`"),
+        ("U\t2\tFREE", "U\t99\tFREE", FaultKind::OutOfRange, Place::Cell(8, 2), "0 to 64"),
+        ("ENTITY-CODE", "NAMES", FaultKind::Malformed, Place::Cell(26, 1), "TOPO"),
+        ("\t+U91/E1", "\t+X91/E1", FaultKind::Malformed, Place::Cell(29, 2), "no class: `X`"),
+        ("\t+U91/E1", "\t\t+U91/E1", FaultKind::Malformed, Place::Cell(29, 3), "nothing stands above"),
+        ("\t+U91/E1", "\t=U91/E1", FaultKind::Malformed, Place::Cell(29, 2), "no code"),
+        ("\t+U91/E1", "\t+U91/P1", FaultKind::Malformed, Place::Cell(29, 2), "its scale does not fit"),
+        ("E1<<E3", "E1<<E999999999", FaultKind::TooMany, Place::Cell(28, 1), "10000 nodes"),
+        ("E1<<E3", "E1<<E99999999999999", FaultKind::Malformed, Place::Cell(28, 1), "no code"),
+        ("E2<<E4", "E2<<E1", FaultKind::Malformed, Place::Cell(30, 2), "higher number"),
+        ("400\t8", "inf\t8", FaultKind::OutOfRange, Place::Cell(30, 6), "ZZ is inf"),
+        ("400\t8", "400\t-8", FaultKind::OutOfRange, Place::Cell(30, 7), "allowed: 0 and more"),
+        ("400\t8", "high\t8", FaultKind::Malformed, Place::Cell(30, 6), "`high`"),
+    ];
+    for (from, to, kind, place, what) in cases {
+        let found = fault(WoodFormat::Mtg, &OPENALEA.replacen(from, to, 1));
+        assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{to}: {found}");
+        assert!(found.to_string().contains(what), "{found}");
+    }
+    for (text, what) in [
+        ("", "no section MTG"),
+        ("CODE:\tFORM-A\n", "no section MTG"),
+        ("{\"format\":1}\n", "it is no MTG"),
+        ("MTG:\nTOPO\tXX\n", "has a place"),
+        ("MTG:\n", "is empty"),
+    ] {
+        let found = fault(WoodFormat::Mtg, text);
+        assert!(found.kind == FaultKind::Malformed && found.to_string().contains(what), "{found}");
+    }
+}
+
+#[test]
+fn a_scale_that_was_left_out_is_no_place_to_go_on_from() {
+    // E3 is a part of P1 at once, so there is no U that another one could follow.
+    let text = OPENALEA.split("ENTITY").next().expect("a head").to_owned()
+        + "TOPO\tXX\tYY\tZZ\tTopDia\n/P1/E3\t0\t0\t0\t1\n^<U2\t0\t0\t1\t1\n";
+    let found = fault(WoodFormat::Mtg, &text);
+    assert_eq!((found.kind, found.place), (FaultKind::Malformed, Some(Place::Cell(28, 1))));
+}
+
+const SKELETON: &str = r#"{"format":"espalier-skeleton","version":2,"axes":[{"bearer":null}],
+"metamers":[{"parent":null,"axis":0,"position":[0,0,0],"birth":0},
+{"parent":0,"axis":0,"position":[0,0.1,0],"radius":0.01,"birth":1}]}"#;
+
+#[test]
+fn a_skeleton_needs_no_more_than_its_structure() {
+    let plant = planted(&wood(WoodFormat::Skeleton, SKELETON));
+    assert_eq!((plant.living_count(), plant.axis_count()), (1, 1));
+    assert_eq!(plant.metamers().end(MetamerId::new(1)), Vec3::Y);
+}
+
+#[test]
+fn bad_skeletons_are_named_by_member_or_place() {
+    let at = |name: &str| Place::Member(format!("metamers[1].{name}"));
+    let cases = [
+        (r#""parent":0"#, r#""parent":1"#, FaultKind::OutOfRange, at("parent"), "stands behind"),
+        (
+            r#""axis":0,"position":[0,0.1"#,
+            r#""axis":3,"position":[0,0.1"#,
+            FaultKind::OutOfRange,
+            at("axis"),
+            "no axis 3",
+        ),
+        ("0.01", "-0.01", FaultKind::OutOfRange, at("radius"), "0 and more"),
+        ("[0,0.1,0]", "[0,1e9,0]", FaultKind::OutOfRange, at("position"), "1000 internodes"),
+        ("[0,0.1,0]", "[0,0,0]", FaultKind::Malformed, at("position"), "no length"),
+        (r#""birth":1"#, r#""birth":4000000000"#, FaultKind::OutOfRange, at("birth"), "100000"),
+        (
+            "espalier-skeleton",
+            "skeleton",
+            FaultKind::Malformed,
+            Place::Member("format".into()),
+            "espalier-skeleton",
+        ),
+        (
+            r#""version":2"#,
+            r#""version":3"#,
+            FaultKind::Malformed,
+            Place::Member("version".into()),
+            "versions 1 and 2",
+        ),
+        ("0.01", "NaN", FaultKind::Malformed, Place::Cell(3, 52), "no skeleton"),
+    ];
+    for (from, to, kind, place, what) in cases {
+        let found = fault(WoodFormat::Skeleton, &SKELETON.replacen(from, to, 1));
+        assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{to}: {found}");
+        assert!(found.to_string().contains(what), "{found}");
+    }
+}
+
+#[test]
+fn files_cut_short_anywhere_are_wood_or_faults() {
+    for (format, text) in
+        [(WoodFormat::Qsm, RTWIG), (WoodFormat::Mtg, OPENALEA), (WoodFormat::Skeleton, SKELETON)]
+    {
+        for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+            if let Ok(file) = read_wood(format, &text.as_bytes()[..end], &options()) {
+                planted(&file.wood);
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Files that become trees of the library.
+
+use axum::{
+    Json,
+    body::Bytes,
+    extract::{
+        Query, State,
+        rejection::{BytesRejection, QueryRejection},
+    },
+    http::StatusCode,
+    response::IntoResponse,
+};
+use espalier_proto::{Problem, version::MAX_WOOD_BYTES};
+use espalier_settings::ParametersPatch;
+use serde::Deserialize;
+
+use super::{Shared, failure::Failure, trees};
+use crate::import::{self, Import};
+
+/// What the address says of the file.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Upload {
+    /// The name of the tree.
+    name: String,
+    /// How the name of such a file ends.
+    format: String,
+    /// Metres in one unit of the file.
+    unit: Option<f64>,
+    /// Metres in one internode.
+    internode_length: Option<f32>,
+}
+
+pub(super) async fn upload(
+    State(shared): State<Shared>,
+    upload: Result<Query<Upload>, QueryRejection>,
+    body: Result<Bytes, BytesRejection>,
+) -> Result<impl IntoResponse, Failure> {
+    let Query(upload) = upload.map_err(|rejection| Failure::bad_query(&rejection))?;
+    let name = trees::parse_name(&upload.name)?;
+    let format = import::format_of(&upload.format).map_err(|allowed| Problem {
+        allowed: Some(allowed),
+        ..Problem::out_of_range("format", &upload.format, "the ending of a file")
+    })?;
+    let unit = upload.unit.unwrap_or(1.0);
+    if !(unit.is_finite() && unit > 0.0) {
+        return Err(Problem::out_of_range("unit", unit, "more than 0").into());
+    }
+    let internode_length = upload.internode_length;
+    let parameters = vec![ParametersPatch { internode_length, ..ParametersPatch::default() }];
+    let import = Import { format, unit, seed: rand::random(), parameters, metamers: shared.metamer_budget };
+    let file = body.map_err(|rejection| Failure::unread(&rejection, MAX_WOOD_BYTES))?;
+    let made = shared.pool.run(move || {
+        let document = import::document(&file, &import)?;
+        Ok::<_, import::ImportError>((document.metamers(), document.to_saved_bytes()))
+    });
+    let (metamers, bytes) = made.await?.map_err(|error| Problem::from(&error))?;
+    let tree = trees::keep(&shared, name, metamers, bytes, None).await?;
+    Ok((StatusCode::CREATED, Json(tree)))
+}

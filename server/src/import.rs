@@ -1,0 +1,213 @@
+//! Files that become trees: structure of other programs, and documents of this one.
+
+use espalier_growth::{WORLD_EXTENT, species};
+use espalier_import::{Fault, FaultKind, WoodFormat, WoodOptions, read_wood};
+use espalier_proto::{Problem, ProblemCode};
+use espalier_session::{Document, DocumentError, TransplantError};
+use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
+
+/// A file format that a tree is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Structure.
+    Wood(WoodFormat),
+    /// A whole document.
+    Document,
+}
+
+/// Each format, how the names of its files end, and what is in them.
+pub const FORMATS: &[(Format, &str, &str)] = &[
+    (Format::Wood(WoodFormat::Qsm), "csv", "cylinders of a QSM"),
+    (Format::Wood(WoodFormat::Mtg), "mtg", "a multiscale tree graph"),
+    (Format::Wood(WoodFormat::Skeleton), "json", "a skeleton"),
+    (Format::Document, "espalier", "a document"),
+];
+
+/// How a file is taken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Import {
+    /// What it is.
+    pub format: Format,
+    /// Metres in one unit of the file, where it does not know.
+    pub unit: f64,
+    /// The seed of all randomness, where the file has none.
+    pub seed: u32,
+    /// Parameters that are set whatever the file says, in turn.
+    pub parameters: Vec<ParametersPatch>,
+    /// The most metamers.
+    pub metamers: u32,
+}
+
+/// A file cannot become a tree; each message ends a sentence.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] Fault),
+    /// What is in it does not fit together.
+    #[error(transparent)]
+    Wood(#[from] TransplantError),
+    /// It is no document.
+    #[error(transparent)]
+    Document(#[from] DocumentError),
+}
+
+/// The format whose files end like this.
+pub fn format_of(ending: &str) -> Result<Format, String> {
+    let found = FORMATS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(ending));
+    found.map(|&(format, ..)| format).ok_or_else(|| {
+        let all: Vec<_> = FORMATS.iter().map(|(_, ending, what)| format!(".{ending} ({what})")).collect();
+        format!("a file must be one of: {}", all.join(", "))
+    })
+}
+
+/// The document of a file.
+pub fn document(bytes: &[u8], import: &Import) -> Result<Document, ImportError> {
+    let format = match import.format {
+        Format::Wood(format) => format,
+        Format::Document => return Ok(Document::from_bytes(bytes)?),
+    };
+    let set =
+        |values: ParameterValues| import.parameters.iter().fold(values, |all, patch| all.patched(patch));
+    let wanted = set(ParameterValues::default());
+    let options = WoodOptions {
+        internode_length: wanted.internode_length,
+        unit: import.unit,
+        shoot: wanted.max_shoot_length,
+        nodes: import.metamers as usize,
+        extent: WORLD_EXTENT,
+    };
+    // What the length of an internode turns into places must be a length.
+    wanted.check().map_err(TransplantError::from)?;
+    let file = read_wood(format, bytes, &options)?;
+    let parameters = set(ParameterValues::default().patched(&file.parameters));
+    let species = file.species.as_deref().and_then(species::find);
+    let looks = species.map_or_else(Appearance::default, |species| species.appearance);
+    let seed = file.seed.unwrap_or(import.seed);
+    Ok(Document::transplanted(&file.wood, seed, &parameters, looks)?)
+}
+
+impl From<&ImportError> for Problem {
+    fn from(error: &ImportError) -> Self {
+        let message = format!("The file cannot become a tree: {error}.");
+        let (code, field) = match error {
+            ImportError::File(fault) => {
+                let code = match fault.kind {
+                    FaultKind::Malformed => ProblemCode::Malformed,
+                    FaultKind::OutOfRange => ProblemCode::OutOfRange,
+                    FaultKind::TooMany => ProblemCode::TooMany,
+                };
+                (code, fault.place.as_ref().map(ToString::to_string))
+            }
+            ImportError::Wood(TransplantError::Parameters(error)) => {
+                (ProblemCode::OutOfRange, Some(format!("parameters.{}", error.field)))
+            }
+            ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None),
+        };
+        Self { field, ..Self::new(code, message) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use espalier_proto::{Action, Steps};
+    use serde_json::json;
+
+    use super::*;
+    use crate::document as exports;
+
+    const SCAN: &str = include_str!("../../tests/fuzz/seeds/rtwig.csv");
+
+    fn import(format: Format, parameters: &[ParametersPatch]) -> Import {
+        Import { format, unit: 1.0, seed: 1, parameters: parameters.to_vec(), metamers: 1000 }
+    }
+
+    fn of_wood(format: WoodFormat, bytes: &[u8]) -> Document {
+        document(bytes, &import(Format::Wood(format), &[])).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn command(value: serde_json::Value) -> espalier_proto::Command {
+        espalier_session::read_command(&value.to_string()).unwrap_or_else(|problem| panic!("{problem}"))
+    }
+
+    #[test]
+    fn a_scan_is_bent_pruned_grown_on_and_taken_back() {
+        let mut scan = of_wood(WoodFormat::Qsm, SCAN.as_bytes());
+        let (metamers, hash) = (scan.metamers(), scan.plant().hash());
+        assert_eq!(metamers, 19);
+        assert!(!scan.figures().can_undo);
+        let mut act = |value| scan.apply("someone", &command(value)).map(|()| scan.metamers());
+        // The branch is the last but the top of the trunk; its tip is moved up.
+        let rows: Vec<u32> = (1..20).collect();
+        let tip = rows[rows.len() - 1];
+        assert!(
+            act(json!({"kind": "bend_begin", "bend": 1, "base": 1, "touches": [tip], "stretch": 0.5}))
+                .is_ok()
+        );
+        assert!(act(json!({"kind": "bend_move", "bend": 1, "targets": [[3.0, 9.0, 0.0]]})).is_ok());
+        assert!(act(json!({"kind": "bend_end", "bend": 1})).is_ok());
+        let grown = act(json!({"kind": "grow", "steps": 3})).unwrap_or(0);
+        assert!(grown > metamers, "{grown}");
+        let pruned = act(json!({"kind": "prune", "rows": [2]})).unwrap_or(grown);
+        assert!(pruned < grown, "{pruned}");
+        for _ in 0..3 {
+            scan.apply("someone", &Action::Undo {}.into()).unwrap_or_else(|problem| panic!("{problem}"));
+        }
+        assert_eq!(scan.plant().hash(), hash);
+        assert!(scan.apply("someone", &Action::Undo {}.into()).is_err());
+        let ungrow = Action::Ungrow { steps: Steps::nearest(100) };
+        scan.apply("someone", &ungrow.into()).unwrap_or_else(|problem| panic!("{problem}"));
+        assert_eq!(scan.metamers(), 0);
+    }
+
+    #[test]
+    fn a_tree_goes_out_and_comes_in_with_its_looks_seed_and_parameters() {
+        let species = species::find("scots-pine").unwrap_or_else(|| panic!("it is a species"));
+        let mut before = Document::new(77);
+        let grow = Action::Grow { steps: Steps::nearest(6), until: None, bud: None };
+        for action in espalier_session::script(species).into_iter().take(2).chain([grow]) {
+            before.apply("someone", &action.into()).unwrap_or_else(|problem| panic!("{problem}"));
+        }
+        let file = exports::file(&mut before, exports::Provenance::default(), exports::Format::Skeleton);
+        let after = of_wood(WoodFormat::Skeleton, &file.unwrap_or_else(|error| panic!("{error}")));
+        assert_eq!((after.seed(), after.metamers()), (77, before.metamers()));
+        assert_eq!((after.parameters(), after.appearance()), (before.parameters(), before.appearance()));
+        let again = Document::from_bytes(&after.to_saved_bytes()).map(|document| document.hash());
+        assert_eq!(again, Ok(after.hash()));
+        let file = exports::file(&mut before, exports::Provenance::default(), exports::Format::Document);
+        let same = document(&file.unwrap_or_else(|error| panic!("{error}")), &import(Format::Document, &[]));
+        assert!(same.is_ok_and(|same| same.plant().hash() == before.plant().hash()));
+    }
+
+    #[test]
+    fn internodes_are_as_long_as_asked_for() {
+        let patch = ParametersPatch { internode_length: Some(0.05), ..ParametersPatch::default() };
+        let scan = document(SCAN.as_bytes(), &import(Format::Wood(WoodFormat::Qsm), &[patch]));
+        // Twice as many, and one internode to the branch.
+        assert_eq!(scan.map(|scan| scan.metamers()).ok(), Some(20 + 6 + 10 + 1));
+    }
+
+    #[test]
+    fn problems_have_a_code_and_a_place() {
+        let problem = |bytes: &str, parameters: &[ParametersPatch]| {
+            let made = document(bytes.as_bytes(), &import(Format::Wood(WoodFormat::Qsm), parameters));
+            made.err().map(|error| Problem::from(&error)).map(|problem| (problem.code, problem.field))
+        };
+        let at = |place: &str| Some(place.to_owned());
+        let thin = SCAN.replace("0.02,0.5", "-0.02,0.5");
+        assert_eq!(problem(&thin, &[]), Some((ProblemCode::OutOfRange, at("line 3, column 10"))));
+        assert_eq!(problem("a,b\n1,2\n", &[]), Some((ProblemCode::Malformed, at("line 1"))));
+        let zero = ParametersPatch { internode_length: Some(0.0), ..ParametersPatch::default() };
+        let place = at("parameters.internode_length");
+        assert_eq!(problem(SCAN, &[zero]), Some((ProblemCode::OutOfRange, place)));
+        let tiny = ParametersPatch { internode_length: Some(0.005), ..ParametersPatch::default() };
+        let many = SCAN.replace("20,30,6,0.05,1,1,0", "20,30,9.9,0.05,1,1,0");
+        assert_eq!(problem(&many, &[tiny]), Some((ProblemCode::TooMany, at("line 3"))));
+    }
+
+    #[test]
+    fn the_ending_says_the_format() {
+        assert_eq!(format_of("MTG"), Ok(Format::Wood(WoodFormat::Mtg)));
+        assert!(format_of("glb").is_err_and(|all| all.contains(".csv") && all.contains(".espalier")));
+    }
+}
