@@ -44,8 +44,11 @@ impl Failure {
 
     /// What stands behind the question mark cannot be read.
     pub(super) fn bad_query(rejection: &QueryRejection) -> Self {
-        let sentence = format!("The request cannot be read: {}.", rejection.body_text());
-        Problem::new(ProblemCode::Malformed, sentence).into()
+        Problem::new(
+            ProblemCode::Malformed,
+            format!("The request cannot be read: {}.", rejection.body_text()),
+        )
+        .into()
     }
 
     /// A file of which so many bytes are taken did not arrive.
