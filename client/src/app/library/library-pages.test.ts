@@ -14,8 +14,8 @@ function library(count: number) {
   const all = Array.from({ length: count }, (_, i) => tree(i));
   const asked: (string | undefined)[] = [];
   const pages = new LibraryPages(async (limit, behind) => {
-    asked.push(behind);
-    const from = behind === undefined ? 0 : all.findIndex(({ id }) => id === behind) + 1;
+    asked.push(behind?.id);
+    const from = behind === undefined ? 0 : all.findIndex(({ id }) => id === behind.id) + 1;
     return all.slice(from, from + limit);
   });
   return { pages, asked, ids: () => pages.trees.value?.map(({ id }) => id) };

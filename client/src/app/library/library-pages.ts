@@ -1,5 +1,6 @@
 import { signal } from "@preact/signals";
 import type { SavedTree } from "../../wire/generated";
+import type { Behind } from "./library-api";
 
 /** So many trees come at once: some screens full. */
 export const PAGE = 48;
@@ -12,10 +13,10 @@ export class LibraryPages {
   readonly failure = signal<unknown>(null);
   /** Whether there are more. */
   readonly more = signal(true);
-  #list: (limit: number, behind?: string) => Promise<SavedTree[]>;
+  #list: (limit: number, behind?: Behind) => Promise<SavedTree[]>;
   #asking = false;
 
-  constructor(list: (limit: number, behind?: string) => Promise<SavedTree[]>) {
+  constructor(list: (limit: number, behind?: Behind) => Promise<SavedTree[]>) {
     this.#list = list;
   }
 
@@ -27,7 +28,7 @@ export class LibraryPages {
     this.#asking = true;
     const here = this.trees.peek() ?? [];
     try {
-      const page = await this.#list(PAGE, here[here.length - 1]?.id);
+      const page = await this.#list(PAGE, here[here.length - 1]);
       // What was renamed or deleted meanwhile stays so.
       const now = this.trees.peek() ?? [];
       const known = new Set(now.map(({ id }) => id));
