@@ -75,7 +75,7 @@ describe("long work", () => {
     await until("more of it has come", async () => Number(await moving.getAttribute("value")) > first);
     // What it says goes on changing.
     await tablet.untilCome();
-    const chip = (await page.locator(".chip").boundingBox())!;
+    const chip = (await page.locator(".chip", { has: moving }).boundingBox())!;
     expect(chip.x >= 0 && chip.x + chip.width <= PHONE.width, "all of it is on the glass").toBe(true);
     await tablet.showNow("export");
     const broken = page.waitForEvent("requestfailed", (request) => request.url().endsWith("/tree.glb"));
