@@ -193,4 +193,5 @@ function lastComma(call: string): number {
 }
 
 /** What no user can do wrongly, only a program: it is shown without what would be allowed. */
-const OF_HANDS = /length 1|perpendicular|finite number|touched once|^7 to 7 rows|^parameters$|path|^the ending of a file$|^more than 0$/;
+const OF_HANDS =
+  /length 1|perpendicular|finite number|touched once|^7 to 7 rows|^parameters$|path|^the ending of a file$|^more than 0$/;
