@@ -73,6 +73,12 @@ test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", a
   }
   await openPart(tablet, { panel: "Architecture", tab: "Species", least: 0 });
   await look("Architecture Species", ".drawer");
+  // Its programme has stages nearer to each other than fingers are wide.
+  await page.locator('.species-card[data-species="stone-pine"]').click();
+  await tablet.untilQuiet();
+  await openPart(tablet, { panel: "Architecture", tab: "Growth", least: 0 });
+  await page.getByRole("button", { name: "The next stage" }).click();
+  await look("the programme of a species", ".programme");
   await openPart(tablet, { panel: "Scene", least: 0 });
   await look("Scene", ".drawer");
   for (const thing of ["Box", "Sphere", "Plane"]) {
@@ -105,6 +111,34 @@ test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", a
   await look("everything hidden", ".workspace");
   expect(found).toEqual([]);
 });
+
+test.each(Object.entries(SCREENS))(
+  "every control is hit where it is drawn when a tree is left: %s",
+  async (_, screen) => {
+    const { tablet, address } = await workshop.fresh(screen);
+    const { page } = tablet;
+    const found: string[] = [];
+    await workshop.act(address, [{ kind: "grow", steps: 4 }]);
+    await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+    await tablet.untilQuiet();
+    await press(tablet, "New tree");
+    const asked = page.getByRole("dialog", { name: "A new tree" });
+    await asked.waitFor();
+    await tablet.untilSettled();
+    found.push(...(await misses(tablet, "what is asked before a new tree", "dialog")));
+    await asked.getByRole("button", { name: "Keep under Unsaved" }).click();
+    await page.getByRole("region", { name: "Go on with a tree" }).waitFor();
+    await tablet.untilSettled();
+    found.push(...(await misses(tablet, "the first screen with a tree of before")));
+    await page.evaluate(() => localStorage.setItem("espalier.tour", "false"));
+    await page.reload();
+    await tablet.untilReady();
+    await page.getByText("1 of 3").waitFor();
+    await tablet.untilSettled();
+    found.push(...(await misses(tablet, "the tour")));
+    expect(found).toEqual([]);
+  },
+);
 
 test("every control is hit where it is drawn while tools are at work", async () => {
   const { tablet } = await workshop.stem(SCREENS.landscape);

@@ -17,8 +17,8 @@ export const ARCHITECTURE = {
   "architecture.choose-species": ["Species: {name}. Choose another one", "Art: {name}. Eine andere wählen"],
 
   "architecture.species.note": [
-    "What grows from now on follows the species you pick; a seedling becomes the tree of its picture.",
-    "Was von nun an wächst, folgt der gewählten Art; aus einem Sämling wird der Baum ihres Bildes.",
+    "What grows from now on follows the species you pick; a seedling becomes a tree like the one in its picture.",
+    "Was von nun an wächst, folgt der gewählten Art; aus einem Sämling wird ein Baum wie der auf ihrem Bild.",
   ],
   "architecture.species.search": ["Find a species", "Art suchen"],
   "architecture.species.none": ["No species is called “{words}”.", "Keine Art heißt „{words}“."],
@@ -84,6 +84,9 @@ export const ARCHITECTURE = {
   "architecture.programme.begin": ["Begin a programme", "Programm beginnen"],
   "architecture.programme.parameter": ["Parameter whose course is shown", "Parameter, dessen Verlauf gezeigt wird"],
   "architecture.programme.stage": ["{name} from age {age}", "{name} ab Alter {age}"],
+  "architecture.programme.place": ["Stage {place} of {count}", "Stufe {place} von {count}"],
+  "architecture.programme.previous": ["The stage before", "Die Stufe davor"],
+  "architecture.programme.next": ["The next stage", "Die nächste Stufe"],
   "architecture.programme.now": ["age {age}", "Alter {age}"],
   "architecture.programme.from": ["From age", "Ab Alter"],
   "architecture.programme.age": ["Age at which the stage begins", "Alter, in dem die Stufe beginnt"],

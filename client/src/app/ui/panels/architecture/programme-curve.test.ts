@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Programme } from "../../../../wire/generated";
 import { NUMBERS } from "../../../document/growth/growth-parameters";
 import { valuesAt } from "../../../document/growth/programme-control";
-import { CurveScale, pointsOf, withChangeAt, withoutChange, withPoint } from "./programme-curve";
+import { CurveScale, grippable, pointsOf, withChangeAt, withoutChange, withPoint } from "./programme-curve";
 
 const SHEDDING = NUMBERS.shedding_threshold;
 
@@ -55,5 +55,15 @@ describe("the curve of a parameter", () => {
     const point = { age: 10, value: 0.25, change: null };
     expect(scale.at(scale.place(point))).toEqual({ age: 10, value: 0.25 });
     expect(scale.path([point])).toBe("M110 80H210");
+  });
+
+  it("has grips that lie apart, the chosen one's among them", () => {
+    const frame = { left: 0, top: 0, width: 240, height: 100 };
+    const scale = new CurveScale(SHEDDING, 24, frame);
+    const change = (age: number) => ({ kind: "change", age, parameters: {} }) as const;
+    const points = pointsOf({ ...pine, stages: [1, 2, 6, 7, 20].map(change) }, SHEDDING);
+    const ages = (chosen: number) => grippable(points, points[chosen]!, scale).map(({ age }) => age);
+    expect(ages(0)).toEqual([0, 6, 20]);
+    expect(ages(4)).toEqual([7, 0, 20]);
   });
 });

@@ -66,6 +66,23 @@ export function withoutChange(programme: Programme, change: number): Programme {
   return withChanges(programme, changesOf(programme).toSpliced(change, 1));
 }
 
+/** How far apart the middles of two grips are at least, in pixels: about what a finger covers. */
+const APART = 48;
+
+/** The points that have a grip: the chosen one, and in order of age those far enough from all before. */
+export function grippable(points: readonly Point[], chosen: Point, scale: CurveScale): readonly Point[] {
+  const kept = [chosen];
+  for (const point of points) {
+    const { x, y } = scale.place(point);
+    const isFree = kept.every((other) => {
+      const at = scale.place(other);
+      return Math.max(Math.abs(at.x - x), Math.abs(at.y - y)) >= APART;
+    });
+    if (isFree) kept.push(point);
+  }
+  return kept;
+}
+
 /** Where ages and values lie in a diagram. */
 export class CurveScale {
   #parameter: NumberParameter;

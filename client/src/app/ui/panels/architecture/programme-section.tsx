@@ -16,7 +16,7 @@ import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { TypedNumber } from "../../controls/typed-number";
 import { Grip } from "./grip";
-import { CurveScale, type Point, pointsOf, withChangeAt, withoutChange, withPoint } from "./programme-curve";
+import { CurveScale, grippable, type Point, pointsOf, withChangeAt, withoutChange, withPoint } from "./programme-curve";
 import { useSpecies } from "./species-list";
 import { Diagram, type WidgetProps } from "./widget";
 
@@ -81,7 +81,12 @@ function Course({ studio, inForce }: PartProps) {
     choose(point.change);
     setDraft(withPoint(programme, parameter, point.change, to));
   };
-  const point = points.find(({ change }) => change === chosen) ?? points[0]!;
+  const place = Math.max(
+    0,
+    points.findIndex(({ change }) => change === chosen),
+  );
+  const point = points[place]!;
+  const gripped = grippable(points, point, scale);
   return (
     <>
       <select
@@ -115,13 +120,18 @@ function Course({ studio, inForce }: PartProps) {
               d={scale.path(points)}
               data-overridden={inForce.byHand.includes(parameter.name)}
             />
+            {points
+              .filter((one) => !gripped.includes(one))
+              .map((one) => (
+                <circle class="programme-dot" key={one.change} cx={scale.place(one).x} cy={scale.place(one).y} r={5} />
+              ))}
             <text x={scale.x(age)} y={HEIGHT - 8} text-anchor={age * 2 > lastAge(programme, age) ? "end" : "start"}>
               {say("architecture.programme.now", { age })}
             </text>
           </>
         }
       >
-        {points.map((one) => (
+        {gripped.map((one) => (
           <Grip
             key={one.change ?? "first"}
             label={say("architecture.programme.stage", { name: nameOf(parameter), age: one.age })}
@@ -139,6 +149,7 @@ function Course({ studio, inForce }: PartProps) {
           />
         ))}
       </Diagram>
+      <StageSteps points={points} place={place} choose={choose} />
       <div class="programme-stage">
         <span>{say("architecture.programme.from")}</span>
         <TypedNumber
@@ -168,6 +179,32 @@ function Course({ studio, inForce }: PartProps) {
       </div>
       <Deeds studio={studio} programme={programme} age={age} commit={commit} />
     </>
+  );
+}
+
+interface StageStepsProps {
+  readonly points: readonly Point[];
+  /** Which of the points is chosen. */
+  readonly place: number;
+  readonly choose: (change: number | null) => void;
+}
+
+/** Goes from stage to stage, those included that lie too near to another one for a grip of their own. */
+function StageSteps({ points, place, choose }: StageStepsProps) {
+  const step = (by: number, text: string, label: string) => {
+    const to = points[place + by];
+    return (
+      <button type="button" aria-label={label} disabled={to === undefined} onClick={() => to && choose(to.change)}>
+        {text}
+      </button>
+    );
+  };
+  return (
+    <div class="programme-steps">
+      {step(-1, "‹", say("architecture.programme.previous"))}
+      <span role="status">{say("architecture.programme.place", { place: place + 1, count: points.length })}</span>
+      {step(1, "›", say("architecture.programme.next"))}
+    </div>
   );
 }
 
