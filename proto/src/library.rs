@@ -1,9 +1,9 @@
-//! The HTTP side: sessions and the library of saved trees.
+//! The HTTP side: sessions, and the library of trees with their versions.
 
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// `POST /api/sessions`: start a session.
+/// `POST /api/sessions`: start a session, or come into the one of a tree.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct NewSession {
@@ -11,35 +11,133 @@ pub struct NewSession {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub seed: Option<u32>,
-    /// A saved tree to start from.
+    /// A tree of the library to go on with (`LB3`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub tree: Option<String>,
+    /// The version of it to begin with; its newest one if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub version: Option<u32>,
+    /// Whether it is only what a tree of its own begins with (`LB4`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[ts(optional, as = "Option<bool>")]
+    pub template: bool,
 }
 
-/// The answer: the session's name. Its link is `/s/NAME`.
+/// A session's name, whose link is `/s/NAME`, and the tree it belongs to.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SessionCreated {
     /// The session's name.
     pub session: String,
+    /// The tree of the library that it belongs to, if it does.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub tree: Option<SessionTree>,
 }
 
-/// `POST /api/trees`: save a session's plants in the library.
+/// The tree that a session belongs to.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct SessionTree {
+    /// The tree's identifier.
+    pub id: String,
+    /// The version that it was last saved as, or began with.
+    pub version: u32,
+    /// Whether nothing was done in it since.
+    pub saved: bool,
+}
+
+/// `POST /api/trees`: save a session's plants as a new tree.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveTree {
-    /// The session.
+    /// The session; it belongs to the tree from then on.
     pub session: String,
     /// 1 to 80 characters.
     pub name: String,
+    /// What is said of this version: up to 2000 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub note: Option<String>,
+    /// How whoever saves it wants to be called: 1 to 80 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
     /// A picture as a data URL, PNG, JPEG or WebP, at most 192 KiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub thumbnail: Option<String>,
 }
 
-/// One tree of the library; `GET /api/trees` lists them, newest first.
+/// `POST /api/trees/ID/versions`: save a session's plants as the newest version of a tree.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct SaveVersion {
+    /// The session; it belongs to the tree from then on.
+    pub session: String,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub note: Option<String>,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub thumbnail: Option<String>,
+}
+
+/// `POST /api/trees/ID/versions/N/restore`: what was saved then becomes the newest version.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct RestoreVersion {
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub note: Option<String>,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
+}
+
+/// `POST /api/trees/ID/copies`: a new tree that begins with a version of this one.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct CopyTree {
+    /// The new tree's name: 1 to 80 characters.
+    pub name: String,
+    /// The version it begins with; the newest one if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub version: Option<u32>,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub note: Option<String>,
+    /// As in `SaveTree`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
+}
+
+/// `GET /api/trees`: some trees of the library, in the order that was asked for.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreePage {
+    /// The trees.
+    pub trees: Vec<SavedTree>,
+    /// The `after` of the next page, if there may be one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub next: Option<String>,
+}
+
+/// One tree of the library.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SavedTree {
@@ -47,20 +145,109 @@ pub struct SavedTree {
     pub id: String,
     /// Its name.
     pub name: String,
+    /// What is said of the tree as a whole.
+    pub note: String,
+    /// The number of its newest version, to which the following belong. The first is 1.
+    pub version: u32,
     /// Living metamers.
     pub metamers: u32,
     /// When it was saved: RFC 3339, UTC.
     pub saved_at: String,
-    /// Where its picture is, if it has one.
+    /// How whoever saved it wanted to be called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
+    /// The species whose programme it grows by, by its short name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub species: Option<String>,
+    /// Where its picture is, if it has one. What is there never changes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub thumbnail: Option<String>,
+    /// When its first version was saved.
+    pub created_at: String,
+    /// Whether new trees are begun with it.
+    pub template: bool,
+    /// What its first version is a copy of.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub origin: Option<Origin>,
+    /// When it was deleted, if it was; 30 days later it is gone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub deleted_at: Option<String>,
+    /// How many people are working on it.
+    pub people: u32,
+    /// The number of its present state, which every change counts up: its `ETag` without the quotes.
+    #[ts(type = "number")]
+    pub revision: u64,
 }
 
-/// `PATCH /api/trees/ID`: give a tree another name.
+/// A version of a tree.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
-pub struct RenameTree {
-    /// 1 to 80 characters.
-    pub name: String,
+pub struct Origin {
+    /// The tree's identifier; it may be gone by now.
+    pub tree: String,
+    /// The version's number.
+    pub version: u32,
+}
+
+/// What was saved of a tree at one time; `GET /api/trees/ID/versions` lists them, newest first.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeVersion {
+    /// 1, 2, 3 … within the tree.
+    pub number: u32,
+    /// When it was saved: RFC 3339, UTC.
+    pub saved_at: String,
+    /// How whoever saved it wanted to be called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub author: Option<String>,
+    /// What is said of it.
+    pub note: String,
+    /// Living metamers.
+    pub metamers: u32,
+    /// The species whose programme it grows by, by its short name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub species: Option<String>,
+    /// The version whose tree this is again, if one was restored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub restored: Option<u32>,
+    /// Where its picture is, if it has one. What is there never changes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub thumbnail: Option<String>,
+    /// Where its document is. What is there never changes.
+    pub document: String,
+}
+
+/// `PATCH /api/trees/ID`: what is left out stays as it is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeTree {
+    /// Its name: 1 to 80 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+    /// What is said of it: up to 2000 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub note: Option<String>,
+    /// Whether new trees are begun with it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub template: Option<bool>,
+}
+
+/// `PATCH /api/trees/ID/versions/N`: what is said of a version.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeVersion {
+    /// Up to 2000 characters.
+    pub note: String,
 }

@@ -18,6 +18,8 @@ pub enum ProblemCode {
     Refused,
     /// There is no such session, tree or stroke.
     NotFound,
+    /// Somebody else has changed it meanwhile (`If-Match`).
+    Stale,
     /// The server could not keep its promise (a full disk, say); nothing was changed.
     Unavailable,
 }

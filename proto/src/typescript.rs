@@ -116,10 +116,18 @@ pub fn declarations() -> String {
         control::Hint::decl(&config),
         control::ServerMessage::decl(&config),
         library::NewSession::decl(&config),
+        library::SessionTree::decl(&config),
         library::SessionCreated::decl(&config),
         library::SaveTree::decl(&config),
+        library::SaveVersion::decl(&config),
+        library::RestoreVersion::decl(&config),
+        library::CopyTree::decl(&config),
+        library::Origin::decl(&config),
         library::SavedTree::decl(&config),
-        library::RenameTree::decl(&config),
+        library::TreePage::decl(&config),
+        library::TreeVersion::decl(&config),
+        library::ChangeTree::decl(&config),
+        library::ChangeVersion::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

@@ -17,11 +17,14 @@ pub enum Action {
     DrawSchematic,
     ListTrees,
     SaveTree,
-    /// Begins a session with a saved tree.
+    /// Takes what was saved of a tree: begins a session with it, copies it, or takes its document.
     OpenTree,
-    RenameTree,
+    /// Sees a tree with its versions and their pictures.
+    SeeTree,
+    /// Changes what is said of a tree, or saves a version of it.
+    ChangeTree,
+    /// Deletes a tree, or takes that back.
     DeleteTree,
-    SeeThumbnail,
 }
 
 /// What it is asked for.
@@ -70,9 +73,9 @@ impl Action {
             | Self::ListTrees
             | Self::SaveTree
             | Self::OpenTree
-            | Self::RenameTree
-            | Self::DeleteTree
-            | Self::SeeThumbnail => Right::Anybody,
+            | Self::SeeTree
+            | Self::ChangeTree
+            | Self::DeleteTree => Right::Anybody,
         }
     }
 }

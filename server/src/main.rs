@@ -9,6 +9,7 @@ mod http;
 mod import;
 mod listener;
 mod live;
+mod maintenance;
 mod name;
 mod pool;
 mod portrait;

@@ -17,6 +17,7 @@ use crate::{
     http::{self, Shared},
     listener,
     live::Sessions,
+    maintenance,
     pool::SimulationPool,
     portrait::Portraits,
     store::{AnyStore, OpenError, SqliteStore, Store},
@@ -86,7 +87,9 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
         authority: authority::may,
+        opening: Arc::default(),
     };
+    let caring = tokio::spawn(maintenance::run(Arc::clone(&store), stop.clone()));
     let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
 
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
@@ -98,7 +101,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     stop.cancel();
     let ended = async {
         sessions.ended().await;
-        serving.await
+        serving.await.and(caring.await)
     };
     match timeout(LAST_WORK, ended).await {
         Ok(Ok(())) => {}

@@ -51,11 +51,23 @@ pub fn send(port: u16, method: &str, path: &str, body: Option<&Value>) -> io::Re
     send_bytes(port, method, path, "application/json", body.as_bytes())
 }
 
+/// Any request that changes one revision only.
+pub fn send_if(port: u16, method: &str, path: &str, revision: &str, body: &Value) -> io::Result<Answer> {
+    let headers = format!("content-type: application/json\r\nif-match: {revision}\r\n");
+    send_with(port, method, path, &headers, body.to_string().as_bytes())
+}
+
 /// Any request with a body of any type; an empty one is none.
 pub fn send_bytes(port: u16, method: &str, path: &str, kind: &str, body: &[u8]) -> io::Result<Answer> {
+    let headers = if body.is_empty() { String::new() } else { format!("content-type: {kind}\r\n") };
+    send_with(port, method, path, &headers, body)
+}
+
+fn send_with(port: u16, method: &str, path: &str, headers: &str, body: &[u8]) -> io::Result<Answer> {
     let mut request = format!("{method} {path} HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\nconnection: close\r\n");
+    request += headers;
     if !body.is_empty() {
-        request += &format!("content-type: {kind}\r\ncontent-length: {}\r\n", body.len());
+        request += &format!("content-length: {}\r\n", body.len());
     }
     request += "\r\n";
     let mut request = request.into_bytes();

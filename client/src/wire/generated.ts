@@ -1337,7 +1337,7 @@ programme: Programme,
  */
 appearance: Appearance, };
 
-export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "unavailable";
+export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
 export type Problem = { 
 /**
@@ -1668,19 +1668,45 @@ export type NewSession = {
  */
 seed?: number, 
 /**
- * A saved tree to start from.
+ * A tree of the library to go on with (`LB3`).
  */
-tree?: string, };
+tree?: string, 
+/**
+ * The version of it to begin with; its newest one if absent.
+ */
+version?: number, 
+/**
+ * Whether it is only what a tree of its own begins with (`LB4`).
+ */
+template?: boolean, };
+
+export type SessionTree = { 
+/**
+ * The tree's identifier.
+ */
+id: string, 
+/**
+ * The version that it was last saved as, or began with.
+ */
+version: number, 
+/**
+ * Whether nothing was done in it since.
+ */
+saved: boolean, };
 
 export type SessionCreated = { 
 /**
  * The session's name.
  */
-session: string, };
+session: string, 
+/**
+ * The tree of the library that it belongs to, if it does.
+ */
+tree?: SessionTree, };
 
 export type SaveTree = { 
 /**
- * The session.
+ * The session; it belongs to the tree from then on.
  */
 session: string, 
 /**
@@ -1688,9 +1714,73 @@ session: string,
  */
 name: string, 
 /**
+ * What is said of this version: up to 2000 characters.
+ */
+note?: string, 
+/**
+ * How whoever saves it wants to be called: 1 to 80 characters.
+ */
+author?: string, 
+/**
  * A picture as a data URL, PNG, JPEG or WebP, at most 192 KiB.
  */
 thumbnail?: string, };
+
+export type SaveVersion = { 
+/**
+ * The session; it belongs to the tree from then on.
+ */
+session: string, 
+/**
+ * As in `SaveTree`.
+ */
+note?: string, 
+/**
+ * As in `SaveTree`.
+ */
+author?: string, 
+/**
+ * As in `SaveTree`.
+ */
+thumbnail?: string, };
+
+export type RestoreVersion = { 
+/**
+ * As in `SaveTree`.
+ */
+note?: string, 
+/**
+ * As in `SaveTree`.
+ */
+author?: string, };
+
+export type CopyTree = { 
+/**
+ * The new tree's name: 1 to 80 characters.
+ */
+name: string, 
+/**
+ * The version it begins with; the newest one if absent.
+ */
+version?: number, 
+/**
+ * As in `SaveTree`.
+ */
+note?: string, 
+/**
+ * As in `SaveTree`.
+ */
+author?: string, };
+
+export type Origin = { 
+/**
+ * The tree's identifier; it may be gone by now.
+ */
+tree: string, 
+/**
+ * The version's number.
+ */
+version: number, };
 
 export type SavedTree = { 
 /**
@@ -1702,6 +1792,14 @@ id: string,
  */
 name: string, 
 /**
+ * What is said of the tree as a whole.
+ */
+note: string, 
+/**
+ * The number of its newest version, to which the following belong. The first is 1.
+ */
+version: number, 
+/**
  * Living metamers.
  */
 metamers: number, 
@@ -1710,12 +1808,106 @@ metamers: number,
  */
 saved_at: string, 
 /**
- * Where its picture is, if it has one.
+ * How whoever saved it wanted to be called.
  */
-thumbnail?: string, };
-
-export type RenameTree = { 
+author?: string, 
 /**
- * 1 to 80 characters.
+ * The species whose programme it grows by, by its short name.
  */
-name: string, };
+species?: string, 
+/**
+ * Where its picture is, if it has one. What is there never changes.
+ */
+thumbnail?: string, 
+/**
+ * When its first version was saved.
+ */
+created_at: string, 
+/**
+ * Whether new trees are begun with it.
+ */
+template: boolean, 
+/**
+ * What its first version is a copy of.
+ */
+origin?: Origin, 
+/**
+ * When it was deleted, if it was; 30 days later it is gone.
+ */
+deleted_at?: string, 
+/**
+ * How many people are working on it.
+ */
+people: number, 
+/**
+ * The number of its present state, which every change counts up: its `ETag` without the quotes.
+ */
+revision: number, };
+
+export type TreePage = { 
+/**
+ * The trees.
+ */
+trees: Array<SavedTree>, 
+/**
+ * The `after` of the next page, if there may be one.
+ */
+next?: string, };
+
+export type TreeVersion = { 
+/**
+ * 1, 2, 3 … within the tree.
+ */
+number: number, 
+/**
+ * When it was saved: RFC 3339, UTC.
+ */
+saved_at: string, 
+/**
+ * How whoever saved it wanted to be called.
+ */
+author?: string, 
+/**
+ * What is said of it.
+ */
+note: string, 
+/**
+ * Living metamers.
+ */
+metamers: number, 
+/**
+ * The species whose programme it grows by, by its short name.
+ */
+species?: string, 
+/**
+ * The version whose tree this is again, if one was restored.
+ */
+restored?: number, 
+/**
+ * Where its picture is, if it has one. What is there never changes.
+ */
+thumbnail?: string, 
+/**
+ * Where its document is. What is there never changes.
+ */
+document: string, };
+
+export type ChangeTree = { 
+/**
+ * Its name: 1 to 80 characters.
+ */
+name?: string, 
+/**
+ * What is said of it: up to 2000 characters.
+ */
+note?: string, 
+/**
+ * Whether new trees are begun with it.
+ */
+template?: boolean, };
+
+export type ChangeVersion = { 
+/**
+ * Up to 2000 characters.
+ */
+note: string, };

@@ -88,10 +88,8 @@ pub enum Output {
     Document {
         /// Whose answer this is.
         read: ReadId,
-        /// For [`crate::Document::from_bytes`].
-        bytes: Vec<u8>,
-        /// Living metamers, for lists.
-        metamers: u32,
+        /// The document.
+        document: ReadDocument,
     },
     /// What became of an `Act`: done and durable, with the obstacle it placed if it placed one, or refused.
     Acted {
@@ -103,6 +101,19 @@ pub enum Output {
     /// Answer with `Woken` at this time, in milliseconds of the clock handed to `handle`.
     /// A later `WakeAt` takes the place of an earlier one.
     WakeAt(u64),
+}
+
+/// The document between two commands, with what lists tell of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadDocument {
+    /// For [`crate::Document::from_bytes`].
+    pub bytes: Vec<u8>,
+    /// Living metamers.
+    pub metamers: u32,
+    /// The species whose programme it grows by.
+    pub species: Option<String>,
+    /// The last journal entry in it.
+    pub through: u64,
 }
 
 /// One line of the journal.

@@ -29,7 +29,7 @@ mod work;
 
 pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError};
 pub use form::read_command;
-pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadId};
+pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
 pub use principal::Principal;
 pub use rights::{Access, Rights, forbidden};

@@ -302,9 +302,9 @@ impl Session {
         self.scenery.meshes.get(&obstacle).cloned()
     }
 
-    /// Clients that have said hello.
-    pub fn people(&self) -> usize {
-        self.clients.values().filter(|client| client.guest.is_some()).count()
+    /// Who has said hello and is still here, once for each client.
+    pub fn people(&self) -> impl Iterator<Item = &crate::Principal> {
+        self.clients.values().filter_map(|client| client.guest.as_ref()).map(|guest| &guest.principal)
     }
 
     fn read(&mut self, client: ClientId, text: &str) {

@@ -11,7 +11,7 @@ use espalier_proto::{Command, Hint, PlacedObstacle, PoseFrame, Position, Problem
 use crate::{
     author::{LastCommand, note_last},
     document::{Document, Silence},
-    io::{ActId, ClientId, ReadId},
+    io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
     snapshot,
     stops::Stops,
@@ -87,8 +87,8 @@ pub(crate) struct Report {
     pub(crate) runs: Vec<PredictionRun>,
     /// What became of commands from outside: the obstacle they placed.
     pub(crate) acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
-    /// The document as bytes with its living metamers, for each read.
-    pub(crate) documents: Vec<(ReadId, Vec<u8>, u32)>,
+    /// The document for each read.
+    pub(crate) documents: Vec<(ReadId, ReadDocument)>,
     /// A snapshot and the last entry it contains.
     pub(crate) snapshot: Option<(u64, Vec<u8>)>,
 }
@@ -260,10 +260,14 @@ impl Work {
             self.report.snapshot = Some((self.applied, snapshot));
         }
         if !self.reads.is_empty() {
-            let (bytes, metamers) = (self.document.to_saved_bytes(), self.document.metamers());
-            for read in self.reads.drain(..) {
-                self.report.documents.push((read, bytes.clone(), metamers));
-            }
+            let document = ReadDocument {
+                bytes: self.document.to_saved_bytes(),
+                metamers: self.document.metamers(),
+                species: self.document.species(),
+                through: self.applied,
+            };
+            let answers = self.reads.drain(..).map(|read| (read, document.clone()));
+            self.report.documents.extend(answers);
         }
     }
 

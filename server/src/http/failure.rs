@@ -80,6 +80,7 @@ impl From<Problem> for Failure {
             }
             ProblemCode::Refused => StatusCode::CONFLICT,
             ProblemCode::NotFound => StatusCode::NOT_FOUND,
+            ProblemCode::Stale => StatusCode::PRECONDITION_FAILED,
             ProblemCode::Unavailable => StatusCode::SERVICE_UNAVAILABLE,
         };
         Self { status, problem }
@@ -88,6 +89,14 @@ impl From<Problem> for Failure {
 
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::NotFound => return Self::not_found("tree, or no such version of it"),
+            StoreError::Stale => {
+                let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
+                return Problem::new(ProblemCode::Stale, sentence).into();
+            }
+            _ => {}
+        }
         tracing::error!(%error, "the store failed");
         Self::unavailable("The server cannot use its database now; nothing was changed. Is its disk full?")
     }

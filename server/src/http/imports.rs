@@ -1,7 +1,7 @@
 //! Files that become trees of the library.
 
 use axum::{
-    Json,
+    Extension,
     body::Bytes,
     extract::{
         Query, State,
@@ -11,11 +11,21 @@ use axum::{
     response::IntoResponse,
 };
 use espalier_proto::{Problem, version::MAX_WOOD_BYTES};
+use espalier_session::Principal;
 use espalier_settings::ParametersPatch;
 use serde::Deserialize;
 
-use super::{Shared, failure::Failure, trees};
-use crate::import::{self, Import};
+use super::{
+    Shared,
+    failure::Failure,
+    text, trees,
+    versions::{self, Said},
+};
+use crate::{
+    SIMULATION_VERSION,
+    import::{self, Import},
+    store::{Contents, Saved, TreeDocument},
+};
 
 /// What the address says of the file.
 #[derive(Debug, Deserialize)]
@@ -33,11 +43,12 @@ pub(super) struct Upload {
 
 pub(super) async fn upload(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     upload: Result<Query<Upload>, QueryRejection>,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<impl IntoResponse, Failure> {
     let Query(upload) = upload.map_err(|rejection| Failure::bad_query(&rejection))?;
-    let name = trees::parse_name(&upload.name)?;
+    let name = text::name("name", &upload.name)?;
     let format = import::format_of(&upload.format).map_err(|allowed| Problem {
         allowed: Some(allowed),
         ..Problem::out_of_range("format", &upload.format, "the ending of a file")
@@ -52,9 +63,17 @@ pub(super) async fn upload(
     let file = body.map_err(|rejection| Failure::unread(&rejection, MAX_WOOD_BYTES))?;
     let made = shared.pool.run(move || {
         let document = import::document(&file, &import)?;
-        Ok::<_, import::ImportError>((document.metamers(), document.to_saved_bytes()))
+        Ok::<_, import::ImportError>(Saved {
+            metamers: document.metamers(),
+            species: document.species(),
+            document: TreeDocument {
+                simulation_version: SIMULATION_VERSION,
+                bytes: document.to_saved_bytes(),
+            },
+            thumbnail: None,
+        })
     });
-    let (metamers, bytes) = made.await?.map_err(|error| Problem::from(&error))?;
-    let tree = trees::keep(&shared, name, metamers, bytes, None).await?;
-    Ok((StatusCode::CREATED, Json(tree)))
+    let saved = made.await?.map_err(|error| Problem::from(&error))?;
+    let version = versions::new(&principal, Said::default(), Contents::New(Box::new(saved)));
+    Ok((StatusCode::CREATED, trees::add(&shared, name, version).await?))
 }

@@ -5,11 +5,14 @@ mod failure;
 mod guard;
 mod imports;
 mod obstacles;
+mod revision;
 mod schematic;
 mod sessions;
 mod species;
+mod text;
 mod thumbnail;
 mod trees;
+mod versions;
 
 use std::sync::Arc;
 
@@ -21,6 +24,7 @@ use axum::{
 };
 use espalier_proto::version::{MAX_GLB_BYTES, MAX_WOOD_BYTES};
 use espalier_session::Principal;
+use tokio::sync::Mutex;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
 use self::{failure::Failure, guard::Asked, sessions::Download};
@@ -33,8 +37,10 @@ use crate::{
     store::AnyStore,
 };
 
-/// A request for a session or a name is tiny.
+/// A request for a session is tiny.
 const MAX_SMALL_BODY: usize = 4 * 1024;
+/// A note of 2000 characters, with room for the rest of the request.
+const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail of 192 KiB as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = 264 * 1024;
 /// Uploads at once: each holds a file and its triangles.
@@ -62,6 +68,8 @@ pub struct Shared {
     pub portraits: Portraits,
     /// Who may do what.
     pub authority: Authority,
+    /// Held by whoever opens a tree.
+    pub opening: Arc<Mutex<()>>,
 }
 
 impl Shared {
@@ -124,9 +132,33 @@ fn routes() -> Vec<Route> {
             Action::SaveTree,
             post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))),
         ),
-        route("PATCH /api/trees/{tree}", Action::RenameTree, patch(trees::rename)),
+        route("GET /api/trees/{tree}", Action::SeeTree, get(trees::find)),
+        route("PATCH /api/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY))),
         route("DELETE /api/trees/{tree}", Action::DeleteTree, delete(trees::delete)),
-        route("GET /api/trees/{tree}/thumbnail", Action::SeeThumbnail, get(trees::thumbnail)),
+        route("POST /api/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete)),
+        route(
+            "POST /api/trees/{tree}/copies",
+            Action::OpenTree,
+            post(trees::copy).layer(body(MAX_SAID_BODY)),
+        ),
+        route("GET /api/trees/{tree}/versions", Action::SeeTree, get(versions::list)),
+        route(
+            "POST /api/trees/{tree}/versions",
+            Action::ChangeTree,
+            post(versions::save).layer(body(MAX_TREE_BODY)),
+        ),
+        route(
+            "PATCH /api/trees/{tree}/versions/{number}",
+            Action::ChangeTree,
+            patch(versions::change).layer(body(MAX_SAID_BODY)),
+        ),
+        route(
+            "POST /api/trees/{tree}/versions/{number}/restore",
+            Action::ChangeTree,
+            post(versions::restore),
+        ),
+        route("GET /api/trees/{tree}/versions/{number}/document", Action::OpenTree, get(versions::document)),
+        route("GET /api/trees/{tree}/versions/{number}/thumbnail", Action::SeeTree, get(versions::thumbnail)),
     ]
 }
 
@@ -174,23 +206,15 @@ mod tests {
     use super::*;
     use crate::{
         authority,
-        store::{MemoryStore, NewSession, NewTree, Store, TreeDocument},
+        store::{Library, MemoryStore, NewSession, Store, tree},
     };
 
     async fn server(authority: Authority) -> Router {
         let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
         let pool = SimulationPool::new(None).unwrap();
-        let oak = NewSession { name: "oak".into(), seed: 1, simulation_version: 1, snapshot: None };
+        let oak = NewSession { name: "oak".into(), seed: 1, simulation_version: 1, ..NewSession::default() };
         store.create_session(oak).await.unwrap();
-        let ash = NewTree {
-            id: "ash".into(),
-            name: "Ash".into(),
-            metamers: 1,
-            saved_at: "2026-05-01T09:00:00.000Z".into(),
-            document: TreeDocument { simulation_version: 1, bytes: vec![1] },
-            thumbnail: None,
-        };
-        store.save_tree(ash).await.unwrap();
+        store.add_tree(tree("ash", "2026-05-01T09:00:00.000Z")).await.unwrap();
         router(Shared {
             sessions: Sessions::new(Arc::clone(&store), pool.clone(), authority, CancellationToken::new()),
             store,
@@ -198,6 +222,7 @@ mod tests {
             metamer_budget: 1000,
             portraits: Portraits::default(),
             authority,
+            opening: Arc::default(),
         })
     }
 
@@ -216,6 +241,7 @@ mod tests {
             .replace("{tree}", "ash")
             .replace("{id}", "1")
             .replace("{slug}", "oak")
+            .replace("{number}", "1")
     }
 
     #[tokio::test]
@@ -239,6 +265,8 @@ mod tests {
         for (path, body) in [
             ("/api/sessions", r#"{"tree":"ash"}"#),
             ("/api/trees", r#"{"session":"oak","name":"Oak"}"#),
+            ("/api/trees/ash/versions", r#"{"session":"oak"}"#),
+            ("/api/trees/ash/copies", r#"{"name":"Oak"}"#),
             ("/api/sessions/oak/tree.glb", ""),
             ("/api/sessions/oak/tree.json", ""),
         ] {
@@ -268,25 +296,6 @@ mod tests {
         }
     }
 
-    #[tokio::test]
-    async fn a_page_goes_on_behind_a_tree_that_is_gone() {
-        let server = server(authority::may).await;
-        let page = async |query: &str| {
-            let request = Request::builder().uri(format!("/api/trees?limit=9{query}"));
-            let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
-            let bytes = axum::body::to_bytes(answer.into_body(), 10_000).await.unwrap();
-            String::from_utf8(bytes.to_vec()).unwrap()
-        };
-        let behind = |id, millisecond| format!("&behind={id}&saved_at=2026-05-01T09:00:00.{millisecond}Z");
-        for (gone, found) in
-            [(behind("elm", "000"), true), (behind("aa", "001"), true), (behind("aa", "000"), false)]
-        {
-            let page = page(&gone).await;
-            assert_eq!(page.contains("\"ash\""), found, "{gone}: {page}");
-        }
-        assert!(page("&behind=ash").await.contains("saved_at is missing"));
-    }
-
     #[test]
     fn the_protocol_lists_every_address() {
         let protocol = include_str!("../../../proto/PROTOCOL.md");
@@ -299,7 +308,7 @@ mod tests {
             .collect();
         let named = |address: &str| {
             let address = address.replace("{session}", "NAME").replace("{slug}", "SLUG");
-            address.replace("{tree}", "ID").replace("{id}", "ID")
+            address.replace("{tree}", "ID").replace("{id}", "ID").replace("{number}", "N")
         };
         let answered = routes().into_iter().map(|route| route.address).chain([SOCKET]);
         assert_eq!(listed, answered.map(named).collect());

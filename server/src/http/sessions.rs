@@ -10,7 +10,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
-    library::{NewSession, SessionCreated},
+    library::{NewSession, SessionCreated, SessionTree},
     version::CloseCode,
 };
 use espalier_session::{DocumentError, Principal, RestoreError, Session};
@@ -18,6 +18,7 @@ use espalier_session::{DocumentError, Principal, RestoreError, Session};
 use super::{
     Shared,
     failure::{Body, Failure},
+    trees,
 };
 use crate::{
     SIMULATION_VERSION,
@@ -25,7 +26,7 @@ use crate::{
     document,
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
     name,
-    store::{self, Store, StoreError},
+    store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
 };
 
 /// Bytes read from a socket at once.
@@ -46,19 +47,69 @@ pub(super) async fn create(
     Extension(principal): Extension<Principal>,
     Body(new): Body<NewSession>,
 ) -> Result<impl IntoResponse, Failure> {
-    let seed = new.seed.unwrap_or_else(rand::random);
-    let snapshot = match new.tree {
-        None => Session::seedling(seed, shared.metamer_budget),
-        Some(id) => {
-            shared.ask(&principal, Action::OpenTree, Object::Tree(&id))?;
-            planted(&shared, &id).await?
-        }
+    let Some(tree) = new.tree else {
+        let seed = new.seed.unwrap_or_else(rand::random);
+        let snapshot = Session::seedling(seed, shared.metamer_budget);
+        return Ok((StatusCode::CREATED, begin(&shared, &principal, seed, snapshot, None).await?));
     };
-    let session = name::unguessable();
-    let (simulation_version, snapshot) = (SIMULATION_VERSION, Some(snapshot));
-    let made = store::NewSession { name: session.clone(), seed, simulation_version, snapshot };
-    shared.store.create_session(made).await?;
-    Ok((StatusCode::CREATED, Json(SessionCreated { session })))
+    shared.ask(&principal, Action::OpenTree, Object::Tree(&tree))?;
+    let stored = trees::stored(&shared, &tree).await?;
+    if stored.deleted_at.is_some() {
+        return Err(Failure::not_found("tree any more: it was deleted, and can be taken back"));
+    }
+    // Two who open a tree at once come into one session.
+    let _one = shared.opening.lock().await;
+    if new.version.is_none()
+        && !new.template
+        && let Some(session) = to_join(&shared, &principal, &stored).await?
+    {
+        return Ok((StatusCode::OK, Json(session)));
+    }
+    let version = new.version.unwrap_or(stored.head.number);
+    let snapshot = planted(&shared, &tree, version).await?;
+    let of = (!new.template).then_some((tree, version));
+    Ok((StatusCode::CREATED, begin(&shared, &principal, new.seed.unwrap_or_default(), snapshot, of).await?))
+}
+
+/// Begins a session.
+async fn begin(
+    shared: &Shared,
+    principal: &Principal,
+    seed: u32,
+    snapshot: Vec<u8>,
+    tree: Option<(String, u32)>,
+) -> Result<Json<SessionCreated>, Failure> {
+    let name = name::unguessable();
+    let new = store::NewSession {
+        name: name.clone(),
+        seed,
+        simulation_version: SIMULATION_VERSION,
+        snapshot: Some(snapshot),
+        principal: Some(principal.to_string()),
+        tree,
+    };
+    shared.store.create_session(new).await?;
+    Ok(Json(told(shared, name).await?))
+}
+
+/// The session of a tree, if somebody else is working there, or if it is as the tree was saved last (`LB3`).
+async fn to_join(
+    shared: &Shared,
+    principal: &Principal,
+    tree: &StoredTree,
+) -> Result<Option<SessionCreated>, Failure> {
+    let Some(session) = &tree.session else { return Ok(None) };
+    let told = told(shared, session.clone()).await?;
+    let is_saved = told.tree.as_ref().is_some_and(|of| of.saved && of.version == tree.head.number);
+    let is_in_work = shared.sessions.people(session).await.iter().any(|other| other != principal);
+    let is_theirs = told.tree.as_ref().is_some_and(|of| of.id == tree.id);
+    Ok((is_theirs && (is_saved || is_in_work)).then_some(told))
+}
+
+async fn told(shared: &Shared, session: String) -> Result<SessionCreated, Failure> {
+    let tree = shared.store.tree_of(&session).await?;
+    let tree = tree.map(|tree| SessionTree { id: tree.id, version: tree.version, saved: tree.is_saved });
+    Ok(SessionCreated { session, tree })
 }
 
 pub(super) async fn find(
@@ -66,7 +117,7 @@ pub(super) async fn find(
     Path(session): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
     if shared.store.has_session(&session).await? {
-        Ok(Json(SessionCreated { session }))
+        Ok(Json(told(&shared, session).await?))
     } else {
         Err(Failure::not_found("session"))
     }
@@ -128,13 +179,22 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
     live::turn_away(socket, code, sentence).await;
 }
 
+/// What was saved of a tree.
+pub(super) async fn saved_document(
+    shared: &Shared,
+    tree: &str,
+    version: u32,
+) -> Result<TreeDocument, Failure> {
+    match shared.store.document(tree, version).await {
+        Ok(document) => document.ok_or_else(|| Failure::not_found("version")),
+        Err(StoreError::Damaged(what)) => Err(unreadable(tree, &what)),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// A snapshot of a new session that goes on with a saved tree.
-async fn planted(shared: &Shared, tree: &str) -> Result<Vec<u8>, Failure> {
-    let document = match shared.store.tree_document(tree).await {
-        Ok(document) => document.ok_or_else(|| Failure::not_found("tree"))?,
-        Err(StoreError::Damaged(what)) => return Err(unreadable(tree, &what)),
-        Err(error) => return Err(error.into()),
-    };
+async fn planted(shared: &Shared, tree: &str, version: u32) -> Result<Vec<u8>, Failure> {
+    let document = saved_document(shared, tree, version).await?;
     let version = document.simulation_version;
     if version > SIMULATION_VERSION {
         return Err(Failure::conflict(format!(

@@ -1,16 +1,17 @@
-//! The library of saved trees.
+//! The library: its trees as a whole.
 
 use std::time::SystemTime;
 
 use axum::{
     Extension, Json,
     extract::{Path, Query, State, rejection::QueryRejection},
-    http::{StatusCode, header},
+    http::StatusCode,
     response::IntoResponse,
 };
+use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, ProblemCode,
-    library::{RenameTree, SaveTree, SavedTree},
+    library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
 };
 use espalier_session::Principal;
 use serde::Deserialize;
@@ -18,16 +19,16 @@ use serde::Deserialize;
 use super::{
     Shared,
     failure::{Body, Failure},
-    sessions, thumbnail,
+    revision::{self, Expected},
+    text,
+    versions::{self, Said, Saving},
 };
 use crate::{
-    SIMULATION_VERSION,
     authority::{Action, Object},
     name,
-    store::{NewTree, Picture, Store, StoredTree, TreeDocument, TreeKey},
+    store::{Contents, Deletion, Library, NewTree, NewVersion, StoredTree, TreeChange, TreePlace, TreeQuery},
 };
 
-const MAX_NAME_CHARACTERS: usize = 80;
 /// Trees in one answer.
 const MAX_TREES: u32 = 500;
 
@@ -37,42 +38,63 @@ const MAX_TREES: u32 = 500;
 pub(super) struct Page {
     /// How many at most.
     limit: Option<u32>,
-    /// The last tree of the page before, which may be gone by now,
-    behind: Option<String>,
-    /// and when it was saved.
-    saved_at: Option<String>,
-}
-
-impl Page {
-    /// The place that the page begins behind.
-    fn key(self) -> Result<Option<TreeKey>, Problem> {
-        let missing = |field: &str| Problem {
-            code: ProblemCode::Malformed,
-            field: Some(field.into()),
-            allowed: Some("as the last tree of the page before has it".into()),
-            message: format!("{field} is missing: a page begins behind the id and the time of a tree"),
-        };
-        match (self.behind, self.saved_at) {
-            (None, None) => Ok(None),
-            (Some(id), Some(saved_at)) => Ok(Some(TreeKey { saved_at, id })),
-            (Some(_), None) => Err(missing("saved_at")),
-            (None, Some(_)) => Err(missing("behind")),
-        }
-    }
+    /// The `next` of the page before.
+    after: Option<String>,
+    #[serde(default)]
+    deleted: bool,
+    template: Option<bool>,
 }
 
 pub(super) async fn list(
     State(shared): State<Shared>,
     page: Result<Query<Page>, QueryRejection>,
-) -> Result<Json<Vec<SavedTree>>, Failure> {
+) -> Result<Json<TreePage>, Failure> {
     let Query(page) = page.map_err(|rejection| Failure::bad_query(&rejection))?;
-    let limit = page.limit.unwrap_or(MAX_TREES);
-    if !(1..=MAX_TREES).contains(&limit) {
-        return Err(Problem::out_of_range("limit", limit, format!("1 to {MAX_TREES}")).into());
+    let limit = limit_of(page.limit, MAX_TREES)?;
+    let after = page.after.as_deref().map(read_place).transpose()?;
+    let query = TreeQuery { is_deleted: page.deleted, is_template: page.template, limit, after };
+    let trees = shared.store.trees(&query).await?;
+    let last = trees.last().filter(|_| trees.len() == limit as usize);
+    let next = last.map(|tree| write_place(&query.place_of(tree)));
+    let mut told = Vec::with_capacity(trees.len());
+    for tree in trees {
+        told.push(to_proto(&shared, tree).await);
     }
-    let behind = page.key()?;
-    let trees = shared.store.trees(limit, behind.as_ref()).await?;
-    Ok(Json(trees.into_iter().map(to_proto).collect()))
+    Ok(Json(TreePage { trees: told, next }))
+}
+
+/// How many were asked for.
+pub(super) fn limit_of(limit: Option<u32>, most: u32) -> Result<u32, Problem> {
+    let limit = limit.unwrap_or(most);
+    if (1..=most).contains(&limit) {
+        Ok(limit)
+    } else {
+        Err(Problem::out_of_range("limit", limit, format!("1 to {most}")))
+    }
+}
+
+/// A place in a list, as whoever lists hands it back unread.
+fn write_place(place: &TreePlace) -> String {
+    URL_SAFE_NO_PAD.encode(format!("{}\0{}", place.id, place.value))
+}
+
+fn read_place(text: &str) -> Result<TreePlace, Problem> {
+    let bytes = URL_SAFE_NO_PAD.decode(text).ok();
+    let read = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
+    let parts = read.as_deref().and_then(|read| read.split_once('\0'));
+    let place = parts.map(|(id, value)| TreePlace { id: id.to_owned(), value: value.to_owned() });
+    place.ok_or_else(|| Problem {
+        field: Some("after".into()),
+        allowed: Some("the next of the page before".into()),
+        ..Problem::new(ProblemCode::Malformed, "after is not the next of a page")
+    })
+}
+
+pub(super) async fn find(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+) -> Result<impl IntoResponse, Failure> {
+    answer(&shared, &id).await
 }
 
 pub(super) async fn save(
@@ -80,113 +102,113 @@ pub(super) async fn save(
     Extension(principal): Extension<Principal>,
     Body(save): Body<SaveTree>,
 ) -> Result<impl IntoResponse, Failure> {
-    let name = parse_name(&save.name)?;
-    let thumbnail = save.thumbnail.as_deref().map(thumbnail::parse).transpose()?;
-    shared.ask(&principal, Action::TakeTree, Object::Session(&save.session))?;
-    let document = sessions::open(&shared, &save.session).await?.read().await?;
-    let tree = keep(&shared, name, document.metamers, document.bytes, thumbnail).await?;
-    Ok((StatusCode::CREATED, Json(tree)))
+    let name = text::name("name", &save.name)?;
+    let SaveTree { session, note, author, thumbnail, .. } = save;
+    let version = versions::read(&shared, &principal, Saving { session, note, author, thumbnail }).await?;
+    Ok((StatusCode::CREATED, add(&shared, name, version).await?))
 }
 
-/// Puts a document into the library.
-pub(super) async fn keep(
+pub(super) async fn copy(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path(id): Path<String>,
+    Body(copy): Body<CopyTree>,
+) -> Result<impl IntoResponse, Failure> {
+    shared.ask(&principal, Action::SaveTree, Object::Server)?;
+    let name = text::name("name", &copy.name)?;
+    let said = Said::parse(copy.author.as_deref(), copy.note.as_deref())?;
+    let version = match copy.version {
+        Some(version) => version,
+        None => stored(&shared, &id).await?.head.number,
+    };
+    let contents = Contents::Of { tree: id, version };
+    let version = versions::new(&principal, said, contents);
+    Ok((StatusCode::CREATED, add(&shared, name, version).await?))
+}
+
+/// Puts a new tree into the library.
+pub(super) async fn add(
     shared: &Shared,
     name: String,
-    metamers: u32,
-    bytes: Vec<u8>,
-    thumbnail: Option<Picture>,
-) -> Result<SavedTree, Failure> {
+    version: NewVersion,
+) -> Result<impl IntoResponse + use<>, Failure> {
     let id = name::unguessable();
-    let tree = NewTree {
-        id: id.clone(),
-        name,
-        metamers,
-        saved_at: humantime::format_rfc3339_millis(SystemTime::now()).to_string(),
-        document: TreeDocument { simulation_version: SIMULATION_VERSION, bytes },
-        thumbnail,
-    };
-    shared.store.save_tree(tree).await?;
-    find(shared, &id).await
+    shared.store.add_tree(NewTree { id: id.clone(), name, version }).await?;
+    answer(shared, &id).await
 }
 
-pub(super) async fn rename(
+pub(super) async fn change(
     State(shared): State<Shared>,
     Path(id): Path<String>,
-    Body(rename): Body<RenameTree>,
+    Expected(expected): Expected,
+    Body(change): Body<ChangeTree>,
 ) -> Result<impl IntoResponse, Failure> {
-    let name = parse_name(&rename.name)?;
-    if !shared.store.rename_tree(&id, &name).await? {
-        return Err(Failure::not_found("tree"));
-    }
-    Ok(Json(find(&shared, &id).await?))
+    let change = TreeChange {
+        name: change.name.map(|name| text::name("name", &name)).transpose()?,
+        note: change.note.map(|note| text::note(&note)).transpose()?,
+        is_template: change.template,
+        ..TreeChange::default()
+    };
+    shared.store.change_tree(&id, expected, change).await?;
+    answer(&shared, &id).await
 }
 
 pub(super) async fn delete(
     State(shared): State<Shared>,
     Path(id): Path<String>,
+    Expected(expected): Expected,
 ) -> Result<StatusCode, Failure> {
-    if shared.store.delete_tree(&id).await? {
-        Ok(StatusCode::NO_CONTENT)
-    } else {
-        Err(Failure::not_found("tree"))
-    }
+    let deletion = Some(Deletion::Deleted(now()));
+    shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
+    Ok(StatusCode::NO_CONTENT)
 }
 
-pub(super) async fn thumbnail(
+pub(super) async fn undelete(
     State(shared): State<Shared>,
     Path(id): Path<String>,
+    Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
-    let picture = shared.store.thumbnail(&id).await?.ok_or_else(|| Failure::not_found("picture"))?;
-    let headers = [
-        (header::CONTENT_TYPE, picture.media_type),
-        // A tree keeps its picture for life, and no two trees share an identifier.
-        (header::CACHE_CONTROL, "private, max-age=31536000, immutable".into()),
-    ];
-    Ok((headers, picture.bytes))
+    let deletion = Some(Deletion::Undeleted);
+    shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
+    answer(&shared, &id).await
 }
 
-async fn find(shared: &Shared, id: &str) -> Result<SavedTree, Failure> {
-    shared.store.tree(id).await?.map(to_proto).ok_or_else(|| Failure::not_found("tree"))
+/// The present time, as the library keeps it.
+pub(super) fn now() -> String {
+    humantime::format_rfc3339_millis(SystemTime::now()).to_string()
 }
 
-fn to_proto(tree: StoredTree) -> SavedTree {
-    let thumbnail = tree.has_thumbnail.then(|| format!("/api/trees/{}/thumbnail", tree.key.id));
+/// A tree as it is now.
+async fn answer(shared: &Shared, id: &str) -> Result<impl IntoResponse + use<>, Failure> {
+    let tree = stored(shared, id).await?;
+    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree).await)))
+}
+
+pub(super) async fn stored(shared: &Shared, id: &str) -> Result<StoredTree, Failure> {
+    shared.store.tree(id).await?.ok_or_else(|| Failure::not_found("tree"))
+}
+
+async fn to_proto(shared: &Shared, tree: StoredTree) -> SavedTree {
+    let people = match &tree.session {
+        Some(session) => shared.sessions.people(session).await.len() as u32,
+        None => 0,
+    };
+    let head = tree.head;
     SavedTree {
-        id: tree.key.id,
+        thumbnail: versions::thumbnail_of(&tree.id, &head),
+        id: tree.id,
         name: tree.name,
-        metamers: tree.metamers,
-        saved_at: tree.key.saved_at,
-        thumbnail,
-    }
-}
-
-pub(super) fn parse_name(name: &str) -> Result<String, Problem> {
-    let name = name.trim();
-    let length = name.chars().count();
-    if !(1..=MAX_NAME_CHARACTERS).contains(&length) {
-        let value = format!("{length} characters long");
-        return Err(Problem::out_of_range("name", value, format!("1 to {MAX_NAME_CHARACTERS} characters")));
-    }
-    if name.chars().any(char::is_control) {
-        return Err(Problem::out_of_range("name", "not plain text", "characters one can see"));
-    }
-    Ok(name.to_owned())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_trimmed_and_counted_in_characters() {
-        assert_eq!(parse_name("  Old oak ").as_deref(), Ok("Old oak"));
-        assert_eq!(parse_name(&"ö".repeat(80)), Ok("ö".repeat(80)));
-        for bad in ["", "   ", "\u{3000}", &"ö".repeat(81), "two\nlines", "bell\u{7}"] {
-            assert_eq!(parse_name(bad).unwrap_err().field.as_deref(), Some("name"), "{bad:?}");
-        }
-        assert_eq!(
-            parse_name("").unwrap_err().message,
-            "name is 0 characters long; allowed: 1 to 80 characters"
-        );
+        note: tree.note,
+        version: head.number,
+        metamers: head.metamers,
+        saved_at: head.saved_at,
+        author: head.author,
+        species: head.species,
+        created_at: tree.created_at,
+        template: tree.is_template,
+        origin: tree.origin.map(|(tree, version)| Origin { tree, version }),
+        deleted_at: tree.deleted_at,
+        people,
+        revision: tree.revision,
     }
 }

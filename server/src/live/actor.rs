@@ -9,7 +9,8 @@ use std::{
 
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
-    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadId, Session, Work,
+    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId, Session,
+    Work,
 };
 use espalier_settings::ParameterValues;
 use tokio::{
@@ -33,15 +34,6 @@ const IDLE: Duration = Duration::from_secs(60);
 /// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
 
-/// The document at one moment.
-#[derive(Debug)]
-pub struct DocumentBytes {
-    /// For `Document::from_bytes`.
-    pub bytes: Vec<u8>,
-    /// Living metamers.
-    pub metamers: u32,
-}
-
 #[derive(Debug)]
 pub(super) enum Request {
     Join(Outbox, oneshot::Sender<ClientId>),
@@ -50,10 +42,11 @@ pub(super) enum Request {
     /// So many control messages have gone out.
     Written(ClientId, usize),
     Leave(ClientId),
-    Read(oneshot::Sender<DocumentBytes>),
+    Read(oneshot::Sender<ReadDocument>),
     Act(Principal, Box<Command>, oneshot::Sender<Outcome>),
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
+    People(oneshot::Sender<Vec<Principal>>),
 }
 
 /// What became of a command from outside: the obstacle it placed, if it placed one.
@@ -100,7 +93,7 @@ impl SessionHandle {
     }
 
     /// The document as it is now.
-    pub async fn read(&self) -> Result<DocumentBytes, Ended> {
+    pub async fn read(&self) -> Result<ReadDocument, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Read(answer)).await?;
         answered.await.map_err(|_| Ended)
@@ -110,6 +103,13 @@ impl SessionHandle {
     pub async fn act(&self, principal: Principal, command: Command) -> Result<Outcome, Ended> {
         let (answer, answered) = oneshot::channel();
         self.send(Request::Act(principal, Box::new(command), answer)).await?;
+        answered.await.map_err(|_| Ended)
+    }
+
+    /// Who is here, once for each of their clients.
+    pub async fn people(&self) -> Result<Vec<Principal>, Ended> {
+        let (answer, answered) = oneshot::channel();
+        self.send(Request::People(answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 
@@ -149,7 +149,7 @@ pub(super) struct Actor {
     errand: mpsc::UnboundedSender<Errand>,
     clients: BTreeMap<ClientId, Outbox>,
     next_client: u64,
-    reads: BTreeMap<u64, oneshot::Sender<DocumentBytes>>,
+    reads: BTreeMap<u64, oneshot::Sender<ReadDocument>>,
     next_read: u64,
     acts: BTreeMap<u64, oneshot::Sender<Outcome>>,
     next_act: u64,
@@ -314,6 +314,10 @@ impl Actor {
                 let _ = answer.send(self.session.mesh(obstacle));
                 return None;
             }
+            Request::People(answer) => {
+                let _ = answer.send(self.session.people().cloned().collect());
+                return None;
+            }
         })
     }
 
@@ -369,9 +373,9 @@ impl Actor {
             Output::Predict(prediction) => self.start_prediction(prediction),
             Output::Snapshot { through, bytes } => self.keep_snapshot(through, bytes),
             Output::Notified => self.forget_notices(),
-            Output::Document { read, bytes, metamers } => {
+            Output::Document { read, document } => {
                 if let Some(answer) = self.reads.remove(&read.0) {
-                    let _ = answer.send(DocumentBytes { bytes, metamers });
+                    let _ = answer.send(document);
                 }
             }
             Output::Acted { act, outcome } => {

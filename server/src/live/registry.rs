@@ -5,6 +5,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
 };
 
+use espalier_session::Principal;
 use tokio::{
     sync::{OnceCell, OwnedSemaphorePermit, Semaphore},
     time::Instant,
@@ -82,6 +83,15 @@ impl Sessions {
                     };
                 }
             }
+        }
+    }
+
+    /// Who is in the session of this name; nobody where it is not in memory.
+    pub async fn people(&self, name: &str) -> Vec<Principal> {
+        let slot = self.0.slots().get(name).cloned();
+        match slot.as_ref().and_then(|slot| slot.get()) {
+            Some(session) => session.people().await.unwrap_or_default(),
+            None => Vec::new(),
         }
     }
 

@@ -1,17 +1,23 @@
 //! What every store must do, as tests: `contract::all(make)` runs them on stores that `make` gives, each empty.
 
+mod library;
+
 use std::ops::RangeInclusive;
 
 use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
-use super::{
-    Damage, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError, StoredSession, TreeDocument,
-    TreeKey,
+pub use self::library::tree;
+pub(super) use self::library::tree_of_bytes;
+use self::library::{
+    every_save_is_a_version, one_of_two_wins, pages_hold_each_tree_once, sessions_belong_to_trees,
+    trees_are_listed_newest_first, trees_come_back_whole, versions_are_restored_and_copied,
+    what_is_deleted_comes_back_whole, what_was_deleted_long_ago_goes,
 };
+use super::{Damage, Lease, Library, NewSession, NewSnapshot, Store, StoreError, StoredSession};
 
 /// A store whose parts can be damaged behind its back.
-pub trait Breakable: Store {
+pub trait Breakable: Store + Library {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -24,10 +30,12 @@ pub trait Breakable: Store {
     async fn lose_snapshot(&self, session: &str, through: u64);
     /// Changes a byte of a snapshot.
     async fn break_snapshot(&self, session: &str, through: u64);
-    /// Changes a byte of a document.
+    /// Changes a byte of each document of a tree.
     async fn break_tree(&self, id: &str);
     /// Changes the name of a tree.
     async fn break_name(&self, id: &str);
+    /// Has the two versions of a tree hold each other's documents.
+    async fn swap_documents(&self, id: &str);
     /// How many parts of a session are kept aside.
     async fn set_aside_parts(&self, session: &str) -> usize;
 }
@@ -58,7 +66,12 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         trees_are_listed_newest_first,
         pages_hold_each_tree_once,
         trees_come_back_whole,
-        changes_say_whether_there_was_a_tree,
+        every_save_is_a_version,
+        one_of_two_wins,
+        versions_are_restored_and_copied,
+        what_is_deleted_comes_back_whole,
+        what_was_deleted_long_ago_goes,
+        sessions_belong_to_trees,
         a_closed_store_takes_nothing,
     );
 }
@@ -80,17 +93,7 @@ pub(super) fn oak(snapshot: Option<&[u8]>) -> NewSession {
         seed: u32::MAX,
         simulation_version: 3,
         snapshot: snapshot.map(<[u8]>::to_vec),
-    }
-}
-
-pub(super) fn tree(id: &str, saved_at: &str) -> NewTree {
-    NewTree {
-        id: id.into(),
-        name: format!("The {id}"),
-        metamers: 4_000_000_000,
-        saved_at: saved_at.into(),
-        document: TreeDocument { simulation_version: 3, bytes: id.as_bytes().to_vec() },
-        thumbnail: None,
+        ..NewSession::default()
     }
 }
 
@@ -315,78 +318,6 @@ async fn notices_are_kept_until_somebody_has_had_them(store: &impl Store) {
     assert_eq!(load(store).await.notices, [damaged, regrown]);
     store.forget_notices(&lease).await.unwrap();
     assert_eq!(load(store).await.notices, []);
-}
-
-async fn ids(store: &impl Store, limit: u32, behind: Option<&TreeKey>) -> Vec<String> {
-    store.trees(limit, behind).await.unwrap().into_iter().map(|tree| tree.key.id).collect()
-}
-
-async fn trees_are_listed_newest_first(store: &impl Store) {
-    assert!(store.trees(9, None).await.unwrap().is_empty());
-    for (id, hour) in [("ash", 9), ("birch", 8), ("cedar", 10)] {
-        store.save_tree(tree(id, &format!("2026-05-01T{hour:02}:00:00.000Z"))).await.unwrap();
-    }
-    assert_eq!(ids(store, 9, None).await, ["cedar", "ash", "birch"]);
-    let ash = store.tree("ash").await.unwrap().unwrap();
-    assert_eq!((ash.name.as_str(), ash.metamers, ash.has_thumbnail), ("The ash", 4_000_000_000, false));
-    assert_eq!(ash.key.saved_at, "2026-05-01T09:00:00.000Z");
-    assert_eq!(ids(store, 9, Some(&ash.key)).await, ["birch"]);
-    // The tree at which a page ended may be gone by the next.
-    store.delete_tree("ash").await.unwrap();
-    assert_eq!(ids(store, 9, Some(&ash.key)).await, ["birch"]);
-}
-
-/// ST5 of the contract: pages over equal times hold each tree once, while others are saved.
-async fn pages_hold_each_tree_once(store: &impl Store) {
-    const TIME: &str = "2026-05-01T09:00:00.000Z";
-    for number in 0..100 {
-        store.save_tree(tree(&format!("tree-{number:03}"), TIME)).await.unwrap();
-    }
-    let mut seen: Vec<String> = Vec::new();
-    let mut behind = None;
-    while let Some(last) = {
-        let page = store.trees(7, behind.as_ref()).await.unwrap();
-        seen.extend(page.iter().map(|tree| tree.key.id.clone()));
-        page.last().map(|tree| tree.key.clone())
-    } {
-        behind = Some(last);
-        store.save_tree(tree(&format!("young-{}", seen.len()), "2026-05-01T09:00:01.000Z")).await.unwrap();
-    }
-    let all: Vec<String> = (0..100).rev().map(|number| format!("tree-{number:03}")).collect();
-    assert_eq!(seen, all);
-}
-
-async fn trees_come_back_whole(store: &impl Breakable) {
-    let picture = Picture { media_type: "image/png".into(), bytes: vec![1, 2, 3] };
-    let with_picture = NewTree { thumbnail: Some(picture.clone()), ..tree("ash", "2026") };
-    store.save_tree(with_picture).await.unwrap();
-    store.save_tree(tree("birch", "2026")).await.unwrap();
-    let document = TreeDocument { simulation_version: 3, bytes: b"ash".to_vec() };
-    assert_eq!(store.tree_document("ash").await.unwrap(), Some(document));
-    assert_eq!(store.tree_document("elm").await.unwrap(), None);
-    assert_eq!(store.thumbnail("ash").await.unwrap(), Some(picture));
-    assert_eq!(store.thumbnail("birch").await.unwrap(), None);
-    assert_eq!(store.thumbnail("elm").await.unwrap(), None);
-    assert!(store.tree("ash").await.unwrap().unwrap().has_thumbnail);
-    store.break_tree("birch").await;
-    assert!(matches!(store.tree_document("birch").await, Err(StoreError::Damaged(_))));
-    assert!(store.tree_document("ash").await.is_ok(), "the others are whole");
-    store.rename_tree("ash", "Old ash").await.unwrap();
-    assert!(store.tree_document("ash").await.is_ok(), "it is whole under its new name");
-    store.break_name("ash").await;
-    assert!(matches!(store.tree_document("ash").await, Err(StoreError::Damaged(_))));
-    store.rename_tree("ash", "Ash").await.unwrap();
-    assert!(store.tree_document("ash").await.is_err(), "another name mends nothing");
-}
-
-async fn changes_say_whether_there_was_a_tree(store: &impl Store) {
-    store.save_tree(tree("ash", "2026")).await.unwrap();
-    assert!(store.rename_tree("ash", "Old ash").await.unwrap());
-    assert!(!store.rename_tree("elm", "Elm").await.unwrap());
-    assert_eq!(store.tree("ash").await.unwrap().unwrap().name, "Old ash");
-    assert!(store.delete_tree("ash").await.unwrap());
-    assert!(!store.delete_tree("ash").await.unwrap());
-    assert_eq!(store.tree("ash").await.unwrap(), None);
 }
 
 async fn a_closed_store_takes_nothing(store: &impl Store) {

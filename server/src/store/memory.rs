@@ -1,5 +1,7 @@
 //! The model of a store: what the contract means, in the plainest way. It forgets all when it is dropped.
 
+mod library;
+
 use std::{
     collections::BTreeMap,
     sync::{Mutex, MutexGuard, PoisonError},
@@ -9,10 +11,9 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError,
-    StoredSession, StoredTree, TreeDocument, TreeKey,
+    Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Store, StoreError, StoredSession,
     lease::Leases,
-    seal::{Found, JournalRow, SessionRow, SnapshotRow, tree_sum},
+    seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
 
 /// A store in memory.
@@ -26,7 +27,7 @@ pub struct MemoryStore {
 struct Kept {
     closed: bool,
     sessions: BTreeMap<String, Session>,
-    trees: BTreeMap<TreeKey, (NewTree, u32)>,
+    trees: BTreeMap<String, library::Tree>,
 }
 
 #[derive(Debug)]
@@ -36,6 +37,9 @@ struct Session {
     /// In order of what they contain.
     snapshots: Vec<SnapshotRow>,
     aside: usize,
+    /// The tree it belongs to, and its version.
+    tree: Option<(String, u32)>,
+    saved_through: u64,
 }
 
 impl MemoryStore {
@@ -88,7 +92,14 @@ impl Store for MemoryStore {
         let row = SessionRow::new(&new);
         let snapshot = |bytes| SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes);
         let snapshots = new.snapshot.map(snapshot).into_iter().collect();
-        let session = Session { row, journal: Vec::new(), snapshots, aside: 0 };
+        if let Some((tree, version)) = &new.tree
+            && let Some(tree) = kept.trees.get_mut(tree)
+            && tree.versions.len() == *version as usize
+        {
+            tree.session = Some(new.name.clone());
+        }
+        let (tree, saved_through) = (new.tree, 0);
+        let session = Session { row, journal: Vec::new(), snapshots, aside: 0, tree, saved_through };
         kept.sessions.insert(new.name, session);
         Ok(())
     }
@@ -204,74 +215,8 @@ impl Store for MemoryStore {
         })
     }
 
-    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
-        let mut kept = self.writing()?;
-        let key = TreeKey { saved_at: tree.saved_at.clone(), id: tree.id.clone() };
-        let checksum = tree_sum(&tree);
-        kept.trees.insert(key, (tree, checksum));
-        Ok(())
-    }
-
-    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
-        let mut kept = self.writing()?;
-        let Some((tree, checksum)) = kept.trees.values_mut().find(|(tree, _)| tree.id == id) else {
-            return Ok(false);
-        };
-        let is_whole = *checksum == tree_sum(tree);
-        tree.name = name.to_owned();
-        if is_whole {
-            *checksum = tree_sum(tree);
-        }
-        Ok(true)
-    }
-
-    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
-        let mut kept = self.writing()?;
-        let before = kept.trees.len();
-        kept.trees.retain(|key, _| key.id != id);
-        Ok(kept.trees.len() < before)
-    }
-
-    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError> {
-        let kept = self.kept();
-        let trees = kept.trees.iter().rev().filter(|(key, _)| behind.is_none_or(|behind| *key < behind));
-        Ok(trees.take(limit as usize).map(|(key, (tree, _))| line(key, tree)).collect())
-    }
-
-    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
-        let kept = self.kept();
-        let tree = kept.trees.iter().find(|(key, _)| key.id == id);
-        Ok(tree.map(|(key, (tree, _))| line(key, tree)))
-    }
-
-    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError> {
-        let kept = self.kept();
-        let Some((tree, checksum)) = kept.trees.values().find(|(tree, _)| tree.id == id) else {
-            return Ok(None);
-        };
-        if *checksum != tree_sum(tree) {
-            return Err(StoreError::Damaged(format!("the tree {id} is damaged")));
-        }
-        Ok(Some(tree.document.clone()))
-    }
-
-    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError> {
-        let kept = self.kept();
-        let tree = kept.trees.values().find(|(tree, _)| tree.id == id);
-        Ok(tree.and_then(|(tree, _)| tree.thumbnail.clone()))
-    }
-
     async fn close(&self) {
         self.kept().closed = true;
-    }
-}
-
-fn line(key: &TreeKey, tree: &NewTree) -> StoredTree {
-    StoredTree {
-        key: key.clone(),
-        name: tree.name.clone(),
-        metamers: tree.metamers,
-        has_thumbnail: tree.thumbnail.is_some(),
     }
 }
 
@@ -314,15 +259,20 @@ impl super::contract::Breakable for MemoryStore {
 
     async fn break_tree(&self, id: &str) {
         let mut kept = self.kept();
-        for (tree, _) in kept.trees.values_mut().filter(|(tree, _)| tree.id == id) {
-            tree.document.bytes[0] ^= 1;
-        }
+        let tree = kept.trees.get_mut(id).unwrap();
+        tree.versions.iter_mut().for_each(|version| version.saved.document.bytes[0] ^= 1);
     }
 
     async fn break_name(&self, id: &str) {
-        for (tree, _) in self.kept().trees.values_mut().filter(|(tree, _)| tree.id == id) {
-            tree.name.push('!');
-        }
+        self.kept().trees.get_mut(id).unwrap().name.push('!');
+    }
+
+    async fn swap_documents(&self, id: &str) {
+        let mut kept = self.kept();
+        let versions = &mut kept.trees.get_mut(id).unwrap().versions;
+        let (first, second) = versions.split_at_mut(1);
+        std::mem::swap(&mut first[0].saved, &mut second[0].saved);
+        std::mem::swap(&mut first[0].hash, &mut second[0].hash);
     }
 
     async fn set_aside_parts(&self, session: &str) -> usize {

@@ -1,11 +1,12 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`] is the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`] and [`Library`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 #[cfg(test)]
 mod contract;
 mod lease;
+mod library;
 #[cfg(test)]
 mod memory;
 mod seal;
@@ -17,16 +18,23 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 #[cfg(test)]
-pub use self::{contract::Breakable, memory::MemoryStore};
+pub use self::{
+    contract::{Breakable, tree},
+    memory::MemoryStore,
+};
 pub use self::{
     lease::Lease,
+    library::{
+        Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
+        StoredVersion, TreeChange, TreeDocument, TreePlace, TreeQuery,
+    },
     sqlite::{OpenError, SqliteStore},
 };
 
 /// Snapshots kept of each session: the last one, and one before it should the last be damaged.
 const KEPT_SNAPSHOTS: usize = 2;
 
-/// Keeps sessions and trees. What a call that writes has returned from is durable.
+/// Keeps sessions. What a call that writes has returned from is durable.
 pub trait Store {
     /// Makes a session, which may start from a snapshot before its first entry.
     async fn create_session(&self, new: NewSession) -> Result<(), StoreError>;
@@ -67,27 +75,6 @@ pub trait Store {
     /// Keeps a snapshot, and drops the entries that no kept snapshot needs for its replay.
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError>;
 
-    /// Puts a tree into the library.
-    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError>;
-
-    /// Gives a tree another name; answers whether there is such a tree.
-    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError>;
-
-    /// Takes a tree out of the library; answers whether there was such a tree.
-    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError>;
-
-    /// So many trees, newest first and by id where times are equal; those behind a place, if one is given.
-    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError>;
-
-    /// One line of the library.
-    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError>;
-
-    /// A tree's document.
-    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError>;
-
-    /// A tree's picture, if there is such a tree and it has one.
-    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError>;
-
     /// Finishes what is being written; every later write fails.
     async fn close(&self);
 }
@@ -120,6 +107,12 @@ pub enum StoreError {
         /// The one that was to follow.
         found: u64,
     },
+    /// There is no such tree or version.
+    #[error("there is no such tree or version")]
+    NotFound,
+    /// A tree is at another revision than was expected.
+    #[error("the tree has changed meanwhile")]
+    Stale,
     /// The store has been closed; the server is stopping.
     #[error("the store is closed")]
     Closed,
@@ -133,13 +126,15 @@ impl StoreError {
             Self::Damaged(_) => "its database is damaged",
             Self::Later(_) => "a newer program wrote to its database",
             Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
+            Self::NotFound => "it is not there",
+            Self::Stale => "it has changed meanwhile",
             Self::Closed => "it is stopping",
         }
     }
 }
 
 /// A session to be made.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct NewSession {
     /// Its name.
     pub name: String,
@@ -149,6 +144,10 @@ pub struct NewSession {
     pub simulation_version: u32,
     /// Its state before the first entry.
     pub snapshot: Option<Vec<u8>>,
+    /// Who begins it.
+    pub principal: Option<String>,
+    /// The tree that it belongs to, and the version that it begins with.
+    pub tree: Option<(String, u32)>,
 }
 
 /// A snapshot to be kept.
@@ -202,63 +201,6 @@ impl Damage {
             Self::Journal(_) => None,
         }
     }
-}
-
-/// A picture as it was handed in.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// `image/png`, `image/jpeg` or `image/webp`.
-    pub media_type: String,
-    /// The file.
-    pub bytes: Vec<u8>,
-}
-
-/// A tree to be saved.
-#[derive(Clone, Debug)]
-pub struct NewTree {
-    /// Its identifier, made by the caller.
-    pub id: String,
-    /// Its name.
-    pub name: String,
-    /// Living metamers.
-    pub metamers: u32,
-    /// When: RFC 3339, UTC, with milliseconds, so that times order as texts do.
-    pub saved_at: String,
-    /// The document.
-    pub document: TreeDocument,
-    /// Its picture.
-    pub thumbnail: Option<Picture>,
-}
-
-/// The document of a saved tree.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct TreeDocument {
-    /// The version of the simulation that grew it.
-    pub simulation_version: u32,
-    /// The document's bytes.
-    pub bytes: Vec<u8>,
-}
-
-/// A tree's place in the library.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct TreeKey {
-    /// When it was saved.
-    pub saved_at: String,
-    /// Its identifier.
-    pub id: String,
-}
-
-/// One line of the library.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StoredTree {
-    /// Its place.
-    pub key: TreeKey,
-    /// Its name.
-    pub name: String,
-    /// Living metamers.
-    pub metamers: u32,
-    /// Whether it has a picture.
-    pub has_thumbnail: bool,
 }
 
 /// The store that the server was started with.
@@ -333,35 +275,64 @@ impl Store for AnyStore {
         delegate!(self.keep_snapshot(lease, snapshot))
     }
 
-    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
-        delegate!(self.save_tree(tree))
+    async fn close(&self) {
+        delegate!(self.close());
+    }
+}
+
+impl Library for AnyStore {
+    async fn add_tree(&self, tree: NewTree) -> Result<(), StoreError> {
+        delegate!(self.add_tree(tree))
     }
 
-    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
-        delegate!(self.rename_tree(id, name))
+    async fn add_version(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        version: NewVersion,
+    ) -> Result<u32, StoreError> {
+        delegate!(self.add_version(tree, expected, version))
     }
 
-    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
-        delegate!(self.delete_tree(id))
+    async fn change_tree(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        change: TreeChange,
+    ) -> Result<(), StoreError> {
+        delegate!(self.change_tree(tree, expected, change))
     }
 
-    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError> {
-        delegate!(self.trees(limit, behind))
+    async fn trees(&self, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
+        delegate!(self.trees(query))
     }
 
     async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
         delegate!(self.tree(id))
     }
 
-    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError> {
-        delegate!(self.tree_document(id))
+    async fn versions(
+        &self,
+        tree: &str,
+        limit: u32,
+        before: Option<u32>,
+    ) -> Result<Vec<StoredVersion>, StoreError> {
+        delegate!(self.versions(tree, limit, before))
     }
 
-    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError> {
-        delegate!(self.thumbnail(id))
+    async fn document(&self, tree: &str, version: u32) -> Result<Option<TreeDocument>, StoreError> {
+        delegate!(self.document(tree, version))
     }
 
-    async fn close(&self) {
-        delegate!(self.close());
+    async fn thumbnail(&self, tree: &str, version: u32) -> Result<Option<Picture>, StoreError> {
+        delegate!(self.thumbnail(tree, version))
+    }
+
+    async fn tree_of(&self, session: &str) -> Result<Option<SessionTree>, StoreError> {
+        delegate!(self.tree_of(session))
+    }
+
+    async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
+        delegate!(self.purge(before, limit))
     }
 }

@@ -8,8 +8,9 @@ use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal, read_command};
 use flate2::Crc;
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
-use super::{Damage, NewSession, NewTree, StoreError, StoredSession};
+use super::{Damage, NewSession, StoreError, StoredSession, TreeDocument};
 
 /// This program, as it is named in what it writes.
 const PROGRAM: &str = env!("CARGO_PKG_VERSION");
@@ -265,15 +266,20 @@ impl Found {
     }
 }
 
-/// Of a saved tree.
-pub(super) fn tree_sum(tree: &NewTree) -> u32 {
-    let NewTree { id, name, document, .. } = tree;
-    tree_sum_of(id, name, document.simulation_version, &document.bytes)
+/// SHA-256 of a saved document and the version of the simulation that grew it.
+pub(super) fn document_hash(document: &TreeDocument) -> Vec<u8> {
+    let hash = Sha256::new().chain_update(document.simulation_version.to_le_bytes());
+    hash.chain_update(&document.bytes).finalize().to_vec()
 }
 
-/// The same from its parts.
-pub(super) fn tree_sum_of(id: &str, name: &str, simulation_version: u32, document: &[u8]) -> u32 {
-    sum(&[id.as_bytes(), &[0], name.as_bytes(), &[0], &simulation_version.to_le_bytes(), document])
+/// Of a tree's row.
+pub(super) fn tree_sum(key: &str, name: &str, head: u32) -> u32 {
+    sum(&[key.as_bytes(), &[0], name.as_bytes(), &[0], &head.to_le_bytes()])
+}
+
+/// Of a version's row; the documents of earlier programs have no hash.
+pub(super) fn version_sum(key: &str, number: u32, hash: Option<&[u8]>) -> u32 {
+    sum(&[key.as_bytes(), &[0], &number.to_le_bytes(), hash.unwrap_or_default()])
 }
 
 fn snapshot_sum(session: &str, simulation_version: u32, through: u64, bytes: &[u8]) -> u32 {

@@ -70,7 +70,7 @@ async fn looks_outlive_a_kill_and_go_with_saved_trees() {
     let body = json!({"session": session, "name": "Birch"});
     let saved = http::send(server.port(), "POST", "/api/trees", Some(&body)).expect("the server answers");
     assert_eq!(saved.status, 201, "{}", saved.text());
-    let opened = json!({"tree": saved.json()["id"]});
+    let opened = json!({"tree": saved.json()["id"], "template": true});
     let opened = http::send(server.port(), "POST", "/api/sessions", Some(&opened)).expect("an answer");
     let other = opened.json()["session"].as_str().expect("a session").to_owned();
     let mut visitor = Client::connect(server.port(), &other, "browser-3").await;

@@ -20,7 +20,7 @@ fn post(server: &Server, query: &str, file: &str) -> Answer {
 
 fn saved(server: &Server) -> usize {
     let list = http::get(server.port(), "/api/trees").expect("the server answers").json();
-    list.as_array().map_or(0, Vec::len)
+    list["trees"].as_array().map_or(0, Vec::len)
 }
 
 #[tokio::test]

@@ -4,15 +4,15 @@ use serde_json::{Value, json};
 /// A PNG of one red pixel.
 const PICTURE: &str = "data:image/png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8jx0gAAAABJRU5ErkJggg==";
 
-struct Library {
-    server: Server,
-    client: Client,
+pub(super) struct Library {
+    pub(super) server: Server,
+    pub(super) client: Client,
     _scratch: Scratch,
 }
 
 impl Library {
     /// A server with one session in which something has grown.
-    async fn new() -> Self {
+    pub(super) async fn new() -> Self {
         let scratch = Scratch::new();
         let server = Server::start(&scratch.path("trees.db"));
         let session = server.new_session(7);
@@ -24,20 +24,20 @@ impl Library {
         Self { server, client, _scratch: scratch }
     }
 
-    fn ask(&self, method: &str, path: &str, body: Option<Value>) -> http::Answer {
+    pub(super) fn ask(&self, method: &str, path: &str, body: Option<Value>) -> http::Answer {
         http::send(self.server.port(), method, path, body.as_ref()).expect("the server answers")
     }
 
-    fn save(&self, name: &str) -> Value {
+    pub(super) fn save(&self, name: &str) -> Value {
         let body = json!({"session": self.client.session, "name": name, "thumbnail": PICTURE});
         let answer = self.ask("POST", "/api/trees", Some(body));
         assert_eq!(answer.status, 201, "{}", answer.text());
         answer.json()
     }
 
-    fn names(&self) -> Vec<String> {
+    pub(super) fn names(&self) -> Vec<String> {
         let list = self.ask("GET", "/api/trees", None).json();
-        let trees = list.as_array().expect("the library is a list");
+        let trees = list["trees"].as_array().expect("the library is a list");
         trees.iter().map(|tree| tree["name"].as_str().expect("a tree has a name").to_owned()).collect()
     }
 }
@@ -74,7 +74,7 @@ async fn a_thumbnail_comes_back_as_it_was() {
     let tree = library.save("Pear");
     let id = tree["id"].as_str().expect("a tree has an id");
     let link = tree["thumbnail"].as_str().expect("a tree with a picture has a link to it");
-    assert_eq!(link, format!("/api/trees/{id}/thumbnail"));
+    assert_eq!(link, format!("/api/trees/{id}/versions/1/thumbnail"));
     let picture = library.ask("GET", link, None);
     assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
     assert!(picture.body.starts_with(b"\x89PNG\r\n\x1a\n") && picture.body.ends_with(b"IEND\xaeB`\x82"));
@@ -84,7 +84,7 @@ async fn a_thumbnail_comes_back_as_it_was() {
 async fn a_reopened_tree_is_the_same_and_another_document() {
     let mut library = Library::new().await;
     let tree = library.save("Pear");
-    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"]})));
+    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"], "template": true})));
     assert_eq!(answer.status, 201, "{}", answer.text());
     let session = answer.json()["session"].as_str().expect("a session has a name").to_owned();
     assert_ne!(session, library.client.session);
@@ -108,7 +108,8 @@ async fn the_library_outlives_a_kill() {
     library.server = library.server.kill_and_restart();
     assert_eq!(library.names(), ["Pear"]);
     let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"]})));
-    assert_eq!(answer.status, 201, "{}", answer.text());
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    assert_eq!(answer.json()["session"], json!(library.client.session), "it is as it was saved");
 }
 
 #[tokio::test]
@@ -144,7 +145,7 @@ async fn bad_requests_name_what_is_wrong() {
         assert!(said.contains(word), "{shown}: {said}");
     }
     assert_eq!(library.ask("GET", "/api/sessions/nowhere", None).status, 404);
-    assert_eq!(library.ask("GET", "/api/trees/nothing/thumbnail", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/trees/nothing/versions/1/thumbnail", None).status, 404);
     assert_eq!(library.names(), Vec::<String>::new());
 }
 

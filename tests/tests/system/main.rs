@@ -16,3 +16,4 @@ mod slow_clients;
 mod species;
 mod startup;
 mod upgrades;
+mod versions;

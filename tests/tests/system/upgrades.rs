@@ -115,12 +115,14 @@ async fn op1_kept_sessions_open_are_undone_redone_and_grown_on() {
 async fn op1_a_kept_tree_opens_under_this_and_any_later_simulation() {
     let scratch = Scratch::new();
     let path = copy_of(&scratch, "clean-stop.db");
+    assert!(Server::start(&path).terminate().success(), "its schema is today's from here on");
     for (version, status) in [(SIMULATION_VERSION, 201), (KEPT_SIMULATION, 201), (2, 201), (99, 409)] {
-        change(&path, &format!("UPDATE trees SET simulation_version = {version}")).await;
+        change(&path, &format!("UPDATE documents SET simulation_version = {version}")).await;
         let server = Server::start(&path);
         let trees = http::get(server.port(), "/api/trees").expect("the server answers").json();
-        let (id, metamers) = (trees[0]["id"].clone(), trees[0]["metamers"].clone());
-        let opened = http::send(server.port(), "POST", "/api/sessions", Some(&json!({ "tree": id })));
+        let (id, metamers) = (trees["trees"][0]["id"].clone(), trees["trees"][0]["metamers"].clone());
+        let open = json!({ "tree": id, "version": 1 });
+        let opened = http::send(server.port(), "POST", "/api/sessions", Some(&open));
         let opened = opened.expect("the server answers");
         assert_eq!(opened.status, status, "{}", opened.text());
         if status == 201 {
@@ -260,9 +262,9 @@ async fn a_damaged_tree_is_said_to_be_damaged() {
     let server = Server::start(&path);
     let save = json!({ "session": server.new_session(7), "name": "Oak" });
     let saved = http::send(server.port(), "POST", "/api/trees", Some(&save)).expect("the server answers");
-    let tree = json!({ "tree": saved.json()["id"] });
+    let tree = json!({ "tree": saved.json()["id"], "version": 1 });
     assert!(server.terminate().success());
-    change(&path, "UPDATE trees SET document = substr(document, 2)").await;
+    change(&path, "UPDATE documents SET bytes = substr(bytes, 2)").await;
     let server = Server::start(&path);
     let opened = http::send(server.port(), "POST", "/api/sessions", Some(&tree)).expect("the server answers");
     assert_eq!(opened.status, 409, "{}", opened.text());

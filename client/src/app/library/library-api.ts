@@ -1,17 +1,10 @@
-import type { RenameTree, SavedTree, SaveTree } from "../../wire/generated";
+import type { ChangeTree, SavedTree, SaveTree, TreePage } from "../../wire/generated";
 import { ask } from "../requests/request";
 
-/** What a page of the library begins behind: the last tree of the page before, which may be gone by now. */
-export type Behind = Pick<SavedTree, "id" | "saved_at">;
-
-/** So many saved trees, newest first; behind the one named, if one is. */
-export function listTrees(limit: number, behind?: Behind): Promise<SavedTree[]> {
-  const page = new URLSearchParams({ limit: String(limit) });
-  if (behind !== undefined) {
-    page.set("behind", behind.id);
-    page.set("saved_at", behind.saved_at);
-  }
-  return ask<SavedTree[]>("GET", `/api/trees?${page}`);
+/** So many saved trees, newest first; those behind another page, if its `next` is given. */
+export function listTrees(limit: number, after?: string): Promise<TreePage> {
+  const page = new URLSearchParams({ limit: String(limit), ...(after === undefined ? {} : { after }) });
+  return ask<TreePage>("GET", `/api/trees?${page}`);
 }
 
 /** Saves a session's plants in the library. */
@@ -20,7 +13,7 @@ export function saveTree(request: SaveTree): Promise<SavedTree> {
 }
 
 export function renameTree(id: string, name: string): Promise<SavedTree> {
-  const request: RenameTree = { name };
+  const request: ChangeTree = { name };
   return ask<SavedTree>("PATCH", `/api/trees/${encodeURIComponent(id)}`, request);
 }
 

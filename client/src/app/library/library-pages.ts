@@ -1,6 +1,5 @@
 import { signal } from "@preact/signals";
-import type { SavedTree } from "../../wire/generated";
-import type { Behind } from "./library-api";
+import type { SavedTree, TreePage } from "../../wire/generated";
 
 /** So many trees come at once: some screens full. */
 export const PAGE = 48;
@@ -13,10 +12,12 @@ export class LibraryPages {
   readonly failure = signal<unknown>(null);
   /** Whether there are more. */
   readonly more = signal(true);
-  #list: (limit: number, behind?: Behind) => Promise<SavedTree[]>;
+  #list: (limit: number, after?: string) => Promise<TreePage>;
   #asking = false;
+  /** Where the next page begins. */
+  #after: string | undefined;
 
-  constructor(list: (limit: number, behind?: Behind) => Promise<SavedTree[]>) {
+  constructor(list: (limit: number, after?: string) => Promise<TreePage>) {
     this.#list = list;
   }
 
@@ -26,14 +27,14 @@ export class LibraryPages {
       return;
     }
     this.#asking = true;
-    const here = this.trees.peek() ?? [];
     try {
-      const page = await this.#list(PAGE, here[here.length - 1]);
+      const page = await this.#list(PAGE, this.#after);
       // What was renamed or deleted meanwhile stays so.
       const now = this.trees.peek() ?? [];
       const known = new Set(now.map(({ id }) => id));
-      this.trees.value = [...now, ...page.filter(({ id }) => !known.has(id))];
-      this.more.value = page.length === PAGE;
+      this.trees.value = [...now, ...page.trees.filter(({ id }) => !known.has(id))];
+      this.#after = page.next;
+      this.more.value = page.next !== undefined;
       this.failure.value = null;
     } catch (error) {
       this.failure.value = error;

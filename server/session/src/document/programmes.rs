@@ -21,6 +21,11 @@ impl Document {
         self.habit().programme()
     }
 
+    /// The short name of the species whose programme is in force.
+    pub fn species(&self) -> Option<String> {
+        self.programme()?.species.as_ref().map(|species| species.as_str().to_owned())
+    }
+
     /// The names of the parameters that do not follow the programme; none without one.
     pub fn set_by_hand(&self) -> impl Iterator<Item = &'static str> + use<> {
         let has_programme = self.programme().is_some();

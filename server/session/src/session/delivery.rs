@@ -50,9 +50,8 @@ impl Session {
         for (act, outcome) in acts {
             self.act_done(act, outcome);
         }
-        for (read, bytes, metamers) in documents {
-            self.outputs.push_back(Output::Document { read, bytes, metamers });
-        }
+        let answers = documents.into_iter().map(|(read, document)| Output::Document { read, document });
+        self.outputs.extend(answers);
         if let Some((through, bytes)) = snapshot {
             self.upkeep.snapshot_made(through, bytes);
         }
@@ -156,7 +155,7 @@ impl Session {
 
     /// The document's figures as clients are told them.
     pub(super) fn state(&self) -> DocumentState {
-        to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people())
+        to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people().count())
     }
 
     pub(super) fn guest_mut(&mut self, client: ClientId) -> Option<&mut Guest> {

@@ -290,11 +290,15 @@ fn a_read_gives_the_document() {
     world.command(client, 1, grow(9));
     world.handle(Input::Read(ReadId(5)));
     world.settle();
-    let (read, bytes, metamers) = world.documents.pop().unwrap();
-    assert_eq!(read, ReadId(5));
-    let document = Document::from_bytes(&bytes).unwrap();
-    assert_eq!(document.figures().metamers, metamers);
+    let (id, read) = world.documents.pop().unwrap();
+    assert_eq!((id, read.through, read.species), (ReadId(5), 0, None), "the command was not durable yet");
+    let document = Document::from_bytes(&read.bytes).unwrap();
+    assert_eq!(document.figures().metamers, read.metamers);
     assert_eq!(document.figures().pending_steps, 0, "a document is whole between two commands");
+    world.handle(Input::Read(ReadId(6)));
+    world.settle();
+    let (id, read) = world.documents.pop().unwrap();
+    assert_eq!((id, read.through), (ReadId(6), 1));
 }
 
 #[test]
@@ -305,8 +309,8 @@ fn a_saved_tree_opens_as_a_session() {
     world.settle();
     world.handle(Input::Read(ReadId(1)));
     world.settle();
-    let (_, bytes, _) = world.documents.pop().unwrap();
-    let snapshot = Session::first_snapshot(&bytes, 1_000_000).unwrap();
+    let (_, read) = world.documents.pop().unwrap();
+    let snapshot = Session::first_snapshot(&read.bytes, 1_000_000).unwrap();
     let opened = Session::restore("opened", 1, Some(&snapshot), 0, []).unwrap();
     assert_eq!(opened.document().unwrap().hash(), world.document().hash());
     assert!(Session::first_snapshot(b"not a tree", 1_000_000).is_err());

@@ -8,7 +8,8 @@ use espalier_proto::{
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, ReadId, Session, Work,
+    ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, ReadDocument, ReadId, Session,
+    Work,
 };
 use serde_json::{Value, json};
 
@@ -52,7 +53,7 @@ pub struct World {
     /// How often somebody has had the notices.
     pub notified: usize,
     answers: Vec<Input>,
-    pub documents: Vec<(ReadId, Vec<u8>, u32)>,
+    pub documents: Vec<(ReadId, ReadDocument)>,
     pub acts: Vec<(ActId, Result<Option<PlacedObstacle>, Problem>)>,
     pub writing: Option<(u64, Vec<JournalEntry>)>,
     pub working: Option<(u64, Box<Work>)>,
@@ -179,7 +180,7 @@ impl World {
             }
             Output::Notified => self.notified += 1,
             Output::Acted { act, outcome } => self.acts.push((act, outcome)),
-            Output::Document { read, bytes, metamers } => self.documents.push((read, bytes, metamers)),
+            Output::Document { read, document } => self.documents.push((read, document)),
             Output::WakeAt(at) => self.wake_at = Some(at),
         }
     }

@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 use espalier_proto::{Notice, ServerMessage, version::CloseCode};
-use espalier_session::{ClientId, Document, JournalEntry, Principal, RestoreError, Session};
+use espalier_session::{ClientId, Document, JournalEntry, Principal, ReadDocument, RestoreError, Session};
 use tokio::time::timeout;
 
 use super::{
     super::{
-        actor::{DocumentBytes, Request},
+        actor::Request,
         outbox::{self, Outgoing, Outgoings},
     },
     *,
@@ -45,7 +45,8 @@ impl House {
     }
 
     async fn begin(&self, name: &str, simulation_version: u32, snapshot: Option<Vec<u8>>) {
-        let new = NewSession { name: name.into(), seed: 7, simulation_version, snapshot };
+        let new =
+            NewSession { name: name.into(), seed: 7, simulation_version, snapshot, ..NewSession::default() };
         self.store.create_session(new).await.unwrap();
     }
 
@@ -108,7 +109,7 @@ impl Visitor {
     }
 
     /// The document when this step is reached.
-    async fn reached(&self, step: u32) -> DocumentBytes {
+    async fn reached(&self, step: u32) -> ReadDocument {
         loop {
             let document = self.session.read().await.unwrap();
             if Document::from_bytes(&document.bytes).unwrap().figures().step == step {

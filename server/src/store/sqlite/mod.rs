@@ -3,6 +3,7 @@
 mod identity;
 mod open;
 mod sessions;
+mod tree_writes;
 mod trees;
 mod writer;
 
@@ -12,10 +13,10 @@ use espalier_session::JournalEntry;
 #[cfg(test)]
 use self::open::tests::Folder;
 pub use self::open::{OpenError, SqliteStore};
-use self::{sessions::SessionWrite, trees::TreeWrite, writer::Write};
+use self::{sessions::SessionWrite, tree_writes::TreeWrite, writer::Write};
 use super::{
-    Damage, Lease, NewSession, NewSnapshot, NewTree, Picture, Store, StoreError, StoredSession, StoredTree,
-    TreeDocument, TreeKey,
+    Damage, Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Picture, SessionTree, Store,
+    StoreError, StoredSession, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
     seal::{JournalRow, SnapshotRow},
 };
 
@@ -78,37 +79,67 @@ impl Store for SqliteStore {
         self.writer.write(Write::Session(SessionWrite::Snapshot(lease.clone(), row))).await.map(drop)
     }
 
-    async fn save_tree(&self, tree: NewTree) -> Result<(), StoreError> {
-        self.writer.write(Write::Tree(TreeWrite::Save(tree))).await.map(drop)
+    async fn close(&self) {
+        self.shut().await;
+    }
+}
+
+impl Library for SqliteStore {
+    async fn add_tree(&self, tree: NewTree) -> Result<(), StoreError> {
+        self.writer.write(Write::Tree(TreeWrite::Add(tree))).await.map(drop)
     }
 
-    async fn rename_tree(&self, id: &str, name: &str) -> Result<bool, StoreError> {
-        let write = TreeWrite::Rename { id: id.to_owned(), name: name.to_owned() };
-        Ok(self.writer.write(Write::Tree(write)).await? > 0)
+    async fn add_version(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        version: NewVersion,
+    ) -> Result<u32, StoreError> {
+        let write = TreeWrite::AddVersion { key: tree.to_owned(), expected, version };
+        Ok(self.writer.write(Write::Tree(write)).await? as u32)
     }
 
-    async fn delete_tree(&self, id: &str) -> Result<bool, StoreError> {
-        Ok(self.writer.write(Write::Tree(TreeWrite::Delete { id: id.to_owned() })).await? > 0)
+    async fn change_tree(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        change: TreeChange,
+    ) -> Result<(), StoreError> {
+        let write = TreeWrite::Change { key: tree.to_owned(), expected, change };
+        self.writer.write(Write::Tree(write)).await.map(drop)
     }
 
-    async fn trees(&self, limit: u32, behind: Option<&TreeKey>) -> Result<Vec<StoredTree>, StoreError> {
-        trees::list(&self.readers, limit, behind).await
+    async fn trees(&self, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
+        trees::list(&self.readers, query).await
     }
 
     async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
         trees::find(&self.readers, id).await
     }
 
-    async fn tree_document(&self, id: &str) -> Result<Option<TreeDocument>, StoreError> {
-        trees::document(&self.readers, id).await
+    async fn versions(
+        &self,
+        tree: &str,
+        limit: u32,
+        before: Option<u32>,
+    ) -> Result<Vec<StoredVersion>, StoreError> {
+        trees::versions(&self.readers, tree, limit, before).await
     }
 
-    async fn thumbnail(&self, id: &str) -> Result<Option<Picture>, StoreError> {
-        trees::thumbnail(&self.readers, id).await
+    async fn document(&self, tree: &str, version: u32) -> Result<Option<TreeDocument>, StoreError> {
+        trees::document(&self.readers, tree, version).await
     }
 
-    async fn close(&self) {
-        self.shut().await;
+    async fn thumbnail(&self, tree: &str, version: u32) -> Result<Option<Picture>, StoreError> {
+        trees::thumbnail(&self.readers, tree, version).await
+    }
+
+    async fn tree_of(&self, session: &str) -> Result<Option<SessionTree>, StoreError> {
+        trees::tree_of(&self.readers, session).await
+    }
+
+    async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
+        self.writer.write(Write::Tree(TreeWrite::Purge { before: before.to_owned(), limit })).await
     }
 }
 
@@ -200,11 +231,24 @@ mod tests {
         }
 
         async fn break_tree(&self, id: &str) {
-            self.sql(format!("UPDATE trees SET document = x'ff' WHERE id = '{id}'")).await;
+            self.sql(format!(
+                "UPDATE documents SET bytes = x'ff' WHERE id IN
+                 (SELECT document FROM versions JOIN trees ON trees.id = tree WHERE key = '{id}')"
+            ))
+            .await;
         }
 
         async fn break_name(&self, id: &str) {
-            self.sql(format!("UPDATE trees SET name = 'Elm' WHERE id = '{id}'")).await;
+            self.sql(format!("UPDATE trees SET name = 'Elm' WHERE key = '{id}'")).await;
+        }
+
+        async fn swap_documents(&self, id: &str) {
+            self.sql(format!(
+                "UPDATE versions SET document =
+                     (SELECT sum(document) FROM versions JOIN trees ON trees.id = tree WHERE key = '{id}') - document
+                 WHERE tree = (SELECT id FROM trees WHERE key = '{id}')"
+            ))
+            .await;
         }
 
         async fn set_aside_parts(&self, session: &str) -> usize {

@@ -18,10 +18,11 @@ use sqlx::{
 use super::{identity, in_words, writer::Writer};
 
 /// The schema: one file of `migrations/` for each change, in order.
-const MIGRATIONS: [(&str, &str); 3] = [
+const MIGRATIONS: [(&str, &str); 4] = [
     ("0001_sessions_and_trees", include_str!("../../../../migrations/0001_sessions_and_trees.sql")),
     ("0002_checksums", include_str!("../../../../migrations/0002_checksums.sql")),
     ("0003_whole_sessions", include_str!("../../../../migrations/0003_whole_sessions.sql")),
+    ("0004_trees_with_versions", include_str!("../../../../migrations/0004_trees_with_versions.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.

@@ -208,14 +208,23 @@ impl Change<'_> {
 
 async fn create(connection: &mut SqliteConnection, new: &NewSession) -> Result<u64, StoreError> {
     sqlx::query(
-        "INSERT INTO sessions (name, seed, simulation_version, created_at)
-         VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))",
+        "INSERT INTO sessions (name, seed, simulation_version, created_at, principal)
+         VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?)",
     )
     .bind(&new.name)
     .bind(new.seed)
     .bind(new.simulation_version)
+    .bind(&new.principal)
     .execute(&mut *connection)
     .await?;
+    if let Some((tree, version)) = &new.tree {
+        for sql in [
+            "UPDATE sessions SET (tree, tree_version) = (SELECT id, ?2 FROM trees WHERE key = ?1) WHERE name = ?3",
+            "UPDATE trees SET session = ?3 WHERE key = ?1 AND head = ?2",
+        ] {
+            sqlx::query(sql).bind(tree).bind(version).bind(&new.name).execute(&mut *connection).await?;
+        }
+    }
     if let Some(bytes) = &new.snapshot {
         let row = SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes.clone());
         insert_snapshot(connection, &new.name, &row).await?;

@@ -1,117 +1,138 @@
-//! The library of trees in SQLite.
+//! Reading the library in SQLite.
 
-use sqlx::{SqliteExecutor, SqlitePool, sqlite::SqliteConnection};
+use sqlx::{QueryBuilder, Row, Sqlite, SqlitePool, sqlite::SqliteRow};
 
 use super::super::{
-    NewTree, Picture, StoreError, StoredTree, TreeDocument, TreeKey,
-    seal::{tree_sum, tree_sum_of},
+    Picture, SessionTree, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
+    seal::{document_hash, tree_sum, version_sum},
 };
 
-#[derive(Debug)]
-pub(super) enum TreeWrite {
-    Save(NewTree),
-    Rename { id: String, name: String },
-    Delete { id: String },
-}
+/// What lists tell of a tree; its newest version's note is asked for with its versions.
+const TREE: &str =
+    "SELECT key, name, note, is_template, origin, origin_version, head AS number, metamers, species,
+    author, has_picture, saved_at, created_at, deleted_at, session, revision FROM trees";
 
-/// Identifier, name, metamers, time, whether there is a picture.
-type Line = (String, String, u32, String, bool);
-
-fn line((id, name, metamers, saved_at, has_thumbnail): Line) -> StoredTree {
-    StoredTree { key: TreeKey { saved_at, id }, name, metamers, has_thumbnail }
-}
-
-pub(super) async fn list(
-    readers: &SqlitePool,
-    limit: u32,
-    behind: Option<&TreeKey>,
-) -> Result<Vec<StoredTree>, StoreError> {
-    let lines: Vec<Line> = sqlx::query_as(
-        "SELECT id, name, metamers, saved_at, thumbnail IS NOT NULL FROM trees
-         WHERE ?1 IS NULL OR (saved_at, id) < (?1, ?2) ORDER BY saved_at DESC, id DESC LIMIT ?3",
-    )
-    .bind(behind.map(|key| &key.saved_at))
-    .bind(behind.map(|key| &key.id))
-    .bind(limit)
-    .fetch_all(readers)
-    .await?;
-    Ok(lines.into_iter().map(line).collect())
+pub(super) async fn list(readers: &SqlitePool, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
+    let mut sql = QueryBuilder::<Sqlite>::new(TREE);
+    let value = if query.is_deleted { "deleted_at" } else { "saved_at" };
+    sql.push(if query.is_deleted { " WHERE deleted_at IS NOT NULL" } else { " WHERE deleted_at IS NULL" });
+    if let Some(is_template) = query.is_template {
+        sql.push(" AND is_template = ").push_bind(is_template);
+    }
+    if let Some(place) = &query.after {
+        sql.push(format!(" AND ({value}, key) < (")).push_bind(&place.value);
+        sql.push(", ").push_bind(&place.id).push(")");
+    }
+    sql.push(format!(" ORDER BY {value} DESC, key DESC LIMIT ")).push_bind(query.limit);
+    let rows = sql.build().fetch_all(readers).await?;
+    Ok(rows.iter().map(tree).collect::<Result<_, _>>()?)
 }
 
 pub(super) async fn find(readers: &SqlitePool, id: &str) -> Result<Option<StoredTree>, StoreError> {
-    let found: Option<Line> =
-        sqlx::query_as("SELECT id, name, metamers, saved_at, thumbnail IS NOT NULL FROM trees WHERE id = ?")
-            .bind(id)
-            .fetch_optional(readers)
-            .await?;
-    Ok(found.map(line))
+    let mut sql = QueryBuilder::<Sqlite>::new(TREE);
+    let row = sql.push(" WHERE key = ").push_bind(id).build().fetch_optional(readers).await?;
+    Ok(row.as_ref().map(tree).transpose()?)
 }
 
-pub(super) async fn document(readers: &SqlitePool, id: &str) -> Result<Option<TreeDocument>, StoreError> {
-    let Some((name, document, checksum)) = row(readers, id).await? else { return Ok(None) };
-    // Trees of the first release have none.
-    if checksum.is_some_and(|checksum| checksum != sum_of(id, &name, &document)) {
-        return Err(StoreError::Damaged(format!("the tree {id} is damaged")));
+pub(super) async fn versions(
+    readers: &SqlitePool,
+    key: &str,
+    limit: u32,
+    before: Option<u32>,
+) -> Result<Vec<StoredVersion>, StoreError> {
+    let rows = sqlx::query(
+        "SELECT versions.*, picture IS NOT NULL AS has_picture
+         FROM versions JOIN trees ON trees.id = versions.tree
+         WHERE key = ?1 AND (?2 IS NULL OR number < ?2) ORDER BY number DESC LIMIT ?3",
+    );
+    let rows = rows.bind(key).bind(before).bind(limit).fetch_all(readers).await?;
+    let version = |row| Ok(StoredVersion { restored: row_u32(row, "restored")?, ..version(row)? });
+    Ok(rows.iter().map(version).collect::<Result<_, sqlx::Error>>()?)
+}
+
+fn row_u32(row: &SqliteRow, column: &str) -> Result<Option<u32>, sqlx::Error> {
+    row.try_get(column)
+}
+
+fn tree(row: &SqliteRow) -> Result<StoredTree, sqlx::Error> {
+    let origin: Option<String> = row.try_get("origin")?;
+    Ok(StoredTree {
+        id: row.try_get("key")?,
+        name: row.try_get("name")?,
+        note: row.try_get("note")?,
+        is_template: row.try_get("is_template")?,
+        origin: origin.zip(row_u32(row, "origin_version")?),
+        created_at: row.try_get("created_at")?,
+        deleted_at: row.try_get("deleted_at")?,
+        head: version(row)?,
+        session: row.try_get("session")?,
+        revision: row.try_get::<i64, _>("revision")?.cast_unsigned(),
+    })
+}
+
+fn version(row: &SqliteRow) -> Result<StoredVersion, sqlx::Error> {
+    Ok(StoredVersion {
+        number: row.try_get("number")?,
+        saved_at: row.try_get("saved_at")?,
+        author: row.try_get("author")?,
+        note: row.try_get("note")?,
+        metamers: row.try_get("metamers")?,
+        species: row.try_get("species")?,
+        restored: None,
+        has_thumbnail: row.try_get("has_picture")?,
+    })
+}
+
+pub(super) async fn document(
+    readers: &SqlitePool,
+    key: &str,
+    number: u32,
+) -> Result<Option<TreeDocument>, StoreError> {
+    let row = sqlx::query(
+        "SELECT name, head, trees.checksum AS of_tree, versions.checksum AS of_version,
+                simulation_version, bytes, hash
+         FROM trees JOIN versions ON versions.tree = trees.id JOIN documents ON documents.id = document
+         WHERE key = ? AND number = ?",
+    );
+    let Some(row) = row.bind(key).bind(number).fetch_optional(readers).await? else { return Ok(None) };
+    let document =
+        TreeDocument { simulation_version: row.try_get("simulation_version")?, bytes: row.try_get("bytes")? };
+    let (name, head): (String, u32) = (row.try_get("name")?, row.try_get("head")?);
+    let hash: Option<Vec<u8>> = row.try_get("hash")?;
+    // What earlier programs wrote has neither hash nor checksums.
+    let is_whole = hash.as_ref().is_none_or(|hash| *hash == document_hash(&document))
+        && row_u32(&row, "of_tree")?.is_none_or(|sum| sum == tree_sum(key, &name, head))
+        && row_u32(&row, "of_version")?.is_none_or(|sum| sum == version_sum(key, number, hash.as_deref()));
+    if is_whole {
+        Ok(Some(document))
+    } else {
+        Err(StoreError::Damaged(format!("version {number} of the tree {key} is damaged")))
     }
-    Ok(Some(document))
 }
 
-/// Name, document and checksum.
-type Row = (String, TreeDocument, Option<u32>);
-
-async fn row(from: impl SqliteExecutor<'_>, id: &str) -> Result<Option<Row>, sqlx::Error> {
-    let row: Option<(String, u32, Vec<u8>, Option<u32>)> =
-        sqlx::query_as("SELECT name, simulation_version, document, checksum FROM trees WHERE id = ?")
-            .bind(id)
-            .fetch_optional(from)
-            .await?;
-    Ok(row.map(|(name, simulation_version, bytes, checksum)| {
-        (name, TreeDocument { simulation_version, bytes }, checksum)
-    }))
-}
-
-fn sum_of(id: &str, name: &str, document: &TreeDocument) -> u32 {
-    tree_sum_of(id, name, document.simulation_version, &document.bytes)
-}
-
-/// A tree that is whole stays so; one that is damaged does not become whole by another name.
-async fn rename(connection: &mut SqliteConnection, id: &str, name: &str) -> Result<u64, StoreError> {
-    let Some((before, document, checksum)) = row(&mut *connection, id).await? else { return Ok(0) };
-    let is_whole = checksum == Some(sum_of(id, &before, &document));
-    let checksum = if is_whole { Some(sum_of(id, name, &document)) } else { checksum };
-    let query = sqlx::query("UPDATE trees SET name = ?, checksum = ? WHERE id = ?").bind(name);
-    Ok(query.bind(checksum).bind(id).execute(connection).await?.rows_affected())
-}
-
-pub(super) async fn thumbnail(readers: &SqlitePool, id: &str) -> Result<Option<Picture>, StoreError> {
-    let row: Option<(String, Vec<u8>)> =
-        sqlx::query_as("SELECT thumbnail_type, thumbnail FROM trees WHERE id = ? AND thumbnail IS NOT NULL")
-            .bind(id)
-            .fetch_optional(readers)
-            .await?;
+pub(super) async fn thumbnail(
+    readers: &SqlitePool,
+    key: &str,
+    number: u32,
+) -> Result<Option<Picture>, StoreError> {
+    let row: Option<(String, Vec<u8>)> = sqlx::query_as(
+        "SELECT media_type, bytes FROM trees JOIN versions ON versions.tree = trees.id
+         JOIN pictures ON pictures.id = picture WHERE key = ? AND number = ?",
+    )
+    .bind(key)
+    .bind(number)
+    .fetch_optional(readers)
+    .await?;
     Ok(row.map(|(media_type, bytes)| Picture { media_type, bytes }))
 }
 
-impl TreeWrite {
-    pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
-        let query = match self {
-            Self::Save(tree) => sqlx::query(
-                "INSERT INTO trees (id, name, metamers, saved_at, simulation_version, document, checksum,
-                                    thumbnail, thumbnail_type)
-                 VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-            )
-            .bind(&tree.id)
-            .bind(&tree.name)
-            .bind(tree.metamers)
-            .bind(&tree.saved_at)
-            .bind(tree.document.simulation_version)
-            .bind(&tree.document.bytes)
-            .bind(tree_sum(tree))
-            .bind(tree.thumbnail.as_ref().map(|picture| &picture.bytes))
-            .bind(tree.thumbnail.as_ref().map(|picture| &picture.media_type)),
-            Self::Rename { id, name } => return rename(connection, id, name).await,
-            Self::Delete { id } => sqlx::query("DELETE FROM trees WHERE id = ?").bind(id),
-        };
-        Ok(query.execute(connection).await?.rows_affected())
-    }
+pub(super) async fn tree_of(readers: &SqlitePool, session: &str) -> Result<Option<SessionTree>, StoreError> {
+    let row: Option<(String, u32, bool)> = sqlx::query_as(
+        "SELECT key, tree_version, last_entry <= saved_through
+         FROM sessions JOIN trees ON trees.id = sessions.tree WHERE sessions.name = ?",
+    )
+    .bind(session)
+    .fetch_optional(readers)
+    .await?;
+    Ok(row.map(|(id, version, is_saved)| SessionTree { id, version, is_saved }))
 }

@@ -13,7 +13,7 @@ use tokio_util::sync::CancellationToken;
 use super::{
     super::{StoreError, lease::Leases},
     sessions::SessionWrite,
-    trees::TreeWrite,
+    tree_writes::TreeWrite,
 };
 
 /// How long a write waits for company. What arrives during a commit makes up the next group anyway.
@@ -33,7 +33,7 @@ pub(super) enum Write {
 }
 
 impl Write {
-    /// Answers with the number of rows changed.
+    /// Answers with the number of rows changed, or of the version made.
     async fn apply(&self, connection: &mut SqliteConnection, leases: &Leases) -> Result<u64, StoreError> {
         match self {
             Self::Session(write) => write.apply(connection, leases).await,
@@ -181,11 +181,10 @@ mod tests {
         super::{Folder, SqliteStore, open::writer_options},
         *,
     };
-    use crate::store::{NewTree, Store, TreeDocument, contract::tree};
+    use crate::store::{Store, contract::tree_of_bytes};
 
     fn save(id: &str, bytes: usize) -> Write {
-        let document = TreeDocument { simulation_version: 1, bytes: vec![7; bytes] };
-        Write::Tree(TreeWrite::Save(NewTree { document, ..tree(id, "2026") }))
+        Write::Tree(TreeWrite::Add(tree_of_bytes(id, "2026", vec![7; bytes])))
     }
 
     #[tokio::test]
@@ -203,7 +202,7 @@ mod tests {
 
         let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 100000");
         limit.fetch_one(&mut connection).await.unwrap();
-        let ids = || sqlx::query_scalar::<_, String>("SELECT id FROM trees ORDER BY id");
+        let ids = || sqlx::query_scalar::<_, String>("SELECT key FROM trees ORDER BY key");
         assert!(ids().fetch_all(&mut connection).await.unwrap().is_empty(), "all of a group or nothing");
         commit_together(&mut connection, &leases, &[&small, &large]).await.unwrap();
         assert_eq!(ids().fetch_all(&mut connection).await.unwrap(), ["large", "small"]);

@@ -24,7 +24,7 @@ export function RecentTrees({ studio }: { studio: Studio }) {
   const [hidden, setHidden] = useState(false);
   useEffect(() => {
     const show = async () => {
-      const trees = await listTrees(MOST);
+      const { trees } = await listTrees(MOST);
       setSaved(
         trees.map((tree) => {
           const { id, name, saved_at: at, thumbnail } = tree;

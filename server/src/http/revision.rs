@@ -1,0 +1,38 @@
+//! Revisions of trees, as `ETag` and `If-Match` have them.
+
+use axum::{
+    extract::FromRequestParts,
+    http::{HeaderName, HeaderValue, header, request::Parts},
+};
+use espalier_proto::{Problem, ProblemCode};
+
+use super::failure::Failure;
+
+/// The header that names a revision.
+pub(super) fn tag(revision: u64) -> [(HeaderName, HeaderValue); 1] {
+    let value = HeaderValue::try_from(format!("\"{revision}\""));
+    [(header::ETAG, value.unwrap_or(HeaderValue::from_static("\"\"")))]
+}
+
+/// The revision that a request changes; none if it changes whichever there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Expected(pub(super) Option<u64>);
+
+impl<S: Sync> FromRequestParts<S> for Expected {
+    type Rejection = Failure;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Failure> {
+        let Some(value) = parts.headers.get(header::IF_MATCH) else { return Ok(Self(None)) };
+        let text = value.to_str().unwrap_or_default().trim();
+        if text == "*" {
+            return Ok(Self(None));
+        }
+        let number = text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+        let revision = number.and_then(|number| number.parse().ok());
+        let problem = || Problem {
+            allowed: Some("an ETag of the tree, as \"3\"".into()),
+            ..Problem::new(ProblemCode::Malformed, format!("The request cannot be read: If-Match is {text}."))
+        };
+        revision.map(|revision| Self(Some(revision))).ok_or_else(|| problem().into())
+    }
+}

@@ -1,0 +1,198 @@
+//! The library: versions of a tree.
+
+use axum::{
+    Extension, Json,
+    extract::{Path, Query, State, rejection::QueryRejection},
+    http::{HeaderName, StatusCode, header},
+    response::IntoResponse,
+};
+use espalier_proto::{
+    Problem,
+    library::{ChangeVersion, RestoreVersion, SaveVersion, TreeVersion},
+};
+use espalier_session::Principal;
+use serde::Deserialize;
+
+use super::{
+    Shared,
+    failure::{Body, Failure},
+    revision::{self, Expected},
+    sessions, text, thumbnail,
+    trees::{self, limit_of, now},
+};
+use crate::{
+    SIMULATION_VERSION,
+    authority::{Action, Object},
+    store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
+};
+
+/// Versions in one answer.
+const MAX_VERSIONS: u32 = 200;
+/// What is there never changes, and nothing else ever takes its place.
+const FOR_GOOD: (HeaderName, &str) = (header::CACHE_CONTROL, "private, max-age=31536000, immutable");
+
+/// Which versions to list.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Page {
+    /// How many at most.
+    limit: Option<u32>,
+    /// Those before this number.
+    before: Option<u32>,
+}
+
+pub(super) async fn list(
+    State(shared): State<Shared>,
+    Path(tree): Path<String>,
+    page: Result<Query<Page>, QueryRejection>,
+) -> Result<Json<Vec<TreeVersion>>, Failure> {
+    let Query(page) = page.map_err(|rejection| Failure::bad_query(&rejection))?;
+    let limit = limit_of(page.limit, MAX_VERSIONS)?;
+    trees::stored(&shared, &tree).await?;
+    let versions = shared.store.versions(&tree, limit, page.before).await?;
+    Ok(Json(versions.into_iter().map(|version| to_proto(&tree, version)).collect()))
+}
+
+/// What is saved of a session.
+pub(super) struct Saving {
+    pub(super) session: String,
+    pub(super) note: Option<String>,
+    pub(super) author: Option<String>,
+    pub(super) thumbnail: Option<String>,
+}
+
+/// What a session holds now, as a version to be saved.
+pub(super) async fn read(
+    shared: &Shared,
+    principal: &Principal,
+    saving: Saving,
+) -> Result<NewVersion, Failure> {
+    let Saving { session, note, author, thumbnail } = saving;
+    let thumbnail = thumbnail.as_deref().map(thumbnail::parse).transpose()?;
+    let said = Said::parse(author.as_deref(), note.as_deref())?;
+    shared.ask(principal, Action::TakeTree, Object::Session(&session))?;
+    let read = sessions::open(shared, &session).await?.read().await?;
+    let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
+    let saved = Saved { document, metamers: read.metamers, species: read.species, thumbnail };
+    let version = new(principal, said, Contents::New(Box::new(saved)));
+    Ok(NewVersion { session: Some((session, read.through)), ..version })
+}
+
+/// What whoever saves says.
+#[derive(Default)]
+pub(super) struct Said {
+    author: Option<String>,
+    note: String,
+}
+
+impl Said {
+    pub(super) fn parse(author: Option<&str>, note: Option<&str>) -> Result<Self, Problem> {
+        let author = author.map(|author| text::name("author", author)).transpose()?;
+        Ok(Self { author, note: text::note(note.unwrap_or_default())? })
+    }
+}
+
+/// A version that holds this.
+pub(super) fn new(principal: &Principal, said: Said, contents: Contents) -> NewVersion {
+    let Said { author, note } = said;
+    let (saved_at, principal) = (now(), principal.to_string());
+    NewVersion { saved_at, principal, author, note, contents, session: None }
+}
+
+pub(super) async fn save(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path(tree): Path<String>,
+    Expected(expected): Expected,
+    Body(save): Body<SaveVersion>,
+) -> Result<impl IntoResponse, Failure> {
+    let SaveVersion { session, note, author, thumbnail } = save;
+    let version = read(&shared, &principal, Saving { session, note, author, thumbnail }).await?;
+    add(&shared, &tree, expected, version).await
+}
+
+pub(super) async fn restore(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path((tree, number)): Path<(String, u32)>,
+    Expected(expected): Expected,
+    Body(restore): Body<RestoreVersion>,
+) -> Result<impl IntoResponse, Failure> {
+    let contents = Contents::Of { tree: tree.clone(), version: number };
+    let said = Said::parse(restore.author.as_deref(), restore.note.as_deref())?;
+    let version = new(&principal, said, contents);
+    add(&shared, &tree, expected, version).await
+}
+
+async fn add(
+    shared: &Shared,
+    tree: &str,
+    expected: Option<u64>,
+    version: NewVersion,
+) -> Result<impl IntoResponse + use<>, Failure> {
+    let number = shared.store.add_version(tree, expected, version).await?;
+    let (found, revision) =
+        (version_of(shared, tree, number).await?, trees::stored(shared, tree).await?.revision);
+    Ok((StatusCode::CREATED, revision::tag(revision), Json(found)))
+}
+
+pub(super) async fn change(
+    State(shared): State<Shared>,
+    Path((tree, number)): Path<(String, u32)>,
+    Expected(expected): Expected,
+    Body(change): Body<ChangeVersion>,
+) -> Result<impl IntoResponse, Failure> {
+    let change =
+        TreeChange { version_note: Some((number, text::note(&change.note)?)), ..TreeChange::default() };
+    shared.store.change_tree(&tree, expected, change).await?;
+    let revision = trees::stored(&shared, &tree).await?.revision;
+    Ok((revision::tag(revision), Json(version_of(&shared, &tree, number).await?)))
+}
+
+async fn version_of(shared: &Shared, tree: &str, number: u32) -> Result<TreeVersion, Failure> {
+    let found = shared.store.versions(tree, 1, Some(number.saturating_add(1))).await?.pop();
+    let found = found.filter(|version| version.number == number);
+    found.map(|version| to_proto(tree, version)).ok_or_else(|| Failure::not_found("version"))
+}
+
+pub(super) async fn document(
+    State(shared): State<Shared>,
+    Path((tree, number)): Path<(String, u32)>,
+) -> Result<impl IntoResponse, Failure> {
+    let document = sessions::saved_document(&shared, &tree, number).await?;
+    let headers = [
+        (header::CONTENT_TYPE, "application/octet-stream"),
+        (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.espalier\""),
+        FOR_GOOD,
+    ];
+    Ok((headers, document.bytes))
+}
+
+pub(super) async fn thumbnail(
+    State(shared): State<Shared>,
+    Path((tree, number)): Path<(String, u32)>,
+) -> Result<impl IntoResponse, Failure> {
+    let picture =
+        shared.store.thumbnail(&tree, number).await?.ok_or_else(|| Failure::not_found("picture"))?;
+    let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
+    Ok((headers, picture.bytes))
+}
+
+/// Where the picture of a version is, if it has one.
+pub(super) fn thumbnail_of(tree: &str, version: &StoredVersion) -> Option<String> {
+    version.has_thumbnail.then(|| format!("/api/trees/{tree}/versions/{}/thumbnail", version.number))
+}
+
+fn to_proto(tree: &str, version: StoredVersion) -> TreeVersion {
+    TreeVersion {
+        thumbnail: thumbnail_of(tree, &version),
+        document: format!("/api/trees/{tree}/versions/{}/document", version.number),
+        number: version.number,
+        saved_at: version.saved_at,
+        author: version.author,
+        note: version.note,
+        metamers: version.metamers,
+        species: version.species,
+        restored: version.restored,
+    }
+}

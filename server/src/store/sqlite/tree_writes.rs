@@ -1,0 +1,281 @@
+//! Writing the library in SQLite.
+
+use sqlx::{Row, sqlite::SqliteConnection};
+
+use super::super::{
+    Contents, Deletion, NewTree, NewVersion, Saved, StoreError, TreeChange,
+    seal::{document_hash, tree_sum, version_sum},
+};
+
+#[derive(Debug)]
+pub(super) enum TreeWrite {
+    Add(NewTree),
+    AddVersion { key: String, expected: Option<u64>, version: NewVersion },
+    Change { key: String, expected: Option<u64>, change: TreeChange },
+    Purge { before: String, limit: u32 },
+}
+
+impl TreeWrite {
+    /// Answers with the number of the version that was made, or of rows changed.
+    pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
+        match self {
+            Self::Add(tree) => add(connection, tree).await,
+            Self::AddVersion { key, expected, version } => {
+                let tree = Tree::there(connection, key, *expected).await?;
+                add_version(connection, &tree, version).await
+            }
+            Self::Change { key, expected, change } => change_tree(connection, key, *expected, change).await,
+            Self::Purge { before, limit } => purge(connection, before, *limit).await,
+        }
+    }
+}
+
+/// What a change needs to know of a tree.
+#[derive(Debug)]
+struct Tree {
+    id: i64,
+    key: String,
+    name: String,
+    head: u32,
+    revision: i64,
+    deleted_at: Option<String>,
+    checksum: Option<u32>,
+}
+
+impl Tree {
+    /// The tree at this revision.
+    async fn at(
+        connection: &mut SqliteConnection,
+        key: &str,
+        expected: Option<u64>,
+    ) -> Result<Self, StoreError> {
+        let sql = "SELECT id, name, head, revision, deleted_at, checksum FROM trees WHERE key = ?";
+        let row = sqlx::query(sql).bind(key).fetch_optional(connection).await?.ok_or(StoreError::NotFound)?;
+        let revision = row.try_get("revision")?;
+        if expected.is_some_and(|expected| expected != i64::cast_unsigned(revision)) {
+            return Err(StoreError::Stale);
+        }
+        Ok(Self {
+            id: row.try_get("id")?,
+            key: key.to_owned(),
+            name: row.try_get("name")?,
+            head: row.try_get("head")?,
+            revision,
+            deleted_at: row.try_get("deleted_at")?,
+            checksum: row.try_get("checksum")?,
+        })
+    }
+
+    /// The same if it is not deleted.
+    async fn there(
+        connection: &mut SqliteConnection,
+        key: &str,
+        expected: Option<u64>,
+    ) -> Result<Self, StoreError> {
+        let row = Self::at(connection, key, expected).await?;
+        if row.deleted_at.is_none() { Ok(row) } else { Err(StoreError::NotFound) }
+    }
+
+    /// The checksum under another name and head: a tree that is whole stays so, one that is not does not become it.
+    fn checksum_as(&self, name: &str, head: u32) -> Option<u32> {
+        let is_whole = self.checksum == Some(tree_sum(&self.key, &self.name, self.head));
+        if is_whole { Some(tree_sum(&self.key, name, head)) } else { self.checksum }
+    }
+}
+
+async fn add(connection: &mut SqliteConnection, tree: &NewTree) -> Result<u64, StoreError> {
+    let NewTree { id: key, name, version } = tree;
+    let origin = match &version.contents {
+        Contents::Of { tree, version } => Some((tree, version)),
+        Contents::New(_) => None,
+    };
+    let row = sqlx::query_scalar(
+        "INSERT INTO trees (key, name, origin, origin_version, head, metamers, has_picture, saved_at, created_at,
+                            checksum)
+         VALUES (?1, ?2, ?3, ?4, 0, 0, FALSE, ?5, ?5, ?6) RETURNING id",
+    )
+    .bind(key)
+    .bind(name)
+    .bind(origin.map(|(tree, _)| tree))
+    .bind(origin.map(|(_, version)| version))
+    .bind(&version.saved_at)
+    .bind(tree_sum(key, name, 0));
+    let id = row.fetch_one(&mut *connection).await?;
+    let tree = Tree {
+        id,
+        key: key.clone(),
+        name: name.clone(),
+        head: 0,
+        revision: 0,
+        deleted_at: None,
+        checksum: Some(tree_sum(key, name, 0)),
+    };
+    add_version(connection, &tree, version).await
+}
+
+/// What a version holds, by the numbers of its rows.
+#[derive(Debug)]
+struct Held {
+    document: i64,
+    hash: Option<Vec<u8>>,
+    picture: Option<i64>,
+    metamers: u32,
+    species: Option<String>,
+}
+
+async fn held(connection: &mut SqliteConnection, contents: &Contents) -> Result<Held, StoreError> {
+    match contents {
+        Contents::New(saved) => keep(connection, saved).await,
+        Contents::Of { tree, version } => {
+            let row = sqlx::query(
+                "SELECT document, hash, picture, versions.metamers, versions.species FROM versions
+                 JOIN trees ON trees.id = versions.tree JOIN documents ON documents.id = document
+                 WHERE key = ? AND number = ? AND deleted_at IS NULL",
+            );
+            let row = row.bind(tree).bind(version).fetch_optional(connection).await?;
+            let row = row.ok_or(StoreError::NotFound)?;
+            Ok(Held {
+                document: row.try_get("document")?,
+                hash: row.try_get("hash")?,
+                picture: row.try_get("picture")?,
+                metamers: row.try_get("metamers")?,
+                species: row.try_get("species")?,
+            })
+        }
+    }
+}
+
+async fn keep(connection: &mut SqliteConnection, saved: &Saved) -> Result<Held, StoreError> {
+    let Saved { document, metamers, species, thumbnail } = saved;
+    let hash = document_hash(document);
+    // One that is there already is written again: it may have been damaged since.
+    let row = sqlx::query_scalar(
+        "INSERT INTO documents (hash, simulation_version, bytes) VALUES (?, ?, ?)
+         ON CONFLICT (hash) DO UPDATE SET simulation_version = excluded.simulation_version, bytes = excluded.bytes
+         RETURNING id",
+    );
+    let row = row.bind(&hash).bind(document.simulation_version).bind(&document.bytes);
+    let document = row.fetch_one(&mut *connection).await?;
+    let mut picture = None;
+    if let Some(new) = thumbnail {
+        let row = sqlx::query_scalar("INSERT INTO pictures (media_type, bytes) VALUES (?, ?) RETURNING id");
+        picture = Some(row.bind(&new.media_type).bind(&new.bytes).fetch_one(connection).await?);
+    }
+    Ok(Held { document, hash: Some(hash), picture, metamers: *metamers, species: species.clone() })
+}
+
+async fn add_version(
+    connection: &mut SqliteConnection,
+    tree: &Tree,
+    version: &NewVersion,
+) -> Result<u64, StoreError> {
+    let held = held(connection, &version.contents).await?;
+    let number = tree.head + 1;
+    let restored = match &version.contents {
+        Contents::Of { tree: of, version } if *of == tree.key => Some(version),
+        _ => None,
+    };
+    sqlx::query(
+        "INSERT INTO versions (tree, number, document, picture, metamers, species, restored, author, principal, note,
+                               saved_at, checksum)
+         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+    )
+    .bind(tree.id)
+    .bind(number)
+    .bind(held.document)
+    .bind(held.picture)
+    .bind(held.metamers)
+    .bind(&held.species)
+    .bind(restored)
+    .bind(&version.author)
+    .bind(&version.principal)
+    .bind(&version.note)
+    .bind(&version.saved_at)
+    .bind(version_sum(&tree.key, number, held.hash.as_deref()))
+    .execute(&mut *connection)
+    .await?;
+    let session = version.session.as_ref().map(|(name, _)| name);
+    sqlx::query(
+        "UPDATE trees SET head = ?, metamers = ?, species = ?, author = ?, principal = ?, has_picture = ?, saved_at = ?,
+                          session = coalesce(?, session), revision = ?, checksum = ? WHERE id = ?",
+    )
+    .bind(number)
+    .bind(held.metamers)
+    .bind(&held.species)
+    .bind(&version.author)
+    .bind(&version.principal)
+    .bind(held.picture.is_some())
+    .bind(&version.saved_at)
+    .bind(session)
+    .bind(tree.revision + 1)
+    .bind(tree.checksum_as(&tree.name, number))
+    .bind(tree.id)
+    .execute(&mut *connection)
+    .await?;
+    if let Some((session, through)) = &version.session {
+        sqlx::query("UPDATE sessions SET tree = ?, tree_version = ?, saved_through = ? WHERE name = ?")
+            .bind(tree.id)
+            .bind(number)
+            .bind(through.cast_signed())
+            .bind(session)
+            .execute(connection)
+            .await?;
+    }
+    Ok(number.into())
+}
+
+async fn change_tree(
+    connection: &mut SqliteConnection,
+    key: &str,
+    expected: Option<u64>,
+    change: &TreeChange,
+) -> Result<u64, StoreError> {
+    let TreeChange { name, note, is_template, version_note, deletion } = change;
+    let tree = Tree::at(connection, key, expected).await?;
+    let is_undeleted = *deletion == Some(Deletion::Undeleted);
+    if tree.deleted_at.is_some() != is_undeleted {
+        return Err(StoreError::NotFound);
+    }
+    if let Some((number, note)) = version_note {
+        let changed = sqlx::query("UPDATE versions SET note = ? WHERE tree = ? AND number = ?");
+        let changed = changed.bind(note).bind(tree.id).bind(number).execute(&mut *connection).await?;
+        if changed.rows_affected() == 0 {
+            return Err(StoreError::NotFound);
+        }
+    }
+    let deleted_at = match deletion {
+        Some(Deletion::Deleted(at)) => Some(at),
+        Some(Deletion::Undeleted) | None => None,
+    };
+    let changed = sqlx::query(
+        "UPDATE trees SET name = coalesce(?1, name), note = coalesce(?2, note),
+                          is_template = coalesce(?3, is_template), deleted_at = ?4, revision = ?5, checksum = ?6
+         WHERE id = ?7",
+    )
+    .bind(name)
+    .bind(note)
+    .bind(is_template)
+    .bind(deleted_at)
+    .bind(tree.revision + 1)
+    .bind(tree.checksum_as(name.as_ref().unwrap_or(&tree.name), tree.head))
+    .bind(tree.id);
+    Ok(changed.execute(connection).await?.rows_affected())
+}
+
+/// What no version holds any more goes as well.
+async fn purge(connection: &mut SqliteConnection, before: &str, limit: u32) -> Result<u64, StoreError> {
+    let gone = sqlx::query(
+        "DELETE FROM trees WHERE id IN
+         (SELECT id FROM trees WHERE deleted_at < ? ORDER BY deleted_at LIMIT ?)",
+    );
+    let gone = gone.bind(before).bind(limit).execute(&mut *connection).await?.rows_affected();
+    if gone > 0 {
+        for sql in [
+            "DELETE FROM documents WHERE id NOT IN (SELECT document FROM versions)",
+            "DELETE FROM pictures WHERE id NOT IN (SELECT picture FROM versions WHERE picture IS NOT NULL)",
+        ] {
+            sqlx::query(sql).execute(&mut *connection).await?;
+        }
+    }
+    Ok(gone)
+}

@@ -1,0 +1,231 @@
+//! `LB`: trees with versions.
+
+use espalier_tests::{
+    client::Client,
+    http::{self, Answer},
+};
+use serde_json::{Value, json};
+
+use crate::library::Library;
+
+impl Library {
+    fn get(&self, path: &str) -> Value {
+        let answer = self.ask("GET", path, None);
+        assert_eq!(answer.status, 200, "{path}: {}", answer.text());
+        answer.json()
+    }
+
+    fn post(&self, path: &str, body: Value, status: u16) -> Value {
+        let answer = self.ask("POST", path, Some(body));
+        assert_eq!(answer.status, status, "{path}: {}", answer.text());
+        answer.json()
+    }
+
+    async fn grow(&mut self, steps: u32) {
+        self.client.send(json!({ "kind": "grow", "steps": steps })).await;
+        self.client.until_settled().await;
+    }
+
+    fn save_again(&self, tree: &str, note: &str) -> Value {
+        let body = json!({ "session": self.client.session, "note": note, "author": "Bo" });
+        self.post(&format!("{tree}/versions"), body, 201)
+    }
+
+    async fn enter(&self, opened: &Value, key: &str) -> Client {
+        Client::connect(self.server.port(), opened["session"].as_str().expect("a name"), key).await
+    }
+}
+
+fn path_of(tree: &Value) -> String {
+    format!("/api/trees/{}", tree["id"].as_str().expect("a tree has an id"))
+}
+
+fn numbers(versions: &Value) -> Vec<u64> {
+    versions.as_array().expect("a list").iter().filter_map(|version| version["number"].as_u64()).collect()
+}
+
+#[tokio::test]
+async fn lb1_each_save_is_a_version_that_can_be_had_again() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    let path = path_of(&tree);
+    let before = library.client.table.form();
+    library.grow(3).await;
+    let second = library.save_again(&path, "Grown on");
+    assert_eq!(
+        (&second["number"], &second["note"], &second["author"]),
+        (&json!(2), &json!("Grown on"), &json!("Bo"))
+    );
+    assert_eq!(second["metamers"], json!(library.client.state.metamers));
+    let restored =
+        library.post(&format!("{path}/versions/1/restore"), json!({ "note": "It was better" }), 201);
+    assert_eq!(
+        (&restored["number"], &restored["restored"], &restored["metamers"]),
+        (&json!(3), &json!(1), &tree["metamers"])
+    );
+    assert_eq!(numbers(&library.get(&format!("{path}/versions"))), [3, 2, 1]);
+    assert_eq!(numbers(&library.get(&format!("{path}/versions?limit=1&before=3"))), [2]);
+    let now = library.get(&path);
+    assert_eq!(
+        (&now["version"], &now["metamers"], &now["revision"]),
+        (&json!(3), &tree["metamers"], &json!(3))
+    );
+
+    let (first, third) = (
+        library.ask("GET", &format!("{path}/versions/1/document"), None),
+        library.ask("GET", &format!("{path}/versions/3/document"), None),
+    );
+    assert!(first.body.starts_with(b"ESPALIER"));
+    assert_eq!(first.body, third.body);
+    let copy = library.post(&format!("{path}/copies"), json!({ "name": "Branch", "version": 2 }), 201);
+    assert_eq!(copy["origin"], json!({ "tree": tree["id"], "version": 2 }));
+    assert_eq!((&copy["metamers"], &copy["version"]), (&second["metamers"], &json!(1)));
+    let opened = library.post("/api/sessions", json!({ "tree": tree["id"], "version": 1 }), 201);
+    let mut visitor = library.enter(&opened, "browser-2").await;
+    visitor.until_form(&before).await;
+    let noted = library.ask("PATCH", &format!("{path}/versions/2"), Some(json!({ "note": "In leaf" })));
+    assert_eq!((noted.status, &noted.json()["note"]), (200, &json!("In leaf")));
+    for (method, missing) in
+        [("GET", "versions/4/document"), ("POST", "versions/9/restore"), ("PATCH", "versions/9")]
+    {
+        let body = (method != "GET").then(|| json!({ "note": "?" }));
+        assert_eq!(library.ask(method, &format!("{path}/{missing}"), body).status, 404, "{missing}");
+    }
+}
+
+#[tokio::test]
+async fn lb2_of_two_who_change_one_revision_one_is_refused() {
+    let library = Library::new().await;
+    let path = path_of(&library.save("Pear"));
+    let port = library.server.port();
+    let tag = |answer: &Answer| answer.header("etag").map(str::to_owned);
+    let seen = tag(&library.ask("GET", &path, None)).expect("it has a tag");
+    let first = http::send_if(port, "PATCH", &path, &seen, &json!({ "name": "Quince" })).expect("an answer");
+    assert_eq!((first.status, tag(&first).as_deref()), (200, Some("\"2\"")));
+    let versions = format!("{path}/versions");
+    let save = json!({ "session": library.client.session });
+    for (method, path, body) in [
+        ("PATCH", &path, json!({ "name": "Apple" })),
+        ("POST", &versions, save.clone()),
+        ("DELETE", &path, json!({})),
+    ] {
+        let refused = http::send_if(port, method, path, &seen, &body).expect("an answer");
+        assert_eq!((refused.status, &refused.json()["code"]), (412, &json!("stale")), "{method} {path}");
+    }
+    assert_eq!(library.names(), ["Quince"]);
+    let saved = http::send_if(port, "POST", &versions, "\"2\"", &save).expect("an answer");
+    assert_eq!((saved.status, tag(&saved).as_deref()), (201, Some("\"3\"")));
+    let nonsense = http::send_if(port, "PATCH", &path, "2", &json!({ "name": "Apple" })).expect("an answer");
+    assert_eq!(nonsense.status, 400, "{}", nonsense.text());
+    let any = http::send_if(port, "PATCH", &path, "*", &json!({ "name": "Apple" })).expect("an answer");
+    assert_eq!(any.status, 200);
+}
+
+#[tokio::test]
+async fn lb3_opening_a_tree_in_work_is_joining() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    let ours = json!(library.client.session);
+    let open = json!({ "tree": tree["id"] });
+    assert_eq!(library.get(&path_of(&tree))["people"], json!(1));
+    let opened = library.post("/api/sessions", open.clone(), 200);
+    let saved = json!({ "id": tree["id"], "version": 1, "saved": true });
+    assert_eq!((&opened["session"], &opened["tree"]), (&ours, &saved));
+    let mut friend = library.enter(&opened, "browser-2").await;
+    library.grow(2).await;
+    friend.until_form(&library.client.table.form()).await;
+    let joined = library.post("/api/sessions", open.clone(), 200);
+    assert_eq!(
+        (&joined["session"], &joined["tree"]["saved"]),
+        (&ours, &json!(false)),
+        "there is unsaved work"
+    );
+
+    friend.vanish();
+    library.client.vanish();
+    let alone = || library.get(&path_of(&tree))["people"] == json!(0);
+    while !alone() {
+        tokio::task::yield_now().await;
+    }
+    let anew = library.post("/api/sessions", open.clone(), 201);
+    assert_ne!(anew["session"], ours, "the tree is what was saved");
+    let mut visitor = library.enter(&anew, "browser-3").await;
+    visitor.until_settled().await;
+    assert_eq!(json!(visitor.state.metamers), tree["metamers"]);
+    assert_eq!(
+        library.post("/api/sessions", open, 200)["session"],
+        anew["session"],
+        "two come into one session"
+    );
+    let left = library.get(&format!("/api/sessions/{}", library.client.session));
+    assert_eq!(left["tree"]["saved"], json!(false), "the work of before is there still");
+}
+
+#[tokio::test]
+async fn lb4_a_template_begins_a_tree_of_its_own() {
+    let mut library = Library::new().await;
+    let tree = library.save("Pear");
+    let path = path_of(&tree);
+    assert_eq!(library.ask("PATCH", &path, Some(json!({ "template": true }))).status, 200);
+    let listed = |query: &str| library.get(&format!("/api/trees?template={query}"))["trees"].clone();
+    assert_eq!((listed("true")[0]["id"].clone(), listed("false")), (tree["id"].clone(), json!([])));
+    let begun = library.post("/api/sessions", json!({ "tree": tree["id"], "template": true }), 201);
+    assert_eq!(begun["tree"], Value::Null);
+    let mut visitor = library.enter(&begun, "browser-2").await;
+    visitor.until_form(&library.client.table.form()).await;
+    visitor.send(json!({ "kind": "grow", "steps": 2 })).await;
+    visitor.until_settled().await;
+    library.client = visitor;
+    let own = library.save("Own");
+    assert_ne!(own["id"], tree["id"]);
+    assert_eq!(library.get(&path)["version"], json!(1));
+}
+
+#[tokio::test]
+async fn lb6_a_deleted_tree_is_taken_back_whole() {
+    let mut library = Library::new().await;
+    let path = path_of(&library.save("Pear"));
+    library.grow(2).await;
+    library.save_again(&path, "Grown on");
+    let before = library.get(&path);
+    assert_eq!(library.ask("DELETE", &path, None).status, 204);
+    assert_eq!(library.names(), Vec::<String>::new());
+    let deleted = library.get("/api/trees?deleted=true");
+    assert_eq!(
+        (&deleted["trees"][0]["id"], deleted["trees"][0]["deleted_at"].is_string()),
+        (&before["id"], true)
+    );
+    assert_eq!(numbers(&library.get(&format!("{path}/versions"))), [2, 1]);
+    let refused =
+        library.ask("POST", &format!("{path}/versions"), Some(json!({ "session": library.client.session })));
+    assert_eq!(refused.status, 404, "{}", refused.text());
+    let refused = library.ask("POST", "/api/sessions", Some(json!({ "tree": before["id"] })));
+    assert_eq!(refused.status, 404, "{}", refused.text());
+    let back = library.post(&format!("{path}/undelete"), json!({}), 200);
+    assert_eq!(
+        (&back["version"], &back["name"], &back["deleted_at"]),
+        (&json!(2), &json!("Pear"), &Value::Null)
+    );
+    assert_eq!(library.ask("POST", &format!("{path}/undelete"), Some(json!({}))).status, 404);
+    assert_eq!(library.names(), ["Pear"]);
+}
+
+#[tokio::test]
+async fn lb5_what_is_said_is_plain_text() {
+    let library = Library::new().await;
+    let path = path_of(&library.save("Pear"));
+    let session = &library.client.session;
+    let hidden = "oak\u{202e}gpj";
+    for (method, at, body, field) in [
+        ("PATCH", path.clone(), json!({ "name": hidden }), "name"),
+        ("PATCH", path.clone(), json!({ "note": "bell\u{7}" }), "note"),
+        ("POST", format!("{path}/versions"), json!({ "session": session, "author": "\u{200b}" }), "author"),
+        ("POST", format!("{path}/copies"), json!({ "name": "\u{3164}" }), "name"),
+        ("POST", "/api/trees".into(), json!({ "session": session, "name": hidden }), "name"),
+    ] {
+        let refused = library.ask(method, &at, Some(body));
+        assert_eq!((refused.status, &refused.json()["field"]), (400, &json!(field)), "{}", refused.text());
+    }
+    let said = library.ask("PATCH", &path, Some(json!({ "note": " Two\nlines " })));
+    assert_eq!(said.json()["note"], json!("Two\nlines"));
+}
