@@ -125,8 +125,10 @@ impl Growth {
         let mut led = BTreeSet::new();
         let mut guides = core::mem::take(&mut self.guides);
         let zone = self.parameters.scene().occupancy_radius;
+        let mut leading: BTreeSet<AxisId> = guides.values().filter_map(|guide| guide.leader).collect();
         for guide in guides.values_mut() {
-            // What nothing lets go on gives up a piece of its path, and so do those that take it up, until one goes on.
+            // Where the leader is blocked, the stroke gives up a piece of its path and chooses a leader for the rest, until
+            // one grows or no path is left.
             while let Some(leader) = guide.leader.filter(|&leader| selection.includes(leader)) {
                 let space = self.claims.of(leader).map(|claimed| claimed.space);
                 let longest = self.parameters.of(leader).max_shoot_length;
@@ -139,8 +141,11 @@ impl Growth {
                 if scene.is_full() || !guide.is_ahead(scene.plant.bud_position(leader)) {
                     break;
                 }
+                leading.remove(&leader);
                 guide.go_past();
-                guide.choose_leader(&scene.space, &scene.obstacles, zone, |axis| selection.includes(axis));
+                let may_lead = |axis| selection.includes(axis);
+                guide.choose_leader(&scene.space, &scene.obstacles, zone, may_lead, &leading);
+                leading.extend(guide.leader);
             }
         }
         self.guides = guides;

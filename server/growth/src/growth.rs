@@ -123,12 +123,14 @@ impl Growth {
         self.guides.remove(&stroke);
     }
 
-    /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
+    /// Whether there is anything for a bud to grow towards: markers, path ahead of a leader, or a stroke that waits for
+    /// one.
     pub fn has_guidance(&self, scene: &Scene) -> bool {
         let is_led = |guide: &Guide| {
             guide.leader.is_some_and(|leader| guide.is_ahead(scene.plant.bud_position(leader)))
         };
-        !self.markers.as_slice().is_empty() || self.guides.values().any(is_led)
+        !self.markers.as_slice().is_empty()
+            || self.guides.values().any(|guide| guide.is_waiting || is_led(guide))
     }
 
     pub(crate) fn show(&mut self, scene: &mut Scene) {

@@ -5,8 +5,12 @@
 //! the stroke begins becomes its leader and grows from point to point of the path. How strongly it is led falls from 1,
 //! where the brush is half as wide as a zone, to [`LEAST_WEIGHT`] where it is as wide or wider; there the axis' own
 //! habit bends it, but never so far that it would not come nearer to its next point.
+//!
+//! An axis leads one stroke at a time, or two would pull it to and fro between them. A stroke that finds every bud in
+//! reach leading another waits until there are more. Where the paths of several strokes run together, one of them
+//! leads, and the others branch off where their paths part.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 
 use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
@@ -37,6 +41,8 @@ pub struct Guide {
     pub is_connecting: bool,
     /// Whether no bud was near when a leader was last asked for.
     pub is_out_of_reach: bool,
+    /// Whether all buds that were near then led other strokes.
+    pub is_waiting: bool,
 }
 
 /// A leader that heeds its path less than this might turn away from it: with it, no habit takes an axis more than 42°
@@ -55,8 +61,10 @@ pub const REACH: f32 = 25.0;
 /// What a turn by a right angle counts for, and an obstacle in between, when a leader is chosen; in internodes.
 const TURN_COST: f32 = 0.75;
 const OBSTACLE_COST: f32 = 10.0;
-/// Path that a leader gives up at a time when nothing lets it go on, in internodes.
+/// Path that is given up at a time where the leader is blocked, in internodes.
 const SKIPPED: f32 = 1.0;
+/// Paths that are nearer to each other run together, in internodes.
+const TOGETHER: f32 = 1.0;
 
 impl Guide {
     /// A stroke that begins now, in a plant with so many metamers.
@@ -68,6 +76,7 @@ impl Guide {
             first_born: MetamerId::new(metamers),
             is_connecting: true,
             is_out_of_reach: false,
+            is_waiting: false,
         }
     }
 
@@ -111,14 +120,28 @@ impl Guide {
         }
     }
 
-    /// Chooses the leader, once the stroke's direction is known if it is a line: a near bud that may lead, points
-    /// along it and sees where it begins.
+    /// Forgets the points ahead up to where the path parts from those of others that have leaders. Returns whether it
+    /// runs together with them to its end.
+    pub(crate) fn runs_along<'a>(&mut self, others: impl Iterator<Item = &'a Self>) -> bool {
+        let others: Vec<&Sweep> =
+            others.filter(|other| other.leader.is_some()).map(|other| &other.sweep).collect();
+        let is_shared =
+            |point: &&Waypoint| others.iter().any(|other| other.distance_to_path(point.position) < TOGETHER);
+        let count = self.path.iter().take_while(is_shared).count();
+        // The stroke branches off at the last shared point.
+        self.path.drain(..count.saturating_sub(1));
+        count > 0 && self.path.len() == 1
+    }
+
+    /// Chooses the leader, once the stroke's direction is known if it is a line: a near bud that may lead, is not
+    /// `leading` another stroke, points along this one and sees where it begins.
     pub(crate) fn choose_leader(
         &mut self,
         space: &Space,
         obstacles: &Obstacles,
         occupancy_radius: f32,
         may_lead: impl Fn(AxisId) -> bool,
+        leading: &BTreeSet<AxisId>,
     ) {
         let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
         let is_vague = first.position.distance(last.position) < ASSURED_LENGTH;
@@ -127,10 +150,15 @@ impl Guide {
         }
         let towards = if is_vague { Vec3::ZERO } else { (last.position - first.position).normalize() };
         let mut best: Option<(f32, AxisId)> = None;
+        let mut is_any_leading = false;
         space.visit_buds(first.position, REACH, |axis, bud, distance_squared| {
             let turn = TURN_COST * (1.0 - bud.direction.dot(towards));
             let least = distance_squared.sqrt() + turn;
             if best.is_some_and(|(cost, other)| (cost, other) <= (least, axis)) || !may_lead(axis) {
+                return;
+            }
+            if leading.contains(&axis) {
+                is_any_leading = true;
                 return;
             }
             let is_hidden = obstacles.hides(bud.position, first.position);
@@ -140,7 +168,8 @@ impl Guide {
             }
         });
         self.leader = best.map(|(_, axis)| axis);
-        self.is_out_of_reach = best.is_none();
+        self.is_waiting = best.is_none() && is_any_leading;
+        self.is_out_of_reach = best.is_none() && !is_any_leading;
         if self.is_out_of_reach {
             // The stroke leads from where it first passes a bud.
             let behind = self.path.len() - 1;
@@ -148,7 +177,7 @@ impl Guide {
         }
     }
 
-    /// Gives up the leader, which nothing lets go on, and the next piece of the path.
+    /// Gives up a leader that is blocked, and the next piece of the path.
     pub(crate) fn go_past(&mut self) {
         self.leader = None;
         let Some(stuck) = self.path.front().map(|point| point.position) else { return };
@@ -186,7 +215,8 @@ impl Guide {
                 Some(ahead)
             }
             None if front.position.distance(tip) >= ARRIVED => {
-                // The last internode: one that misses the end by a little must not turn around for it.
+                // The last internode. It ends the path even if it misses the end by more than `ARRIVED`: asked once more,
+                // the leader would turn back to it.
                 self.path.pop_front();
                 Some(front)
             }

@@ -152,7 +152,8 @@ impl<G: Generator + AsRef<Growth> + AsMut<Growth>> Simulation<G> {
         self.generator.as_mut().end_stroke(stroke);
     }
 
-    /// Whether there is anything for a bud to grow towards: markers, or path ahead of a leader.
+    /// Whether there is anything for a bud to grow towards: markers, path ahead of a leader, or a stroke that waits for
+    /// one.
     pub fn has_guidance(&self) -> bool {
         self.generator.as_ref().has_guidance(&self.scene)
     }

@@ -90,11 +90,18 @@ impl Growth {
             }
         }
         for guide in guides.values_mut() {
-            if guide.leader.is_some_and(|leader| !plant.is_axis_alive(leader)) {
-                guide.leader = None;
-            }
+            guide.leader = guide.leader.filter(|&leader| plant.is_axis_alive(leader));
             guide.skip_filled(space, zone);
-            guide.choose_leader(space, obstacles, zone, |axis| selection.includes(axis));
+        }
+        let mut leading: BTreeSet<AxisId> = guides.values().filter_map(|guide| guide.leader).collect();
+        let leaderless = guides.iter().filter(|(_, guide)| guide.leader.is_none());
+        for stroke in leaderless.map(|(&stroke, _)| stroke).collect::<Vec<_>>() {
+            let Some(mut guide) = guides.remove(&stroke) else { continue };
+            if !guide.runs_along(guides.values()) {
+                guide.choose_leader(space, obstacles, zone, |axis| selection.includes(axis), &leading);
+                leading.extend(guide.leader);
+            }
+            guides.insert(stroke, guide);
         }
     }
 

@@ -43,15 +43,26 @@ impl Sweep {
 
     /// How far outside it a place lies; below 0 inside, infinite where nothing was swept.
     pub(crate) fn outside(&self, place: Vec3) -> f32 {
+        self.least(place, |distance, radius| distance - radius)
+    }
+
+    /// How far from the brush's path a place lies, whatever its radius was.
+    pub(crate) fn distance_to_path(&self, place: Vec3) -> f32 {
+        self.least(place, |distance, _| distance)
+    }
+
+    /// The least value over the pieces of the path: of the distance from a place to its nearest point, and the radius
+    /// there.
+    fn least(&self, place: Vec3, value: impl Fn(f32, f32) -> f32) -> f32 {
         let along = |pair: &[BrushSample]| {
             let way = pair[1].position - pair[0].position;
             let length_squared = way.length_squared();
             let from = place - pair[0].position;
             let t = if length_squared > 0.0 { (from.dot(way) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-            (from - way * t).length() - (pair[0].radius + (pair[1].radius - pair[0].radius) * t)
+            value((from - way * t).length(), pair[0].radius + (pair[1].radius - pair[0].radius) * t)
         };
         match &self.places[..] {
-            [only] => place.distance(only.position) - only.radius,
+            [only] => value(place.distance(only.position), only.radius),
             places => places.windows(2).map(along).fold(f32::INFINITY, f32::min),
         }
     }
@@ -74,6 +85,7 @@ mod tests {
         let cone = sweep([(Vec3::ZERO, 2.0), (10.0 * Vec3::X, 4.0)]);
         assert_eq!(cone.outside(Vec3::new(5.0, 3.5, 0.0)), 0.5);
         assert_eq!(cone.outside(Vec3::new(13.0, 0.0, 0.0)), -1.0);
+        assert_eq!(cone.distance_to_path(Vec3::new(5.0, 3.5, 0.0)), 3.5);
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod obstructing;
 mod selecting;
 mod shaping;
 mod summary;
+mod together;
 
 use std::collections::BTreeSet;
 
