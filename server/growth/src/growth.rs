@@ -130,7 +130,7 @@ impl Growth {
             guide.leader.is_some_and(|leader| guide.is_ahead(scene.plant.bud_position(leader)))
         };
         !self.markers.as_slice().is_empty()
-            || self.guides.values().any(|guide| guide.is_waiting || is_led(guide))
+            || self.guides.values().any(|guide| guide.is_waiting() || is_led(guide))
     }
 
     pub(crate) fn show(&mut self, scene: &mut Scene) {

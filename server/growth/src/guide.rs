@@ -41,8 +41,6 @@ pub struct Guide {
     pub is_connecting: bool,
     /// Whether no bud was near when a leader was last asked for.
     pub is_out_of_reach: bool,
-    /// Whether all buds that were near then led other strokes.
-    pub is_waiting: bool,
 }
 
 /// A leader that heeds its path less than this might turn away from it: with it, no habit takes an axis more than 42°
@@ -76,7 +74,6 @@ impl Guide {
             first_born: MetamerId::new(metamers),
             is_connecting: true,
             is_out_of_reach: false,
-            is_waiting: false,
         }
     }
 
@@ -89,7 +86,7 @@ impl Guide {
     pub(crate) fn follow(&mut self, sample: BrushSample, occupancy_radius: f32) {
         self.sweep.add(sample);
         let BrushSample { position, radius } = sample;
-        let position = position.with_y(position.y.max(GROUND_CLEARANCE));
+        let position = above_ground(position);
         let apart = self.path.back().is_none_or(|last| last.position.distance(position) > LEAST_SPACING);
         if apart {
             if self.path.len() == MAX_WAYPOINTS {
@@ -144,7 +141,7 @@ impl Guide {
         leading: &BTreeSet<AxisId>,
     ) {
         let (Some(first), Some(last)) = (self.path.front(), self.path.back()) else { return };
-        let is_vague = first.position.distance(last.position) < ASSURED_LENGTH;
+        let is_vague = !self.is_assured();
         if self.leader.is_some() || (is_vague && !self.is_wide(occupancy_radius)) {
             return;
         }
@@ -168,7 +165,6 @@ impl Guide {
             }
         });
         self.leader = best.map(|(_, axis)| axis);
-        self.is_waiting = best.is_none() && is_any_leading;
         self.is_out_of_reach = best.is_none() && !is_any_leading;
         if self.is_out_of_reach {
             // The stroke leads from where it first passes a bud.
@@ -184,6 +180,23 @@ impl Guide {
         let near = |point: &&Waypoint| point.position.distance(stuck) < SKIPPED;
         let count = self.path.iter().take_while(near).count();
         self.path.drain(..count);
+    }
+
+    /// Whether its direction is known, so that it can be led along a line.
+    fn is_assured(&self) -> bool {
+        let (first, last) = (self.path.front(), self.path.back());
+        first.zip(last).is_some_and(|(first, last)| first.position.distance(last.position) >= ASSURED_LENGTH)
+    }
+
+    /// Whether all buds that are near lead other strokes. One out of reach, or that runs together with others, has but
+    /// one point ahead.
+    pub fn is_waiting(&self) -> bool {
+        self.leader.is_none() && self.is_assured()
+    }
+
+    /// Where its path ends: the last place of the brush, above ground. None before there is any.
+    pub fn end(&self) -> Option<Vec3> {
+        self.sweep.places().last().map(|place| above_ground(place.position))
     }
 
     /// Whether any of the path lies ahead of a leader whose tip is at `tip`.
@@ -223,6 +236,10 @@ impl Guide {
             None => None,
         }
     }
+}
+
+fn above_ground(place: Vec3) -> Vec3 {
+    place.with_y(place.y.max(GROUND_CLEARANCE))
 }
 
 /// Where the segment from a point inside the unit sphere around `centre` to one outside leaves it.

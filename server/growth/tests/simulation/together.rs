@@ -164,7 +164,7 @@ fn a_stroke_without_a_free_bud_waits_for_one() {
     simulation.step(&StepInput { pieces, ..StepInput::default() }, &mut NoObserver);
     let guide = |simulation: &Simulation| simulation.guide(StrokeId(2)).expect("it is drawn").clone();
     let waits = guide(&simulation);
-    assert!(waits.is_waiting && waits.leader.is_none() && !waits.is_out_of_reach, "{waits:?}");
+    assert!(waits.is_waiting() && waits.leader.is_none() && !waits.is_out_of_reach, "{waits:?}");
     settle(&mut simulation);
-    assert!(!guide(&simulation).is_waiting && nearness(&simulation, paths[1][1]) <= 0.5);
+    assert!(!guide(&simulation).is_waiting() && nearness(&simulation, paths[1][1]) <= 0.5);
 }
