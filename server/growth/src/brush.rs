@@ -12,6 +12,19 @@ use crate::{
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct StrokeId(pub u32);
 
+impl StrokeId {
+    /// The stroke of a programme with this number, from 0. Those by hand are counted upwards from 1, these downwards
+    /// from the end.
+    pub fn of_programme(number: u32) -> Self {
+        Self(u32::MAX - number)
+    }
+
+    /// Whether it is one of a programme.
+    pub fn is_of_programme(self) -> bool {
+        self.0 > u32::MAX / 2
+    }
+}
+
 /// One place of the brush.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BrushSample {

@@ -8,7 +8,7 @@ use espalier_growth::Parameters;
 use espalier_proto::{Problem, Programme};
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-pub(crate) use self::plan::{Deed, Plan, is_of_programme};
+pub(crate) use self::plan::{Deed, Plan};
 
 /// Parameters that sum to 1: who sets one of them by hand sets all.
 const WEIGHTS: [&str; 3] = ["heading_weight", "tropism_weight", "space_weight"];

@@ -8,7 +8,7 @@ use espalier_plant::MetamerId;
 
 #[cfg(test)]
 use super::tests::forks::Forks;
-use crate::habit::{Deed, Habit, is_of_programme};
+use crate::habit::{Deed, Habit};
 
 /// Steps in a row in which the brush of a programme finds nothing to do.
 const PATIENCE: u32 = 64;
@@ -28,7 +28,7 @@ pub(crate) struct Generators {
 /// One step of one of them.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Step {
-    /// Buds grow into free space, guided or not.
+    /// Buds grow into free space, guided by hand or not.
     Growth(StepInput),
     /// The plants grow older by the programme, or on their own where there is none, but not beyond an age.
     Age { chosen: Option<MetamerId>, until: u32 },
@@ -58,7 +58,10 @@ impl Generator for Generators {
     /// Who has not made the step itself follows it.
     fn step(&mut self, scene: &mut Scene, input: &Step, observer: &mut impl Observer) -> StepOutcome {
         let outcome = match input {
-            Step::Growth(input) => self.growth.step(scene, input, observer),
+            Step::Growth(input) => {
+                self.end_programme_strokes(None);
+                self.growth.step(scene, input, observer)
+            }
             &Step::Age { chosen, until } => self.grow_older(scene, chosen, until, observer),
             #[cfg(test)]
             Step::Fork => {
@@ -137,7 +140,7 @@ impl Generators {
                 break;
             }
             let deed = self.begin_deed(scene, age);
-            self.end_other_strokes(&deed);
+            self.end_programme_strokes(deed.stroke());
             let is_used_up = matches!(deed, Deed::Settle(..)) && !self.growth.has_guidance(scene);
             outcome = if is_used_up {
                 StepOutcome::default()
@@ -185,9 +188,10 @@ impl Generators {
         }
     }
 
-    /// Strokes of a programme that the hand has overtaken are over.
-    fn end_other_strokes(&mut self, deed: &Deed) {
-        let is_over = |stroke: &_| is_of_programme(*stroke) && Some(*stroke) != deed.stroke();
+    /// Ends the strokes of the programme but one. They end where the hand draws, or it would not get the bud that
+    /// leads them, and where growth by hand has made the plants older than a stroke lasts.
+    fn end_programme_strokes(&mut self, but: Option<StrokeId>) {
+        let is_over = |stroke: &StrokeId| stroke.is_of_programme() && Some(*stroke) != but;
         let over: Vec<_> = self.growth.strokes().filter(is_over).collect();
         over.into_iter().for_each(|stroke| self.growth.end_stroke(stroke));
     }

@@ -3,10 +3,7 @@
 use std::{ops::Range, sync::Arc};
 
 use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
-use espalier_proto::{
-    Problem, Programme, Stage,
-    version::{MAX_AGE, MAX_STAGES},
-};
+use espalier_proto::{Problem, Programme, Stage, version::MAX_AGE};
 use espalier_settings::ParameterValues;
 use glam::Vec3;
 
@@ -114,7 +111,7 @@ impl Plan {
         let Some(index) = self.strokes.iter().position(|stroke| stroke.ages.contains(&age)) else {
             return Deed::Alone;
         };
-        let (name, Stroke { ages, pieces }) = (name(index), &self.strokes[index]);
+        let (name, Stroke { ages, pieces }) = (StrokeId::of_programme(index as u32), &self.strokes[index]);
         match pieces.get((age - ages.start) as usize) {
             Some(samples) => Deed::Follow(BrushPiece { stroke: name, samples: samples.clone() }),
             None => Deed::Settle(name, ages.end),
@@ -152,16 +149,6 @@ impl Deed {
             Self::Settle(stroke, _) => Some(*stroke),
         }
     }
-}
-
-/// Strokes by hand are counted upwards from 1, those of a programme downwards from the end.
-fn name(index: usize) -> StrokeId {
-    StrokeId(u32::MAX - index as u32)
-}
-
-/// Whether a stroke is one of a programme.
-pub(crate) fn is_of_programme(stroke: StrokeId) -> bool {
-    stroke.0 > u32::MAX - MAX_STAGES as u32
 }
 
 /// A stroke whose brush reaches one place after the other, in steps.

@@ -1,5 +1,6 @@
 //! Programmes: parameters by age, what guides growth, what is set by hand; all of it back and forth in time.
 
+use espalier_plant::AxisId;
 use espalier_proto::{Age, ParameterName, Programme, Slug, Stage};
 
 use super::*;
@@ -164,4 +165,34 @@ fn pg4_what_was_set_by_hand_holds_at_every_age_until_it_is_given_back() {
     set(&mut document, None, false);
     let all = Action::FollowProgramme { parameters: List::default() };
     assert!(document.apply("ann", &plain(all)).is_err());
+}
+
+#[test]
+fn pg2_the_brush_of_a_programme_gives_its_bud_to_the_hand() {
+    let up = |step: u8| sample(0.0, 3.0 * f32::from(step), 0.0);
+    let pole =
+        programme(vec![Stage::Stroke { age: Age::nearest(0), samples: list((0..20).map(up).collect()) }]);
+    let mut document = Document::new(5);
+    set(&mut document, Some(pole), false);
+    grow(&mut document, 6, None);
+    let before = document.metamers();
+    let tip = document.plant().bud_position(AxisId::new(0));
+    assert!((5.0..40.0).contains(&tip.y), "the brush of the programme is on its way: {tip}");
+    let mut apply = |action: Action| document.apply("ann", &plain(action)).expect("it is well formed");
+    apply(Action::StrokeBegin { stroke: 1, bud: None });
+    for step in 0..=10u8 {
+        let along = f32::from(step);
+        let samples = list(vec![sample(tip.x + along, tip.y + 0.5 * along, 0.0)]);
+        apply(Action::StrokeMove { stroke: 1, samples });
+    }
+    apply(Action::StrokeEnd { stroke: 1 });
+    let grown = document.metamers() - before;
+    assert!((10..=14).contains(&grown), "{grown} metamers for a stroke of 11 internodes");
+    let end = document.plant().bud_position(AxisId::new(0));
+    assert!(
+        end.distance(tip + Vec3::new(10.0, 5.0, 0.0)) <= 0.5,
+        "it continued the leader of the programme: {end}"
+    );
+    grow(&mut document, 3, None);
+    assert!(document.metamers() > before + grown, "the programme goes on");
 }
