@@ -174,7 +174,9 @@ impl Growth {
     /// Sheds what does not pay; returns the nodes that went.
     fn shed(&mut self, scene: &mut Scene) -> Vec<Vec3> {
         let mut condemned = shedding::condemned(&scene.plant, &self.canopy, &self.parameters);
-        condemned.retain(self.spares(&scene.plant));
+        if !condemned.is_empty() {
+            condemned.retain(self.spares(&scene.plant));
+        }
         if condemned.is_empty() {
             return Vec::new();
         }
@@ -192,11 +194,19 @@ impl Growth {
         nodes
     }
 
-    /// Which axes may be shed: not those that lead a stroke, nor what bears them.
+    /// Which axes may be shed: not those that lead a stroke, nor those born since somebody began to draw, nor what bears
+    /// either. Whether what was drawn by hand pays is asked once growth has come to rest.
     pub(crate) fn spares(&self, plant: &Plant) -> impl Fn(&AxisId) -> bool + use<> {
         let mut spared = BTreeSet::new();
-        for leader in self.guides.values().filter_map(|guide| guide.leader) {
-            let mut axis = Some(leader);
+        let leaders = self.guides.values().filter_map(|guide| guide.leader);
+        let by_hand = self.guides.iter().filter(|(stroke, _)| !stroke.is_of_programme());
+        let first_born = by_hand.map(|(_, guide)| guide.first_born).min();
+        let is_young = |&axis: &AxisId| {
+            plant.axes().first(axis).zip(first_born).is_some_and(|(first, born)| first >= born)
+        };
+        let young = (0..plant.axis_count()).map(AxisId::new).filter(is_young);
+        for drawn in leaders.chain(young) {
+            let mut axis = Some(drawn);
             while let Some(bearing) = axis.filter(|&axis| spared.insert(axis)) {
                 axis = plant.axes().bearer(bearing).map(|bearer| plant.metamers().axis(bearer));
             }

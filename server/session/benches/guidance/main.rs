@@ -5,6 +5,7 @@
 //! Options: `--seeds` so many of each; `--only` names of forms, `--radii` and `--heights` in internodes, with commas
 //! between; `--hand slow|fast`, how many internodes the finger goes from message to message.
 
+mod following;
 mod lassos;
 mod shapes;
 mod strokes;

@@ -6,6 +6,7 @@ mod bending;
 mod commands;
 mod cutting;
 mod durability;
+mod filling;
 mod flow;
 mod futures;
 mod fuzz;

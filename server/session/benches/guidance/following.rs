@@ -1,0 +1,97 @@
+//! A stroke drawn on a trunk, and how growth follows it.
+
+use espalier_plant::MetamerId;
+use espalier_proto::{Action, BrushRadius, Position, StrokeSample};
+use espalier_session::Document;
+use glam::Vec3;
+
+use super::shapes;
+
+/// A node must lie this near to the end of a stroke for growth to have arrived.
+const ARRIVED: f32 = 2.0;
+/// Filled is what has a node this near.
+const FILLED: f32 = 2.0;
+/// Spilt is what lies this far outside the sweep.
+const SPILT: f32 = 1.0;
+/// Points at which the sweep is looked at.
+const PROBES: u32 = 4000;
+
+/// How one stroke was followed.
+#[derive(Clone, Copy, Debug)]
+pub struct Followed {
+    pub arrived: bool,
+    /// Share of the sweep.
+    pub fill: f32,
+    /// Share of the nodes that grew.
+    pub spill: f32,
+    pub metamers: usize,
+}
+
+/// A trunk and one stroke from its top, by a finger that goes so many internodes from message to message; and how many
+/// rows there were before the stroke.
+pub fn drawn(mut document: Document, path: &[Vec3], radius: f32, pace: f32) -> (Document, usize) {
+    stroke(&mut document, 1, &[Vec3::ZERO, Vec3::Y * shapes::TRUNK], 0.0, 2.0);
+    let before = document.plant().metamer_count();
+    stroke(&mut document, 2, path, radius, pace);
+    (document, before)
+}
+
+fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, pace: f32) {
+    let mut act = |action: Action| document.apply("finger", &action.into()).expect("a stroke can be drawn");
+    act(Action::StrokeBegin { stroke, bud: None });
+    let sample = |&position: &Vec3| StrokeSample {
+        position: Position::nearest(position),
+        radius: BrushRadius::nearest(radius),
+    };
+    // A screen gives many samples; one message holds those since the last.
+    for message in resampled(path, 0.5).chunks((pace / 0.5).clamp(1.0, 256.0) as usize) {
+        let samples: Vec<StrokeSample> = message.iter().map(sample).collect();
+        act(Action::StrokeMove { stroke, samples: samples.try_into().expect("not too many") });
+    }
+    act(Action::StrokeEnd { stroke });
+}
+
+/// The same path in points so far apart.
+fn resampled(path: &[Vec3], spacing: f32) -> Vec<Vec3> {
+    let mut points = vec![path[0]];
+    for pair in path.windows(2) {
+        let count = (pair[0].distance(pair[1]) / spacing).ceil().max(1.0);
+        points.extend((1..=count as u32).map(|i| pair[0].lerp(pair[1], i as f32 / count)));
+    }
+    points
+}
+
+impl Followed {
+    pub fn of(document: &Document, before: usize, path: &[Vec3], radius: f32) -> Self {
+        let plant = document.plant();
+        let living =
+            |from| (from..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
+        let nodes: Vec<Vec3> = living(0).map(|id| plant.metamers().end(id)).collect();
+        let path = resampled(path, 0.25);
+        let from_path = |place: Vec3| path.iter().map(|p| p.distance(place)).fold(f32::INFINITY, f32::min);
+        let is_near = |place: Vec3, reach: f32| nodes.iter().any(|node| node.distance(place) <= reach);
+        let grown: Vec<Vec3> = living(before).map(|id| plant.metamers().end(id)).collect();
+        let spilt = grown.iter().filter(|&&node| from_path(node) > radius + SPILT).count();
+        let (low, high) = path.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {
+            (low.min(p - radius), high.max(p + radius))
+        });
+        let (mut inside, mut filled, mut i) = (0, 0, 0u32);
+        while inside < PROBES {
+            i += 1;
+            // A sequence that covers the box evenly.
+            let share = |base: f64| (f64::from(i) * base).fract() as f32;
+            let share = Vec3::new(share(0.819_172_513), share(0.671_043_607), share(0.549_700_478));
+            let place = low + (high - low) * share;
+            if place.y > 0.5 && from_path(place) <= radius {
+                inside += 1;
+                filled += u32::from(is_near(place, FILLED));
+            }
+        }
+        Self {
+            arrived: is_near(path[path.len() - 1], ARRIVED),
+            fill: filled as f32 / PROBES as f32,
+            spill: spilt as f32 / grown.len().max(1) as f32,
+            metamers: grown.len(),
+        }
+    }
+}
