@@ -163,7 +163,7 @@ pub enum Notice {
     },
 }
 
-/// What somebody drew where nothing can grow (`SG2`).
+/// What somebody drew where nothing can grow, or growth did not reach (`SG2`).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Hint {
@@ -173,13 +173,13 @@ pub struct Hint {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub stroke: Option<u32>,
-    /// Why nothing grows.
+    /// Why it is not there.
     pub reason: HintReason,
     /// Where the brush or the end of the outline was.
     pub position: Position,
 }
 
-/// Why nothing grows where somebody draws.
+/// Why what somebody drew is not there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum HintReason {
@@ -187,6 +187,8 @@ pub enum HintReason {
     OutOfReach,
     /// Buds are near, and none could grow there: the space is taken, or something stands in the way.
     NothingGrew,
+    /// Something grew, but no wood is within 2 internodes of the end of the stroke.
+    DidNotReach,
 }
 
 /// From the server.

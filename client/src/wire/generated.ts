@@ -1556,7 +1556,7 @@ to: number, } | { "kind": "damaged",
  */
 entry: number, };
 
-export type HintReason = "out_of_reach" | "nothing_grew";
+export type HintReason = "out_of_reach" | "nothing_grew" | "did_not_reach";
 
 export type Hint = { 
 /**
@@ -1568,7 +1568,7 @@ id: number,
  */
 stroke?: number, 
 /**
- * Why nothing grows.
+ * Why it is not there.
  */
 reason: HintReason, 
 /**

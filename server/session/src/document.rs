@@ -44,7 +44,7 @@ pub use self::{
 };
 pub(crate) use self::{
     generators::{Generators, Step},
-    hints::Silence,
+    hints::DrawnInVain,
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };

@@ -10,7 +10,7 @@ use espalier_proto::{Command, Hint, PlacedObstacle, PoseFrame, Position, Problem
 
 use crate::{
     author::{LastCommand, note_last},
-    document::{Document, Silence},
+    document::{Document, DrawnInVain},
     io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
     snapshot,
@@ -137,7 +137,7 @@ impl Work {
         last_commands: BTreeMap<Arc<str>, LastCommand>,
     ) -> Self {
         // Whoever drew what was replayed has long lifted the finger.
-        document.take_silences();
+        document.take_drawn_in_vain();
         let busy = document.pending_steps() > 0;
         let style = Style::new(to_proto::style_options(&document.parameters()));
         let mut work = Self {
@@ -242,7 +242,7 @@ impl Work {
     /// All that is hinted at comes of the command that is being done.
     fn report_hints(&mut self) {
         let Some((author, id)) = &self.doing else { return };
-        for Silence { stroke, reason, place } in self.document.take_silences() {
+        for DrawnInVain { stroke, reason, place } in self.document.take_drawn_in_vain() {
             let hint = Hint { id: *id, stroke, reason, position: Position::nearest(place) };
             self.report.unheard.push(Unheard { author: Arc::clone(author), hint });
         }

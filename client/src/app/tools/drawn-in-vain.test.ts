@@ -5,6 +5,7 @@ import { messageHandlers, type SessionTargets } from "../session-events";
 import { DrawnInVain } from "./drawn-in-vain";
 
 const stroke: Hint = { id: 3, stroke: 1, reason: "out_of_reach", position: [0, 70, 0] };
+const stuck: Hint = { id: 7, stroke: 2, reason: "did_not_reach", position: [0, 20, 0] };
 const lasso: Hint = { id: 9, reason: "nothing_grew", position: [4, 2, 0] };
 
 describe("what was drawn in vain", () => {
@@ -46,7 +47,9 @@ describe("what was drawn in vain", () => {
     const show = vi.fn();
     const page = { drawnInVain: { show, clear: vi.fn() } } as Partial<SessionTargets> as SessionTargets;
     const handlers: MessageHandlers = messageHandlers(page);
-    handle(handlers, { type: "hint", hint: lasso });
-    expect(show).toHaveBeenCalledWith(lasso);
+    for (const hint of [stroke, stuck, lasso]) {
+      handle(handlers, { type: "hint", hint });
+      expect(show).toHaveBeenLastCalledWith(hint);
+    }
   });
 });

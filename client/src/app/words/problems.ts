@@ -9,6 +9,10 @@ export const PROBLEMS = {
     "Nothing could grow here: the space is taken, or something is in the way.",
     "Hier konnte nichts wachsen: Der Platz ist besetzt, oder etwas ist im Weg.",
   ],
+  "problems.did-not-reach": [
+    "Growth did not reach the end of this stroke: something is in the way.",
+    "Das Wachstum kam nicht bis ans Ende dieses Strichs: Etwas ist im Weg.",
+  ],
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
   "problems.nothing-to-ungrow": [

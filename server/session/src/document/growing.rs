@@ -5,7 +5,7 @@ use espalier_plant::MetamerId;
 use espalier_proto::{Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
 use glam::{Vec2, Vec3};
 
-use super::{Document, generators::Step, hints::Silence, history::Kind, refused, strokes::OpenStroke};
+use super::{Document, generators::Step, hints::DrawnInVain, history::Kind, refused, strokes::OpenStroke};
 use crate::cause::Cause;
 
 /// A stroke that still grows so many steps after its end is left as it is.
@@ -21,7 +21,7 @@ pub(super) enum Pending {
     /// So many steps alike, without guidance by hand; whether any of them has changed anything so far.
     Steps { left: u32, has_grown: bool, step: Step },
     /// At most so many steps, while the markers of a lasso make anything grow; what is to be said if nothing does.
-    Lasso { left: u32, chosen: Option<MetamerId>, silence: Option<Silence> },
+    Lasso { left: u32, chosen: Option<MetamerId>, in_vain: Option<DrawnInVain> },
     /// At most so many steps for a lifted brush, while anything grows into what it left.
     Settle { stroke: OpenStroke, left: u32 },
 }
@@ -55,17 +55,17 @@ impl Document {
                     }
                 }
             }
-            Pending::Lasso { left, chosen, silence } => {
+            Pending::Lasso { left, chosen, in_vain } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() {
                     let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if grows && !self.simulation.is_out_of_budget() {
-                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen, silence: None });
+                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen, in_vain: None });
                 } else {
                     self.simulation.drop_envelopes();
-                    self.hints.say(silence.filter(|_| !grows && !self.is_stopped()));
+                    self.hints.say(in_vain.filter(|_| !grows && !self.is_stopped()));
                 }
             }
             Pending::Settle { stroke, left } => {
@@ -76,7 +76,7 @@ impl Document {
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if !grows {
-                    self.hint_nothing_grew(&stroke);
+                    self.hint_shortfall(&stroke);
                     self.simulation.end_stroke(stroke.id);
                     if self.strokes.is_empty() {
                         self.simulation.drop_guidance();
@@ -194,8 +194,8 @@ impl Document {
         }
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
-        let silence = self.silence_of_lasso(&envelope, &places);
-        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen, silence });
+        let in_vain = self.lasso_in_vain(&envelope, &places);
+        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen, in_vain });
         Ok(())
     }
 
@@ -228,7 +228,7 @@ impl Document {
         outcome
     }
 
-    fn is_stopped(&self) -> bool {
+    pub(super) fn is_stopped(&self) -> bool {
         self.stop_at.is_some_and(|end| self.steps_begun >= end)
     }
 }

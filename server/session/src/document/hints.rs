@@ -1,4 +1,5 @@
-//! What somebody draws where nothing can grow: it is said once for each stroke and lasso (`SG2`).
+//! What somebody draws where nothing can grow, or growth does not reach: it is said once for each stroke and lasso
+//! (`SG2`).
 //!
 //! Nothing of this is written or hashed, for nothing grows by it.
 
@@ -11,9 +12,12 @@ use glam::Vec3;
 
 use super::{Document, strokes::OpenStroke};
 
-/// A stroke or lasso in which nothing grows.
+/// Wood must lie this near to the end of a stroke for growth to have reached it, in internodes.
+const REACHED: f32 = 2.0;
+
+/// A stroke or lasso that does not get what was drawn.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Silence {
+pub(crate) struct DrawnInVain {
     /// The author's number of the stroke, if it is one.
     pub stroke: Option<u32>,
     pub reason: HintReason,
@@ -24,20 +28,20 @@ pub(crate) struct Silence {
 /// What is still to be said, and of which strokes something has been said.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hints {
-    silences: Vec<Silence>,
+    drawn: Vec<DrawnInVain>,
     strokes: BTreeSet<StrokeId>,
 }
 
 impl Hints {
-    pub fn say(&mut self, silence: impl IntoIterator<Item = Silence>) {
-        self.silences.extend(silence);
+    pub fn say(&mut self, in_vain: impl IntoIterator<Item = DrawnInVain>) {
+        self.drawn.extend(in_vain);
     }
 }
 
 impl Document {
     /// What was drawn in vain since the last call.
-    pub(crate) fn take_silences(&mut self) -> Vec<Silence> {
-        std::mem::take(&mut self.hints.silences)
+    pub(crate) fn take_drawn_in_vain(&mut self) -> Vec<DrawnInVain> {
+        std::mem::take(&mut self.hints.drawn)
     }
 
     /// A stroke that has just been drawn on may find no bud where it begins.
@@ -50,14 +54,16 @@ impl Document {
         }
     }
 
-    /// A stroke that has ended, and has come to rest, may have grown nothing. That the document is full is said
-    /// elsewhere (`LM4`).
-    pub(super) fn hint_nothing_grew(&mut self, stroke: &OpenStroke) {
-        let metamers = self.plant().metamer_count();
-        let guide = self.simulation.guide(stroke.id);
-        let is_idle = guide.is_some_and(|guide| guide.first_born.index() == metamers);
-        if is_idle && self.require_room().is_ok() {
-            self.hint(stroke, HintReason::NothingGrew);
+    /// A stroke that has ended, and has come to rest, may have grown nothing, or not to its end. That the document is
+    /// full is said elsewhere (`LM4`).
+    pub(super) fn hint_shortfall(&mut self, stroke: &OpenStroke) {
+        let reason = self.simulation.guide(stroke.id).and_then(|guide| {
+            let has_grown = self.plant().metamer_count() > guide.first_born.index();
+            let Some(end) = guide.end().filter(|_| has_grown) else { return Some(HintReason::NothingGrew) };
+            self.simulation.scene().is_free(end, REACHED).then_some(HintReason::DidNotReach)
+        });
+        if let Some(reason) = reason.filter(|_| !self.is_stopped() && self.require_room().is_ok()) {
+            self.hint(stroke, reason);
         }
         self.hints.strokes.remove(&stroke.id);
     }
@@ -65,12 +71,12 @@ impl Document {
     fn hint(&mut self, stroke: &OpenStroke, reason: HintReason) {
         let Some(last) = stroke.last else { return };
         if self.hints.strokes.insert(stroke.id) {
-            self.hints.say([Silence { stroke: Some(stroke.number), reason, place: last.position }]);
+            self.hints.say([DrawnInVain { stroke: Some(stroke.number), reason, place: last.position }]);
         }
     }
 
     /// What to say of a lasso in which nothing grows: it ends at the last corner of its outline.
-    pub(super) fn silence_of_lasso(&self, envelope: &Envelope, outline: &[Vec3]) -> Option<Silence> {
+    pub(super) fn lasso_in_vain(&self, envelope: &Envelope, outline: &[Vec3]) -> Option<DrawnInVain> {
         let plant = self.plant();
         let buds = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis));
         let mut buds = buds.map(|axis| plant.bud_position(axis));
@@ -79,7 +85,7 @@ impl Document {
             envelope.contains(bud) || edges().any(|(&from, &to)| distance_to_edge(bud, from, to) <= REACH)
         };
         let reason = if buds.any(is_near) { HintReason::NothingGrew } else { HintReason::OutOfReach };
-        outline.last().map(|&place| Silence { stroke: None, reason, place })
+        outline.last().map(|&place| DrawnInVain { stroke: None, reason, place })
     }
 }
 

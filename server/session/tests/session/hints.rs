@@ -106,3 +106,34 @@ fn sg2_a_lasso_in_the_ground_is_not_out_of_reach() {
     let reasons: Vec<_> = hints(&world, client).iter().map(|hint| hint.reason).collect();
     assert_eq!(reasons, [HintReason::NothingGrew]);
 }
+
+#[test]
+fn sg2_a_stroke_that_is_stopped_on_its_way_did_not_reach() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    let ceiling = json!({ "kind": "box", "size": [120.0, 2.0, 120.0] });
+    world.command(client, 1, place(ceiling, at(0.0, 9.0, 0.0)));
+    world.settle();
+    stroke(&mut world, client, 2, [[0.0, 1.0, 0.0], [0.0, 20.0, 0.0]]);
+    assert!(world.document().metamers() > 0);
+    let reasons: Vec<_> = hints(&world, client).iter().map(|hint| (hint.stroke, hint.reason)).collect();
+    assert_eq!(reasons, [(Some(5), HintReason::DidNotReach)]);
+}
+
+#[test]
+fn sg2_what_another_grows_hides_no_hint() {
+    let mut world = World::new();
+    let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
+    let block = json!({ "kind": "box", "size": [120.0, 2.0, 120.0] });
+    world.command(birch, 1, place(block, at(0.0, 9.0, 0.0)));
+    world.command(birch, 2, json!({ "kind": "stroke_begin", "stroke": 1 }));
+    let sample = json!([{ "position": [0.0, 14.0, 0.0], "radius": 0.5 }]);
+    world.command(birch, 3, json!({ "kind": "stroke_move", "stroke": 1, "samples": sample }));
+    world.settle();
+    stroke(&mut world, maple, 1, [[0.0, 1.0, 0.0], [4.0, 3.0, 0.0]]);
+    world.command(birch, 4, json!({ "kind": "stroke_end", "stroke": 1 }));
+    world.settle();
+    let reasons: Vec<_> = hints(&world, birch).iter().map(|hint| (hint.stroke, hint.reason)).collect();
+    assert_eq!(reasons, [(Some(1), HintReason::DidNotReach)]);
+    assert_eq!(hints(&world, maple), []);
+}

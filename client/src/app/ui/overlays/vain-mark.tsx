@@ -1,5 +1,6 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
+import type { Hint } from "../../../wire/generated";
 import { type Key, say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
 
@@ -9,9 +10,10 @@ const ROOM = { x: 130, y: 96 };
 const REASONS = {
   out_of_reach: "problems.out-of-reach",
   nothing_grew: "problems.nothing-grew",
-} as const satisfies Record<string, Key>;
+  did_not_reach: "problems.did-not-reach",
+} as const satisfies Record<Hint["reason"], Key>;
 
-/** A sentence at the place where somebody drew and nothing can grow. */
+/** A sentence at the place where somebody drew and growth does not come. */
 export function VainMark({ studio }: { studio: Studio }) {
   const mark = useRef<HTMLParagraphElement>(null);
   const hint = studio.drawnInVain.shown.value;
