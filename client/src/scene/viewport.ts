@@ -123,7 +123,7 @@ export class Viewport {
       new QualityControl(this.cardless),
     );
     this.pause = new RenderPause(canvas, this.resume);
-    this.loop.control.open(performance.now());
+    this.loop.open();
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
     const essential = [
@@ -132,10 +132,7 @@ export class Viewport {
       ...this.sun.essential,
       ...this.screen.essential,
     ];
-    this.rehearsal = new Rehearsal(this.renderer, essential, () => {
-      this.loop.control.open(performance.now());
-      this.loop.invalidate();
-    });
+    this.rehearsal = new Rehearsal(this.renderer, essential, () => this.loop.open());
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.unfollow = followPixelRatio(() => this.resize());
@@ -148,7 +145,7 @@ export class Viewport {
     if (this.empty && this.table.rows > 0) {
       this.empty = false;
       this.painter.begun = true;
-      this.loop.control.open(performance.now());
+      this.loop.open();
     }
     this.loop.invalidate();
   }

@@ -50,6 +50,19 @@ it("one that was behind is waited for from the next frame on, until it is quick 
   expect(fence.behind(549)).toBe(false);
 });
 
+it("what was asked for before the first picture is forgotten", () => {
+  fence.set(0);
+  expect(fence.behind(500)).toBe(true);
+  gl.getSyncParameter.mockReturnValueOnce(4);
+  expect(fence.behind(516)).toBe(false);
+  fence.set(516);
+  fence.forget();
+  expect(gl.deleteSync).toHaveBeenCalledTimes(2);
+  expect(fence.behind(600)).toBe(false);
+  fence.set(600);
+  expect(fence.behind(617), "nor does it say anything of the frames that follow").toBe(false);
+});
+
 it("one whose context is lost will never be done, and is not waited for", () => {
   fence.set(0);
   gl.isContextLost.mockReturnValue(true);

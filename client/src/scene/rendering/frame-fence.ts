@@ -21,6 +21,12 @@ export class FrameFence {
     gl.flush();
   }
 
+  /** What was asked for so far is not waited for. */
+  forget(): void {
+    for (const { sync } of this.asked.splice(0)) this.gl.deleteSync(sync);
+    this.slow = false;
+  }
+
   /** Whether another frame would have to wait for one of those, and nobody knows for how long. */
   behind(now: number): boolean {
     const { gl, asked } = this;

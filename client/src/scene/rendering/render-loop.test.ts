@@ -5,7 +5,7 @@ import { RenderLoop } from "./render-loop";
 
 let frames: FrameRequestCallback[];
 let now: number;
-const fence = { behind: vi.fn(() => false), set: vi.fn() };
+const fence = { behind: vi.fn(() => false), set: vi.fn(), forget: vi.fn() };
 const draw = vi.fn(() => false);
 let loop: RenderLoop;
 
@@ -58,6 +58,14 @@ it("a card that is behind gets nothing more to do, and then the newest", () => {
   }
   expect(draw).not.toHaveBeenCalled();
   fence.behind.mockReturnValue(false);
+  frame();
+  expect(draw).toHaveBeenCalledOnce();
+});
+
+it("the first picture is asked for while the card gets ready for it", () => {
+  fence.behind.mockReturnValue(true);
+  fence.forget.mockImplementationOnce(() => fence.behind.mockReturnValue(false));
+  loop.open();
   frame();
   expect(draw).toHaveBeenCalledOnce();
 });

@@ -47,6 +47,16 @@ export class RenderLoop {
     this.schedule();
   }
 
+  /**
+   * The first picture is about to be drawn. It does not wait for the card, which gets its programs ready with the frames
+   * before it: those show nothing yet.
+   */
+  open(): void {
+    this.control.open(performance.now());
+    this.fence.forget();
+    this.invalidate();
+  }
+
   /** Has one drawn that is part of a movement. */
   stir(): void {
     this.control.moved(performance.now());
