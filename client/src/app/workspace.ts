@@ -31,6 +31,9 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
       (cardless) => {
         studio.slowness.value = cardless ? "cardless" : "tree";
       },
+      () => {
+        studio.stage.opened.value = true;
+      },
     );
   } catch (error) {
     console.error(error);

@@ -79,7 +79,8 @@ export class Viewport {
 
   /**
    * Calls `lossChanged` with true when the picture is lost, and with false when it is back; `moved` when the view has
-   * another place or size; and `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card.
+   * another place or size; `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card; and
+   * `shown` with each frame that has a tree in it.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -87,6 +88,7 @@ export class Viewport {
     private readonly lossChanged: (lost: boolean) => void = () => {},
     private readonly moved: () => void = () => {},
     private readonly slowed: (cardless: boolean) => void = () => {},
+    private readonly shown: () => void = () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
@@ -475,6 +477,7 @@ export class Viewport {
     if (growing || moving) control.moved(began);
     if (moving) this.moved();
     if (control.overtaxed) this.slowed(this.cardless);
+    if (!this.empty) this.shown();
     if (this.pause.on) return growing || moving;
     const { quality } = control;
     const { camera } = this.aimed();

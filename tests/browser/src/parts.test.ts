@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { until } from "./server";
 import { SMALL, type Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
@@ -16,7 +17,44 @@ async function reloadWithout(tablet: Tablet, files: string): Promise<void> {
   await tablet.untilReady();
 }
 
+/** Keeps the rows of the tree back from the page that is loaded next; what this returns lets them through. */
+async function holdRows({ page }: Tablet): Promise<() => void> {
+  let through = false;
+  const held: (() => void)[] = [];
+  await page.routeWebSocket(/.*/, (socket) => {
+    const server = socket.connectToServer();
+    server.onMessage((message) => {
+      if (typeof message === "string" || through) socket.send(message);
+      else held.push(() => socket.send(message));
+    });
+  });
+  return () => {
+    through = true;
+    for (const send of held.splice(0)) send();
+  };
+}
+
 describe("parts of the page", () => {
+  it("that the first picture does without come after it", async () => {
+    const { tablet, address } = await workshop.fresh(SMALL);
+    await workshop.act(address, [{ kind: "grow", steps: 5 }]);
+    await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+    const { page } = tablet;
+    const letThrough = await holdRows(tablet);
+    const asked: string[] = [];
+    page.on("request", (request) => {
+      if (/script|stylesheet/.test(request.resourceType())) asked.push(new URL(request.url()).pathname);
+    });
+    await page.reload();
+    await tablet.until("the page knows of the tree", ({ operations }) => operations !== "");
+    await tablet.frames();
+    const later = asked.filter((path) => path.startsWith("/assets/") && !path.startsWith("/assets/index-"));
+    expect(later).toEqual([]);
+    letThrough();
+    await until("they come", () => asked.some((path) => path.startsWith("/assets/button-label-")));
+    await page.getByRole("slider", { name: "Time", exact: true }).waitFor();
+  });
+
   it("that do not come say so in their place, and come when they are asked for again", async () => {
     const { tablet } = await workshop.fresh(SMALL);
     const files = "**/assets/brush-panel-*.js";

@@ -125,10 +125,14 @@ function useToolViews(studio: Studio) {
   return views && made ? { views, made } : null;
 }
 
-/** A part that has no place for a sentence of its own, asked for whenever `need` becomes another; null until it is there. */
+/**
+ * A part that has no place for a sentence of its own, asked for whenever `need` becomes another; null until it is there.
+ * The first picture goes before it, unless something keeps that from coming.
+ */
 function usePart<Content>(studio: Studio, part: Part<Content>, need: string | boolean): Content | null {
+  const mayCome = studio.stage.opened.value || studio.hindrance.value !== null;
   useEffect(() => {
-    if (need !== false) {
+    if (mayCome && need !== false) {
       void part.open().then(() => {
         const failure = part.failure.peek();
         if (failure !== null) {
@@ -136,7 +140,7 @@ function usePart<Content>(studio: Studio, part: Part<Content>, need: string | bo
         }
       });
     }
-  }, [studio, part, need]);
+  }, [studio, part, need, mayCome]);
   return part.content.value;
 }
 

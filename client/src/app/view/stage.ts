@@ -33,6 +33,8 @@ export class Stage {
   readonly widest = signal(MAX_RADIUS);
   /** Whether the camera has moved back to show growth, and the user has not moved it since. */
   readonly widened = signal(false);
+  /** Whether the first tree has been drawn, or none can be: what the picture does without may be loaded from then on. */
+  readonly opened = signal(false);
   #options: StageOptions;
   #table: TreeTable;
   #follower: GrowthFollower;
@@ -94,6 +96,7 @@ export class Stage {
   /** No picture can be drawn. */
   darken(): void {
     this.#dark = true;
+    this.opened.value = true;
   }
 
   /** A finger is down or a lever held: the picture is not at rest until what this returns was called. */
