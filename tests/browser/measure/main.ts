@@ -13,6 +13,8 @@ const SCREEN = { width: 1194, height: 834 };
 /** Frames whose script is timed, after some in which everything is used for the first time. */
 const FRAMES = 240;
 const WARMING = 40;
+/** How often the page is opened to see how long that takes, one time after the other. */
+const OPENINGS = 5;
 /** So long the tree is turned to see how long a frame takes to be drawn, in milliseconds. */
 const TURNED = 10_000;
 
@@ -36,13 +38,17 @@ export async function main(words: readonly string[]): Promise<number> {
     // Two leaves at each node that bears any.
     await perform(blank, session, ['{"kind":"set_parameters","parameters":{"leaves_per_node":4}}']);
     const tree = await grow(blank, browser, address, session, metamers);
-    const page = await openMeasured(browser, address);
-    // Asked once: a page that is asked again and again takes longer.
-    const first = await inTime(
-      "a tree is drawn",
-      page.evaluate(() => window.firstTree),
-    );
-    const rows = await page.evaluate(() => window.rowsAt);
+    const openings = [await openMeasured(browser, address)];
+    while (openings.length < OPENINGS) {
+      await openings.at(-1)!.page.context().close();
+      openings.push(await openMeasured(browser, address));
+    }
+    const { page, first } = openings.at(-1)!;
+    const middle = (what: "rows" | "first") =>
+      quantile(
+        openings.map((opening) => opening[what]),
+        0.5,
+      );
     const still = await atRest(page);
     const rested = await done(page);
     const shown = await turningShown(page);
@@ -69,11 +75,11 @@ export async function main(words: readonly string[]): Promise<number> {
         print: thousands,
       },
       { what: "all that is loaded once the page is idle, gzip, bytes", value: all, print: thousands },
-      { what: "its rows received, ms", value: rows, print: whole },
+      { what: "its rows received, ms", value: middle("rows"), print: whole },
       { what: "picture at rest and drawn, ms", value: rested, print: whole },
       { what: "a frame while the tree is turned, as it is drawn, ms", value: shown.frame, print: whole },
       { what: "the picture behind the finger then, ms", value: shown.behind, print: whole },
-      { what: "first tree handed to the graphics card, ms", value: first, most: BUDGET.first, print: whole },
+      { what: "first tree handed to the graphics card, ms", value: middle("first"), most: BUDGET.first, print: whole },
     ];
     console.log(`${cpus()[0]?.model ?? "an unknown processor"}, ${cpus().length} cores`);
     console.log(`${browser.browserType().name()} ${browser.version()}, ${SCREEN.width} × ${SCREEN.height}\n`);
@@ -134,13 +140,25 @@ async function grow(blank: Page, browser: Browser, address: string, session: str
   return tree;
 }
 
-async function openMeasured(browser: Browser, address: string): Promise<Page> {
+/** A page that has just drawn its first tree, and when, in milliseconds since the navigation. */
+interface Opening {
+  readonly page: Page;
+  readonly rows: number;
+  readonly first: number;
+}
+
+async function openMeasured(browser: Browser, address: string): Promise<Opening> {
   const context = await browser.newContext({ viewport: SCREEN, hasTouch: true, deviceScaleFactor: 1 });
   await withClient(context);
   const page = await context.newPage();
   await page.addInitScript(instrument, A_TREE);
   await page.goto(address, { waitUntil: "commit" });
-  return page;
+  // Asked once: a page that is asked again and again takes longer.
+  const first = await inTime(
+    "a tree is drawn",
+    page.evaluate(() => window.firstTree),
+  );
+  return { page, first, rows: await page.evaluate(() => window.rowsAt) };
 }
 
 /** A script or style, and when the page asked for it, in milliseconds since the navigation. */
