@@ -52,7 +52,27 @@ impl RadiusCodes {
 
 #[cfg(test)]
 mod tests {
+    use std::{fmt::Write, fs, path::PathBuf};
+
     use super::*;
+
+    /// Clients decode by themselves: both must find the radii in `golden/radius-codes.json`.
+    ///
+    /// After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-mesh radius_code`.
+    #[test]
+    fn codes_are_as_they_were_written_down() {
+        let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("golden/radius-codes.json");
+        let mut written = String::new();
+        for code in [0, 1, 2, 100, 392, 692, 900, 1153, 1500, 2000] {
+            let comma = if written.is_empty() { "[" } else { "," };
+            write!(written, "{comma}[{code},{:?}]", decode(code)).expect("memory takes it");
+        }
+        written.push_str("]\n");
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
+            fs::write(&file, &written).expect("the radii can be written");
+        }
+        assert!(fs::read_to_string(&file).is_ok_and(|stored| stored == written), "radii differ");
+    }
 
     #[test]
     fn codes_are_one_per_cent_apart() {

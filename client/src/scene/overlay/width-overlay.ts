@@ -16,7 +16,9 @@ const FIRST_BELOW = 3;
 
 /**
  * A limb that is made thicker or slimmer, as it will be if no further width is set: above it every radius becomes
- * r_e (r / r_e)^p, so that twigs stay what they are; below it r^n grows by what the limb's own has grown.
+ * r_e (r / r_e)^p, so that twigs stay what they are; below it r^n grows by what the limb's own has grown. The server
+ * finds the same radii, which `server/plant/golden/widths.json` holds; where its exponent would leave 1 to 8
+ * (`server/plant/src/widths/fit.rs`) the preview only comes near.
  */
 export class WidthOverlay implements Overlay {
   readonly slots: number;

@@ -1,6 +1,7 @@
 //! Width constraints on random trees, and on small ones whose radii can be calculated by hand.
 #![allow(clippy::disallowed_methods, reason = "the plain definition is compared within a tolerance")]
 
+mod golden;
 mod plain;
 
 use espalier_plant::{AxisId, Girth, Internode, MetamerId, Plant, Widths, widths::in_force};
