@@ -18,17 +18,17 @@ pub(crate) struct Client {
     /// Of those, how many are to be written until it has had the notices; none if it is sent none.
     pub(crate) notified_after: Option<usize>,
     /// Who it is; nobody before its hello.
-    pub(crate) guest: Option<Guest>,
+    pub(crate) connected: Option<ConnectedClient>,
 }
 
 /// A client that has said hello.
 #[derive(Debug)]
-pub(crate) struct Guest {
+pub(crate) struct ConnectedClient {
     pub(crate) principal: Principal,
     pub(crate) window: Window,
     pub(crate) view: View,
     pub(crate) watch: Watch,
-    pub(crate) vision: Vision,
+    pub(crate) prediction_view: PredictionView,
 }
 
 /// The poses a client has seen (`BE5`).
@@ -42,7 +42,7 @@ pub(crate) struct Watch {
 
 /// The predictions of a client (`PD`).
 #[derive(Debug, Default)]
-pub(crate) struct Vision {
+pub(crate) struct PredictionView {
     /// Predictions asked for and ghosts ended: the newest of them.
     pub(crate) number: u32,
     /// What is asked for and not begun.

@@ -48,7 +48,7 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::{cause::Cause, habit::Habit};
+use crate::{cause::Cause, schedule::GrowthSchedule};
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
@@ -110,15 +110,15 @@ impl Document {
     fn of(seed: u32, parameters: Parameters) -> Self {
         let obstacles = Obstacles::default();
         let appearance = Arc::new(Appearance::default());
-        let habit = Arc::new(Habit::plain(parameters.clone()));
+        let schedule = Arc::new(GrowthSchedule::plain(parameters.clone()));
         let initial = Setting {
-            habit: Arc::clone(&habit),
+            schedule: Arc::clone(&schedule),
             obstacles: Arc::clone(&obstacles.standing),
             appearance: Arc::clone(&appearance),
         };
         Self {
             simulation: Simulation::new(seed, parameters)
-                .grown_by(|growth| Generators::new(growth, habit, 0)),
+                .grown_by(|growth| Generators::new(growth, schedule, 0)),
             history: History::new(initial),
             futures: Futures::default(),
             strokes: OpenStrokes::default(),
@@ -268,7 +268,7 @@ impl Document {
         for value in settings::to_words(self.simulation.parameters().values()) {
             hash.word(value);
         }
-        self.hash_habit(&mut hash);
+        self.hash_schedule(&mut hash);
         for value in settings::to_words(&*self.appearance) {
             hash.word(value);
         }

@@ -3,7 +3,7 @@
 use espalier_proto::{Action, Command, Problem};
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-use crate::{appearance::AppearanceChange, habit::Plan, obstacle::Obstacle};
+use crate::{appearance::AppearanceChange, obstacle::Obstacle, schedule::Plan};
 
 // The wire lets nothing stand outside the world that growth keeps to.
 const _: () = assert!(espalier_growth::WORLD_EXTENT == espalier_proto::place::FARTHEST);

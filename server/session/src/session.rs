@@ -304,17 +304,17 @@ impl Session {
 
     /// Who has said hello and is still here, once for each client.
     pub fn people(&self) -> impl Iterator<Item = &crate::Principal> {
-        self.clients.values().filter_map(|client| client.guest.as_ref()).map(|guest| &guest.principal)
+        self.clients.values().filter_map(|client| client.connected.as_ref()).map(|connected| &connected.principal)
     }
 
     fn read(&mut self, client: ClientId, text: &str) {
-        let Some(Client { guest, .. }) = self.clients.get(&client) else { return };
+        let Some(Client { connected, .. }) = self.clients.get(&client) else { return };
         if text.len() > MAX_MESSAGE_BYTES {
             return self.close(client, CloseCode::MessageTooBig, "a message has at most 256 KiB");
         }
         let message = ClientMessage::from_json(text);
-        let Some(guest) = guest else { return self.greet(client, text, message) };
-        let principal = guest.principal.clone();
+        let Some(connected) = connected else { return self.greet(client, text, message) };
+        let principal = connected.principal.clone();
         match message {
             Ok(ClientMessage::Command { id, command }) => {
                 self.end_prediction(client);
@@ -353,7 +353,7 @@ impl Session {
 
     fn read_binary(&mut self, client: ClientId) {
         match self.clients.get(&client) {
-            Some(Client { guest: Some(_), .. }) => {
+            Some(Client { connected: Some(_), .. }) => {
                 let problem = Problem::new(ProblemCode::Malformed, "clients send no binary messages");
                 self.send(client, &ServerMessage::Problem { problem });
             }
@@ -380,8 +380,8 @@ impl Session {
     }
 
     fn broadcast_text(&mut self, text: &Arc<str>) {
-        let guests = self.clients.iter().filter(|(_, client)| client.guest.is_some());
-        for client in guests.map(|(&id, _)| id).collect::<Vec<_>>() {
+        let connected = self.clients.iter().filter(|(_, client)| client.connected.is_some());
+        for client in connected.map(|(&id, _)| id).collect::<Vec<_>>() {
             self.send_text(client, text);
         }
     }

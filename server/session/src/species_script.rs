@@ -9,7 +9,7 @@ use espalier_proto::{
 };
 use glam::Vec3;
 
-use crate::{appearance::AppearanceChange, habit::Plan};
+use crate::{appearance::AppearanceChange, schedule::Plan};
 
 /// What a picker does, and growth from seed until the tree is grown up.
 pub fn script(species: &Species) -> Vec<Action> {

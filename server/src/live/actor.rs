@@ -52,9 +52,9 @@ pub(super) enum Request {
 /// What became of a command from outside: the obstacle it placed, if it placed one.
 pub type Outcome = Result<Option<PlacedObstacle>, Problem>;
 
-/// What the actor's own errands bring back.
+/// What the actor's own tasks bring back.
 #[derive(Debug)]
-enum Errand {
+enum ActorTask {
     Journaled(u64),
     JournalFailed(String),
     Worked(Box<Work>),
@@ -145,8 +145,8 @@ pub(super) struct Actor {
     lease: Lease,
     services: Services,
     requests: mpsc::Receiver<Request>,
-    errands: mpsc::UnboundedReceiver<Errand>,
-    errand: mpsc::UnboundedSender<Errand>,
+    tasks: mpsc::UnboundedReceiver<ActorTask>,
+    task: mpsc::UnboundedSender<ActorTask>,
     clients: BTreeMap<ClientId, Outbox>,
     next_client: u64,
     reads: BTreeMap<u64, oneshot::Sender<ReadDocument>>,
@@ -177,7 +177,7 @@ impl Actor {
     ) -> (Self, SessionHandle) {
         session.guard(authority::over(services.authority, &name));
         let (sender, requests) = mpsc::channel(MAILBOX);
-        let (errand, errands) = mpsc::unbounded_channel();
+        let (task, tasks) = mpsc::unbounded_channel();
         let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };
         let actor = Self {
             name,
@@ -185,8 +185,8 @@ impl Actor {
             lease,
             services,
             requests,
-            errands,
-            errand,
+            tasks,
+            task,
             clients: BTreeMap::new(),
             next_client: 1,
             reads: BTreeMap::new(),
@@ -237,7 +237,7 @@ impl Actor {
             let input = tokio::select! {
                 biased;
                 () = self.services.stop.cancelled() => return Ok(End::Stopping),
-                Some(errand) = self.errands.recv() => self.returned(errand)?,
+                Some(task) = self.tasks.recv() => self.returned(task)?,
                 Some(request) = self.requests.recv() => self.requested(request),
                 () = until(wake_at) => {
                     self.wake_at = None;
@@ -268,8 +268,8 @@ impl Actor {
         }
         self.handle(Input::Stopping)?;
         while self.under_way > 0 {
-            let Some(errand) = self.errands.recv().await else { break };
-            if let Some(input) = self.returned(errand)? {
+            let Some(task) = self.tasks.recv().await else { break };
+            if let Some(input) = self.returned(task)? {
                 self.handle(input)?;
             }
         }
@@ -321,17 +321,17 @@ impl Actor {
         })
     }
 
-    fn returned(&mut self, errand: Errand) -> Result<Option<Input>, Failed> {
+    fn returned(&mut self, task: ActorTask) -> Result<Option<Input>, Failed> {
         self.under_way -= 1;
-        match errand {
-            Errand::Journaled(through) => Ok(Some(Input::Journaled(through))),
-            Errand::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
-            Errand::Worked(work) => Ok(Some(Input::Worked(work))),
-            Errand::Predicted(prediction) => Ok(Some(Input::Predicted(prediction))),
-            Errand::WorkFailed => Err(Failed),
-            Errand::SnapshotKept(through) => Ok(Some(Input::SnapshotKept(through))),
-            Errand::SnapshotFailed => Ok(Some(Input::SnapshotFailed)),
-            Errand::NoticesForgotten => Ok(None),
+        match task {
+            ActorTask::Journaled(through) => Ok(Some(Input::Journaled(through))),
+            ActorTask::JournalFailed(reason) => Ok(Some(Input::JournalFailed(reason))),
+            ActorTask::Worked(work) => Ok(Some(Input::Worked(work))),
+            ActorTask::Predicted(prediction) => Ok(Some(Input::Predicted(prediction))),
+            ActorTask::WorkFailed => Err(Failed),
+            ActorTask::SnapshotKept(through) => Ok(Some(Input::SnapshotKept(through))),
+            ActorTask::SnapshotFailed => Ok(Some(Input::SnapshotFailed)),
+            ActorTask::NoticesForgotten => Ok(None),
         }
     }
 
@@ -389,36 +389,35 @@ impl Actor {
 
     fn journal(&mut self, entries: Vec<JournalEntry>) {
         let Some(last) = entries.last().map(|entry| entry.number) else { return };
-        let (store, lease, errand) =
-            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
+        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
-            let _ = errand.send(match store.append(&lease, SIMULATION_VERSION, &entries).await {
-                Ok(()) => Errand::Journaled(last),
+            let _ = task.send(match store.append(&lease, SIMULATION_VERSION, &entries).await {
+                Ok(()) => ActorTask::Journaled(last),
                 Err(error) => {
                     tracing::error!(session, %error, "the journal could not be written");
-                    Errand::JournalFailed(error.in_words().into())
+                    ActorTask::JournalFailed(error.in_words().into())
                 }
             });
         });
     }
 
     fn work(&mut self, mut work: Box<Work>) {
-        let (pool, errand) = (self.services.pool.clone(), self.errand.clone());
+        let (pool, task) = (self.services.pool.clone(), self.task.clone());
         self.under_way += 1;
         tokio::spawn(async move {
             let done = pool.run(move || {
                 work.run();
                 work
             });
-            let _ = errand.send(done.await.map_or(Errand::WorkFailed, Errand::Worked));
+            let _ = task.send(done.await.map_or(ActorTask::WorkFailed, ActorTask::Worked));
         });
     }
 
     /// Makes a prediction slice by slice, so that the trees people work on have their turns between.
     fn start_prediction(&mut self, mut prediction: Box<PredictionRun>) {
-        let (pool, errand) = (self.services.pool.clone(), self.errand.clone());
+        let (pool, task) = (self.services.pool.clone(), self.task.clone());
         self.under_way += 1;
         tokio::spawn(async move {
             loop {
@@ -427,34 +426,32 @@ impl Actor {
                     (prediction, is_done)
                 });
                 match slice.await {
-                    Ok((done, true)) => break errand.send(Errand::Predicted(done)),
+                    Ok((done, true)) => break task.send(ActorTask::Predicted(done)),
                     Ok((rest, false)) => prediction = rest,
-                    Err(_) => break errand.send(Errand::WorkFailed),
+                    Err(_) => break task.send(ActorTask::WorkFailed),
                 }
             }
         });
     }
 
     fn keep_snapshot(&mut self, through: u64, bytes: Vec<u8>) {
-        let (store, lease, errand) =
-            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
+        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
         let session = self.name.clone();
         let snapshot = NewSnapshot { through, simulation_version: SIMULATION_VERSION, bytes };
         self.under_way += 1;
         tokio::spawn(async move {
-            let _ = errand.send(match store.keep_snapshot(&lease, snapshot).await {
-                Ok(()) => Errand::SnapshotKept(through),
+            let _ = task.send(match store.keep_snapshot(&lease, snapshot).await {
+                Ok(()) => ActorTask::SnapshotKept(through),
                 Err(error) => {
                     tracing::error!(session, %error, "a snapshot could not be kept; the journal holds what was done");
-                    Errand::SnapshotFailed
+                    ActorTask::SnapshotFailed
                 }
             });
         });
     }
 
     fn forget_notices(&mut self) {
-        let (store, lease, errand) =
-            (Arc::clone(&self.services.store), self.lease.clone(), self.errand.clone());
+        let (store, lease, task) = (Arc::clone(&self.services.store), self.lease.clone(), self.task.clone());
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
@@ -462,7 +459,7 @@ impl Actor {
             if let Err(error) = store.forget_notices(&lease).await {
                 tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
             }
-            let _ = errand.send(Errand::NoticesForgotten);
+            let _ = task.send(ActorTask::NoticesForgotten);
         });
     }
 

@@ -29,7 +29,7 @@ use self::{
     settings::Pool,
 };
 use super::{Document, Generators, futures::Futures, hints::Hints, obstacles::Obstacles};
-use crate::habit::Habit;
+use crate::schedule::GrowthSchedule;
 
 /// Bytes are not a document that this program reads.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -102,7 +102,7 @@ impl Document {
         add(&sections::PARAMETERS, &|out| pool.write_parameters(out));
         if pool.has_programmes() || programmes::has_ages(&self.history, futures) {
             add(&sections::PROGRAMMES, &|out| {
-                programmes::write(out, &pool, self.habit(), &self.history, futures);
+                programmes::write(out, &pool, self.schedule(), &self.history, futures);
             });
         }
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
@@ -150,7 +150,7 @@ impl Document {
             container.require(&sections::LOOKS, |r| Ok((settings::read_looks(r)?, r.u32()?)))?;
         let (all_sets, standing, placed) = container
             .require(&sections::OBSTACLES, |r| Ok((settings::read_obstacles(r)?, r.u32()?, r.u32()?)))?;
-        let pool = Pool::new(programmes.habits(&all_parameters)?, all_looks, all_sets);
+        let pool = Pool::new(programmes.schedules(&all_parameters)?, all_looks, all_sets);
         let obstacles = Obstacles { standing: pool.standing(standing)?, placed };
         if obstacles.standing.last().is_some_and(|last| last.id > obstacles.placed) {
             return Err(damaged("an obstacle was never placed"));
@@ -161,9 +161,9 @@ impl Document {
         times::check_history(&history, &plant)?;
         let futures = container.read(&sections::FUTURES, |r| times::read_futures(r, &pool))?;
         let mut futures = futures.unwrap_or_default();
-        let habit = match programmes.present {
-            Some(number) => pool.habit(number)?,
-            None => Arc::new(Habit::plain(state.parameters.clone())),
+        let schedule = match programmes.present {
+            Some(number) => pool.schedule(number)?,
+            None => Arc::new(GrowthSchedule::plain(state.parameters.clone())),
         };
         programmes.tell_ages(&mut history, &mut futures)?;
         times::check_futures(&futures, &history, &plant)?;
@@ -172,7 +172,7 @@ impl Document {
         let ahead = history.ahead_at(plant.step());
         let simulation = Simulation::from_state(plant, state);
         Ok(Self {
-            simulation: simulation.grown_by(|growth| Generators::new(growth, habit, ahead)),
+            simulation: simulation.grown_by(|growth| Generators::new(growth, schedule, ahead)),
             history,
             futures,
             strokes,

@@ -139,7 +139,7 @@ impl Document {
         let present = self.setting();
         let line = self.history.setting().clone();
         let alone = Cause { gesture: None, ..cause };
-        let is_same = present.habit == line.habit;
+        let is_same = present.schedule == line.schedule;
         if !is_same || present.appearance != line.appearance {
             let kind = if is_same { Kind::Appearance } else { Kind::Parameters };
             let after = Setting { obstacles: line.obstacles.clone(), ..present.clone() };

@@ -8,16 +8,16 @@ use espalier_plant::MetamerId;
 
 #[cfg(test)]
 use super::tests::forks::Forks;
-use crate::habit::{Deed, Habit};
+use crate::schedule::{GrowthSchedule, ScheduledAction};
 
 /// Steps in a row in which the brush of a programme finds nothing to do.
 const PATIENCE: u32 = 64;
 
-/// All generators of a document, on one scene, and the habit by which growth goes.
+/// All generators of a document, on one scene, and the schedule by which growth goes.
 #[derive(Clone, Debug)]
 pub(crate) struct Generators {
     growth: Growth,
-    habit: Arc<Habit>,
+    schedule: Arc<GrowthSchedule>,
     /// By how much the plants are older than the steps of growth they have taken: a programme goes on where its
     /// brush finds nothing to do.
     ahead: u32,
@@ -70,7 +70,7 @@ impl Generator for Generators {
                 return outcome;
             }
         };
-        self.keep_habit(scene);
+        self.keep_schedule(scene);
         #[cfg(test)]
         self.forks.follow(scene, &Change::Edited);
         outcome
@@ -84,20 +84,20 @@ impl Generator for Generators {
 }
 
 impl Generators {
-    /// Growth by a habit, on plants that are older than their steps by so much.
-    pub(crate) fn new(growth: Growth, habit: Arc<Habit>, ahead: u32) -> Self {
+    /// Growth by a schedule, on plants that are older than their steps by so much.
+    pub(crate) fn new(growth: Growth, schedule: Arc<GrowthSchedule>, ahead: u32) -> Self {
         Self {
             growth,
-            habit,
+            schedule,
             ahead,
             #[cfg(test)]
             forks: Forks::default(),
         }
     }
 
-    /// The habit in force.
-    pub(crate) fn habit(&self) -> &Arc<Habit> {
-        &self.habit
+    /// The schedule in force.
+    pub(crate) fn schedule(&self) -> &Arc<GrowthSchedule> {
+        &self.schedule
     }
 
     /// The age of the plants.
@@ -110,15 +110,15 @@ impl Generators {
         self.ahead
     }
 
-    /// Another habit, or another age; [`Document::keep_habit`](super::Document::keep_habit) puts it in force.
-    pub(crate) fn turn_to(&mut self, habit: &Arc<Habit>, ahead: u32) {
-        self.habit = Arc::clone(habit);
+    /// Another schedule, or another age; [`Document::keep_schedule`](super::Document::keep_schedule) puts it in force.
+    pub(crate) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>, ahead: u32) {
+        self.schedule = Arc::clone(schedule);
         self.ahead = ahead;
     }
 
-    /// Makes the parameters those of the habit at the present age.
-    fn keep_habit(&mut self, scene: &mut Scene) {
-        let wanted = self.habit.at(self.age(scene));
+    /// Makes the parameters those of the schedule at the present age.
+    fn keep_schedule(&mut self, scene: &mut Scene) {
+        let wanted = self.schedule.at(self.age(scene));
         if **wanted != *self.growth.parameters() {
             self.growth.set_parameters(scene, (**wanted).clone());
         }
@@ -139,19 +139,20 @@ impl Generators {
             if age >= until || scene.plant().step() != step {
                 break;
             }
-            let deed = self.begin_deed(scene, age);
-            self.end_programme_strokes(deed.stroke());
-            let is_used_up = matches!(deed, Deed::Settle(..)) && !self.growth.has_guidance(scene);
+            let action = self.begin_action(scene, age);
+            self.end_programme_strokes(action.stroke());
+            let is_used_up =
+                matches!(action, ScheduledAction::Settle(..)) && !self.growth.has_guidance(scene);
             outcome = if is_used_up {
                 StepOutcome::default()
             } else {
-                self.growth.step(scene, &StepInput { chosen, ..deed.input() }, observer)
+                self.growth.step(scene, &StepInput { chosen, ..action.input() }, observer)
             };
-            match deed {
+            match action {
                 // What does not grow on its own now does not do so at another age either.
-                Deed::Alone => break,
-                Deed::Follow(_) => self.be_at_least(scene, age + 1),
-                Deed::Settle(stroke, end) => {
+                ScheduledAction::Alone => break,
+                ScheduledAction::Follow(_) => self.be_at_least(scene, age + 1),
+                ScheduledAction::Settle(stroke, end) => {
                     // Once no bud finds a marker and no leader moves, nothing would change any more but their age.
                     let is_settled = outcome == StepOutcome::default();
                     self.be_at_least(scene, if is_settled { end.min(until) } else { age + 1 });
@@ -160,21 +161,21 @@ impl Generators {
                     }
                 }
             }
-            self.keep_habit(scene);
+            self.keep_schedule(scene);
         }
         outcome
     }
 
     /// Sows what is to be sown at an age; what is to be done then.
-    fn begin_deed(&mut self, scene: &mut Scene, age: u32) -> Deed {
-        let Some(plan) = self.habit.plan().cloned() else { return Deed::Alone };
+    fn begin_action(&mut self, scene: &mut Scene, age: u32) -> ScheduledAction {
+        let Some(plan) = self.schedule.plan().cloned() else { return ScheduledAction::Alone };
         for place in plan.seeds_at(age) {
             if !scene.plant().has_seed_at(place) && !scene.is_solid(place) {
                 scene.record_edit(|step| step.sow(place));
                 self.growth.follow(scene, &Change::Edited);
             }
         }
-        plan.deed_at(age)
+        plan.action_at(age)
     }
 
     fn be_at_least(&mut self, scene: &Scene, age: u32) {

@@ -10,7 +10,7 @@ use super::{
     futures::Fork,
     obstacles::{Standings, stand_alike},
 };
-use crate::{cause::Cause, habit::Habit};
+use crate::{cause::Cause, schedule::GrowthSchedule};
 
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,7 +66,7 @@ impl Kind {
 /// What growth works with, and what is seen of it, as far as an operation may change that.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setting {
-    pub habit: Arc<Habit>,
+    pub schedule: Arc<GrowthSchedule>,
     pub obstacles: Standings,
     pub appearance: Arc<Appearance>,
 }
@@ -169,8 +169,8 @@ impl History {
     pub fn push(&mut self, kind: Kind, cause: Cause<'_>, now: u32, mut after: Setting) {
         debug_assert_eq!(self.done, self.operations.len(), "what lay ahead is a future by now");
         // Most operations change no parameters: they share one set.
-        if self.setting().habit == after.habit {
-            after.habit = Arc::clone(&self.setting().habit);
+        if self.setting().schedule == after.schedule {
+            after.schedule = Arc::clone(&self.setting().schedule);
         }
         if self.setting().appearance == after.appearance {
             after.appearance = Arc::clone(&self.setting().appearance);
@@ -260,10 +260,10 @@ impl History {
     /// Whether the last operation has left the setting as it was before.
     pub fn changes_nothing(&self) -> bool {
         let Some(last) = self.operations.last() else { return false };
-        let Setting { habit, obstacles, appearance } = &last.after;
+        let Setting { schedule, obstacles, appearance } = &last.after;
         let former = self.former();
         Arc::ptr_eq(obstacles, &former.obstacles)
-            && *habit == former.habit
+            && *schedule == former.schedule
             && *appearance == former.appearance
     }
 

@@ -157,7 +157,7 @@ impl Document {
 
     /// Puts a setting in force; what is the same stays untouched.
     pub(super) fn set(&mut self, setting: &Setting) {
-        self.turn_to(&setting.habit);
+        self.turn_to(&setting.schedule);
         if !Arc::ptr_eq(&setting.obstacles, &self.obstacles.standing) {
             self.obstacles.standing = Arc::clone(&setting.obstacles);
             self.simulation.set_obstacles(Obstacles::solids(&setting.obstacles));
@@ -167,7 +167,7 @@ impl Document {
 
     pub(super) fn setting(&self) -> Setting {
         Setting {
-            habit: Arc::clone(self.habit()),
+            schedule: Arc::clone(self.schedule()),
             obstacles: Arc::clone(&self.obstacles.standing),
             appearance: Arc::clone(&self.appearance),
         }

@@ -1,4 +1,4 @@
-//! The habit of a document: its programme, what was set by hand, and the age by which it goes (`PG`).
+//! The schedule of a document: its programme, what was set by hand, and the age by which it goes (`PG`).
 
 use std::sync::Arc;
 
@@ -12,13 +12,13 @@ use super::{
 };
 use crate::{
     cause::Cause,
-    habit::{Habit, Plan},
+    schedule::{GrowthSchedule, Plan},
 };
 
 impl Document {
     /// The programme in force.
     pub fn programme(&self) -> Option<&Arc<Programme>> {
-        self.habit().programme()
+        self.schedule().programme()
     }
 
     /// The short name of the species whose programme is in force.
@@ -29,7 +29,7 @@ impl Document {
     /// The names of the parameters that do not follow the programme; none without one.
     pub fn set_by_hand(&self) -> impl Iterator<Item = &'static str> + use<> {
         let has_programme = self.programme().is_some();
-        self.habit().by_hand().names().filter(move |_| has_programme)
+        self.schedule().by_hand().names().filter(move |_| has_programme)
     }
 
     /// The age of the plants.
@@ -37,8 +37,8 @@ impl Document {
         self.simulation.generator().age(self.simulation.scene())
     }
 
-    pub(super) fn habit(&self) -> &Arc<Habit> {
-        self.simulation.generator().habit()
+    pub(super) fn schedule(&self) -> &Arc<GrowthSchedule> {
+        self.simulation.generator().schedule()
     }
 
     pub(super) fn set_programme(
@@ -48,8 +48,8 @@ impl Document {
         keep: bool,
     ) -> Result<(), Problem> {
         let plan = programme.map(|programme| Plan::new(programme.clone()).map(Arc::new)).transpose();
-        let wanted = plan.and_then(|plan| self.habit().replaced(plan, keep, self.age()));
-        self.change_habit(cause, wanted.map_err(|problem| problem.within("programme"))?);
+        let wanted = plan.and_then(|plan| self.schedule().replaced(plan, keep, self.age()));
+        self.change_schedule(cause, wanted.map_err(|problem| problem.within("programme"))?);
         Ok(())
     }
 
@@ -62,23 +62,23 @@ impl Document {
             return Err(super::refused("there is no programme that parameters could follow"));
         }
         let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
-        let wanted = self.habit().without(&names)?;
-        self.change_habit(cause, wanted);
+        let wanted = self.schedule().without(&names)?;
+        self.change_schedule(cause, wanted);
         Ok(())
     }
 
-    pub(super) fn change_habit(&mut self, cause: Cause<'_>, wanted: Habit) {
-        if wanted != **self.habit() {
-            let setting = Setting { habit: Arc::new(wanted), ..self.setting() };
+    pub(super) fn change_schedule(&mut self, cause: Cause<'_>, wanted: GrowthSchedule) {
+        if wanted != **self.schedule() {
+            let setting = Setting { schedule: Arc::new(wanted), ..self.setting() };
             self.change_setting(Kind::Parameters, cause, setting);
         }
     }
 
-    /// Grows by a habit from here on, at the age that the line has at the present step.
-    pub(super) fn turn_to(&mut self, habit: &Arc<Habit>) {
+    /// Grows by a schedule from here on, at the age that the line has at the present step.
+    pub(super) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>) {
         let ahead = self.history.ahead_at(self.plant().step());
-        self.simulation.generator_mut().turn_to(habit, ahead);
-        let wanted = habit.at(self.age());
+        self.simulation.generator_mut().turn_to(schedule, ahead);
+        let wanted = schedule.at(self.age());
         if **wanted != *self.simulation.parameters() {
             self.simulation.set_parameters((**wanted).clone());
         }
@@ -89,10 +89,10 @@ impl Document {
         self.history.note_ahead(self.plant().step(), self.simulation.generator().ahead());
     }
 
-    pub(super) fn hash_habit(&self, hash: &mut StableHash) {
+    pub(super) fn hash_schedule(&self, hash: &mut StableHash) {
         if let Some(programme) = self.programme() {
             to_words(&**programme).into_iter().for_each(|word| hash.word(word));
-            to_words(self.habit().by_hand()).into_iter().for_each(|word| hash.word(word));
+            to_words(self.schedule().by_hand()).into_iter().for_each(|word| hash.word(word));
         }
         for mark in &self.history.ages {
             hash.word(u64::from(mark.step) | u64::from(mark.ahead) << 32);

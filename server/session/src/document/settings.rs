@@ -23,8 +23,9 @@ impl Document {
         cause: Cause<'_>,
         patch: &ParametersPatch,
     ) -> Result<(), Problem> {
-        let wanted = self.habit().with(patch, self.age()).map_err(|problem| problem.within("parameters"))?;
-        self.change_habit(cause, wanted);
+        let wanted =
+            self.schedule().with(patch, self.age()).map_err(|problem| problem.within("parameters"))?;
+        self.change_schedule(cause, wanted);
         Ok(())
     }
 

@@ -45,9 +45,9 @@ impl Document {
             metamer_budget: document.simulation.scene().metamer_budget(),
             tick: plant.step(),
         };
-        let habit = Arc::clone(document.habit());
+        let schedule = Arc::clone(document.schedule());
         document.simulation =
-            Simulation::from_state(plant, state).grown_by(|growth| Generators::new(growth, habit, 0));
+            Simulation::from_state(plant, state).grown_by(|growth| Generators::new(growth, schedule, 0));
         document.appearance = Arc::new(looks);
         document.history = History::new(document.setting());
         Ok(document)

@@ -54,7 +54,7 @@ impl Document {
     pub(super) fn strays(&self) -> bool {
         let line = self.history.setting();
         let is_placed = Arc::ptr_eq(&line.obstacles, &self.obstacles.standing);
-        !is_placed || line.habit != *self.habit() || *line.appearance != *self.appearance
+        !is_placed || line.schedule != *self.schedule() || *line.appearance != *self.appearance
     }
 
     /// Puts the line's setting in force.
@@ -70,7 +70,7 @@ impl Document {
         self.history.latest = None;
         self.history.before = None;
         self.simulation.go_to(step);
-        let habit = Arc::clone(self.habit());
-        self.turn_to(&habit);
+        let schedule = Arc::clone(self.schedule());
+        self.turn_to(&schedule);
     }
 }

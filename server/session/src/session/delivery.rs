@@ -6,7 +6,7 @@ use espalier_proto::{DocumentState, Problem, ServerMessage};
 
 use super::{ProgrammeInForce, Scenery, Session};
 use crate::{
-    clients::{Guest, View},
+    clients::{ConnectedClient, View},
     io::{ClientId, Output},
     to_proto::{self, Held},
     work::{CatchUp, Report, Unheard, Work},
@@ -16,8 +16,8 @@ impl Session {
     /// The client took in frames up to `sequence`.
     pub(super) fn received(&mut self, client: ClientId, sequence: u32) {
         let newest = self.newest.0;
-        let Some(guest) = self.guest_mut(client) else { return };
-        if guest.window.receive(sequence, newest).is_err() {
+        let Some(connected) = self.connected_mut(client) else { return };
+        if connected.window.receive(sequence, newest).is_err() {
             let problem = Problem::out_of_range("sequence", sequence, format!("up to {newest}"));
             self.send(client, &ServerMessage::Problem { problem });
         }
@@ -94,7 +94,10 @@ impl Session {
         let Some(delta) = delta else { return };
         let (before, rows) = self.newest;
         for (&id, client) in &mut self.clients {
-            let Some(Guest { window, view: view @ View::InStep, .. }) = &mut client.guest else { continue };
+            let Some(ConnectedClient { window, view: view @ View::InStep, .. }) = &mut client.connected
+            else {
+                continue;
+            };
             if window.admits(delta.len()) {
                 window.send(sequence, delta.len());
                 self.outputs.push_back(Output::Frame(id, Arc::clone(delta)));
@@ -106,9 +109,11 @@ impl Session {
 
     fn deliver_catch_up(&mut self, client: ClientId, frame: &Arc<[u8]>) {
         let sequence = self.newest.0;
-        let Some(guest @ Guest { view: View::Coming, .. }) = self.guest_mut(client) else { return };
-        guest.window.send(sequence, frame.len());
-        guest.view = View::InStep;
+        let Some(connected @ ConnectedClient { view: View::Coming, .. }) = self.connected_mut(client) else {
+            return;
+        };
+        connected.window.send(sequence, frame.len());
+        connected.view = View::InStep;
         self.outputs.push_back(Output::Frame(client, Arc::clone(frame)));
     }
 
@@ -125,10 +130,10 @@ impl Session {
         work.snapshot_wanted |= self.snapshot_due(work.applied);
         work.delta_wanted = false;
         for (&client, state) in &mut self.clients {
-            let Some(guest) = &mut state.guest else { continue };
-            match &mut guest.view {
+            let Some(connected) = &mut state.connected else { continue };
+            match &mut connected.view {
                 View::InStep => work.delta_wanted = true,
-                view @ View::Stale(_) if guest.window.is_empty() => {
+                view @ View::Stale(_) if connected.window.is_empty() => {
                     if let View::Stale(held) = std::mem::replace(view, View::Coming) {
                         work.catch_ups.push(CatchUp { client, held });
                     }
@@ -158,7 +163,7 @@ impl Session {
         to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people().count())
     }
 
-    pub(super) fn guest_mut(&mut self, client: ClientId) -> Option<&mut Guest> {
-        self.clients.get_mut(&client)?.guest.as_mut()
+    pub(super) fn connected_mut(&mut self, client: ClientId) -> Option<&mut ConnectedClient> {
+        self.clients.get_mut(&client)?.connected.as_mut()
     }
 }

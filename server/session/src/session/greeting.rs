@@ -11,7 +11,7 @@ use serde_json::Value;
 
 use super::Session;
 use crate::{
-    clients::{Client, Guest, View, Vision, Watch},
+    clients::{Client, ConnectedClient, PredictionView, View, Watch},
     io::ClientId,
     principal::Principal,
     rights::Access,
@@ -69,12 +69,12 @@ impl Session {
         let resumed = resume.is_some();
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
         if let Some(client) = self.clients.get_mut(&client) {
-            client.guest = Some(Guest {
+            client.connected = Some(ConnectedClient {
                 principal,
                 window: Window::default(),
                 view,
                 watch: Watch::default(),
-                vision: Vision::default(),
+                prediction_view: PredictionView::default(),
             });
         }
         let welcome = ServerMessage::Welcome {
@@ -111,9 +111,9 @@ impl Session {
     }
 
     pub(super) fn forget(&mut self, id: ClientId) {
-        let Some(Client { guest: Some(guest), .. }) = self.clients.remove(&id) else { return };
-        guest.vision.cancel();
-        self.author_left(guest.principal.name(), id);
+        let Some(Client { connected: Some(connected), .. }) = self.clients.remove(&id) else { return };
+        connected.prediction_view.cancel();
+        self.author_left(connected.principal.name(), id);
         self.upkeep.state_changed = true;
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Session;
 use crate::{
-    clients::{Guest, View},
+    clients::{ConnectedClient, View},
     io::{ClientId, Output},
     work::Posed,
 };
@@ -19,7 +19,7 @@ impl Session {
         for client in self.clients.keys().copied().collect::<Vec<_>>() {
             self.send_poses(client);
         }
-        let watches = || self.clients.values().filter_map(|client| Some(&client.guest.as_ref()?.watch));
+        let watches = || self.clients.values().filter_map(|client| Some(&client.connected.as_ref()?.watch));
         let is_shown = |bend: u32| watches().any(|watch| watch.shown.contains_key(&bend));
         let ended: Vec<u32> = self
             .poses
@@ -34,8 +34,8 @@ impl Session {
 
     /// The client has drawn poses up to this one.
     pub(super) fn received_pose(&mut self, client: ClientId, sequence: u32) {
-        let Some(guest) = self.guest_mut(client) else { return };
-        guest.watch.in_flight = guest.watch.in_flight.filter(|&pose| pose > sequence);
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.watch.in_flight = connected.watch.in_flight.filter(|&pose| pose > sequence);
         self.send_poses(client);
     }
 
@@ -43,7 +43,7 @@ impl Session {
     /// is said at once, for the rows have changed already.
     fn send_poses(&mut self, client: ClientId) {
         let Some(state) = self.clients.get_mut(&client) else { return };
-        let Some(Guest { watch, view: View::InStep, .. }) = &mut state.guest else { return };
+        let Some(ConnectedClient { watch, view: View::InStep, .. }) = &mut state.connected else { return };
         let is_ready = watch.in_flight.is_none();
         for pose in self.poses.values() {
             let shown = watch.shown.get(&pose.bend).copied();

@@ -6,7 +6,7 @@ use espalier_proto::{GhostFrame, ServerMessage};
 
 use super::Session;
 use crate::{
-    clients::Vision,
+    clients::PredictionView,
     io::{ClientId, Output},
     prediction::{Cancelled, Prediction, PredictionRun, Question},
     work::Work,
@@ -15,7 +15,7 @@ use crate::{
 /// Predictions of one session that are made at a time: each has plants of its own.
 const MAX_FORESEEING: usize = 2;
 
-impl Vision {
+impl PredictionView {
     /// Nobody wants the prediction any more that was asked for last.
     pub(crate) fn cancel(&self) {
         if let Some(running) = &self.running {
@@ -39,18 +39,18 @@ impl Session {
         if prediction.steps == 0 && prediction.rows.is_empty() {
             return self.end_prediction(client);
         }
-        let Some(guest) = self.guest_mut(client) else { return };
-        guest.vision.start_over();
-        guest.vision.wanted = Some(prediction);
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.prediction_view.start_over();
+        connected.prediction_view.wanted = Some(prediction);
     }
 
     /// The client's ghost goes, and so does what would become one.
     pub(super) fn end_prediction(&mut self, client: ClientId) {
         let epoch = self.epoch;
-        let Some(guest) = self.guest_mut(client) else { return };
-        let sequence = guest.vision.start_over();
-        if guest.vision.is_shown {
-            guest.vision.is_shown = false;
+        let Some(connected) = self.connected_mut(client) else { return };
+        let sequence = connected.prediction_view.start_over();
+        if connected.prediction_view.is_shown {
+            connected.prediction_view.is_shown = false;
             let ended = GhostFrame { epoch, sequence, changes: Vec::new() };
             self.outputs.push_back(Output::Frame(client, ended.encode().into()));
         }
@@ -59,16 +59,16 @@ impl Session {
     /// Gives questions to the document, which is about to go to the simulation pool.
     pub(super) fn ask_questions(&mut self, work: &mut Work) {
         for (&client, state) in &mut self.clients {
-            let Some(guest) = &mut state.guest else { continue };
-            let vision = &mut guest.vision;
-            if self.predictions >= MAX_FORESEEING || vision.running.is_some() {
+            let Some(connected) = &mut state.connected else { continue };
+            let prediction_view = &mut connected.prediction_view;
+            if self.predictions >= MAX_FORESEEING || prediction_view.running.is_some() {
                 continue;
             }
-            let Some(prediction) = vision.wanted.take() else { continue };
+            let Some(prediction) = prediction_view.wanted.take() else { continue };
             let cancelled = Cancelled::default();
-            vision.running = Some(Arc::clone(&cancelled));
+            prediction_view.running = Some(Arc::clone(&cancelled));
             self.predictions += 1;
-            work.questions.push(Question { client, number: vision.number, prediction, cancelled });
+            work.questions.push(Question { client, number: prediction_view.number, prediction, cancelled });
         }
     }
 
@@ -76,14 +76,14 @@ impl Session {
     pub(super) fn finish_prediction(&mut self, prediction: PredictionRun) {
         self.predictions = self.predictions.saturating_sub(1);
         let PredictionRun { question, answer, .. } = prediction;
-        let Some(guest) = self.guest_mut(question.client) else { return };
-        guest.vision.running = None;
-        if question.number != guest.vision.number {
+        let Some(connected) = self.connected_mut(question.client) else { return };
+        connected.prediction_view.running = None;
+        if question.number != connected.prediction_view.number {
             return;
         }
         match answer {
             Some(Ok(ghost)) => {
-                guest.vision.ready = Some(ghost);
+                connected.prediction_view.ready = Some(ghost);
                 self.send_ghost(question.client);
             }
             Some(Err(problem)) => {
@@ -96,19 +96,20 @@ impl Session {
 
     /// The client has drawn ghosts up to this one.
     pub(super) fn received_ghost(&mut self, client: ClientId, sequence: u32) {
-        let Some(guest) = self.guest_mut(client) else { return };
-        guest.vision.in_flight = guest.vision.in_flight.filter(|&ghost| ghost > sequence);
+        let Some(connected) = self.connected_mut(client) else { return };
+        connected.prediction_view.in_flight =
+            connected.prediction_view.in_flight.filter(|&ghost| ghost > sequence);
         self.send_ghost(client);
     }
 
     fn send_ghost(&mut self, client: ClientId) {
-        let Some(guest) = self.guest_mut(client) else { return };
-        if guest.vision.in_flight.is_some() {
+        let Some(connected) = self.connected_mut(client) else { return };
+        if connected.prediction_view.in_flight.is_some() {
             return;
         }
-        let Some(ghost) = guest.vision.ready.take() else { return };
-        guest.vision.in_flight = Some(guest.vision.number);
-        guest.vision.is_shown = true;
+        let Some(ghost) = connected.prediction_view.ready.take() else { return };
+        connected.prediction_view.in_flight = Some(connected.prediction_view.number);
+        connected.prediction_view.is_shown = true;
         self.outputs.push_back(Output::Frame(client, ghost));
     }
 }

@@ -165,9 +165,9 @@ impl Session {
 
     /// The session is to be put away: what would take long ends, and what was done is kept.
     pub(super) fn stop(&mut self) {
-        for guest in self.clients.values_mut().filter_map(|client| client.guest.as_mut()) {
-            guest.vision.cancel();
-            guest.vision.wanted = None;
+        for connected in self.clients.values_mut().filter_map(|client| client.connected.as_mut()) {
+            connected.prediction_view.cancel();
+            connected.prediction_view.wanted = None;
         }
         if self.state().pending_steps > 0 {
             let action = self.stop_now();
@@ -181,7 +181,7 @@ impl Session {
     /// Does all that is due now.
     pub(super) fn keep_up(&mut self) {
         while let Some(client) = pop_due(&mut self.upkeep.hellos, self.now) {
-            if self.clients.get(&client).is_some_and(|client| client.guest.is_none()) {
+            if self.clients.get(&client).is_some_and(|client| client.connected.is_none()) {
                 self.close(client, CloseCode::HelloExpected, "no hello came for 10 seconds");
             }
         }

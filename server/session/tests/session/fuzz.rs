@@ -14,7 +14,7 @@ const KEYS: [&str; 4] = ["birch-01", "maple-01", "aspen-01", "cedar-01"];
 
 /// One thing someone does; `who` picks one of [`KEYS`].
 #[derive(Clone, Debug)]
-enum Deed {
+enum ClientEvent {
     Command(usize, Box<Value>),
     /// The last command once more.
     Again(usize),
@@ -105,23 +105,23 @@ fn pose(x: f32, y: f32) -> Value {
     json!({ "position": [x, y, 0.0], "rotation": [0.0, 0.0, 0.0, 1.0] })
 }
 
-fn deed() -> impl Strategy<Value = Deed> {
+fn event() -> impl Strategy<Value = ClientEvent> {
     let who = || 0..KEYS.len();
     prop_oneof![
-        12 => (who(), command()).prop_map(|(who, command)| Deed::Command(who, Box::new(command))),
-        1 => who().prop_map(Deed::Again),
-        1 => who().prop_map(Deed::Leave),
-        2 => who().prop_map(Deed::Resume),
-        2 => (who(), any::<bool>()).prop_map(|(who, slow)| Deed::Slow(who, slow)),
-        1 => (who(), ".{0,40}").prop_map(|(who, text)| Deed::Garbage(who, text)),
-        1 => who().prop_map(Deed::Binary),
+        12 => (who(), command()).prop_map(|(who, command)| ClientEvent::Command(who, Box::new(command))),
+        1 => who().prop_map(ClientEvent::Again),
+        1 => who().prop_map(ClientEvent::Leave),
+        2 => who().prop_map(ClientEvent::Resume),
+        2 => (who(), any::<bool>()).prop_map(|(who, slow)| ClientEvent::Slow(who, slow)),
+        1 => (who(), ".{0,40}").prop_map(|(who, text)| ClientEvent::Garbage(who, text)),
+        1 => who().prop_map(ClientEvent::Binary),
         2 => (who(), prop::collection::vec(1u32..60, 0..3), 0u32..8)
-            .prop_map(|(who, rows, steps)| Deed::Predict(who, rows, steps)),
-        1 => Just(Deed::Read),
-        6 => (0u64..40).prop_map(Deed::Pass),
-        1 => (0u64..40_000).prop_map(Deed::Pass),
-        1 => Just(Deed::Crash),
-        1 => (1u64..100).prop_map(Deed::DiskTakes),
+            .prop_map(|(who, rows, steps)| ClientEvent::Predict(who, rows, steps)),
+        1 => Just(ClientEvent::Read),
+        6 => (0u64..40).prop_map(ClientEvent::Pass),
+        1 => (0u64..40_000).prop_map(ClientEvent::Pass),
+        1 => Just(ClientEvent::Crash),
+        1 => (1u64..100).prop_map(ClientEvent::DiskTakes),
     ]
 }
 
@@ -135,7 +135,7 @@ static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
 });
 
 /// Changes to a large tree: little ones, and some back and forth in time.
-fn upheaval() -> impl Strategy<Value = Deed> {
+fn upheaval() -> impl Strategy<Value = ClientEvent> {
     let who = || 0..KEYS.len();
     let command = prop_oneof![
         1 => (1u32..3).prop_map(|steps| json!({ "kind": "ungrow", "steps": steps })),
@@ -144,10 +144,10 @@ fn upheaval() -> impl Strategy<Value = Deed> {
         4 => (-8.0f32..8.0, -8.0f32..8.0).prop_map(|(x, z)| json!({ "kind": "plant_seed", "position": [x, 0.0, z] })),
     ];
     prop_oneof![
-        8 => (who(), command).prop_map(|(who, command)| Deed::Command(who, Box::new(command))),
-        3 => (who(), prop::bool::weighted(0.6)).prop_map(|(who, slow)| Deed::Slow(who, slow)),
-        1 => who().prop_map(Deed::Resume),
-        6 => (0u64..30).prop_map(Deed::Pass),
+        8 => (who(), command).prop_map(|(who, command)| ClientEvent::Command(who, Box::new(command))),
+        3 => (who(), prop::bool::weighted(0.6)).prop_map(|(who, slow)| ClientEvent::Slow(who, slow)),
+        1 => who().prop_map(ClientEvent::Resume),
+        6 => (0u64..30).prop_map(ClientEvent::Pass),
     ]
 }
 
@@ -166,46 +166,46 @@ struct Crowd {
 }
 
 impl Crowd {
-    fn do_deed(&mut self, deed: Deed) {
-        match deed {
-            Deed::Command(who, command) => {
+    fn do_event(&mut self, event: ClientEvent) {
+        match event {
+            ClientEvent::Command(who, command) => {
                 let client = self.arrive(who);
                 self.people[who].sent.push(Value::clone(&command));
                 let id = self.people[who].sent.len() as u32;
                 self.world.command(client, id, *command);
             }
-            Deed::Again(who) => {
+            ClientEvent::Again(who) => {
                 let client = self.arrive(who);
                 if let Some(command) = self.people[who].sent.last().cloned() {
                     let id = self.people[who].sent.len() as u32;
                     self.world.command(client, id, command);
                 }
             }
-            Deed::Leave(who) => self.leave(who),
-            Deed::Resume(who) => {
+            ClientEvent::Leave(who) => self.leave(who),
+            ClientEvent::Resume(who) => {
                 self.leave(who);
                 self.arrive(who);
             }
-            Deed::Slow(who, slow) => {
+            ClientEvent::Slow(who, slow) => {
                 self.people[who].slow = slow;
                 let client = self.arrive(who);
                 self.world.peer_mut(client).slow = slow;
             }
-            Deed::Garbage(who, text) => {
+            ClientEvent::Garbage(who, text) => {
                 let client = self.arrive(who);
                 self.world.text(client, &text);
             }
-            Deed::Predict(who, rows, steps) => {
+            ClientEvent::Predict(who, rows, steps) => {
                 let client = self.arrive(who);
                 self.world.send(client, &json!({ "type": "predict", "rows": rows, "steps": steps }));
             }
-            Deed::Binary(who) => {
+            ClientEvent::Binary(who) => {
                 let client = self.arrive(who);
                 self.world.handle(Input::Binary(ClientId(client)));
             }
-            Deed::Read => self.world.handle(Input::Read(ReadId(1))),
-            Deed::Pass(ms) => self.world.pass(ms),
-            Deed::Crash => {
+            ClientEvent::Read => self.world.handle(Input::Read(ReadId(1))),
+            ClientEvent::Pass(ms) => self.world.pass(ms),
+            ClientEvent::Crash => {
                 for person in &mut self.people {
                     if let Some(client) = person.connection.take() {
                         person.mirror = self.world.peer(client).mirror.clone();
@@ -213,7 +213,7 @@ impl Crowd {
                 }
                 self.world.crash();
             }
-            Deed::DiskTakes(ms) => self.world.write_ms = ms,
+            ClientEvent::DiskTakes(ms) => self.world.write_ms = ms,
         }
     }
 
@@ -271,10 +271,10 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
     #[test]
-    fn all_see_the_same_tree(deeds in prop::collection::vec(deed(), 1..60)) {
+    fn all_see_the_same_tree(events in prop::collection::vec(event(), 1..60)) {
         let mut crowd = Crowd::around(World::new());
-        for deed in deeds {
-            crowd.do_deed(deed);
+        for event in events {
+            crowd.do_event(event);
         }
         crowd.check_in_the_end()?;
     }
@@ -330,13 +330,13 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
     #[test]
-    fn slow_readers_see_the_same_tree(deeds in prop::collection::vec(upheaval(), 10..30)) {
+    fn slow_readers_see_the_same_tree(events in prop::collection::vec(upheaval(), 10..30)) {
         let mut crowd = Crowd::around(World::opened_with(Some(LARGE_TREE.clone())));
         for who in 0..KEYS.len() {
-            crowd.do_deed(Deed::Slow(who, true));
+            crowd.do_event(ClientEvent::Slow(who, true));
         }
-        for deed in deeds {
-            crowd.do_deed(deed);
+        for event in events {
+            crowd.do_event(event);
         }
         crowd.check_in_the_end()?;
     }

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 /// Something that is done. Rows are any numbers, from which a living metamer is found.
 #[derive(Clone, Debug)]
-pub enum Deed {
+pub enum LifeEvent {
     Grow(u32),
     Stroke(f32, f32, f32),
     Hold(u32, f32),
@@ -29,46 +29,46 @@ pub enum Deed {
 }
 
 /// A life of some length.
-pub fn deeds() -> impl Strategy<Value = Vec<Deed>> {
-    let deed = prop_oneof![
-        4 => (1u32..4).prop_map(Deed::Grow),
-        2 => (-6f32..6.0, 1f32..12.0, 0f32..3.0).prop_map(|(x, y, radius)| Deed::Stroke(x, y, radius)),
-        1 => (any::<u32>(), 1f32..9.0).prop_map(|(row, y)| Deed::Hold(row, y)),
-        1 => (1f32..4.0).prop_map(Deed::Lasso),
-        1 => (0.4f32..0.7).prop_map(Deed::Apical),
-        1 => (0f32..3.0).prop_map(Deed::Season),
-        1 => (0f32..0.3).prop_map(Deed::Shedding),
-        1 => (-9f32..9.0).prop_map(Deed::Seed),
-        1 => (-9f32..9.0).prop_map(Deed::Ball),
-        2 => (any::<u32>(), -3f32..3.0).prop_map(|(row, x)| Deed::Bend(row, x)),
-        2 => (any::<u32>(), prop::option::weighted(0.8, 0.05f32..2.0)).prop_map(|(row, d)| Deed::Width(row, d)),
-        2 => any::<u32>().prop_map(Deed::Prune),
-        2 => any::<u32>().prop_map(Deed::Turn),
-        2 => (any::<u32>(), any::<u32>(), any::<bool>()).prop_map(|(row, onto, keep)| Deed::Graft(row, onto, keep)),
-        2 => (1u32..6).prop_map(Deed::Ungrow),
-        2 => Just(Deed::Undo),
-        1 => Just(Deed::Redo),
-        2 => any::<u32>().prop_map(Deed::GoTo),
-        2 => any::<u32>().prop_map(Deed::Take),
+pub fn events() -> impl Strategy<Value = Vec<LifeEvent>> {
+    let event = prop_oneof![
+        4 => (1u32..4).prop_map(LifeEvent::Grow),
+        2 => (-6f32..6.0, 1f32..12.0, 0f32..3.0).prop_map(|(x, y, radius)| LifeEvent::Stroke(x, y, radius)),
+        1 => (any::<u32>(), 1f32..9.0).prop_map(|(row, y)| LifeEvent::Hold(row, y)),
+        1 => (1f32..4.0).prop_map(LifeEvent::Lasso),
+        1 => (0.4f32..0.7).prop_map(LifeEvent::Apical),
+        1 => (0f32..3.0).prop_map(LifeEvent::Season),
+        1 => (0f32..0.3).prop_map(LifeEvent::Shedding),
+        1 => (-9f32..9.0).prop_map(LifeEvent::Seed),
+        1 => (-9f32..9.0).prop_map(LifeEvent::Ball),
+        2 => (any::<u32>(), -3f32..3.0).prop_map(|(row, x)| LifeEvent::Bend(row, x)),
+        2 => (any::<u32>(), prop::option::weighted(0.8, 0.05f32..2.0)).prop_map(|(row, d)| LifeEvent::Width(row, d)),
+        2 => any::<u32>().prop_map(LifeEvent::Prune),
+        2 => any::<u32>().prop_map(LifeEvent::Turn),
+        2 => (any::<u32>(), any::<u32>(), any::<bool>()).prop_map(|(row, onto, keep)| LifeEvent::Graft(row, onto, keep)),
+        2 => (1u32..6).prop_map(LifeEvent::Ungrow),
+        2 => Just(LifeEvent::Undo),
+        1 => Just(LifeEvent::Redo),
+        2 => any::<u32>().prop_map(LifeEvent::GoTo),
+        2 => any::<u32>().prop_map(LifeEvent::Take),
     ];
-    prop::collection::vec(deed, 1..24)
+    prop::collection::vec(event, 1..24)
 }
 
 /// Does it; what the document refuses changes nothing.
-pub fn live(document: &mut Document, number: usize, deed: &Deed) {
-    for command in commands(document, number, deed) {
+pub fn live(document: &mut Document, number: usize, event: &LifeEvent) {
+    for command in commands(document, number, event) {
         let read = read_command(&command).unwrap_or_else(|problem| panic!("{command}: {problem}"));
         let _refused = document.apply("ann", &read);
     }
 }
 
-fn commands(document: &Document, number: usize, deed: &Deed) -> Vec<String> {
+fn commands(document: &Document, number: usize, event: &LifeEvent) -> Vec<String> {
     let row = |any: u32| row(document, any);
     let quarter = "[0.0,0.38268343,0.0,0.9238795]";
     let one = |command: String| vec![command];
-    match *deed {
-        Deed::Grow(steps) => one(format!(r#"{{"kind":"grow","steps":{steps}}}"#)),
-        Deed::Stroke(x, y, radius) => {
+    match *event {
+        LifeEvent::Grow(steps) => one(format!(r#"{{"kind":"grow","steps":{steps}}}"#)),
+        LifeEvent::Stroke(x, y, radius) => {
             let sample = |x: f32, y: f32| format!(r#"{{"position":[{x:?},{y:?},0.5],"radius":{radius:?}}}"#);
             let (from, to) = (sample(0.0, y / 2.0), sample(x, y));
             vec![
@@ -78,26 +78,26 @@ fn commands(document: &Document, number: usize, deed: &Deed) -> Vec<String> {
             ]
         }
         // A stroke that goes on while other things are done.
-        Deed::Hold(any, y) => vec![
+        LifeEvent::Hold(any, y) => vec![
             format!(r#"{{"kind":"stroke_begin","stroke":{number},"bud":{}}}"#, row(any)),
             format!(
                 r#"{{"kind":"stroke_move","stroke":{number},"samples":[{{"position":[1.0,{y:?},0.0],"radius":2.0}}]}}"#
             ),
         ],
-        Deed::Lasso(size) => one(format!(
+        LifeEvent::Lasso(size) => one(format!(
             r#"{{"kind":"lasso","outline":[[-{size:?},1.0],[{size:?},1.0],[{size:?},7.0],[-{size:?},7.0]],
                 "plane":{{"origin":[0.0,0.0,0.0],"right":[1.0,0.0,0.0],"up":[0.0,1.0,0.0]}},"depth":0.5}}"#
         )),
-        Deed::Apical(value) => one(parameter("apical_control", value)),
-        Deed::Shedding(value) => one(parameter("shedding_threshold", value)),
-        Deed::Season(season) => {
+        LifeEvent::Apical(value) => one(parameter("apical_control", value)),
+        LifeEvent::Shedding(value) => one(parameter("shedding_threshold", value)),
+        LifeEvent::Season(season) => {
             one(format!(r#"{{"kind":"set_appearance","appearance":{{"leaves":{{"season":{season:?}}}}}}}"#))
         }
-        Deed::Seed(x) => one(format!(r#"{{"kind":"plant_seed","position":[{x:?},0.0,1.0]}}"#)),
-        Deed::Ball(x) => one(format!(
+        LifeEvent::Seed(x) => one(format!(r#"{{"kind":"plant_seed","position":[{x:?},0.0,1.0]}}"#)),
+        LifeEvent::Ball(x) => one(format!(
             r#"{{"kind":"place_obstacle","obstacle":{{"shape":{{"kind":"sphere","radius":1.5}},"pose":{{"position":[{x:?},4.0,0.0]}}}}}}"#
         )),
-        Deed::Bend(any, x) => {
+        LifeEvent::Bend(any, x) => {
             let (end, base) = (row(any), below(document, row(any), 4));
             vec![
                 format!(
@@ -107,26 +107,26 @@ fn commands(document: &Document, number: usize, deed: &Deed) -> Vec<String> {
                 format!(r#"{{"kind":"bend_end","bend":{number}}}"#),
             ]
         }
-        Deed::Width(any, diameter) => {
+        LifeEvent::Width(any, diameter) => {
             let diameter = diameter.map_or("null".to_owned(), |diameter| format!("{diameter:?}"));
             one(format!(r#"{{"kind":"set_width","row":{},"diameter":{diameter}}}"#, row(any % 7)))
         }
-        Deed::Prune(any) => one(format!(r#"{{"kind":"prune","rows":[{}]}}"#, row(any))),
-        Deed::Turn(any) => {
+        LifeEvent::Prune(any) => one(format!(r#"{{"kind":"prune","rows":[{}]}}"#, row(any))),
+        LifeEvent::Turn(any) => {
             one(format!(r#"{{"kind":"turn_branch","row":{},"rotation":{quarter}}}"#, row(any)))
         }
-        Deed::Graft(any, onto, keep) => one(format!(
+        LifeEvent::Graft(any, onto, keep) => one(format!(
             r#"{{"kind":"graft","row":{},"onto":{},"rotation":{quarter},"keep":{keep}}}"#,
             row(any),
             row(onto)
         )),
-        Deed::Ungrow(steps) => one(format!(r#"{{"kind":"ungrow","steps":{steps}}}"#)),
-        Deed::Undo => one(r#"{"kind":"undo"}"#.to_owned()),
-        Deed::Redo => one(r#"{"kind":"redo"}"#.to_owned()),
-        Deed::GoTo(any) => {
+        LifeEvent::Ungrow(steps) => one(format!(r#"{{"kind":"ungrow","steps":{steps}}}"#)),
+        LifeEvent::Undo => one(r#"{"kind":"undo"}"#.to_owned()),
+        LifeEvent::Redo => one(r#"{"kind":"redo"}"#.to_owned()),
+        LifeEvent::GoTo(any) => {
             one(format!(r#"{{"kind":"go_to","step":{}}}"#, any % (document.plant().last_step() + 1)))
         }
-        Deed::Take(any) => {
+        LifeEvent::Take(any) => {
             let futures = document.timeline().futures;
             let future = futures.get(any as usize % futures.len().max(1));
             future

@@ -19,7 +19,7 @@ use espalier_proto::{Action, Steps};
 use espalier_session::{Document, JournalEntry, Principal, Session};
 use proptest::prelude::*;
 
-use crate::life::{Deed, deeds, live};
+use crate::life::{LifeEvent, events, live};
 
 /// Which simulation is at work: the present one, until [`Age::next`].
 struct Age(#[allow(dead_code, reason = "it is held, not read")] MutexGuard<'static, ()>);
@@ -156,21 +156,21 @@ proptest! {
 
     /// An old writer and a new reader.
     #[test]
-    fn any_life_goes_on_under_the_next_simulation(seed: u32, before in deeds(), after in deeds()) {
+    fn any_life_goes_on_under_the_next_simulation(seed: u32, before in events(), after in events()) {
         let age = Age::present();
         let mut document = Document::new(seed);
         document.set_metamer_budget(3000);
         grow(&mut document, 4);
-        before.iter().enumerate().for_each(|(number, deed)| live(&mut document, number, deed));
+        before.iter().enumerate().for_each(|(number, event)| live(&mut document, number, event));
         let (bytes, travels, hash) = (document.to_bytes(), Travels::of(&document), document.hash());
         age.next();
         let mut read = Document::from_bytes(&bytes).unwrap();
         prop_assert_eq!(read.hash(), hash);
         prop_assert_eq!(&Travels::of(&read), &travels);
         // It lives on, and all that was grown by either simulation can be undone and redone.
-        for (number, deed) in after.iter().chain(&[Deed::Grow(2)]).enumerate() {
-            live(&mut read, 500 + number, deed);
-            prop_assert_eq!(checks::all(read.plant()), Ok(()), "{:?}", deed);
+        for (number, event) in after.iter().chain(&[LifeEvent::Grow(2)]).enumerate() {
+            live(&mut read, 500 + number, event);
+            prop_assert_eq!(checks::all(read.plant()), Ok(()), "{:?}", event);
         }
         let again = Document::from_bytes(&read.to_bytes()).unwrap();
         prop_assert_eq!(again.hash(), read.hash());

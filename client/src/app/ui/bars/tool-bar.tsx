@@ -34,7 +34,7 @@ const PANEL_ICONS: Record<PanelName, ComponentType> = {
   scene: SceneIcon,
 };
 
-interface Deed {
+interface ToolAction {
   readonly label: Key;
   /** What help calls it. */
   readonly place?: PlaceName;
@@ -48,7 +48,7 @@ const sheet = (name: SheetName) => (studio: Studio) => {
 };
 
 /** What is done with the page and with a tree as a whole. */
-const DEEDS: readonly Deed[] = [
+const TOOL_ACTIONS: readonly ToolAction[] = [
   {
     label: "bars.hide",
     place: "hide",
@@ -93,7 +93,7 @@ export function ToolBar({ studio }: { studio: Studio }) {
       {folded ? (
         <Menu studio={studio} />
       ) : (
-        DEEDS.map(({ label, place, title = label, Icon, act }) => (
+        TOOL_ACTIONS.map(({ label, place, title = label, Icon, act }) => (
           <button
             type="button"
             class="tool"
@@ -130,7 +130,7 @@ function Menu({ studio }: { studio: Studio }) {
       </button>
       {open && (
         <ul class="panel menu" aria-label={say("bars.more")}>
-          {DEEDS.map(({ label, Icon, act }) => (
+          {TOOL_ACTIONS.map(({ label, Icon, act }) => (
             <li key={label}>
               <button
                 type="button"

@@ -51,7 +51,7 @@ fn to_sections(body: &[u8]) -> Result<Vec<Section>, DocumentError> {
     let (all_sets, obstacles) = parts.next(settings::read_obstacles)?;
     let (_, standing) = parts.next(|r| Ok((r.u32()?, r.u32()?)))?;
     let (_, look) = parts.next(Reader::u32)?;
-    let pool = Pool::new(Programmes::default().habits(&all_parameters)?, all_looks, all_sets);
+    let pool = Pool::new(Programmes::default().schedules(&all_parameters)?, all_looks, all_sets);
     let (_, history) = parts.next(|r| times::read_history(r, &pool))?;
     let (_, futures) = parts.next(|r| times::read_futures(r, &pool))?;
     let (_, gestures) = parts.next(gestures::read)?;

@@ -1,4 +1,4 @@
-//! Programmes, which habits go by which, and the ages that lines of time have come to.
+//! Programmes, which schedules go by which, and the ages that lines of time have come to.
 
 use std::sync::Arc;
 
@@ -14,16 +14,16 @@ use crate::{
         futures::Futures,
         history::{AgeMark, History},
     },
-    habit::{Habit, Plan},
+    schedule::{GrowthSchedule, Plan},
 };
 
 /// What the section holds; a document without it has no programme.
 #[derive(Debug, Default)]
 pub(super) struct Programmes {
     plans: Vec<Arc<Plan>>,
-    /// For each habit the number of its programme.
-    of_habits: Vec<Option<u32>>,
-    /// The number of the habit in force; none where it has no programme.
+    /// For each schedule the number of its programme.
+    of_schedules: Vec<Option<u32>>,
+    /// The number of the schedule in force; none where it has no programme.
     pub(super) present: Option<u32>,
     ages: Vec<AgeMark>,
     /// Those of each future.
@@ -38,21 +38,21 @@ pub(super) fn has_ages(history: &History, futures: &Futures) -> bool {
 pub(super) fn write(
     out: &mut Writer,
     pool: &Pool,
-    present: &Arc<Habit>,
+    present: &Arc<GrowthSchedule>,
     history: &History,
     futures: &Futures,
 ) {
     let mut plans: Vec<&Arc<Plan>> = Vec::new();
-    let mut of_habits = Vec::new();
-    for plan in pool.habits().iter().map(|habit| habit.plan()) {
+    let mut of_schedules = Vec::new();
+    for plan in pool.schedules().iter().map(|schedule| schedule.plan()) {
         let known = |plan: &Arc<Plan>| plans.iter().position(|there| Arc::ptr_eq(there, plan));
         let number = plan.map(|plan| known(plan).unwrap_or(plans.len()));
         plans.extend(plan.filter(|_| number == Some(plans.len())));
-        of_habits.push(number.map(|number| number as u32));
+        of_schedules.push(number.map(|number| number as u32));
     }
     out.list(&plans, |out, plan| write_json(out, &**plan.programme()));
-    out.list(&of_habits, |out, &number| out.option(number));
-    out.option(present.plan().map(|_| number(pool.habits(), present)));
+    out.list(&of_schedules, |out, &number| out.option(number));
+    out.option(present.plan().map(|_| number(pool.schedules(), present)));
     write_ages(out, &history.ages);
     out.list(&futures.all, |out, future| write_ages(out, &future.ages));
 }
@@ -65,7 +65,7 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError>
     })?;
     Ok(Programmes {
         plans,
-        of_habits: reader.list(Reader::option)?,
+        of_schedules: reader.list(Reader::option)?,
         present: reader.option()?,
         ages: read_ages(reader)?,
         ages_of_futures: reader.list(read_ages)?,
@@ -73,17 +73,20 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError>
 }
 
 impl Programmes {
-    /// The habits that set these parameters.
-    pub(super) fn habits(&self, parameters: &[ParametersPatch]) -> Result<Vec<Arc<Habit>>, DocumentError> {
-        let habit = |(index, patch): (usize, &ParametersPatch)| {
-            let number = self.of_habits.get(index).copied().flatten();
+    /// The schedules that set these parameters.
+    pub(super) fn schedules(
+        &self,
+        parameters: &[ParametersPatch],
+    ) -> Result<Vec<Arc<GrowthSchedule>>, DocumentError> {
+        let schedule = |(index, patch): (usize, &ParametersPatch)| {
+            let number = self.of_schedules.get(index).copied().flatten();
             let plan = number.map(|number| {
                 self.plans.get(number as usize).cloned().ok_or_else(|| damaged("a programme is missing"))
             });
-            let habit = Habit::new(plan.transpose()?, patch);
-            habit.map(Arc::new).map_err(|problem| damaged(problem.message))
+            let schedule = GrowthSchedule::new(plan.transpose()?, patch);
+            schedule.map(Arc::new).map_err(|problem| damaged(problem.message))
         };
-        parameters.iter().enumerate().map(habit).collect()
+        parameters.iter().enumerate().map(schedule).collect()
     }
 
     /// Puts the ages where they belong.

@@ -18,14 +18,14 @@ use crate::{
         history::{History, Setting},
         obstacles::{Obstacles, Standings},
     },
-    habit::Habit,
     obstacle::{Form, Mesh, Obstacle, Pose, Standing},
+    schedule::GrowthSchedule,
 };
 
 /// All sets of parameters, looks, meshes and sets of obstacles of a document, by number.
 #[derive(Debug, Default)]
 pub(super) struct Pool {
-    habits: Vec<Arc<Habit>>,
+    schedules: Vec<Arc<GrowthSchedule>>,
     looks: Vec<Arc<Appearance>>,
     meshes: Vec<Arc<Mesh>>,
     sets: Vec<Standings>,
@@ -38,12 +38,12 @@ impl Pool {
         let ahead = futures.all.iter().flat_map(|future| &future.operations);
         let settings = history.operations.iter().chain(ahead).map(|operation| &operation.after);
         for setting in std::iter::once(&history.initial).chain(settings) {
-            add(&mut pool.habits, &setting.habit);
+            add(&mut pool.schedules, &setting.schedule);
             add(&mut pool.looks, &setting.appearance);
             pool.add_set(&setting.obstacles);
         }
-        if present.habit.programme().is_some() {
-            add(&mut pool.habits, &present.habit);
+        if present.schedule.programme().is_some() {
+            add(&mut pool.schedules, &present.schedule);
         }
         add(&mut pool.looks, &present.appearance);
         pool.add_set(&present.obstacles);
@@ -59,27 +59,31 @@ impl Pool {
     }
 
     /// A pool of what was read.
-    pub(super) fn new(habits: Vec<Arc<Habit>>, looks: Vec<Arc<Appearance>>, sets: Vec<Standings>) -> Self {
-        Self { habits, looks, meshes: Vec::new(), sets }
+    pub(super) fn new(
+        schedules: Vec<Arc<GrowthSchedule>>,
+        looks: Vec<Arc<Appearance>>,
+        sets: Vec<Standings>,
+    ) -> Self {
+        Self { schedules, looks, meshes: Vec::new(), sets }
     }
 
-    /// What each habit sets: all parameters, or those that go before its programme.
+    /// What each schedule sets: all parameters, or those that go before its programme.
     pub(super) fn write_parameters(&self, out: &mut Writer) {
-        out.list(&self.habits, |out, habit| write_json(out, habit.by_hand()));
+        out.list(&self.schedules, |out, schedule| write_json(out, schedule.by_hand()));
     }
 
-    /// All habits.
-    pub(super) fn habits(&self) -> &[Arc<Habit>] {
-        &self.habits
+    /// All schedules.
+    pub(super) fn schedules(&self) -> &[Arc<GrowthSchedule>] {
+        &self.schedules
     }
 
     pub(super) fn has_programmes(&self) -> bool {
-        self.habits.iter().any(|habit| habit.programme().is_some())
+        self.schedules.iter().any(|schedule| schedule.programme().is_some())
     }
 
-    /// The habit with this number.
-    pub(super) fn habit(&self, number: u32) -> Result<Arc<Habit>, DocumentError> {
-        numbered(&self.habits, number, "parameters")
+    /// The schedule with this number.
+    pub(super) fn schedule(&self, number: u32) -> Result<Arc<GrowthSchedule>, DocumentError> {
+        numbered(&self.schedules, number, "parameters")
     }
 
     /// All looks, and the number of the present ones.
@@ -97,14 +101,14 @@ impl Pool {
     }
 
     pub(super) fn write_setting(&self, out: &mut Writer, setting: &Setting) {
-        out.u32(number(&self.habits, &setting.habit));
+        out.u32(number(&self.schedules, &setting.schedule));
         out.u32(number(&self.sets, &setting.obstacles));
         out.u32(number(&self.looks, &setting.appearance));
     }
 
     pub(super) fn read_setting(&self, reader: &mut Reader<'_>) -> Result<Setting, DocumentError> {
         Ok(Setting {
-            habit: self.habit(reader.u32()?)?,
+            schedule: self.schedule(reader.u32()?)?,
             obstacles: self.standing(reader.u32()?)?,
             appearance: self.look(reader.u32()?)?,
         })

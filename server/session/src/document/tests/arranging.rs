@@ -162,37 +162,37 @@ fn ob2_a_thing_dragged_back_leaves_redo_as_it_was() {
 
 /// What a hand does to obstacles, first found by any number.
 #[derive(Clone, Debug)]
-enum Deed {
+enum Arrangement {
     Place(i32),
     Push(u32, i32),
     Swell(u32, u8),
     Clear(u32),
 }
 
-fn deeds() -> impl Strategy<Value = Vec<Deed>> {
-    let deed = prop_oneof![
-        (-2i32..3).prop_map(Deed::Place),
-        (any::<u32>(), -2i32..3).prop_map(|(any, x)| Deed::Push(any, x)),
-        (any::<u32>(), 1u8..4).prop_map(|(any, radius)| Deed::Swell(any, radius)),
-        any::<u32>().prop_map(Deed::Clear),
+fn arrangements() -> impl Strategy<Value = Vec<Arrangement>> {
+    let arrangement = prop_oneof![
+        (-2i32..3).prop_map(Arrangement::Place),
+        (any::<u32>(), -2i32..3).prop_map(|(any, x)| Arrangement::Push(any, x)),
+        (any::<u32>(), 1u8..4).prop_map(|(any, radius)| Arrangement::Swell(any, radius)),
+        any::<u32>().prop_map(Arrangement::Clear),
     ];
-    prop::collection::vec(deed, 1..7)
+    prop::collection::vec(arrangement, 1..7)
 }
 
-fn arrange(document: &mut Document, deed: &Deed) {
+fn arrange(document: &mut Document, arrangement: &Arrangement) {
     let standing = document.obstacles();
     let found = |any: u32| standing.get(any as usize % standing.len().max(1)).map_or(0, |one| one.id);
-    let action = match *deed {
-        Deed::Place(x) => place_in(HAND, &ball(), 3.0 * x as f32),
-        Deed::Push(any, x) => push(found(any), 3.0 * x as f32, HAND),
-        Deed::Swell(any, radius) => swell(found(any), f32::from(radius), HAND),
-        Deed::Clear(any) => in_gesture(HAND, Action::RemoveObstacle { id: found(any) }),
+    let action = match *arrangement {
+        Arrangement::Place(x) => place_in(HAND, &ball(), 3.0 * x as f32),
+        Arrangement::Push(any, x) => push(found(any), 3.0 * x as f32, HAND),
+        Arrangement::Swell(any, radius) => swell(found(any), f32::from(radius), HAND),
+        Arrangement::Clear(any) => in_gesture(HAND, Action::RemoveObstacle { id: found(any) }),
     };
     // Where nothing stands there is nothing to move.
     let _ = document.apply("ann", &action);
 }
 
-fn check_gesture(seed: u32, earlier: &[Event], hand: &[Deed]) -> Result<(), TestCaseError> {
+fn check_gesture(seed: u32, earlier: &[Event], hand: &[Arrangement]) -> Result<(), TestCaseError> {
     let mut document = Document::new(seed);
     document.set_metamer_budget(2000);
     for (number, event) in earlier.iter().enumerate() {
@@ -200,8 +200,8 @@ fn check_gesture(seed: u32, earlier: &[Event], hand: &[Deed]) -> Result<(), Test
     }
     let before: Form = form(&document);
     let (timeline, figures) = (document.timeline(), document.figures());
-    for deed in hand {
-        arrange(&mut document, deed);
+    for arrangement in hand {
+        arrange(&mut document, arrangement);
     }
     let after = form(&document);
     if document.obstacles() == before.2 {
@@ -221,7 +221,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
     #[test]
-    fn ob2_one_undo_takes_a_whole_gesture_back(seed: u32, earlier in events(), hand in deeds()) {
+    fn ob2_one_undo_takes_a_whole_gesture_back(seed: u32, earlier in events(), hand in arrangements()) {
         check_gesture(seed, &earlier, &hand)?;
     }
 }

@@ -255,8 +255,8 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     let mut afresh = Simulation::from_state(parts, document.simulation.state());
     for _ in 0..2 {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
-        let habit = Habit::plain(grown.parameters().clone());
-        grown.generator_mut().turn_to(&Arc::new(habit), 0);
+        let schedule = GrowthSchedule::plain(grown.parameters().clone());
+        grown.generator_mut().turn_to(&Arc::new(schedule), 0);
         grown.step(&Step::Growth(input.clone()), &mut espalier_growth::NoObserver);
         afresh.step(&input, &mut espalier_growth::NoObserver);
     }

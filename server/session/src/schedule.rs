@@ -8,14 +8,14 @@ use espalier_growth::Parameters;
 use espalier_proto::{Problem, Programme};
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-pub(crate) use self::plan::{Deed, Plan};
+pub(crate) use self::plan::{Plan, ScheduledAction};
 
 /// Parameters that sum to 1: who sets one of them by hand sets all.
 const WEIGHTS: [&str; 3] = ["heading_weight", "tropism_weight", "space_weight"];
 
 /// The parameters at every age, all in range.
 #[derive(Clone, Debug)]
-pub(crate) struct Habit {
+pub(crate) struct GrowthSchedule {
     plan: Option<Arc<Plan>>,
     /// What was set by hand; all parameters where there is no programme.
     by_hand: ParametersPatch,
@@ -23,7 +23,7 @@ pub(crate) struct Habit {
     courses: Vec<(u32, Arc<Parameters>)>,
 }
 
-impl Habit {
+impl GrowthSchedule {
     /// The same parameters at every age.
     pub(crate) fn plain(parameters: Parameters) -> Self {
         let by_hand = parameters.values().clone().into();
@@ -102,7 +102,7 @@ impl Habit {
     }
 }
 
-impl PartialEq for Habit {
+impl PartialEq for GrowthSchedule {
     fn eq(&self, other: &Self) -> bool {
         let same_plan = match (&self.plan, &other.plan) {
             (Some(one), Some(another)) => Arc::ptr_eq(one, another) || one == another,
@@ -119,9 +119,9 @@ mod tests {
     use super::*;
     use crate::species_script::programme_of;
 
-    fn pine() -> Habit {
+    fn pine() -> GrowthSchedule {
         let plan = Plan::new(programme_of(species::find("scots-pine").expect("a pine"))).expect("in range");
-        Habit::new(Some(Arc::new(plan)), &ParametersPatch::default()).expect("in range")
+        GrowthSchedule::new(Some(Arc::new(plan)), &ParametersPatch::default()).expect("in range")
     }
 
     #[test]

@@ -30,7 +30,7 @@ struct Stroke {
 
 /// What a plant does in a step of its age.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Deed {
+pub(crate) enum ScheduledAction {
     /// It grows without guidance.
     Alone,
     /// It follows a brush.
@@ -107,14 +107,14 @@ impl Plan {
     }
 
     /// What is done at an age.
-    pub(crate) fn deed_at(&self, age: u32) -> Deed {
+    pub(crate) fn action_at(&self, age: u32) -> ScheduledAction {
         let Some(index) = self.strokes.iter().position(|stroke| stroke.ages.contains(&age)) else {
-            return Deed::Alone;
+            return ScheduledAction::Alone;
         };
         let (name, Stroke { ages, pieces }) = (StrokeId::of_programme(index as u32), &self.strokes[index]);
         match pieces.get((age - ages.start) as usize) {
-            Some(samples) => Deed::Follow(BrushPiece { stroke: name, samples: samples.clone() }),
-            None => Deed::Settle(name, ages.end),
+            Some(samples) => ScheduledAction::Follow(BrushPiece { stroke: name, samples: samples.clone() }),
+            None => ScheduledAction::Settle(name, ages.end),
         }
     }
 
@@ -131,7 +131,7 @@ impl PartialEq for Plan {
     }
 }
 
-impl Deed {
+impl ScheduledAction {
     /// What the plant does in a step of it.
     pub(crate) fn input(&self) -> StepInput {
         match self {
