@@ -90,8 +90,8 @@ export const PROBLEMS = {
     "Der Baum wächst noch, was verlangt wurde; versuche es wieder, wenn er nachgekommen ist.",
   ],
   "problems.obstacle-gone": [
-    "This obstacle is gone: someone has just taken it away.",
-    "Dieses Hindernis gibt es nicht mehr: Jemand hat es gerade entfernt.",
+    "No obstacle stands there; perhaps someone has just taken it away.",
+    "Dort steht kein Hindernis; vielleicht hat es gerade jemand entfernt.",
   ],
   "problems.mesh-keeps-shape": [
     "A model keeps its shape; place another one instead.",
