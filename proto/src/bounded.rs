@@ -140,7 +140,13 @@ macro_rules! bounded {
         }
 
         written_as! { $name as $type; }
-    )+ };
+    )+
+
+        /// The names of these numbers, each with its least and its most as they are written.
+        pub(crate) fn bounds() -> Vec<(&'static str, [String; 2])> {
+            vec![$((stringify!($name), [$name::RANGE.0.to_string(), $name::RANGE.1.to_string()])),+]
+        }
+    };
 }
 
 bounded! {

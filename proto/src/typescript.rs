@@ -7,8 +7,8 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    command, control, envelope, frame, library, obstacle, place, problem, programme, schematic, species,
-    timeline, version,
+    bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, schematic,
+    species, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -24,6 +24,10 @@ pub fn declarations() -> String {
     constant("MAX_STEPS_PER_COMMAND", version::MAX_STEPS_PER_COMMAND.to_string());
     constant("MIN_OUTLINE_POINTS", version::MIN_OUTLINE_POINTS.to_string());
     constant("MAX_OUTLINE_POINTS", version::MAX_OUTLINE_POINTS.to_string());
+    constant("MAX_OUTLINE_STEPS", version::MAX_OUTLINE_STEPS.to_string());
+    constant("MAX_NAME_CHARACTERS", version::MAX_NAME_CHARACTERS.to_string());
+    constant("FARTHEST", place::FARTHEST.to_string());
+    constant("DEEPEST", place::DEEPEST.to_string());
     constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());
     constant("MIN_DIAMETER", version::MIN_DIAMETER.to_string());
     constant("MAX_DIAMETER", version::MAX_DIAMETER.to_string());
@@ -42,7 +46,11 @@ pub fn declarations() -> String {
     constant("RADIUS_LOG_STEP", frame::RADIUS_LOG_STEP.to_string());
     constant("HEADER_BYTES", envelope::HEADER_BYTES.to_string());
     constant("MAX_BODY_BYTES", envelope::MAX_BODY_BYTES.to_string());
-    out.push_str("\nexport const CloseCode = {\n");
+    out.push_str("\nexport const BOUNDS = {\n");
+    for (name, [least, most]) in bounded::bounds() {
+        out.push_str(&format!("  {name}: {{ least: {least}, most: {most} }},\n"));
+    }
+    out.push_str("} as const;\n\nexport const CloseCode = {\n");
     for (name, code) in [
         ("GoingAway", version::CloseCode::GoingAway),
         ("MessageTooBig", version::CloseCode::MessageTooBig),

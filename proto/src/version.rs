@@ -18,6 +18,12 @@ pub const MIN_OUTLINE_POINTS: usize = 3;
 /// The most points of a lasso's outline (`LM5`).
 pub const MAX_OUTLINE_POINTS: usize = 4096;
 
+/// The most steps that one outline grows for (`LA1`).
+pub const MAX_OUTLINE_STEPS: u32 = 400;
+
+/// The most characters of a tree's name (`LM4`).
+pub const MAX_NAME_CHARACTERS: usize = 80;
+
 /// The most touches of one bend (`LM7`).
 pub const MAX_BEND_TOUCHES: usize = 8;
 

@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { TreeTable } from "../scene/table/tree-table";
-import type { Command, DocumentState, Parameters } from "../wire/generated";
+import { type Command, DEFAULT_PARAMETERS, type DocumentState, type Parameters } from "../wire/generated";
 import { rowStore } from "./connection/row-store";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
@@ -173,7 +173,7 @@ export class Studio {
     // What is durable may have to wait for growth that was asked for before; until then its preview stays.
     unsettled: (kind) => this.link.unsettled(kind) + (this.#busy() ? 1 : 0),
     girth: () => {
-      const { girth_exponent: exponent = 2.5, twig_diameter: twigDiameter = 0.07 } = this.parameters.peek() ?? {};
+      const { girth_exponent: exponent, twig_diameter: twigDiameter } = this.parameters.peek() ?? DEFAULT_PARAMETERS;
       return { exponent, twigDiameter };
     },
     predict: (rows) => this.branches.predict(rows),

@@ -6,6 +6,10 @@ export const MAX_STROKE_SAMPLES = 256;
 export const MAX_STEPS_PER_COMMAND = 1000;
 export const MIN_OUTLINE_POINTS = 3;
 export const MAX_OUTLINE_POINTS = 4096;
+export const MAX_OUTLINE_STEPS = 400;
+export const MAX_NAME_CHARACTERS = 80;
+export const FARTHEST = 1000;
+export const DEEPEST = -10;
 export const MAX_BEND_TOUCHES = 8;
 export const MIN_DIAMETER = 0.01;
 export const MAX_DIAMETER = 100;
@@ -24,6 +28,18 @@ export const MIN_RADIUS = 0.001;
 export const RADIUS_LOG_STEP = 0.01;
 export const HEADER_BYTES = 16;
 export const MAX_BODY_BYTES = 67108864;
+
+export const BOUNDS = {
+  Steps: { least: 1, most: 1000 },
+  Age: { least: 0, most: 10000 },
+  PredictedSteps: { least: 0, most: 100 },
+  BrushRadius: { least: 0, most: 40 },
+  Depth: { least: 0.1, most: 1 },
+  Share: { least: 0, most: 1 },
+  Diameter: { least: 0.01, most: 100 },
+  SphereRadius: { least: 0.1, most: 500 },
+  Scale: { least: 0.001, most: 1000 },
+} as const;
 
 export const CloseCode = {
   GoingAway: 1001,

@@ -1,4 +1,5 @@
 import { effect, type Signal, signal } from "@preact/signals";
+import { BOUNDS } from "../../wire/generated";
 import { areUnsavedTrees, isSavedState, type SavedState, type UnsavedTree } from "../library/unsaved-tree";
 import { isSymmetry, OFF, type Symmetry } from "../tools/symmetry/symmetry";
 import { LANGUAGES, type Language } from "../words/say";
@@ -53,13 +54,13 @@ export function loadSettings(store: Storage): Settings {
   return {
     side: kept(store, "side", "left", (value) => value === "left" || value === "right"),
     pressureWidens: kept(store, "pen-pressure", true, (value) => typeof value === "boolean"),
-    radius: kept(store, "radius", 4, (value) => typeof value === "number" && value >= 0 && value <= 40),
+    radius: kept(store, "radius", 4, isWithin(BOUNDS.BrushRadius)),
     symmetry: kept<Symmetry>(store, "symmetry", OFF, isSymmetry),
     followsGrowth: kept(store, "follow-growth", true, (value) => typeof value === "boolean"),
     hasDrawn: kept(store, "drawn", false, (value) => typeof value === "boolean"),
     hasOutlined: kept(store, "outlined", false, (value) => typeof value === "boolean"),
-    stretch: kept(store, "stretch", 0.3, (value) => typeof value === "number" && value >= 0 && value <= 1),
-    lassoDepth: kept(store, "lasso-depth", 1, (value) => typeof value === "number" && value >= 0.1 && value <= 1),
+    stretch: kept(store, "stretch", 0.3, isWithin(BOUNDS.Share)),
+    lassoDepth: kept(store, "lasso-depth", 1, isWithin(BOUNDS.Depth)),
     // On a phone the strip that turns the tree has its place first.
     timelineOpen: kept(
       store,
@@ -77,6 +78,11 @@ export function loadSettings(store: Storage): Settings {
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
     savedState: kept<SavedState | null>(store, "saved", null, isSavedState),
   };
+}
+
+/** Whether a value that was kept is a number between bounds. */
+function isWithin({ least, most }: { readonly least: number; readonly most: number }) {
+  return (value: unknown) => typeof value === "number" && value >= least && value <= most;
 }
 
 function isNames(value: unknown): boolean {

@@ -1,6 +1,6 @@
 import type { ReadonlySignal } from "@preact/signals";
 import type { Vec3 } from "../../scene/vector";
-import type { Command } from "../../wire/generated";
+import { type Command, FARTHEST } from "../../wire/generated";
 import type { Grip, StrokePoint } from "../input/gesture-recogniser";
 
 /** A tool that works on the tree with fingers, a pen or the left mouse button. */
@@ -52,13 +52,11 @@ export interface GripTool extends Tool {
 
 /** How near to a branch a stroke must begin to begin on it, in pixels. */
 export const PICK_TOLERANCE = 24;
-/** Positions beyond this are refused (`LM2`). */
-const REACH = 1000;
 
 /** The nearest place the server accepts; nothing grows below the ground. */
 export function withinReach([x, y, z]: readonly [number, number, number]): [number, number, number] {
-  const clamp = (value: number, least: number) => tidy(Math.min(REACH, Math.max(least, value)));
-  return [clamp(x, -REACH), clamp(y, 0), clamp(z, -REACH)];
+  const clamp = (value: number, least: number) => tidy(Math.min(FARTHEST, Math.max(least, value)));
+  return [clamp(x, -FARTHEST), clamp(y, 0), clamp(z, -FARTHEST)];
 }
 
 /** A thousandth of an internode is far below what anyone can see, and the message is half as long. */

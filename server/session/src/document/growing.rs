@@ -2,7 +2,9 @@
 
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
-use espalier_proto::{Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps};
+use espalier_proto::{
+    Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps, version::MAX_OUTLINE_STEPS,
+};
 use glam::{Vec2, Vec3};
 
 use super::{Document, generators::Step, hints::DrawnInVain, history::Kind, refused, strokes::OpenStroke};
@@ -10,8 +12,6 @@ use crate::cause::Cause;
 
 /// A stroke that still grows so many steps after its end is left as it is.
 pub(super) const MAX_SETTLING_STEPS: u32 = 400;
-/// A lasso that still grows after so many steps is left as it is (`LA1`).
-const MAX_LASSO_STEPS: u32 = 400;
 
 /// Steps still to be run for an action taken on.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,7 +195,7 @@ impl Document {
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
         let in_vain = self.lasso_in_vain(&envelope, &places);
-        self.pending.push_back(Pending::Lasso { left: MAX_LASSO_STEPS, chosen, in_vain });
+        self.pending.push_back(Pending::Lasso { left: MAX_OUTLINE_STEPS, chosen, in_vain });
         Ok(())
     }
 

@@ -1,8 +1,5 @@
-import type { DocumentState } from "../../../wire/generated";
+import { type DocumentState, MAX_OUTLINE_STEPS } from "../../../wire/generated";
 import type { GrowthAhead } from "../draft";
-
-/** An outline grows for so many steps at most (`LA1`). */
-const OUTLINE_STEPS = 400;
 
 /** The growth that is left; of an outline only the greatest number of steps is known. */
 export function growthAhead(
@@ -10,5 +7,5 @@ export function growthAhead(
   growsOutline: boolean,
 ): GrowthAhead {
   const { step = 0, pending_steps: pending = 0 } = document ?? {};
-  return { step, pending: pending > 0 && growsOutline ? Math.max(pending, OUTLINE_STEPS) : pending };
+  return { step, pending: pending > 0 && growsOutline ? Math.max(pending, MAX_OUTLINE_STEPS) : pending };
 }

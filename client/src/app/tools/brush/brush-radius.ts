@@ -1,8 +1,9 @@
+import { BOUNDS } from "../../../wire/generated";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 
 /** The widest brush, in internodes (`LM2`). */
-export const MAX_RADIUS = 40;
+export const MAX_RADIUS: number = BOUNDS.BrushRadius.most;
 /** The narrowest brush that is not sketching. */
 export const MIN_BRUSH = 0.5;
 /** The part of the slider's way that means sketching. */

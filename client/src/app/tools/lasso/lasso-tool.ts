@@ -1,5 +1,5 @@
 import type { Vec3 } from "../../../scene/vector";
-import { type Command, type DrawingPlane, MAX_OUTLINE_POINTS } from "../../../wire/generated";
+import { type Command, type DrawingPlane, FARTHEST, MAX_OUTLINE_POINTS } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
 import type { BrushView } from "../../view/brush-view";
 import type { Copy } from "../symmetry/symmetry";
@@ -14,8 +14,6 @@ const LEAST_ROOM = 2;
 const SPACING = 2;
 /** How far a point may lie beside the outline that is sent, in pixels. */
 const TOLERANCE = 0.7;
-/** Coordinates beyond this are refused (`LA1`). */
-const REACH = 1000;
 
 /** What the lasso needs of the view. */
 export interface LassoView extends Pick<BrushView, "pick" | "pointOnPlane"> {
@@ -158,6 +156,6 @@ function planeOf({ place, direction }: Copy, { origin, right, up }: DrawingPlane
 function onPlane(place: Vec3, { origin, right, up }: DrawingPlane): [number, number] {
   const along = (axis: Vec3) =>
     (place[0] - origin[0]) * axis[0] + (place[1] - origin[1]) * axis[1] + (place[2] - origin[2]) * axis[2];
-  const clamp = (value: number) => tidy(Math.min(REACH, Math.max(-REACH, value)));
+  const clamp = (value: number) => tidy(Math.min(FARTHEST, Math.max(-FARTHEST, value)));
   return [clamp(along(right)), clamp(along(up))];
 }

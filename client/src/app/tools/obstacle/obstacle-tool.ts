@@ -1,14 +1,10 @@
 import type { Vec3 } from "../../../scene/vector";
-import type { Pose } from "../../../wire/generated";
+import { DEEPEST, FARTHEST, type Pose } from "../../../wire/generated";
 import type { StrokePoint } from "../../input/gesture-recogniser";
 import { type Tool, tidy } from "../tool";
 
 /** Nearer to the ground than this, in internodes, a thing is put down on it. */
 const SETTLES_WITHIN = 0.7;
-/** Positions beyond this are refused (`OB2`). */
-const REACH = 1000;
-/** A thing may be sunk so deep. */
-const DEEPEST = -10;
 
 /** What moving things needs of the view. */
 export interface ObstacleView {
@@ -97,11 +93,11 @@ export class ObstacleTool implements Tool {
   }
 
   #settled({ id, at, pose }: Grip, place: Vec3): [number, number, number] {
-    const clamp = (value: number, least: number) => tidy(Math.min(REACH, Math.max(least, value)));
+    const clamp = (value: number, least: number) => tidy(Math.min(FARTHEST, Math.max(least, value)));
     const to = ([0, 1, 2] as const).map((axis) => pose.position[axis] + place[axis] - at[axis]);
     const [x = 0, y = 0, z = 0] = to;
     const below = this.#options.view.depthBelow(id);
     const stands = below !== null && Math.abs(y - below) < SETTLES_WITHIN;
-    return [clamp(x, -REACH), clamp(stands ? below : y, DEEPEST), clamp(z, -REACH)];
+    return [clamp(x, -FARTHEST), clamp(stands ? below : y, DEEPEST), clamp(z, -FARTHEST)];
   }
 }

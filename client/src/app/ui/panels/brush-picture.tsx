@@ -1,6 +1,6 @@
 import { DEFAULTS } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
-import { placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
+import { MAX_RADIUS, placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
 import { say } from "../../words/say";
 import { Grip } from "./architecture/grip";
 import { short } from "./architecture/place";
@@ -48,7 +48,7 @@ export function BrushPicture({ studio }: { studio: Studio }) {
           text={radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })}
           value={Math.round(radius * 10) / 10}
           least={0}
-          most={40}
+          most={MAX_RADIUS}
           step={0.5}
           way="level"
           at={{ x: MIDDLE.x + pixelsOf(radius) + OUTSIDE, y: MIDDLE.y }}

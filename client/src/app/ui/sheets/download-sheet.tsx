@@ -1,4 +1,5 @@
 import { useState } from "preact/hooks";
+import { MAX_NAME_CHARACTERS } from "../../../wire/generated";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { usualName } from "./name-field";
@@ -35,7 +36,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         <input
           type="text"
           value={name}
-          maxLength={80}
+          maxLength={MAX_NAME_CHARACTERS}
           autocomplete="off"
           enterkeyhint="done"
           onFocus={(event) => event.currentTarget.select()}

@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import type { SavedTree } from "../../../wire/generated";
+import { MAX_NAME_CHARACTERS, type SavedTree } from "../../../wire/generated";
 import { deleteTree, listTrees, renameTree } from "../../library/library-api";
 import { LibraryPages } from "../../library/library-pages";
 import { sentence } from "../../problems/plain-words";
@@ -100,7 +100,7 @@ function TreeCard({ studio, tree, onChange }: TreeCardProps) {
           <input
             name="name"
             aria-label={say("sheets.library.new-name")}
-            maxLength={80}
+            maxLength={MAX_NAME_CHARACTERS}
             autocomplete="off"
             defaultValue={tree.name}
             ref={(input) => input?.focus()}

@@ -1,3 +1,4 @@
+import { MAX_NAME_CHARACTERS } from "../../../wire/generated";
 import { dateText } from "../../words/date-text";
 import { say } from "../../words/say";
 
@@ -14,7 +15,7 @@ export function NameField({ name, onInput }: NameFieldProps) {
       <input
         type="text"
         value={name}
-        maxLength={80}
+        maxLength={MAX_NAME_CHARACTERS}
         autocomplete="off"
         enterkeyhint="done"
         onFocus={(event) => event.currentTarget.select()}
