@@ -1,4 +1,4 @@
-//! JSON read into types; what cannot be read is a problem that names the field and what is allowed there.
+//! JSON and queries of addresses read into types; what cannot be read is a problem that names the field and what is allowed there.
 //!
 //! Every type says in its `expecting` text, or in the `allowed` of a [`NotAllowed`], what it takes. A path-tracking
 //! deserialiser says where. Nothing else knows the fields, so there is no second schema to keep.
@@ -23,6 +23,40 @@ const LONGEST: usize = 120;
 /// A problem names the field and what is allowed there, or says that the text is no JSON.
 pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
     from_value(parse(text)?)
+}
+
+/// Reads the query of an address, as in `limit=5&after=x`: each name stands once, and a value is a text, or a number or
+/// a truth value where the type takes one.
+///
+/// # Errors
+///
+/// A problem names the field and what is allowed there.
+pub fn from_query<T: DeserializeOwned>(query: &str) -> Result<T, Problem> {
+    let mut fields = Map::new();
+    for (name, value) in form_urlencoded::parse(query.as_bytes()) {
+        if fields.insert(name.clone().into_owned(), value.into_owned().into()).is_some() {
+            let field = shortened(&name);
+            let message = format!("{field} stands twice; allowed: once");
+            let allowed = Some("once".into());
+            return Err(Problem { code: ProblemCode::Malformed, field: Some(field), allowed, message });
+        }
+    }
+    // A text that a field does not take may be the text of a number. Each field changes once at most.
+    let mut value = Value::Object(fields);
+    while let Err(Fault { path, text }) = read::<T>(&value) {
+        let is_text = text.starts_with("invalid type: string ");
+        let Some(Value::String(found)) = value.get_mut(&path).filter(|_| is_text).map(Value::take) else {
+            break;
+        };
+        match serde_json::from_str(&found) {
+            Ok(plain @ (Value::Number(_) | Value::Bool(_))) => value[&path] = plain,
+            _ => {
+                value[&path] = found.into();
+                break;
+            }
+        }
+    }
+    from_value(value)
 }
 
 /// The text as a JSON value. Numbers that JSON does not have, such as NaN or 1e999, stand in it as texts, so that
@@ -255,7 +289,7 @@ fn plain(expected: &str) -> String {
     match expected {
         "u8" => "a whole number from 0 to 255".into(),
         "u32" => format!("a whole number from 0 to {}", u32::MAX),
-        "f32" => "a number".into(),
+        "f32" | "f64" => "a number".into(),
         "a boolean" => "true, false".into(),
         "a string" => "a text".into(),
         "a sequence" => "a list".into(),

@@ -304,7 +304,10 @@ impl Session {
 
     /// Who has said hello and is still here, once for each client.
     pub fn people(&self) -> impl Iterator<Item = &crate::Principal> {
-        self.clients.values().filter_map(|client| client.connected.as_ref()).map(|connected| &connected.principal)
+        self.clients
+            .values()
+            .filter_map(|client| client.connected.as_ref())
+            .map(|connected| &connected.principal)
     }
 
     fn read(&mut self, client: ClientId, text: &str) {

@@ -2,14 +2,12 @@
 
 use axum::{
     Json,
-    extract::{
-        FromRequest, Request,
-        rejection::{BytesRejection, JsonRejection, QueryRejection},
-    },
-    http::StatusCode,
+    body::Bytes,
+    extract::{FromRequest, FromRequestParts, Request, rejection::BytesRejection},
+    http::{HeaderMap, StatusCode, header, request::Parts},
     response::{IntoResponse, Response},
 };
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode, reading};
 use serde::de::DeserializeOwned;
 
 use crate::{
@@ -40,15 +38,6 @@ impl Failure {
 
     pub(super) fn forbidden() -> Self {
         Self { status: StatusCode::FORBIDDEN, problem: espalier_session::forbidden() }
-    }
-
-    /// What stands behind the question mark cannot be read.
-    pub(super) fn bad_query(rejection: &QueryRejection) -> Self {
-        Problem::new(
-            ProblemCode::Malformed,
-            format!("The request cannot be read: {}.", rejection.body_text()),
-        )
-        .into()
     }
 
     /// A file of which so many bytes are taken did not arrive.
@@ -145,32 +134,144 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
     type Rejection = Failure;
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Failure> {
-        let rejection = match Json::from_request(request, state).await {
-            Ok(Json(body)) => return Ok(Self(body)),
-            Err(rejection) => rejection,
-        };
-        if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-            return Err(Failure::too_large(None, "a smaller body", "The request is too large.".into()));
+        if !is_json(request.headers()) {
+            let allowed = Some("application/json".into());
+            let problem = Problem::new(ProblemCode::Malformed, "The request must be application/json.");
+            return Err(Problem { allowed, ..problem }.into());
         }
-        let message = match rejection {
-            JsonRejection::MissingJsonContentType(_) => "The request must be application/json.".into(),
-            // The cause names the field and what was expected there.
-            JsonRejection::JsonDataError(error) => cause(&error),
-            JsonRejection::JsonSyntaxError(error) => cause(&error),
-            other => other.body_text(),
-        };
-        Err(Problem::new(ProblemCode::Malformed, message).into())
+        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| {
+            if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
+                return Failure::too_large(None, "a smaller body", "The request is too large.".into());
+            }
+            Problem::new(ProblemCode::Malformed, "The request cannot be read: it did not arrive whole.")
+                .into()
+        })?;
+        // Bytes that are no text are no JSON, and the reader says so.
+        Ok(Self(reading::from_json(&String::from_utf8_lossy(&bytes))?))
     }
 }
 
-fn cause(error: &dyn std::error::Error) -> String {
-    let mut cause = error;
-    while let Some(source) = cause.source() {
-        cause = source;
+fn is_json(headers: &HeaderMap) -> bool {
+    let found = headers.get(header::CONTENT_TYPE).and_then(|value| value.to_str().ok()).unwrap_or_default();
+    let essence = found.split(';').next().unwrap_or_default().trim();
+    essence.eq_ignore_ascii_case("application/json")
+}
+
+/// What stands behind the question mark of an address, or a problem that says what is wrong with it.
+#[derive(Debug)]
+pub(super) struct Query<T>(pub(super) T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
+    type Rejection = Failure;
+
+    async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Failure> {
+        Ok(Self(reading::from_query(parts.uri.query().unwrap_or_default())?))
     }
-    format!("The request cannot be read: {cause}.")
 }
 
 pub(super) async fn unknown_route() -> Failure {
     Failure::not_found("address")
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::{Router, body::Body as Bytes, routing::post};
+    use espalier_proto::library::{CopyTree, NewSession, SaveTree};
+    use espalier_settings::ParameterValues;
+    use serde_json::{Value, json};
+    use tower::ServiceExt;
+
+    use super::*;
+    use crate::http::{imports::Upload, trees::Page};
+
+    async fn take<T>(_: Body<T>) {}
+    async fn ask<T>(_: Query<T>) {}
+
+    /// An address for each body and each query that the API reads.
+    fn router() -> Router {
+        Router::new()
+            .route("/sessions", post(take::<NewSession>))
+            .route("/trees", post(take::<SaveTree>))
+            .route("/tree", post(take::<CopyTree>))
+            .route("/schematic", post(take::<ParameterValues>))
+            .route("/list", post(ask::<Page>))
+            .route("/import", post(ask::<Upload>))
+    }
+
+    async fn answer(address: &str, body: String) -> (StatusCode, Value) {
+        let request = Request::post(address).header(header::CONTENT_TYPE, "application/json; charset=utf-8");
+        let response = router().oneshot(request.body(Bytes::from(body)).unwrap()).await.unwrap();
+        let status = response.status();
+        let bytes = axum::body::to_bytes(response.into_body(), usize::MAX).await.unwrap();
+        (status, serde_json::from_slice(&bytes).unwrap_or_default())
+    }
+
+    #[tokio::test]
+    async fn every_refusal_names_the_field_and_what_is_allowed() {
+        let parameters = |name: &str, value: Value| {
+            let mut all = json!(ParameterValues::default());
+            all[name] = value;
+            all
+        };
+        let mut incomplete = parameters("girth_exponent", json!(2.5));
+        incomplete.as_object_mut().unwrap().remove("girth_exponent");
+        let named = |name: Value| json!({ "session": "oak", "name": name });
+        let none = Value::Null;
+        let cases = [
+            ("/sessions", json!({ "seed": -1 }), "seed", "4294967295"),
+            ("/sessions", json!({ "seed": "x" }), "seed", "a whole number"),
+            ("/sessions", json!({ "tree": 5 }), "tree", "a text"),
+            ("/sessions", json!({ "sead": 5 }), "sead", "seed, tree"),
+            ("/trees", named(json!(5)), "name", "a text"),
+            ("/trees", json!({ "session": "oak" }), "name", "a text"),
+            ("/trees", json!({ "session": "oak", "name": "Oak", "thumbnail": [] }), "thumbnail", "a text"),
+            ("/tree", json!({ "name": null }), "name", "a text"),
+            ("/tree", json!({}), "name", "a text"),
+            ("/schematic", parameters("girth_exponent", json!("x")), "girth_exponent", "2 to 3"),
+            ("/schematic", parameters("foo", json!(1)), "foo", "girth_exponent"),
+            ("/schematic", incomplete, "girth_exponent", "2 to 3"),
+            ("/list?limit=x", none.clone(), "limit", "a whole number"),
+            ("/list?limit=-1", none.clone(), "limit", "a whole number"),
+            ("/list?limit=5&limit=5", none.clone(), "limit", "once"),
+            ("/list?foo", none.clone(), "foo", "limit"),
+            ("/import?format=mtg", none.clone(), "name", "a text"),
+            ("/import?name=Oak", none.clone(), "format", "a text"),
+            ("/import?name=Oak&format=mtg&unit=x", none.clone(), "unit", "a number"),
+            ("/import?name=Oak&format=mtg&size=3", none, "size", "internode_length"),
+        ];
+        for (address, body, field, allowed) in cases {
+            let (status, problem) = answer(address, body.to_string()).await;
+            let said = format!("{address} {body:.60}: {problem}");
+            assert_eq!((status, problem["field"].as_str()), (StatusCode::BAD_REQUEST, Some(field)), "{said}");
+            let message = problem["message"].as_str().unwrap();
+            let told = problem["allowed"].as_str().unwrap_or_else(|| panic!("no range: {said}"));
+            assert!(told.contains(allowed) && message.contains(field) && message.contains(told), "{said}");
+        }
+    }
+
+    #[tokio::test]
+    async fn what_is_right_is_taken() {
+        for (address, body) in [
+            ("/sessions", json!({})),
+            ("/tree", json!({ "name": "5" })),
+            ("/schematic", json!(ParameterValues::default())),
+            ("/list", Value::Null),
+            ("/list?limit=5", Value::Null),
+            ("/import?name=5&format=mtg&unit=0.5&internode_length=1", Value::Null),
+            ("/import?name=A+tall%20tree&format=true", Value::Null),
+        ] {
+            let (status, said) = answer(address, body.to_string()).await;
+            assert_eq!(status, StatusCode::OK, "{address}: {said}");
+        }
+    }
+
+    #[tokio::test]
+    async fn what_is_no_json_is_said_to_be_none() {
+        for text in ["", "{", "seed=1"] {
+            let (status, problem) = answer("/sessions", text.into()).await;
+            assert_eq!((status, problem["allowed"].as_str()), (StatusCode::BAD_REQUEST, Some("JSON")));
+        }
+        let request = Request::post("/sessions").body(Bytes::from("{}")).unwrap();
+        assert_eq!(router().oneshot(request).await.unwrap().status(), StatusCode::BAD_REQUEST);
+    }
 }

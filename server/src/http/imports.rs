@@ -3,10 +3,7 @@
 use axum::{
     Extension,
     body::Bytes,
-    extract::{
-        Query, State,
-        rejection::{BytesRejection, QueryRejection},
-    },
+    extract::{State, rejection::BytesRejection},
     http::StatusCode,
     response::IntoResponse,
 };
@@ -17,7 +14,7 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::Failure,
+    failure::{Failure, Query},
     text, trees,
     versions::{self, Said},
 };
@@ -44,14 +41,13 @@ pub(super) struct Upload {
 pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
-    upload: Result<Query<Upload>, QueryRejection>,
+    Query(upload): Query<Upload>,
     body: Result<Bytes, BytesRejection>,
 ) -> Result<impl IntoResponse, Failure> {
-    let Query(upload) = upload.map_err(|rejection| Failure::bad_query(&rejection))?;
     let name = text::name("name", &upload.name)?;
-    let format = import::format_of(&upload.format).map_err(|allowed| Problem {
-        allowed: Some(allowed),
-        ..Problem::out_of_range("format", &upload.format, "the ending of a file")
+    let format = import::format_of(&upload.format).map_err(|_| {
+        let endings = import::FORMATS.iter().map(|(_, ending, _)| *ending).collect::<Vec<_>>().join(", ");
+        Problem::out_of_range("format", &upload.format, endings)
     })?;
     let unit = upload.unit.unwrap_or(1.0);
     if !(unit.is_finite() && unit > 0.0) {

@@ -1,9 +1,8 @@
 //! Names and notes that people give.
 
-use espalier_proto::Problem;
+use espalier_proto::{Problem, version::MAX_NAME_CHARACTERS};
 use unicode_properties::{GeneralCategory, UnicodeGeneralCategory};
 
-const MAX_NAME_CHARACTERS: usize = 80;
 const MAX_NOTE_CHARACTERS: usize = 2000;
 
 /// Letters and symbols that show nothing: the fillers of Hangul and the empty braille pattern.

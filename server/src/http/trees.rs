@@ -4,7 +4,7 @@ use std::time::SystemTime;
 
 use axum::{
     Extension, Json,
-    extract::{Path, Query, State, rejection::QueryRejection},
+    extract::{Path, State},
     http::StatusCode,
     response::IntoResponse,
 };
@@ -18,7 +18,7 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Body, Failure},
+    failure::{Body, Failure, Query},
     revision::{self, Expected},
     text,
     versions::{self, Said, Saving},
@@ -47,9 +47,8 @@ pub(super) struct Page {
 
 pub(super) async fn list(
     State(shared): State<Shared>,
-    page: Result<Query<Page>, QueryRejection>,
+    Query(page): Query<Page>,
 ) -> Result<Json<TreePage>, Failure> {
-    let Query(page) = page.map_err(|rejection| Failure::bad_query(&rejection))?;
     let limit = limit_of(page.limit, MAX_TREES)?;
     let after = page.after.as_deref().map(read_place).transpose()?;
     let query = TreeQuery { is_deleted: page.deleted, is_template: page.template, limit, after };

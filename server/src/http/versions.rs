@@ -2,7 +2,7 @@
 
 use axum::{
     Extension, Json,
-    extract::{Path, Query, State, rejection::QueryRejection},
+    extract::{Path, State},
     http::{HeaderName, StatusCode, header},
     response::IntoResponse,
 };
@@ -15,7 +15,7 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Body, Failure},
+    failure::{Body, Failure, Query},
     revision::{self, Expected},
     sessions, text, thumbnail,
     trees::{self, limit_of, now},
@@ -44,9 +44,8 @@ pub(super) struct Page {
 pub(super) async fn list(
     State(shared): State<Shared>,
     Path(tree): Path<String>,
-    page: Result<Query<Page>, QueryRejection>,
+    Query(page): Query<Page>,
 ) -> Result<Json<Vec<TreeVersion>>, Failure> {
-    let Query(page) = page.map_err(|rejection| Failure::bad_query(&rejection))?;
     let limit = limit_of(page.limit, MAX_VERSIONS)?;
     trees::stored(&shared, &tree).await?;
     let versions = shared.store.versions(&tree, limit, page.before).await?;
