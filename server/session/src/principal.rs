@@ -4,7 +4,7 @@ use std::{fmt, sync::Arc};
 
 /// What a client key may have besides letters and digits.
 const OF_KEYS: [u8; 2] = *b"-_";
-/// Whoever is no client; too short to be a client's key.
+/// The name of every principal without a client key. It is shorter than the shortest key, so no client can have it.
 const VISITOR: &str = "outside";
 
 /// Who does something, in every request, socket and journal entry.

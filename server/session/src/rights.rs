@@ -1,4 +1,5 @@
-//! What a session asks before it lets somebody in, or takes a command (`AU2`). Who may do what is for others to say.
+//! What a session asks before somebody joins it, and before it takes a command (`AU2`). The server answers
+//! (`authority.rs`).
 
 use std::{fmt, sync::Arc};
 
@@ -9,13 +10,13 @@ use crate::principal::Principal;
 /// What somebody wants of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Access {
-    /// To come in and see it.
+    /// To join and see it.
     Join,
     /// To have a command done.
     Edit,
 }
 
-/// Says who may do what in a session. Unless told otherwise, everybody may do everything.
+/// Says who may do what in a session. By default everybody may do everything.
 #[derive(Clone)]
 pub struct Rights(Arc<May>);
 
@@ -44,7 +45,7 @@ impl fmt::Debug for Rights {
     }
 }
 
-/// What whoever may not do something is told.
+/// The refusal of what a principal may not do.
 pub fn forbidden() -> Problem {
     Problem::new(ProblemCode::Refused, "You may not do this here.")
 }

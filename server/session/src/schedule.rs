@@ -10,7 +10,7 @@ use espalier_settings::{ParameterValues, ParametersPatch};
 
 pub(crate) use self::plan::{Plan, ScheduledAction};
 
-/// Parameters that sum to 1: who sets one of them by hand sets all.
+/// Parameters that sum to 1: when one of them is set by hand, all are.
 const WEIGHTS: [&str; 3] = ["heading_weight", "tropism_weight", "space_weight"];
 
 /// The parameters at every age, all in range.
@@ -74,7 +74,7 @@ impl GrowthSchedule {
         let sets_weight = patch.names().any(|name| WEIGHTS.contains(&name));
         let weights = present.only(|name| sets_weight && WEIGHTS.contains(&name));
         let by_hand = self.by_hand.patched(&weights).patched(patch);
-        // As things are now first: who is refused is told about what can be seen.
+        // The present age is checked first, so that a refusal speaks of what the user sees.
         Parameters::new(self.at(age).values().patched(patch))?;
         Self::new(self.plan.clone(), &by_hand)
     }

@@ -63,7 +63,7 @@ pub struct Session {
     scenery: Scenery,
     timeline: Timeline,
     widths: Vec<WidthConstraint>,
-    /// Bends as clients are told them, by their numbers.
+    /// Bends as they are sent to clients, by their numbers.
     poses: BTreeMap<u32, Posed>,
     /// Predictions that are being made.
     predictions: usize,
@@ -75,7 +75,7 @@ pub struct Session {
     outputs: VecDeque<Output>,
 }
 
-/// The programme as clients are told it (`PG5`).
+/// The programme as it is sent to clients (`PG5`).
 #[derive(Debug, PartialEq)]
 struct ProgrammeInForce {
     programme: Option<Arc<Programme>>,
@@ -99,7 +99,7 @@ impl ProgrammeInForce {
     }
 }
 
-/// The obstacles as clients are told them.
+/// The obstacles as they are sent to clients.
 #[derive(Debug)]
 struct Scenery {
     /// Those of the document when this was made.

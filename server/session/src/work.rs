@@ -64,7 +64,7 @@ pub(crate) struct Unheard {
     pub(crate) hint: Hint,
 }
 
-/// A bend as clients are told it.
+/// A bend as it is sent to clients.
 #[derive(Clone, Debug)]
 pub(crate) struct Posed {
     pub(crate) bend: u32,

@@ -12,7 +12,7 @@ use espalier_session::wire_species;
 
 use super::{Shared, failure::Failure};
 
-/// A picture changes only as the program does, and whoever asks again is told at once that it has not.
+/// A picture changes only as the program does, and a client that asks again gets 304 at once.
 const CACHE: &str = "public, max-age=3600";
 
 pub(super) async fn list() -> impl IntoResponse {

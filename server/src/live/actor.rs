@@ -455,7 +455,7 @@ impl Actor {
         let session = self.name.clone();
         self.under_way += 1;
         tokio::spawn(async move {
-            // Without this they are told once more.
+            // If this fails, clients are notified once more.
             if let Err(error) = store.forget_notices(&lease).await {
                 tracing::warn!(session, %error, "notices that were delivered could not be forgotten");
             }

@@ -47,7 +47,7 @@ pub async fn serve(socket: WebSocket, session: SessionHandle) {
         tokio::select! {
             () = &mut reading => {}
             () = &mut writing => {
-                // The other side has been told; what it still sends is read, so that it reads our close.
+                // The close frame is sent. What the client still sends is read, so that it can read the frame.
                 let _ = timeout(CLOSING, &mut reading).await;
             }
         }

@@ -22,8 +22,8 @@ export class Fingers {
   #down = new Map<number, Finger>();
   /** Since when fingers are down, and the most at once; null once they can no longer be a tap. */
   #tap: { readonly since: number; most: number } | null = null;
-  /** The spread that `moved` told last. */
-  #told: Spread = { x: 0, y: 0, distance: 0 };
+  /** The spread that `moved` returned last. */
+  #returned: Spread = { x: 0, y: 0, distance: 0 };
 
   get size(): number {
     return this.#down.size;
@@ -41,7 +41,7 @@ export class Fingers {
     if (this.#tap) {
       this.#tap.most = Math.max(this.#tap.most, this.size);
     }
-    this.#told = this.#spread();
+    this.#returned = this.#spread();
   }
 
   /** Notes where a finger is now. */
@@ -56,16 +56,16 @@ export class Fingers {
     }
   }
 
-  /** The same, and how they all have moved since this was told last; null while they may still be a tap. */
+  /** The same, and how they all have moved since the last call; null while they may still be a tap. */
   moved(id: number, x: number, y: number, time: number): readonly [before: Spread, after: Spread] | null {
     this.place(id, x, y);
     if (this.#tap && time - this.#tap.since <= LONGEST_TAP_OF_SEVERAL) {
       return null;
     }
     this.#tap = null;
-    const before = this.#told;
-    this.#told = this.#spread();
-    return [before, this.#told];
+    const before = this.#returned;
+    this.#returned = this.#spread();
+    return [before, this.#returned];
   }
 
   /** A finger is gone; `time` is null where the system took it away. Gives the tap that is over with it, in fingers. */
@@ -73,7 +73,7 @@ export class Fingers {
     if (!this.#down.delete(id)) {
       return 0;
     }
-    this.#told = this.#spread();
+    this.#returned = this.#spread();
     const tap = this.#tap;
     if (tap === null || time === null || time - tap.since > LONGEST_TAP_OF_SEVERAL) {
       this.#tap = null;

@@ -42,7 +42,7 @@ vec3 farGround() {
   vec3 lit = MEAN[uGround] * (ambient(UP) + SUN_COLOUR * facingSun(UP));
   return mix(lit, HORIZON_COLOUR * 0.8, 0.16);
 }
-/** Land pales into the air before it the lower it lies under the horizon, which is a breath and no line. */
+/** Land fades into haze towards the horizon, so that the horizon is soft and no sharp line. */
 vec3 inHaze(vec3 land, float elevation) {
   return mix(land, HORIZON_COLOUR * 0.92, 0.5 * smoothstep(-0.035, 0.002, elevation));
 }

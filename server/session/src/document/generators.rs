@@ -55,7 +55,7 @@ impl Step {
 impl Generator for Generators {
     type Input = Step;
 
-    /// Who has not made the step itself follows it.
+    /// One generator makes the step; all others then follow it.
     fn step(&mut self, scene: &mut Scene, input: &Step, observer: &mut impl Observer) -> StepOutcome {
         let outcome = match input {
             Step::Growth(input) => {

@@ -148,17 +148,17 @@ impl Session {
         }
     }
 
-    /// How the tree looks, as clients are told (`AP3`).
+    /// How the tree looks, as it is sent to clients (`AP3`).
     pub(super) fn appearance_message(&self) -> ServerMessage {
         ServerMessage::Appearance { appearance: Box::new(self.appearance) }
     }
 
-    /// All obstacles as clients are told them (`OB3`).
+    /// All obstacles as they are sent to clients (`OB3`).
     pub(super) fn obstacles_message(&self) -> ServerMessage {
         ServerMessage::Obstacles { obstacles: self.scenery.obstacles.clone() }
     }
 
-    /// The document's figures as clients are told them.
+    /// The document's figures as they are sent to clients.
     pub(super) fn state(&self) -> DocumentState {
         to_proto::state(&self.figures, self.leaves, self.queue.least_steps(), self.people().count())
     }

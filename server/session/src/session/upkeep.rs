@@ -39,12 +39,12 @@ pub(super) struct Upkeep {
     absences: VecDeque<(u64, Arc<str>)>,
     /// Authors whose strokes end as soon as the document is at home.
     pub(super) overdue: BTreeSet<Arc<str>>,
-    /// Whether figures differ from what clients were told.
+    /// Whether figures differ from what was sent to clients.
     pub(super) state_changed: bool,
-    /// What clients were told last.
+    /// What was sent to clients last.
     pub(super) sent: DocumentState,
     state_due: u64,
-    /// Whether lines of time differ from what clients were told.
+    /// Whether lines of time differ from what was sent to clients.
     pub(super) timeline_changed: bool,
     timeline_due: u64,
     /// Whether width constraints do.
@@ -115,7 +115,8 @@ impl Upkeep {
         self.snapshotted = self.snapshotted.max(through);
     }
 
-    /// It is not: the journal it was to cover is all there is.
+    /// The snapshot that was handed out could not be kept: another one is made after a while. Until then the journal alone
+    /// holds the entries that it was to cover.
     pub(super) fn snapshot_failed(&mut self, now: u64) {
         self.snapshot_asked = false;
         self.retry_at = Some(now + SNAPSHOT_RETRY_MS);

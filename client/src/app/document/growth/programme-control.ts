@@ -32,7 +32,7 @@ export class ProgrammeControl {
   #inForce = signal<ProgrammeInForce | null>(null);
   #options: ProgrammeControlOptions;
   /** The gesture that makes the tree grow, and where its growth ends. */
-  #growing: { readonly gesture: number | undefined; readonly until: number | null; told: boolean } | null = null;
+  #growing: { readonly gesture: number | undefined; readonly until: number | null; notified: boolean } | null = null;
 
   constructor(options: ProgrammeControlOptions) {
     this.#options = options;
@@ -74,14 +74,14 @@ export class ProgrammeControl {
     }
     if (this.#growing === null || this.#growing.gesture !== command.gesture) {
       const until = age < programme.age ? programme.age : null;
-      this.#growing = { gesture: command.gesture, until, told: false };
+      this.#growing = { gesture: command.gesture, until, notified: false };
     }
-    const { until, told } = this.#growing;
+    const { until, notified } = this.#growing;
     if (until === null) {
       return command;
     }
-    if (age >= until && !told) {
-      this.#growing.told = true;
+    if (age >= until && !notified) {
+      this.#growing.notified = true;
       this.#options.grownUp();
     }
     return { ...command, until };

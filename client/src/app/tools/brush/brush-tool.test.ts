@@ -40,7 +40,7 @@ function setUp() {
     pressureWidens: () => world.pressure,
     bud: () => world.bud,
     base: () => [0, 0, 2],
-    copies: () => copiesOf(world.symmetry, { foot: [0, 0, 0], across: [1, 0, 0] }),
+    copies: () => copiesOf(world.symmetry, { foot: [0, 0, 0], mirrorNormal: [1, 0, 0] }),
     drawn: () => {},
   });
   const samples = (): StrokeSample[] =>

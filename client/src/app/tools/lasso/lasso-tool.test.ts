@@ -32,7 +32,7 @@ function setUp() {
     bud: () => world.bud,
     depth: () => world.depth,
     base: () => [2, 0, 0],
-    copies: () => copiesOf(world.symmetry, { foot: [2, 0, -40], across: [0, 0, -1] }),
+    copies: () => copiesOf(world.symmetry, { foot: [2, 0, -40], mirrorNormal: [0, 0, -1] }),
     newGesture: () => sent.length + 1,
     draw: (outline, repeated) => {
       drawn.push(outline && [...outline]);

@@ -15,7 +15,7 @@ export interface FrameFinder {
 /** The frame of a stroke that begins at a place on the canvas: on the branch of a row, or beside every branch. */
 export function frameAt({ table, view, base }: FrameFinder, row: number | null, x: number, y: number): SymmetryFrame {
   const foot = row === null ? base(x, y) : footOf(table, row);
-  return { foot, across: view.drawingPlane(foot).right };
+  return { foot, mirrorNormal: view.drawingPlane(foot).right };
 }
 
 /** The symmetry in force: none while one branch alone grows, for its like on the other side would not. */

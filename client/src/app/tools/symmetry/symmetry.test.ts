@@ -3,7 +3,7 @@ import { MOST_BRUSHES } from "../../../scene/glsl/environment";
 import type { Vec3 } from "../../../scene/vector";
 import { copiesOf, isSymmetry, MOST_AROUND, OFF } from "./symmetry";
 
-const frame = { foot: [10, 0, -3] as Vec3, across: [1, 0, 0] as Vec3 };
+const frame = { foot: [10, 0, -3] as Vec3, mirrorNormal: [1, 0, 0] as Vec3 };
 const places = (symmetry: Parameters<typeof copiesOf>[0], point: Vec3) =>
   copiesOf(symmetry, frame).map(({ place }) => place(point).map((value) => Math.round(1e6 * value) / 1e6 + 0));
 

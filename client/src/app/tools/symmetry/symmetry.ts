@@ -20,8 +20,8 @@ export interface Symmetry {
 export interface SymmetryFrame {
   /** The foot of the vertical axis. */
   readonly foot: Vec3;
-  /** A level direction of length one, from one side of the mirror to the other. */
-  readonly across: Vec3;
+  /** The horizontal normal of the mirror plane, of length one. */
+  readonly mirrorNormal: Vec3;
 }
 
 /** One of the strokes that a finger draws: where it has what the finger draws at a place, or along a direction. */
@@ -46,21 +46,21 @@ export function isSymmetry(value: unknown): value is Symmetry {
 }
 
 /** The stroke itself, and all its repetitions. */
-export function copiesOf({ kind, around, mirrored }: Symmetry, { foot, across }: SymmetryFrame): readonly Copy[] {
+export function copiesOf({ kind, around, mirrored }: Symmetry, { foot, mirrorNormal }: SymmetryFrame): readonly Copy[] {
   const turns = kind === "around" ? around : 1;
   const reflects = kind === "mirror" || (kind === "around" && mirrored);
   const sides = reflects ? [false, true] : [false];
   return Array.from({ length: turns }, (_, turn) =>
-    sides.map((reflected) => copy(foot, across, (2 * Math.PI * turn) / turns, reflected)),
+    sides.map((reflected) => copy(foot, mirrorNormal, (2 * Math.PI * turn) / turns, reflected)),
   ).flat();
 }
 
-/** Reflects across the vertical plane that `across` is normal to, then turns about the axis. */
-function copy(foot: Vec3, across: Vec3, angle: number, reflected: boolean): Copy {
+/** Reflects in the vertical plane that `mirrorNormal` is normal to, then turns about the axis. */
+function copy(foot: Vec3, mirrorNormal: Vec3, angle: number, reflected: boolean): Copy {
   const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
   const direction = ([x, y, z]: Vec3): Vec3 => {
-    const over = reflected ? 2 * (x * across[0] + z * across[2]) : 0;
-    const [rx, rz] = [x - over * across[0], z - over * across[2]];
+    const over = reflected ? 2 * (x * mirrorNormal[0] + z * mirrorNormal[2]) : 0;
+    const [rx, rz] = [x - over * mirrorNormal[0], z - over * mirrorNormal[2]];
     return angle === 0 ? [rx, y, rz] : [rx * cos + rz * sin, y, rz * cos - rx * sin];
   };
   if (angle === 0 && !reflected) {

@@ -39,7 +39,7 @@ function linesOf(studio: Studio): (readonly [Vec3, Vec3])[] {
     return [axis];
   }
   // Along the mirror, where there is one; else no direction is better than another.
-  const [rx, , rz] = symmetry.mirrored ? frame.across : [0, 0, 1];
+  const [rx, , rz] = symmetry.mirrored ? frame.mirrorNormal : [0, 0, 1];
   const turns = copiesOf({ ...symmetry, mirrored: false }, frame);
   const rays = turns.map(({ direction }) => {
     const [dx, , dz] = direction([-rz * RAY, 0, rx * RAY]);
@@ -51,5 +51,5 @@ function linesOf(studio: Studio): (readonly [Vec3, Vec3])[] {
 /** What the next stroke would be repeated about: the plant in the middle of the picture. */
 function idleFrame(studio: Studio): SymmetryFrame {
   const { base, right } = studio.stage.middle();
-  return { foot: base, across: right };
+  return { foot: base, mirrorNormal: right };
 }
