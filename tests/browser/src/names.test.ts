@@ -15,11 +15,18 @@ async function opened(tablet: Tablet): Promise<unknown> {
   return { sent, tool, open, pressed: await tablet.page.locator(`${ICONS}[aria-pressed=true]`).count() };
 }
 
+/** A tablet on which names can be asked for: they come after the first picture. */
+async function naming(screen: Screen): Promise<Tablet> {
+  const { tablet } = await workshop.fresh(screen);
+  await tablet.page.locator(".button-label").waitFor({ state: "attached" });
+  return tablet;
+}
+
 test.each<[string, Screen, number]>([
   ["a tablet", { ...LANDSCAPE, detail: 0.2 }, 22],
   ["a phone", { ...PHONE, detail: 0.2 }, 12],
 ])("every icon says its name while a finger is held on it, and does nothing else: %s", async (_, screen, least) => {
-  const { tablet } = await workshop.fresh(screen);
+  const tablet = await naming(screen);
   const label = tablet.page.locator(".button-label:popover-open strong");
   const before = await opened(tablet);
   const icons = await tablet.page.locator(ICONS).all();
@@ -38,7 +45,7 @@ test.each<[string, Screen, number]>([
 });
 
 test("a pen that was held on a button presses it only the next time", async () => {
-  const { tablet } = await workshop.fresh(SMALL);
+  const tablet = await naming(SMALL);
   const { page } = tablet;
   const place = middle(await tablet.boxOf(page.getByRole("button", { name: "Leaves", exact: true })));
   const panel = page.getByRole("region", { name: "Leaves", exact: true });
