@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
-import type { Studio } from "../../studio";
 import type { Hint } from "../../../wire/generated";
+import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
 
