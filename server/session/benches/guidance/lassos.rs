@@ -30,13 +30,16 @@ struct Overlaps {
     metamers: f32,
     /// Of its leaves and axes, gaps as wide as two internodes closed.
     leaves: f32,
+    /// Shares of the outline that they leave free, and that they cover beside it.
+    missed: f32,
+    spilt: f32,
     count: u32,
 }
 
 /// Prints a table.
 pub fn measure(options: &Options) {
     println!("lassos, {} seeds each; mean and least overlap; dead: below {DEAD}", options.seeds);
-    println!("outline   height  with leaves     metamers   dead   count");
+    println!("outline   height  with leaves  missed spilt     metamers   dead   count");
     for &height in &options.heights {
         let mut means = Vec::new();
         for (name, outline) in shapes::outlines().into_iter().filter(|(name, _)| options.includes(name)) {
@@ -46,14 +49,17 @@ pub fn measure(options: &Options) {
                 .map(|seed| Overlaps::of(&mut enclosed(seed, &outline), &outline))
                 .collect();
             let column = |value: fn(&Overlaps) -> f32| overlaps.iter().map(value).collect::<Vec<_>>();
+            let mean = |value| column(value).iter().sum::<f32>() / options.seeds as f32;
             let with_leaves = column(|overlap| overlap.leaves);
             means.push(with_leaves.iter().sum::<f32>() / with_leaves.len() as f32);
             println!(
-                "{name:10} {height:5}  {}  {}   {:4} {:7.0}",
+                "{name:10} {height:5}  {}   {:5.2} {:5.2}  {}   {:4} {:7.0}",
                 mean_and_least(&with_leaves),
+                mean(|overlap| overlap.missed),
+                mean(|overlap| overlap.spilt),
                 mean_and_least(&column(|overlap| overlap.metamers)),
                 with_leaves.iter().filter(|&&overlap| overlap < DEAD).count(),
-                column(|overlap| overlap.count as f32).iter().sum::<f32>() / options.seeds as f32,
+                mean(|overlap| overlap.count as f32),
             );
         }
         println!("all        {height:5}  {}", mean_and_least(&means));
@@ -97,7 +103,7 @@ impl Overlaps {
         for &node in &nodes {
             picture.fill(node - COVERED, node + COVERED, |p| p.distance_squared(node) <= COVERED * COVERED);
         }
-        let metamers = picture.overlap(outline);
+        let [metamers, ..] = picture.overlap(outline);
         picture.covered.fill(false);
         for &id in &living {
             let ends =
@@ -111,7 +117,8 @@ impl Overlaps {
             picture.fill_triangle([base, tip, right]);
         }
         picture.close_gaps();
-        Self { metamers, leaves: picture.overlap(outline), count: plant.living_count() }
+        let [leaves, missed, spilt] = picture.overlap(outline);
+        Self { metamers, leaves, missed, spilt, count: plant.living_count() }
     }
 }
 
@@ -182,15 +189,17 @@ impl Picture {
         }
     }
 
-    /// Area in both over area in either.
-    fn overlap(&self, outline: &[Vec2]) -> f32 {
-        let (mut both, mut either) = (0u32, 0u32);
+    /// Area in both over area in either; and, in areas of the outline, what is missed and what is spilt.
+    fn overlap(&self, outline: &[Vec2]) -> [f32; 3] {
+        let (mut both, mut either, mut area) = (0u32, 0u32, 0u32);
         for (index, &covered) in self.covered.iter().enumerate() {
             let drawn = is_inside(outline, self.centre(index));
             both += u32::from(covered && drawn);
             either += u32::from(covered || drawn);
+            area += u32::from(drawn);
         }
-        both as f32 / either as f32
+        let share = |pixels: u32, of: u32| pixels as f32 / of as f32;
+        [share(both, either), share(area - both, area), share(either - area, area)]
     }
 }
 
