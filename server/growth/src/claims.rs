@@ -17,7 +17,7 @@ impl Claimed {
             Room::Free => length,
             Room::Sweep => length.max(1),
             Room::Envelope { far } => {
-                length.min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32)
+                length.max(1).min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32)
             }
         }
     }

@@ -96,7 +96,9 @@ impl Growth {
             if scene.is_full() {
                 break;
             }
-            if newcomers.is_occupied(draft.end, |id| !self.is_kin(scene, draft.axis, draft.end, id)) {
+            if newcomers
+                .is_occupied(draft.end, draft.zone, |id| !self.is_kin(scene, draft.axis, draft.end, id))
+            {
                 stopped = Some(draft.axis);
                 continue;
             }
@@ -123,10 +125,14 @@ impl Growth {
         selection: &Selection,
     ) -> BTreeSet<AxisId> {
         let mut led = BTreeSet::new();
-        let mut guides = core::mem::take(&mut self.guides);
+        let (mut guides, mut enclosures) =
+            (core::mem::take(&mut self.guides), core::mem::take(&mut self.enclosures));
         let zone = self.parameters.scene().occupancy_radius;
-        let mut leading: BTreeSet<AxisId> = guides.values().filter_map(|guide| guide.leader).collect();
-        for guide in guides.values_mut() {
+        let limbs = || enclosures.iter().flat_map(|one| one.limbs.iter().flatten());
+        let mut leading: BTreeSet<AxisId> =
+            guides.values().chain(limbs()).filter_map(|guide| guide.leader).collect();
+        let limbs = enclosures.iter_mut().flat_map(|one| one.limbs.iter_mut().flatten());
+        for guide in guides.values_mut().chain(limbs) {
             // Where the leader is blocked, the stroke gives up a piece of its path and chooses a leader for the rest, until
             // one grows or no path is left.
             while let Some(leader) = guide.leader.filter(|&leader| selection.includes(leader)) {
@@ -148,7 +154,7 @@ impl Growth {
                 leading.extend(guide.leader);
             }
         }
-        self.guides = guides;
+        (self.guides, self.enclosures) = (guides, enclosures);
         led
     }
 

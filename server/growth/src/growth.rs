@@ -10,6 +10,7 @@ use crate::{
     brush::StrokeId,
     canopy::{Canopy, Surroundings},
     claims::Claims,
+    enclosure::Enclosure,
     field::MarkerField,
     generator::Change,
     guide::Guide,
@@ -26,8 +27,10 @@ use crate::{
 /// Markers of an envelope per cubic internode, at least: with fewer a narrow neck may have a gap that no bud sees
 /// across.
 const LEAST_LASSO_DENSITY: f32 = 0.25;
-/// Lasso markers a scene holds at most; a larger envelope is filled more thinly.
-const MAX_LASSO_MARKERS: usize = 200_000;
+/// Markers of an envelope at most.
+const MAX_LASSO_MARKERS: usize = 4_000_000;
+/// An envelope that would take more of the metamers that a scene may still hold is made flatter.
+const WOOD_OVER_BUDGET: f32 = 0.25;
 
 /// What growth knows beside the scene: what guides it, and what it keeps from one step to the next.
 #[derive(Clone, Debug)]
@@ -37,6 +40,8 @@ pub struct Growth {
     pub(crate) tick: u32,
     pub(crate) markers: Markers,
     pub(crate) guides: BTreeMap<StrokeId, Guide>,
+    /// What is being grown into.
+    pub(crate) enclosures: Vec<Enclosure>,
     /// Markers for growth without guidance; made when they are needed.
     pub(crate) field: Option<MarkerField>,
     pub(crate) canopy: Canopy,
@@ -52,6 +57,7 @@ impl Growth {
             tick: state.tick,
             markers: Markers::from_vec(state.markers),
             guides: state.guides,
+            enclosures: state.enclosures,
             field: None,
             canopy: Canopy::default(),
             claims: Claims::default(),
@@ -83,29 +89,46 @@ impl Growth {
     pub fn drop_guidance(&mut self) {
         self.markers.remove_all();
         self.guides.clear();
+        self.enclosures.clear();
     }
 
     pub(crate) fn enclose(&mut self, scene: &Scene, envelope: &Envelope) {
+        let budget = scene.metamer_budget().saturating_sub(scene.plant.metamer_count() as u32);
+        let wood = (budget as f32 * WOOD_OVER_BUDGET) as u32;
+        let envelope = envelope.clone().filled_by(wood);
         let density = self.parameters().marker_density.max(LEAST_LASSO_DENSITY);
-        let wanted = envelope.volume() * f64::from(density);
-        let room = MAX_LASSO_MARKERS.saturating_sub(self.markers.count(MarkerSource::Lasso));
         // At least one: a speck of an envelope still says where to grow.
-        let count = (wanted.round() as usize).max(1).min(room);
-        if count == 0 {
-            return;
-        }
+        let count = (envelope.marker_count(density).round() as usize).clamp(1, MAX_LASSO_MARKERS);
         // A second envelope in the same tick must not repeat the pattern of the first.
-        let draw = Draw::new(self.seed, Purpose::Lasso, self.tick, self.markers.as_slice().len() as u32);
-        for position in envelope.places(count, draw) {
-            if position.y > 0.0 && !scene.obstacles.contains(position) {
-                let marker = Marker { position, born: self.tick, source: MarkerSource::Lasso };
-                self.markers.sow(marker);
-            }
+        let draw = Draw::new(self.seed, Purpose::Lasso, self.tick, self.enclosures.len() as u32);
+        self.enclosures.push(Enclosure::new(envelope, count, draw));
+        self.sow_envelopes(scene);
+    }
+
+    /// Lays the markers of envelopes that growth has come near to.
+    pub(crate) fn sow_envelopes(&mut self, scene: &Scene) {
+        let Self { enclosures, markers, parameters, tick, .. } = self;
+        for enclosure in enclosures {
+            enclosure.sow(scene, parameters.farthest_perception(), |position| {
+                markers.sow(Marker { position, born: *tick, source: MarkerSource::Lasso });
+            });
         }
+    }
+
+    /// Whether an internode from one place to another takes its leaves out of the outlines it is in.
+    pub(crate) fn leaves_outline(&self, base: Vec3, end: Vec3) -> bool {
+        let is_held = |place| self.enclosures.iter().any(|one| one.envelope.holds_leaves(place));
+        !is_held(end) && is_held(base)
+    }
+
+    /// How far apart nodes keep at a place in an envelope, where elsewhere it is `zone`.
+    pub(crate) fn zone_at(&self, place: Vec3, zone: f32) -> f32 {
+        self.enclosures.iter().filter_map(|one| one.envelope.zone_at(place)).fold(zone, f32::min)
     }
 
     pub(crate) fn drop_envelopes(&mut self) {
         self.markers.remove(MarkerSource::Lasso);
+        self.enclosures.clear();
     }
 
     /// The strokes that guide growth.

@@ -5,13 +5,17 @@
 //! without a skeleton: any such ball lies within one centred on the axes.
 
 mod distance;
+mod limbs;
 mod mask;
+mod sowing;
 
 use glam::{Vec2, Vec3};
 
-use crate::{random::Draw, world::WORLD_EXTENT};
+use crate::world::WORLD_EXTENT;
 use distance::{Raster, lower_envelope};
 use mask::{Mask, bounds};
+
+pub(crate) use sowing::Sowing;
 
 /// Points an outline may have.
 pub const MAX_OUTLINE: usize = 100_000;
@@ -19,8 +23,16 @@ pub const MAX_OUTLINE: usize = 100_000;
 const RESOLUTION: usize = 256;
 /// Silhouettes smaller than this are slips of the finger, in internodes.
 const LEAST_SIZE: f32 = 0.01;
-/// Places keep to this share of a pixel's column, so that rounding does not carry them out of it.
-const WITHIN: f32 = 0.999;
+/// Nodes in a body keep so much of its height apart where that is less than a zone, and this at least, in internodes.
+const ZONE_OVER_HEIGHT: f32 = 0.35;
+const LEAST_ZONE: f32 = 0.45;
+/// Nodes lie so far inside the outline, for leaves stick out; in thin parts by so much of the height.
+const INSET: f32 = 0.3;
+const INSET_OVER_HEIGHT: f32 = 0.2;
+/// Metamers that fill a cube as wide as a zone.
+const WOOD: f32 = 0.68;
+/// Halvings by which a depth is found.
+const FLATTENINGS: u32 = 24;
 /// How far the plane's vectors may be from orthonormal.
 const UNIT_TOLERANCE: f32 = 1.0e-3;
 
@@ -43,9 +55,15 @@ pub struct Envelope {
     corner: Vec2,
     pixel: f32,
     width: usize,
-    /// How far the body reaches from the plane to either side, pixel by pixel.
-    half_depth: Vec<f32>,
-    volume: f64,
+    /// How far balls that are centred in the plane, and whose discs fit in, reach from it, pixel by pixel.
+    height: Vec<f32>,
+    /// How far each pixel lies inside the outline.
+    rim: Vec<f32>,
+    /// How deep the body is, over how deep balls make it, and how far it reaches from the plane at most.
+    depth_factor: f32,
+    most_depth: f32,
+    /// The zone of a node with room all around.
+    zone: f32,
 }
 
 /// An outline cannot be inflated.
@@ -108,66 +126,95 @@ impl Envelope {
         }
         let depth = mask.widen_narrow_parts(least_radius);
         let Mask { width, corner, pixel, .. } = mask;
-        let mut half_depth = inscribed_balls(depth).values;
-        for depth in &mut half_depth {
-            *depth *= pixel * depth_factor;
+        let rim = depth.values.iter().map(|squared| squared.sqrt() * pixel).collect();
+        let height = inscribed_balls(depth).values.iter().map(|height| height * pixel).collect();
+        let (most_depth, zone) = (f32::INFINITY, occupancy_radius);
+        Ok(Self { plane, corner, pixel, width, height, rim, depth_factor, most_depth, zone })
+    }
+
+    /// The same body, made flat enough for so many metamers to fill it.
+    pub(crate) fn filled_by(mut self, metamers: u32) -> Self {
+        let most = f64::from(metamers);
+        if self.wood() > most {
+            let (mut low, mut high) =
+                (0.0, self.height.iter().copied().fold(0.0, f32::max) * self.depth_factor);
+            for _ in 0..FLATTENINGS {
+                self.most_depth = 0.5 * (low + high);
+                if self.wood() > most {
+                    high = self.most_depth;
+                } else {
+                    low = self.most_depth;
+                }
+            }
+            self.most_depth = low.max(LEAST_ZONE);
         }
-        let column = 2.0 * f64::from(pixel) * f64::from(pixel);
-        let volume = column * half_depth.iter().map(|&depth| f64::from(depth)).sum::<f64>();
-        Ok(Self { plane, corner, pixel, width, half_depth, volume })
+        self
+    }
+
+    /// How many metamers fill it.
+    fn wood(&self) -> f64 {
+        let zone = f64::from(self.zone);
+        f64::from(WOOD) * self.marker_count(1.0) / (zone * zone * zone)
+    }
+
+    /// How far a place is from the box around its silhouette.
+    pub(crate) fn distance_to_box(&self, place: Vec3) -> f32 {
+        let [x, y, away] = self.in_pixels(place).to_array();
+        let size = [self.width, self.rows()].map(|pixels| pixels as f32);
+        let beside = Vec2::new(x - x.clamp(0.0, size[0]), y - y.clamp(0.0, size[1])) * self.pixel;
+        beside.extend(away).length()
     }
 
     /// Its volume in cubic internodes.
     pub fn volume(&self) -> f64 {
-        self.volume
+        let depth: f64 = (0..self.height.len()).map(|pixel| f64::from(self.half_depth(pixel))).sum();
+        2.0 * f64::from(self.pixel) * f64::from(self.pixel) * depth
     }
 
     /// Whether a place lies in it.
     pub fn contains(&self, place: Vec3) -> bool {
+        self.pixel_around(place).is_some()
+    }
+
+    /// Whether a node there keeps its leaves in the outline.
+    pub(crate) fn holds_leaves(&self, place: Vec3) -> bool {
+        let is_inset = |pixel: usize| self.rim[pixel] > INSET.min(INSET_OVER_HEIGHT * self.height[pixel]);
+        self.pixel_around(place).is_some_and(is_inset)
+    }
+
+    /// How far apart nodes keep there: less than elsewhere where the body is too thin for several side by side. None
+    /// outside of it.
+    pub(crate) fn zone_at(&self, place: Vec3) -> Option<f32> {
+        self.pixel_around(place).map(|pixel| self.zone_in(pixel))
+    }
+
+    fn zone_in(&self, pixel: usize) -> f32 {
+        (self.height[pixel] * ZONE_OVER_HEIGHT).max(LEAST_ZONE).min(self.zone)
+    }
+
+    /// How far the body reaches from the plane to either side.
+    fn half_depth(&self, pixel: usize) -> f32 {
+        (self.height[pixel] * self.depth_factor).min(self.most_depth)
+    }
+
+    fn rows(&self) -> usize {
+        self.height.len() / self.width
+    }
+
+    /// Coordinates in pixels, and the distance from the plane in internodes.
+    fn in_pixels(&self, place: Vec3) -> Vec3 {
         let Plane { origin, right, up } = self.plane;
         let from = place - origin;
         let at = (Vec2::new(from.dot(right), from.dot(up)) - self.corner) / self.pixel + 0.5;
-        let height = self.half_depth.len() / self.width;
-        let is_on_mask = at.min_element() >= 0.0 && at.x < self.width as f32 && at.y < height as f32;
-        is_on_mask && {
-            let half_depth = self.half_depth[at.y as usize * self.width + at.x as usize];
-            half_depth > 0.0 && from.dot(right.cross(up)).abs() <= half_depth
-        }
+        at.extend(from.dot(right.cross(up)))
     }
 
-    /// `count` places spread evenly over its volume.
-    ///
-    /// The body is cut into as many slices of equal volume, along a curve that keeps what is near together,
-    /// and each gets one: evener than chance, which leaves clusters and holes.
-    pub(crate) fn places(&self, count: usize, draw: Draw) -> Vec<Vec3> {
-        let mut places = Vec::with_capacity(count);
-        let column = 2.0 * f64::from(self.pixel) * f64::from(self.pixel);
-        let slice = self.volume / count as f64;
-        let jittered = |i: usize| (i as f64 + f64::from(draw.unit(3 * i as u32))) * slice;
-        let mut filled = 0.0;
-        let mut next = jittered(0);
-        let normal = self.plane.right.cross(self.plane.up);
-        for (x, y) in morton_order(self.width, self.half_depth.len() / self.width) {
-            let half_depth = self.half_depth[y * self.width + x];
-            filled += column * f64::from(half_depth);
-            while next < filled && places.len() < count {
-                let i = places.len() as u32;
-                let jitter = Vec2::new(draw.unit(3 * i + 1), draw.unit(3 * i + 2)) - 0.5;
-                let across = Vec2::new(x as f32, y as f32) + jitter * WITHIN;
-                let in_plane = self.corner + across * self.pixel;
-                // Depths follow the golden ratio, so that neighbours along the curve lie far apart in depth.
-                let share = (i.wrapping_mul(0x9e37_79b9) >> 8) as f32 * (1.0 / 16_777_216.0);
-                let depth = half_depth * (2.0 * share - 1.0) * WITHIN;
-                places.push(
-                    self.plane.origin
-                        + self.plane.right * in_plane.x
-                        + self.plane.up * in_plane.y
-                        + normal * depth,
-                );
-                next = jittered(places.len());
-            }
-        }
-        places
+    /// The pixel in whose column of the body a place lies.
+    fn pixel_around(&self, place: Vec3) -> Option<usize> {
+        let at = self.in_pixels(place);
+        let is_on_mask = at.x.min(at.y) >= 0.0 && at.x < self.width as f32 && at.y < self.rows() as f32;
+        let pixel = is_on_mask.then(|| at.y as usize * self.width + at.x as usize);
+        pixel.filter(|&pixel| self.height[pixel] > 0.0 && at.z.abs() <= self.half_depth(pixel))
     }
 }
 
@@ -186,23 +233,6 @@ fn inscribed_balls(depth: Raster) -> Raster {
         *value = if inside { (-*value).max(0.0).sqrt() } else { 0.0 };
     }
     height
-}
-
-/// All pixels, along a Z-order curve.
-fn morton_order(width: usize, height: usize) -> impl Iterator<Item = (usize, usize)> {
-    let side = width.max(height).next_power_of_two() as u32;
-    (0..side * side)
-        .map(|code| (every_other_bit(code) as usize, every_other_bit(code >> 1) as usize))
-        .filter(move |&(x, y)| x < width && y < height)
-}
-
-/// Bits 0, 2, 4, … packed together.
-fn every_other_bit(code: u32) -> u32 {
-    let mut bits = code & 0x5555_5555;
-    bits = (bits | bits >> 1) & 0x3333_3333;
-    bits = (bits | bits >> 2) & 0x0f0f_0f0f;
-    bits = (bits | bits >> 4) & 0x00ff_00ff;
-    (bits | bits >> 8) & 0x0000_ffff
 }
 
 fn check_plane(plane: &Plane) -> Result<(), LassoError> {

@@ -44,19 +44,14 @@ impl Markers {
         self.markers.push(marker);
     }
 
-    /// How many came from this source.
-    pub(crate) fn count(&self, source: MarkerSource) -> usize {
-        self.markers.iter().filter(|marker| marker.source == source).count()
-    }
-
-    /// Keeps those for which `free` holds, of the brush's only those not older than `max_age` ticks.
-    pub(crate) fn clear(&mut self, tick: u32, max_age: u32, free: impl Fn(Vec3) -> bool) {
+    /// Keeps those for which `is_free` holds, of the brush's only those not older than `max_age` ticks.
+    pub(crate) fn clear(&mut self, tick: u32, max_age: u32, is_free: impl Fn(&Marker) -> bool) {
         self.markers.retain(|marker| {
             let lasts = match marker.source {
                 MarkerSource::Brush => tick.wrapping_sub(marker.born) <= max_age,
                 MarkerSource::Lasso => true,
             };
-            lasts && free(marker.position)
+            lasts && is_free(marker)
         });
     }
 

@@ -40,14 +40,14 @@ impl Newcomers {
     }
 
     /// Whether a place lies in the zone of some node for which `counts` holds.
-    pub(crate) fn is_occupied(&self, place: Vec3, counts: impl Fn(MetamerId) -> bool) -> bool {
-        let (low, high) = (self.cell_of(place - self.radius), self.cell_of(place + self.radius));
+    pub(crate) fn is_occupied(&self, place: Vec3, radius: f32, counts: impl Fn(MetamerId) -> bool) -> bool {
+        let (low, high) = (self.cell_of(place - radius), self.cell_of(place + radius));
         for y in low[1]..high[1] + 1 {
             for z in low[2]..high[2] + 1 {
                 for x in low[0]..high[0] + 1 {
                     let mut at = self.heads[self.entry([x, y, z])];
                     while let Some(node) = self.nodes.get(at as usize) {
-                        let near = (place - node.place).length_squared() <= self.radius * self.radius;
+                        let near = (place - node.place).length_squared() <= radius * radius;
                         if near && counts(node.id) {
                             return true;
                         }
@@ -93,7 +93,7 @@ mod tests {
             let near = |(i, node): (usize, &Vec3)| {
                 counts(MetamerId::new(i)) && (place - *node).length_squared() <= radius * radius
             };
-            prop_assert_eq!(newcomers.is_occupied(place, counts), nodes.iter().enumerate().any(near));
+            prop_assert_eq!(newcomers.is_occupied(place, radius, counts), nodes.iter().enumerate().any(near));
         }
     }
 }

@@ -22,7 +22,7 @@ pub enum Purpose {
 }
 
 /// A stream of numbers for one purpose.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Draw(u64);
 
 impl Draw {

@@ -16,7 +16,7 @@ use crate::{
     claims::{Claimed, Claims},
     field::Lattice,
     growth::Growth,
-    markers::MarkerSource,
+    markers::{Marker, MarkerSource},
     scene::Scene,
     selection::Selection,
     shoot::Aim,
@@ -88,15 +88,21 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
     for piece in &input.pieces {
         piece.sow(&mut plain.markers, plain.seed, tick, &parameters);
     }
+    plain.sow_envelopes(scene);
     let plant = &scene.plant;
     let nodes: Vec<Vec3> = living_nodes(plant).into_iter().map(|id| plant.metamers().end(id)).collect();
-    let zone = parameters.occupancy_radius * parameters.occupancy_radius;
     let obstacles = &scene.obstacles;
-    let is_free = |place: Vec3| {
-        !obstacles.contains(place) && nodes.iter().all(|node| node.distance_squared(place) > zone)
+    let mut markers = core::mem::take(&mut plain.markers);
+    let is_free = |place: Vec3, zone: f32| {
+        !obstacles.contains(place) && nodes.iter().all(|node| node.distance_squared(place) > zone * zone)
     };
     let max_age = if input.pieces.is_empty() { u32::MAX } else { parameters.marker_max_age };
-    plain.markers.clear(tick, max_age, is_free);
+    let zone = parameters.occupancy_radius;
+    markers.clear(tick, max_age, |&Marker { position, source, .. }| match source {
+        MarkerSource::Brush => is_free(position, zone),
+        MarkerSource::Lasso => is_free(position, plain.zone_at(position, zone)),
+    });
+    plain.markers = markers;
     let mut markers: Vec<(Vec3, Option<MarkerSource>)> =
         plain.markers.as_slice().iter().map(|marker| (marker.position, Some(marker.source))).collect();
     if input.autonomous {
@@ -111,7 +117,7 @@ fn claims(plain: &mut Growth, scene: &Scene, input: &StepInput) -> Claims {
             for y in cells(low.y, high.y) {
                 for z in cells(low.z, high.z) {
                     let marker = lattice.marker_in([x, y, z]);
-                    if let Some(marker) = marker.filter(|marker| marker.y > 0.0 && is_free(*marker)) {
+                    if let Some(marker) = marker.filter(|marker| marker.y > 0.0 && is_free(*marker, zone)) {
                         markers.push((marker, None));
                     }
                 }

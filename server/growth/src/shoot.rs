@@ -69,6 +69,8 @@ pub(crate) struct Draft {
     pub axis: AxisId,
     /// Where its node would be.
     pub end: Vec3,
+    /// How near to it no other may lie.
+    pub zone: f32,
     heading: Vec3,
     normal: Vec3,
 }
@@ -133,9 +135,11 @@ impl Growth {
         if aim.room == Room::Sweep && !self.stays_in_sweep(tip.base, draft.end) {
             return None;
         }
-        let radius = self.parameters.of(axis).occupancy_radius;
+        if matches!(aim.room, Room::Envelope { .. }) && self.leaves_outline(tip.base, draft.end) {
+            return None;
+        }
         let is_taken =
-            scene.space.is_occupied(draft.end, radius, |id| !self.is_kin(scene, axis, draft.end, id));
+            scene.space.is_occupied(draft.end, draft.zone, |id| !self.is_kin(scene, axis, draft.end, id));
         (!is_taken).then_some(draft)
     }
 
@@ -175,7 +179,7 @@ impl Growth {
 
     /// Lets an internode grow.
     pub(crate) fn add(&self, scene: &mut Scene, draft: &Draft) -> MetamerId {
-        let Draft { axis, end, heading, normal } = *draft;
+        let Draft { axis, end, heading, normal, .. } = *draft;
         let parameters = self.parameters.of(axis);
         let (sin, cos) = parameters.branching;
         let mut laterals = [Vec3::ZERO; MAX_LATERALS];
@@ -221,7 +225,12 @@ impl Growth {
         };
         let end = base + heading;
         let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
-        in_world.then(|| Draft { axis, end, heading, normal: self.next_normal(scene, axis, tip, heading) })
+        let zone = match aim.room {
+            Room::Envelope { .. } => self.zone_at(end, parameters.occupancy_radius),
+            Room::Sweep | Room::Free => parameters.occupancy_radius,
+        };
+        let normal = || self.next_normal(scene, axis, tip, heading);
+        in_world.then(|| Draft { axis, end, zone, heading, normal: normal() })
     }
 
     /// The heading of an internode that would go one way: along the surface of what is in its way.

@@ -33,6 +33,7 @@ impl Simulation {
             parameters,
             markers: Vec::new(),
             guides: BTreeMap::new(),
+            enclosures: Vec::new(),
             obstacles: Vec::new(),
             metamer_budget: DEFAULT_METAMER_BUDGET,
             tick: 0,
@@ -101,6 +102,7 @@ impl<G: Generator + AsRef<Growth> + AsMut<Growth>> Simulation<G> {
             parameters: growth.parameters().clone(),
             markers: growth.markers().to_vec(),
             guides: growth.guides.clone(),
+            enclosures: growth.enclosures.clone(),
             obstacles: self.scene.obstacles().to_vec(),
             metamer_budget: self.scene.metamer_budget,
             tick: growth.tick,
@@ -132,7 +134,8 @@ impl<G: Generator + AsRef<Growth> + AsMut<Growth>> Simulation<G> {
         self.generator.as_mut().drop_guidance();
     }
 
-    /// Sows lasting markers in an envelope, as densely as the brush does or more, and above ground.
+    /// Lets growth fill an envelope: limbs lead through it, and markers are laid as growth comes near, above ground. One
+    /// that would take more metamers than the scene has room for is made flatter.
     pub fn enclose(&mut self, envelope: &Envelope) {
         self.generator.as_mut().enclose(&self.scene, envelope);
     }

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::{brush::StrokeId, guide::Guide, markers::Marker, obstacles::Obstacle, parameters::Parameters};
+use crate::{
+    brush::StrokeId, enclosure::Enclosure, guide::Guide, markers::Marker, obstacles::Obstacle,
+    parameters::Parameters,
+};
 
 /// Everything the next step of growth depends on beside the plant.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +18,8 @@ pub struct SimulationState {
     pub markers: Vec<Marker>,
     /// Paths of strokes in progress.
     pub guides: BTreeMap<StrokeId, Guide>,
+    /// Envelopes being grown into.
+    pub enclosures: Vec<Enclosure>,
     /// What stands in the way.
     pub obstacles: Vec<Obstacle>,
     /// Metamers the scene may hold.

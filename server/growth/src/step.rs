@@ -16,8 +16,8 @@ use crate::{
     field::MarkerField,
     generator::{Change, Generator, StepOutcome},
     growth::Growth,
-    guide::Guide,
-    markers::Marker,
+    guide::{Guide, Waypoint},
+    markers::{Marker, MarkerSource},
     nearby_order::nearby_order,
     observer::{Observer, Phase},
     scene::Scene,
@@ -28,6 +28,9 @@ use crate::{
 
 /// New nodes whose buds one thread describes at a time.
 const BATCH: usize = if cfg!(test) { 4 } else { 256 };
+
+/// A limb through an envelope begins once there is wood this near to its beginning, in internodes.
+const BEGUN: f32 = 2.0;
 
 /// What guides one step.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -78,7 +81,7 @@ impl Generator for Growth {
 impl Growth {
     /// Takes in where the brushes are, and chooses who follows them.
     pub(crate) fn take_in_strokes(&mut self, scene: &Scene, input: &StepInput, selection: &Selection) {
-        let Self { parameters, guides, .. } = self;
+        let Self { parameters, guides, enclosures, .. } = self;
         let Scene { plant, space, obstacles, .. } = scene;
         let zone = parameters.scene().occupancy_radius;
         for piece in &input.pieces {
@@ -103,6 +106,29 @@ impl Growth {
             }
             guides.insert(stroke, guide);
         }
+        // Nobody leads along two limbs, or it would go to and fro between them for ever.
+        for limbs in enclosures.iter_mut().map(|one| one.lead(scene, selection, zone)) {
+            leading.extend(limbs.iter().filter_map(|limb| limb.leader));
+            // A limb waits for the one it begins on, and for buds that lead no other; if all of them wait, the first that
+            // anybody can lead goes on from the nearest bud. One that has come to its end, or that nobody can lead, is done.
+            let mut are_waiting = limbs.iter().all(|limb| limb.leader.is_none());
+            let is_begun = |begin: &Waypoint| space.is_occupied(begin.position, BEGUN, |_| true);
+            limbs.retain_mut(|limb| {
+                limb.leader = limb.leader.filter(|&leader| plant.is_axis_alive(leader));
+                if limb.leader.is_none() && !limb.path.front().is_some_and(is_begun) && !are_waiting {
+                    return true;
+                }
+                limb.skip_filled(space, zone);
+                limb.choose_leader(space, obstacles, zone, |axis| selection.includes(axis), &leading);
+                if limb.is_waiting() && !are_waiting {
+                    return true;
+                }
+                leading.extend(limb.leader);
+                let goes_on = limb.leader.is_some_and(|leader| limb.is_ahead(plant.bud_position(leader)));
+                are_waiting &= !goes_on;
+                goes_on
+            });
+        }
     }
 
     fn sow_and_clear_markers(&mut self, scene: &Scene, input: &StepInput) {
@@ -112,11 +138,19 @@ impl Growth {
         for piece in &input.pieces {
             piece.sow(&mut self.markers, self.seed, tick, parameters);
         }
+        self.sow_envelopes(scene);
+        let parameters = self.parameters.scene();
         // Markers that nobody sows beside any more last until growth has come to an end.
         let max_age = if input.pieces.is_empty() { u32::MAX } else { parameters.marker_max_age };
-        self.markers.clear(tick, max_age, |place| {
-            !obstacles.contains(place) && !space.is_occupied(place, radius, |_| true)
+        let mut markers = core::mem::take(&mut self.markers);
+        markers.clear(tick, max_age, |&Marker { position, source, .. }| {
+            let zone = match source {
+                MarkerSource::Brush => radius,
+                MarkerSource::Lasso => self.zone_at(position, radius),
+            };
+            !obstacles.contains(position) && !space.is_occupied(position, zone, |_| true)
         });
+        self.markers = markers;
     }
 
     /// Gives each marker to the nearest bud that perceives it.
@@ -198,7 +232,8 @@ impl Growth {
     /// either. Whether what was drawn by hand pays is asked once growth has come to rest.
     pub(crate) fn spares(&self, plant: &Plant) -> impl Fn(&AxisId) -> bool + use<> {
         let mut spared = BTreeSet::new();
-        let leaders = self.guides.values().filter_map(|guide| guide.leader);
+        let limbs = self.enclosures.iter().flat_map(|one| one.limbs.iter().flatten());
+        let leaders = self.guides.values().chain(limbs).filter_map(|guide| guide.leader);
         let by_hand = self.guides.iter().filter(|(stroke, _)| !stroke.is_of_programme());
         let first_born = by_hand.map(|(_, guide)| guide.first_born).min();
         let is_young = |&axis: &AxisId| {

@@ -301,6 +301,7 @@ mod tests {
             parameters,
             markers: Vec::new(),
             guides: Default::default(),
+            enclosures: Vec::new(),
             obstacles: Vec::new(),
             metamer_budget: 1000,
             tick: 2,

@@ -3,7 +3,7 @@
 use core::f32::consts::{PI, TAU};
 
 use super::*;
-use crate::random::Purpose;
+use crate::random::{Draw, Purpose};
 
 const FRONT: Plane = Plane { origin: Vec3::new(0.0, 40.0, 0.0), right: Vec3::X, up: Vec3::Y };
 
@@ -38,7 +38,7 @@ fn a_disc_inflates_to_a_ball() {
     for radius in [2.0, 10.0, 35.0] {
         let ball = inflate(&circle(Vec2::new(3.0, -2.0), radius, 400));
         check_volume("ball", ball.volume(), 4.0 / 3.0 * PI * radius * radius * radius, 0.03);
-        let deepest = ball.half_depth.iter().fold(0.0f32, |a, &b| a.max(b));
+        let deepest = ball.height.iter().fold(0.0f32, |a, &b| a.max(b));
         assert!((deepest / radius - 1.0).abs() < 0.02, "{deepest} of {radius}");
     }
 }
@@ -108,11 +108,11 @@ fn the_silhouette_is_the_mask() {
         // Radius 0 widens nothing.
         let mask = Mask::fill(&outline, 0.0, RESOLUTION);
         let body = Envelope::inflate(&outline, FRONT, 1.0, 0.0).expect("a lasso");
-        let mismatch = mask.inside.iter().zip(&body.half_depth).filter(|(inside, z)| **inside != (**z > 0.0));
+        let mismatch = mask.inside.iter().zip(&body.height).filter(|(inside, z)| **inside != (**z > 0.0));
         assert_eq!(mismatch.count(), 0);
         // The deepest place is the centre of the largest inscribed disc.
         let widest = mask.depth().values.iter().fold(0.0f32, |a, &b| a.max(b)).sqrt() - 0.5;
-        let deepest = body.half_depth.iter().fold(0.0f32, |a, &b| a.max(b)) / body.pixel;
+        let deepest = body.height.iter().fold(0.0f32, |a, &b| a.max(b)) / body.pixel;
         assert!((widest - deepest).abs() < 1e-3, "{widest} {deepest}");
     }
 }
@@ -182,11 +182,54 @@ fn scribbles_and_long_outlines_inflate() {
     check_volume("fine", fine.volume(), 4.0 / 3.0 * PI * 27000.0, 0.03);
 }
 
+/// Where markers are laid, of so many in all, by one who comes so near.
+fn places(envelope: &Envelope, count: usize, near: Vec3, reach: f32) -> Vec<Vec3> {
+    let mut places = Vec::new();
+    let mut sowing = Sowing::new(envelope, count, Draw::new(1, Purpose::Lasso, 2, 3));
+    sowing.come_near(envelope, near, reach, |place| places.push(place));
+    places
+}
+
+#[test]
+fn all_markers_within_reach_are_laid_and_each_once() {
+    let ball = inflate(&circle(Vec2::new(0.0, 30.0), 20.0, 200));
+    let at = Vec3::new(12.0, 65.0, 3.0);
+    let (all, some) = (places(&ball, 8000, at, 99.0), places(&ball, 8000, at, 4.0));
+    let near: Vec<Vec3> = all.iter().copied().filter(|place| place.distance(at) <= 4.0).collect();
+    assert!(near.len() > 20 && near.iter().all(|place| some.contains(place)));
+    assert!(some.len() * 4 < all.len() && some.iter().all(|place| all.contains(place)));
+    let mut sowing = Sowing::new(&ball, 8000, Draw::new(1, Purpose::Lasso, 2, 3));
+    let mut count = 0;
+    for x in -25..25i16 {
+        (45..95i16)
+            .for_each(|y| sowing.come_near(&ball, Vec3::new(x.into(), y.into(), 0.0), 2.0, |_| count += 1));
+    }
+    assert_eq!(count, 8000);
+}
+
+#[test]
+fn what_would_take_too_much_wood_is_made_flatter() {
+    let square = [Vec2::ZERO, Vec2::X * 40.0, Vec2::splat(40.0), Vec2::Y * 40.0];
+    let body = inflate(&square);
+    let flat = body.clone().filled_by(2000);
+    assert_eq!(body.clone().filled_by(1_000_000), body);
+    assert!(flat.volume() < 0.4 * body.volume());
+    let middle = Vec3::new(20.0, 60.0, 0.0);
+    assert!(
+        flat.contains(middle)
+            && !flat.contains(middle + 9.0 * Vec3::Z)
+            && body.contains(middle + 9.0 * Vec3::Z)
+    );
+    // A flat body's nodes lie as far apart as those of a deep one.
+    let shallow = Envelope::inflate(&square, FRONT, 0.1, 1.5).expect("a lasso");
+    assert_eq!(shallow.zone_at(middle), body.zone_at(middle));
+}
+
 #[test]
 fn places_fill_the_body_evenly() {
     let tilted = Plane { origin: Vec3::Y * 50.0, right: Vec3::new(0.6, 0.0, 0.8), up: Vec3::Y };
     let ball = Envelope::inflate(&circle(Vec2::ZERO, 20.0, 200), tilted, 1.0, 1.5).expect("a lasso");
-    let places = ball.places(8000, Draw::new(1, Purpose::Lasso, 2, 3));
+    let places = places(&ball, 8000, tilted.origin, 99.0);
     assert_eq!(places.len(), 8000);
     assert!(places.iter().all(|&place| ball.contains(place)));
     // Half the radius holds an eighth of a ball, and each octant too.
@@ -205,6 +248,6 @@ fn places_fill_the_body_evenly() {
 fn the_same_outline_gives_the_same_body() {
     let outline = circle(Vec2::ZERO, 20.0, 200);
     assert_eq!(inflate(&outline), inflate(&outline));
-    let draw = Draw::new(1, Purpose::Lasso, 2, 3);
-    assert_eq!(inflate(&outline).places(100, draw), inflate(&outline).places(100, draw));
+    let all = || places(&inflate(&outline), 100, Vec3::ZERO, 99.0);
+    assert_eq!(all(), all());
 }

@@ -21,21 +21,28 @@ fn envelope(outline: &[Vec2], simulation: &Simulation) -> Envelope {
 }
 
 #[test]
-fn a_lasso_sows_lasting_markers_by_volume() {
+fn a_lasso_sows_lasting_markers_as_growth_comes_near() {
     let mut simulation = simulation(1);
-    let ball = envelope(&ellipse(Vec2::new(0.0, 30.0), Vec2::splat(12.0)), &simulation);
+    let ball = envelope(&ellipse(Vec2::new(0.0, 19.0), Vec2::splat(12.0)), &simulation);
     simulation.enclose(&ball);
-    // Denser than the brush sows by default, so that narrow necks are found.
-    let expected = ball.volume() * 0.25;
-    let sown = simulation.markers().len();
-    assert!((sown as f64 - expected).abs() <= 1.0, "{sown} of {expected}");
-    assert!(simulation.markers().iter().all(|marker| marker.source == MarkerSource::Lasso));
-    assert!(simulation.markers().iter().all(|marker| ball.contains(marker.position)));
-    for _ in 0..=simulation.parameters().marker_max_age {
-        simulation.step(&StepInput::default(), &mut NoObserver);
+    assert!(simulation.markers().is_empty(), "nobody perceives any");
+    let step = |simulation: &mut Simulation| simulation.step(&StepInput::default(), &mut NoObserver);
+    while simulation.markers().is_empty() {
+        assert!(step(&mut simulation).metamers_grown > 0, "a limb comes to it");
     }
-    assert_eq!(simulation.markers().len(), sown, "nobody is near, and they do not age");
-    assert!(simulation.has_guidance());
+    let (sown, near) = (simulation.markers().to_vec(), nodes(&simulation));
+    assert!(sown.iter().all(|marker| marker.source == MarkerSource::Lasso));
+    assert!(sown.iter().all(|marker| ball.contains(marker.position)));
+    assert!((sown.len() as f64) < 0.25 * ball.volume(), "{} are laid at once", sown.len());
+    let away =
+        |place: Vec3| near.iter().map(|node| node.truncate().distance(place.truncate())).fold(99.0, f32::min);
+    assert!(sown.iter().all(|marker| away(marker.position) < 10.0));
+    // Those that nobody has grown into are there when a brush's would be too old.
+    let ticks = simulation.parameters().marker_max_age + 1;
+    for _ in 0..ticks {
+        step(&mut simulation);
+    }
+    assert!(simulation.markers().iter().any(|marker| sown.contains(marker)));
     simulation.drop_guidance();
     assert!(simulation.markers().is_empty());
 }
@@ -45,10 +52,10 @@ fn a_crown_fills_its_lasso() {
     let mut simulation = simulation(3);
     let crown = envelope(&ellipse(Vec2::new(0.0, 17.0), Vec2::new(14.0, 17.0)), &simulation);
     simulation.enclose(&crown);
-    let sown = simulation.markers().len();
     settle(&mut simulation);
     let left = simulation.markers().len();
-    assert!(left * 8 < sown, "{left} of {sown} markers are left");
+    let sown = crown.volume() * 0.25;
+    assert!((left as f64) * 8.0 < sown, "{left} of {sown} markers are left");
     let nodes = nodes(&simulation);
     let outside = nodes.iter().filter(|node| !crown.contains(**node)).count();
     assert!(nodes.len() > 300 && outside * 5 < nodes.len(), "{outside} of {} are outside", nodes.len());
@@ -82,8 +89,8 @@ fn overlap(outline: &[Vec2], nodes: &[Vec3]) -> f32 {
         }
         crossings % 2 == 1
     };
-    // A node's leaves reach a little farther than an internode.
-    let is_grown = |p: Vec2| nodes.iter().any(|node| node.truncate().distance(p) < 1.25);
+    // A node's leaves reach about so far to its sides.
+    let is_grown = |p: Vec2| nodes.iter().any(|node| node.truncate().distance(p) < 0.75);
     let (mut both, mut either) = (0, 0);
     for i in 0..110 * 110 {
         let p = Vec2::new((i % 110) as f32 - 55.0, (i / 110) as f32) * 0.5;
@@ -91,6 +98,80 @@ fn overlap(outline: &[Vec2], nodes: &[Vec3]) -> f32 {
         (both, either) = (both + u32::from(drawn && grown), either + u32::from(drawn || grown));
     }
     both as f32 / either as f32
+}
+
+/// Outlines that growth once left by the luck of the seed, or could not reach or fill.
+const HARD: [(&str, &str, f32); 4] = [
+    (
+        "star above the seedling",
+        "0,38 4.5,27.2 17.1,25.6 8.6,16.8 10.6,3.4 0,10 -10.6,3.4 -8.6,16.8 -17.1,25.6 -4.5,27.2",
+        0.7,
+    ),
+    (
+        "R with a hole",
+        "-6,0 -2,0 -2,8 0,8 4,0 8,0 3,8.5 6,10 7,13 7,16 6,18 3,20 -6,20 -2,17 2,17 3.5,15.5 3.5,13 2,11 -2,11 \
+         -2,17 -6,20",
+        0.6,
+    ),
+    (
+        "thin ring",
+        "0,0 7,3 10,10 7,17 0,20 -7,17 -10,10 -7,3 0,0 0,2.2 -5.4,4.6 -7.8,10 -5.4,15.4 0,17.8 5.4,15.4 7.8,10 5.4,4.6 0,2.2",
+        0.6,
+    ),
+    ("bar", "-2,0 2,0 10,36 6,36", 0.6),
+];
+
+fn polygon(corners: &str) -> Vec<Vec2> {
+    let point = |pair: &str| {
+        let (x, y) = pair.split_once(',').expect("a pair");
+        Vec2::new(x.parse().expect("a number"), y.parse().expect("a number"))
+    };
+    corners.split_whitespace().map(point).collect()
+}
+
+#[test]
+fn no_seed_leaves_an_outline() {
+    for (name, corners, least) in HARD {
+        let outline = polygon(corners);
+        for seed in 1..=12 {
+            let mut simulation = simulation(seed);
+            simulation.enclose(&envelope(&outline, &simulation));
+            settle(&mut simulation);
+            let share = overlap(&outline, &nodes(&simulation));
+            assert!(share > least, "{name}, seed {seed}: {share}");
+        }
+    }
+}
+
+#[test]
+fn growth_into_an_outline_comes_to_its_end() {
+    let mut simulation = simulation(1);
+    simulation.enclose(&envelope(
+        &polygon("-10,0 12,0 12,5 -4,5 -4,15 9,15 9,20 -4,20 -4,31 12,31 12,36 -10,36"),
+        &simulation,
+    ));
+    let step =
+        |simulation: &mut Simulation| simulation.step(&StepInput::default(), &mut NoObserver).metamers_grown;
+    let steps = (0..400).take_while(|_| step(&mut simulation) > 0).count();
+    assert!(steps < 60, "{steps}");
+}
+
+#[test]
+fn a_square_of_400_is_filled_by_what_the_scene_has_room_for() {
+    const BUDGET: u32 = 400_000;
+    let mut simulation = simulation(1);
+    simulation.set_metamer_budget(BUDGET);
+    simulation.enclose(&envelope(&polygon("-200,0 200,0 200,400 -200,400"), &simulation));
+    settle(&mut simulation);
+    let nodes = nodes(&simulation);
+    assert!(nodes.len() < BUDGET as usize / 2, "{}", nodes.len());
+    let mut is_filled = [[false; 80]; 80];
+    for node in nodes {
+        let cell = |along: f32| (along.clamp(0.0, 399.9) / 5.0) as usize;
+        is_filled[cell(node.y)][cell(node.x + 200.0)] = true;
+    }
+    let filled = is_filled.iter().flatten().filter(|&&is_filled| is_filled).count();
+    assert!(filled * 100 > 80 * 80 * 97, "{filled} of 6400");
 }
 
 #[test]
@@ -101,11 +182,7 @@ fn silhouettes_are_recognisable_from_the_front() {
     let cross = "-5,0.5 5,0.5 5,20 18,20 18,30 5,30 5,42 -5,42 -5,30 -18,30 -18,20 -5,20";
     let square = "-14,0.5 14,0.5 14,28 -14,28";
     for (name, text) in [("swan", swan), ("bottle", bottle), ("cross", cross), ("square", square)] {
-        let point = |pair: &str| {
-            let (x, y) = pair.split_once(',').expect("a pair");
-            Vec2::new(x.parse().expect("a number"), y.parse().expect("a number"))
-        };
-        let outline: Vec<Vec2> = text.split_whitespace().map(point).collect();
+        let outline = polygon(text);
         let mut simulation = simulation(3);
         let mut values = simulation.parameters().values().clone();
         // Buds that look around, turn to where there is room, and do not overshoot.
@@ -130,27 +207,14 @@ fn a_lasso_underground_sows_above_it_only() {
 }
 
 #[test]
-fn lassos_together_sow_a_bounded_number() {
-    let mut simulation = simulation(1);
-    let huge = envelope(&ellipse(Vec2::new(0.0, 450.0), Vec2::splat(400.0)), &simulation);
-    assert!(huge.volume() > 2e8);
-    for _ in 0..3 {
-        simulation.enclose(&huge);
-        assert_eq!(simulation.markers().len(), 200_000);
-    }
-    // Thinned evenly: the lower half has as many as the upper one.
-    let lower = simulation.markers().iter().filter(|marker| marker.position.y < 450.0).count();
-    assert!((99_000..101_000).contains(&lower), "{lower}");
-}
-
-#[test]
 fn two_lassos_at_once_sow_different_places() {
     let mut simulation = simulation(1);
-    let ball = envelope(&ellipse(Vec2::new(0.0, 30.0), Vec2::splat(8.0)), &simulation);
+    let ball = envelope(&ellipse(Vec2::new(0.0, 6.0), Vec2::splat(8.0)), &simulation);
     simulation.enclose(&ball);
     let first = simulation.markers().to_vec();
     simulation.enclose(&ball);
     let second = &simulation.markers()[first.len()..];
+    assert!(first.len() > 100 && second.len() > 100);
     assert!(second.iter().all(|marker| first.iter().all(|other| other.position != marker.position)));
 }
 

@@ -41,6 +41,7 @@ impl Document {
             parameters,
             markers: Vec::new(),
             guides: BTreeMap::new(),
+            enclosures: Vec::new(),
             obstacles: Vec::new(),
             metamer_budget: document.simulation.scene().metamer_budget(),
             tick: plant.step(),

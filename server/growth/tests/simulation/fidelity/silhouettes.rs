@@ -8,7 +8,7 @@ use super::*;
 
 const FRONT: Plane = Plane { origin: Vec3::ZERO, right: Vec3::X, up: Vec3::Y };
 /// What a twig's leaves cover around its node: a little more than an internode.
-const FOLIAGE: f32 = 1.25;
+const FOLIAGE: f32 = 0.75;
 
 /// Grows a tree of default parameters into an outline. Where the outline begins far above the seed, a trunk is sketched up to it first.
 fn grown_into(outline: &[Vec2], seed: u32) -> Simulation {

@@ -62,6 +62,8 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<SimulationState, DocumentE
         parameters,
         markers,
         guides: BTreeMap::from_iter(guides),
+        // Lassos are done between two commands.
+        enclosures: Vec::new(),
         obstacles: Vec::new(),
         metamer_budget,
         tick,
