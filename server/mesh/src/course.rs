@@ -1,6 +1,6 @@
 //! The way an axis takes: its nodes and the radii there.
 
-use espalier_plant::{MetamerId, Plant, Widths};
+use espalier_plant::{AxisId, MetamerId, Plant, Widths};
 use espalier_settings::BarkLook;
 use glam::Vec3;
 
@@ -14,6 +14,7 @@ const TIP_SHARE: f32 = 0.45;
 pub(crate) struct Course {
     /// The seed that it has grown from.
     pub seed: MetamerId,
+    pub axis: AxisId,
     /// At least two; the first is the bearer's node or the seed.
     pub nodes: Vec<Vec3>,
     /// Radius at each node, without the flare.
@@ -127,6 +128,7 @@ fn begin(
     let below = metamers.parent(bearer).map(|below| metamers.end(below));
     Course {
         seed,
+        axis: metamers.axis(first),
         nodes: vec![start],
         radii: vec![own],
         // A lateral leaves along its bearer and bends away; a trunk comes out of the ground as it goes on.

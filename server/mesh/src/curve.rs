@@ -21,6 +21,9 @@ const LEAST_CLEARANCE: f32 = 0.02;
 /// Cosine of the most that a ring's axis leans away from the way to the next ring.
 const LEAST_UPRIGHT: f32 = 0.3;
 
+/// At most so many rings in a row are left out.
+const MOST_SPARED: usize = 12;
+
 /// One place on the curve.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample {
@@ -33,9 +36,29 @@ pub(crate) struct Sample {
 }
 
 /// Places for rings, at least two, on a curve that `smoothing` takes from a polyline (0) to a smooth one (1). No ring
-/// reaches through another, so that the skin between two never folds.
-pub(crate) fn samples(course: &Course, smoothing: f32) -> Vec<Sample> {
-    apart(&on_curve(course, smoothing))
+/// reaches through another, so that the skin between two never folds; rings that lie within `tolerance` of the tube
+/// between others are left out.
+pub(crate) fn samples(course: &Course, smoothing: f32, tolerance: f32) -> Vec<Sample> {
+    let all = on_curve(course, smoothing);
+    if tolerance > 0.0 { apart(&needed(&all, tolerance)) } else { apart(&all) }
+}
+
+/// The places without which the tube would be off by more than `tolerance`, the first and the last among them.
+fn needed(samples: &[Sample], tolerance: f32) -> Vec<Sample> {
+    let mut kept: Vec<Sample> = samples.first().copied().into_iter().collect();
+    let mut from = 0;
+    for to in 1..samples.len() {
+        let is_last = to + 1 == samples.len();
+        let is_far = to - from >= MOST_SPARED || {
+            let ends = [&samples[from], &samples[(to + 1).min(samples.len() - 1)]];
+            samples[from + 1..=to].iter().any(|sample| sample.off(ends) > tolerance)
+        };
+        if is_last || is_far {
+            kept.push(samples[to]);
+            from = to;
+        }
+    }
+    kept
 }
 
 /// As many of the places as can have rings that do not cross; the first and the last are always among them.
@@ -63,6 +86,13 @@ fn apart(samples: &[Sample]) -> Vec<Sample> {
 }
 
 impl Sample {
+    /// How far it lies off a straight tube between two others, in place or in radius.
+    fn off(&self, [from, to]: [&Self; 2]) -> f32 {
+        let share = (self.arc - from.arc) / (to.arc - from.arc).max(f32::MIN_POSITIVE);
+        let radius = from.radius + (to.radius - from.radius) * share;
+        self.point.distance(from.point.lerp(to.point, share)).max((self.radius - radius).abs())
+    }
+
     /// Whether its ring and the next one's cross, or nearly do, or the skin between them would be sheared flat.
     fn crosses(&self, above: &Self) -> bool {
         let way = above.point - self.point;
@@ -178,7 +208,7 @@ impl Piece {
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::MetamerId;
+    use espalier_plant::{AxisId, MetamerId};
 
     use super::*;
     use crate::course::{End, Flare};
@@ -186,6 +216,7 @@ mod tests {
     fn course(nodes: &[Vec3]) -> Course {
         Course {
             seed: MetamerId::new(0),
+            axis: AxisId::new(0),
             nodes: nodes.to_vec(),
             radii: vec![0.1; nodes.len()],
             before: 2.0 * nodes[0] - nodes[1],
@@ -198,7 +229,7 @@ mod tests {
     #[test]
     fn curve_goes_through_every_node() {
         let nodes = [Vec3::ZERO, Vec3::Y, Vec3::new(1.0, 1.5, 0.0), Vec3::new(1.2, 1.5, 2.0)];
-        let samples = samples(&course(&nodes), 1.0);
+        let samples = samples(&course(&nodes), 1.0, 0.0);
         for node in nodes {
             assert!(samples.iter().any(|s| s.point.distance(node) < 1e-5), "{node} is missed");
         }
@@ -207,7 +238,7 @@ mod tests {
 
     #[test]
     fn straight_axis_needs_one_ring_a_node() {
-        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, 3.0 * Vec3::Y, 3.5 * Vec3::Y]), 1.0);
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, 3.0 * Vec3::Y, 3.5 * Vec3::Y]), 1.0, 0.0);
         assert_eq!(samples.len(), 4);
         assert!(samples.iter().all(|s| s.tangent.distance(Vec3::Y) < 1e-5));
         assert!((samples[3].arc - 3.5).abs() < 1e-5);
@@ -215,7 +246,7 @@ mod tests {
 
     #[test]
     fn sharp_bend_gets_more_rings() {
-        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 1.0);
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 1.0, 0.0);
         assert!(samples.len() > 5);
         for pair in samples.windows(2) {
             assert!(pair[0].tangent.angle_between(pair[1].tangent) <= MOST_TURN);
@@ -226,7 +257,7 @@ mod tests {
     fn flare_declines_on_rings_of_its_own() {
         let mut course = course(&[Vec3::ZERO, Vec3::Y]);
         course.flare = Flare { amount: 0.1, hidden: 0.1, falloff: 0.1 };
-        let radii: Vec<f32> = samples(&course, 1.0).iter().map(|s| s.radius).collect();
+        let radii: Vec<f32> = samples(&course, 1.0, 0.0).iter().map(|s| s.radius).collect();
         assert_eq!(radii.len(), 6);
         assert_eq!(radii[..2], [0.2, 0.2]);
         assert!(radii[1..].is_sorted_by(|a, b| a > b));
@@ -237,14 +268,27 @@ mod tests {
         let mut course = course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + 0.4 * Vec3::X, Vec3::X]);
         course.radii = vec![0.8, 0.8, 0.7, 0.6];
         assert!(on_curve(&course, 1.0).windows(2).any(|pair| pair[0].crosses(&pair[1])));
-        let samples = samples(&course, 1.0);
+        let samples = samples(&course, 1.0, 0.0);
         assert!(samples.len() >= 2 && !samples.windows(2).any(|pair| pair[0].crosses(&pair[1])));
         assert_eq!(samples[samples.len() - 1].point, Vec3::X);
     }
 
     #[test]
+    fn rings_are_left_out_where_nobody_would_see_it() {
+        let straight = course(&[Vec3::ZERO, Vec3::Y, 2.0 * Vec3::Y, 3.0 * Vec3::Y]);
+        assert_eq!(samples(&straight, 1.0, 0.01).len(), 2);
+        let bent = course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]);
+        let [all, some] = [0.0, 0.05].map(|tolerance| samples(&bent, 1.0, tolerance));
+        assert!(2 < some.len() && some.len() < all.len(), "{} of {}", some.len(), all.len());
+        for sample in &all {
+            let off = some.windows(2).map(|pair| sample.off([&pair[0], &pair[1]])).fold(f32::MAX, f32::min);
+            assert!(off <= 0.05 + 1e-5, "{off}");
+        }
+    }
+
+    #[test]
     fn a_polyline_has_no_more_rings_than_nodes() {
-        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 0.0);
+        let samples = samples(&course(&[Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]), 0.0, 0.0);
         assert_eq!(
             samples.iter().map(|s| s.point).collect::<Vec<_>>(),
             [Vec3::ZERO, Vec3::Y, Vec3::Y + Vec3::X]

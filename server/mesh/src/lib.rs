@@ -7,6 +7,7 @@ pub mod checks;
 mod course;
 mod curve;
 pub mod foliage;
+pub mod grain;
 pub mod leaves;
 pub mod radius_code;
 pub mod ring_table;
@@ -16,7 +17,8 @@ pub mod triangle_mesh;
 pub mod tubes;
 
 pub use course::seeds;
+pub use grain::Grain;
 pub use ring_table::{Changes, RingTable};
 pub use style::{Style, StyleOptions};
 pub use triangle_mesh::TriangleMesh;
-pub use tubes::{Wood, wood};
+pub use tubes::{Bodies, Body, Wood, wood};

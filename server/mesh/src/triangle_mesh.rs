@@ -35,6 +35,15 @@ impl TriangleMesh {
         self.indices.extend([a, b, c]);
     }
 
+    /// Forgets all triangles, but not their room.
+    pub fn clear(&mut self) {
+        let Self { positions, normals, uvs, indices } = self;
+        positions.clear();
+        normals.clear();
+        uvs.clear();
+        indices.clear();
+    }
+
     /// The corners of the box around all vertices; none without vertices.
     pub fn bounds(&self) -> Option<[Vec3; 2]> {
         let first = *self.positions.first()?;

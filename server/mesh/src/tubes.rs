@@ -3,22 +3,20 @@
 
 use std::f32::consts::TAU;
 
-use espalier_plant::{MetamerId, Plant};
+use espalier_plant::{AxisId, MetamerId, Plant};
 use espalier_settings::{BARK_SQUARES, BarkLook, THINNEST_BARK};
 use glam::{Vec2, Vec3, Vec4};
 
 use crate::{
     course::{Course, End, courses},
     curve::{Sample, samples},
+    grain::Grain,
     rotation_minimising,
     style::Style,
     triangle_mesh::TriangleMesh,
 };
 
-/// How far the flat sides of a tube may lie inside the round one, in internodes.
-const CHORD_ERROR: f32 = 0.01;
 const FEWEST_SIDES: u32 = 3;
-const MOST_SIDES: u32 = 24;
 /// Normals lean no further along the axis than this slope has them: beside a bend they would belong to its other side.
 const STEEPEST: f32 = 0.8;
 
@@ -42,21 +40,74 @@ pub struct Wood {
 /// All living wood, plant by plant in the order of their seeds; none of a seed that has not grown.
 pub fn wood(plant: &Plant, style: &Style, look: &BarkLook) -> Vec<Wood> {
     let mut plants: Vec<Wood> = Vec::new();
-    for course in courses(plant, style, look) {
-        let at = plants.binary_search_by_key(&course.seed, |wood| wood.seed).unwrap_or_else(|at| {
-            let (surface, cuts, radii, tangents) = Default::default();
-            plants.insert(at, Wood { seed: course.seed, surface, cuts, radii, tangents });
+    for body in Bodies::of(plant, style, look, Grain::default()).iter() {
+        let seed = body.seed();
+        let at = plants.binary_search_by_key(&seed, |wood| wood.seed).unwrap_or_else(|at| {
+            plants.insert(at, Wood::of(seed));
             at
         });
-        plants[at].sweep(&course, look.smoothing);
+        body.sweep(&mut plants[at]);
     }
     plants
 }
 
+/// The living wood of a scene, whose bodies are made one by one: so little is held of what takes much room.
+#[derive(Clone, Debug)]
+pub struct Bodies {
+    courses: Vec<Course>,
+    smoothing: f32,
+    grain: Grain,
+}
+
+impl Bodies {
+    /// All axes that are drawn in such a grain, in their order.
+    pub fn of(plant: &Plant, style: &Style, look: &BarkLook, grain: Grain) -> Self {
+        let thinnest = 0.5 * style.options().twig_diameter * grain.thinnest;
+        let mut courses = courses(plant, style, look);
+        courses.retain(|course| course.radii.iter().copied().fold(0.0, f32::max) >= thinnest);
+        Self { courses, smoothing: look.smoothing, grain }
+    }
+
+    /// The bodies, one for each axis.
+    pub fn iter(&self) -> impl Iterator<Item = Body<'_>> {
+        self.courses.iter().map(|course| Body { course, smoothing: self.smoothing, grain: self.grain })
+    }
+}
+
+/// The closed body of one axis, which is still to be made.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<'a> {
+    course: &'a Course,
+    smoothing: f32,
+    grain: Grain,
+}
+
+impl Body<'_> {
+    /// The seed that its plant has grown from.
+    pub fn seed(&self) -> MetamerId {
+        self.course.seed
+    }
+
+    /// The axis whose wood it is.
+    pub fn axis(&self) -> AxisId {
+        self.course.axis
+    }
+
+    /// Where it begins: a node of its bearer, or the seed.
+    pub fn foot(&self) -> Vec3 {
+        self.course.nodes[0]
+    }
+
+    /// Makes it and adds it to others.
+    pub fn sweep(&self, wood: &mut Wood) {
+        wood.sweep(self.course, self.smoothing, &self.grain);
+    }
+}
+
 /// Sides of a tube: as many as keep the error, between a prism and what looks round.
-fn sides(radius: f32) -> u32 {
-    let half_angle = libm::acosf((1.0 - CHORD_ERROR / radius).max(-1.0));
-    ((TAU / (2.0 * half_angle)).ceil() as u32).clamp(FEWEST_SIDES, MOST_SIDES)
+fn sides(radius: f32, grain: &Grain) -> u32 {
+    let half_angle = libm::acosf((1.0 - grain.chord_error / radius).max(-1.0));
+    ((TAU / (2.0 * half_angle)).ceil() as u32).clamp(FEWEST_SIDES, grain.most_sides)
 }
 
 /// Squares of bark around a tube.
@@ -85,6 +136,20 @@ fn slopes(samples: &[Sample], end: End) -> Vec<f32> {
 }
 
 impl Wood {
+    /// No wood yet, of the plant of a seed.
+    pub fn of(seed: MetamerId) -> Self {
+        let (surface, cuts, radii, tangents) = Default::default();
+        Self { seed, surface, cuts, radii, tangents }
+    }
+
+    /// Forgets all triangles, but not their room.
+    pub fn clear(&mut self) {
+        self.surface.clear();
+        self.cuts.clear();
+        self.radii.clear();
+        self.tangents.clear();
+    }
+
     /// All its triangles, the faces of cuts last.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         let (surface, cuts) = (self.surface.indices.as_chunks::<3>().0, self.cuts.as_chunks::<3>().0);
@@ -97,13 +162,13 @@ impl Wood {
         self.surface
     }
 
-    fn sweep(&mut self, course: &Course, smoothing: f32) {
-        let samples = samples(course, smoothing);
+    fn sweep(&mut self, course: &Course, smoothing: f32, grain: &Grain) {
+        let samples = samples(course, smoothing, grain.tolerance);
         let [first, .., last] = &samples[..] else { return };
         let across = rotation_minimising::normals(samples.iter().map(|sample| sample.tangent), course.normal);
         let thickest = course.radii.iter().copied().fold(0.0, f32::max);
         let slopes = slopes(&samples, course.end);
-        let tube = Tube::new(sides(thickest), squares(thickest));
+        let tube = Tube::new(sides(thickest, grain), squares(thickest));
         let foot = self.add_ring(&tube, first, across[0], slopes[0], 0.0);
         let back = self.add_face(&tube, foot, first, -first.tangent, 0.0);
         for triangle in back.as_chunks::<3>().0 {
@@ -228,7 +293,7 @@ impl Tube {
 
 #[cfg(test)]
 mod tests {
-    use espalier_plant::{AxisId, Internode};
+    use espalier_plant::Internode;
 
     use super::*;
     use crate::{checks, style::StyleOptions};
@@ -284,7 +349,10 @@ mod tests {
     #[test]
     fn sides_keep_the_chord_error() {
         // cos(36°) = 0.809, so a pentagon keeps 0.01 up to a radius of 0.0523.
-        assert_eq!([0.004, 0.05, 0.053, 1.0, 100.0].map(sides), [3, 5, 6, 23, 24]);
+        assert_eq!(
+            [0.004, 0.05, 0.053, 1.0, 100.0].map(|radius| sides(radius, &Grain::default())),
+            [3, 5, 6, 23, 24]
+        );
     }
 
     #[test]
@@ -304,7 +372,7 @@ mod tests {
         let lateral = &courses[1];
         assert_eq!((lateral.nodes[0], lateral.before), (Vec3::Y, Vec3::ZERO));
         let bearing = 0.05 * libm::powf(2.0, 0.4);
-        let first = samples(lateral, 1.0)[0].radius;
+        let first = samples(lateral, 1.0, 0.0)[0].radius;
         assert!((first - 0.95 * bearing).abs() < 1e-5, "the collar is {first} wide on a trunk of {bearing}");
     }
 
@@ -333,7 +401,7 @@ mod tests {
         let tiles = squares(0.5);
         assert_eq!(tiles, 1.0);
         assert!((v_at(2.0) - v_at(1.0) - tiles / circumference).abs() < 0.08);
-        let (first, last) = (0, sides(0.5) as usize);
+        let (first, last) = (0, sides(0.5, &Grain::default()) as usize);
         assert_eq!(mesh.positions[first], mesh.positions[last]);
         assert_eq!((mesh.uvs[first].x, mesh.uvs[last].x), (0.0, tiles));
     }
@@ -367,7 +435,7 @@ mod tests {
             assert!(corners.iter().all(|&corner| mesh.normals[corner as usize].y > 0.999));
             face += area.y;
         }
-        let sides = sides(0.2) as f32;
+        let sides = sides(0.2, &Grain::default()) as f32;
         let polygon = 0.5 * sides * 0.04 * libm::sinf(TAU / sides);
         assert!((face - polygon).abs() < 1e-5, "the face has {face}, not {polygon}");
     }
