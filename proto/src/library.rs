@@ -1,5 +1,7 @@
 //! The HTTP side: sessions, and the library of trees with their versions.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
@@ -182,6 +184,34 @@ pub struct SavedTree {
     /// The number of its present state, which every change counts up: its `ETag` without the quotes.
     #[ts(type = "number")]
     pub revision: u64,
+}
+
+/// One format of `GET /api/formats`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ExportFormat {
+    /// How the names of its files end.
+    pub ending: String,
+    /// What can be asked for.
+    pub options: Vec<String>,
+    /// About how many bytes a file has at least, and for each metamer and each leaf at the finest level of detail.
+    pub bytes: [f64; 3],
+    /// The share of the bytes for metamers and leaves that each level of detail has.
+    pub levels: [f64; 4],
+    /// The share of the bytes for metamers and for leaves that an option leaves.
+    pub shares: BTreeMap<String, [f64; 2]>,
+}
+
+/// `GET /api/sessions/NAME/exports/TICKET`: how far a file is that is being made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ExportProgress {
+    /// Bytes so far.
+    #[ts(type = "number")]
+    pub written: u64,
+    /// About how many it will have.
+    #[ts(type = "number")]
+    pub expected: u64,
 }
 
 /// A version of a tree.

@@ -136,6 +136,8 @@ pub fn declarations() -> String {
         library::TreeVersion::decl(&config),
         library::ChangeTree::decl(&config),
         library::ChangeVersion::decl(&config),
+        library::ExportFormat::decl(&config),
+        library::ExportProgress::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

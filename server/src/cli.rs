@@ -8,8 +8,9 @@ use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 
 use crate::{
-    document::{FORMATS, Format},
+    document::{FORMATS, FormatRow},
     import,
+    order::Order,
 };
 
 const EXAMPLES: &str = "\
@@ -186,16 +187,12 @@ pub struct Start {
 /// What comes out, and with how many threads.
 #[derive(Debug, Args)]
 pub struct Results {
-    /// Write the plants to a file, in the format of its ending: .glb, .json, .mtg, .csv, .ply, .png or .espalier;
-    /// docs/formats.md says what is in them.
+    /// Write the plants to a file, in the format of its ending: .glb, .obj.zip, .usda, .usdz, .json, .mtg, .csv, .ply,
+    /// .png or .espalier; docs/formats.md says what is in them, and which options each has.
     #[arg(long, value_name = "OUT", value_parser = parse_export)]
     pub export: Option<Export>,
-    /// Say in a glTF file who made the plants.
-    #[arg(long, value_name = "NAME", requires = "export")]
-    pub author: Option<String>,
-    /// Say in a glTF file under which licence they may be used, by its SPDX name.
-    #[arg(long, value_name = "LICENCE", requires = "export")]
-    pub licence: Option<String>,
+    #[command(flatten)]
+    pub order: Order,
     /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
     #[arg(long, value_name = "FORMAT")]
     pub stats: Option<Stats>,
@@ -215,23 +212,25 @@ pub enum Stats {
 }
 
 /// A file to write, in the format its name asks for.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct Export {
     /// Where.
     pub path: PathBuf,
     /// As what.
-    pub format: Format,
+    pub row: &'static FormatRow,
 }
 
 fn parse_export(path: &str) -> Result<Export, String> {
     let path = PathBuf::from(path);
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    let found = FORMATS.iter().find(|(_, ending, _)| extension.as_deref() == Some(*ending));
-    let &(format, ..) = found.ok_or_else(|| {
-        let all: Vec<_> = FORMATS.iter().map(|(_, ending, what)| format!(".{ending} ({what})")).collect();
+    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let ends = |row: &&FormatRow| {
+        name.strip_suffix(row.ending).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
+    };
+    let row = FORMATS.iter().find(ends).ok_or_else(|| {
+        let all: Vec<_> = FORMATS.iter().map(|row| format!(".{} ({})", row.ending, row.what)).collect();
         format!("the name must end in one of: {}", all.join(", "))
     })?;
-    Ok(Export { path, format })
+    Ok(Export { path, row })
 }
 
 fn parse_import(path: &str) -> Result<ImportFile, String> {
@@ -278,6 +277,7 @@ mod tests {
     use clap::{CommandFactory, error::ErrorKind};
 
     use super::*;
+    use crate::document::Format;
 
     fn parse(line: &str) -> Result<Cli, clap::Error> {
         Cli::try_parse_from(line.split_whitespace())
@@ -314,9 +314,10 @@ mod tests {
 
     #[test]
     fn the_extension_chooses_the_format() {
-        assert_eq!(parse_export("a/tree.GLB").unwrap().format, Format::Glb);
-        assert_eq!(parse_export("tree.json").unwrap().format, Format::Skeleton);
-        assert_eq!(parse_export("tree.png").unwrap().format, Format::Picture);
+        assert_eq!(parse_export("a/tree.GLB").unwrap().row.format, Format::Glb);
+        assert_eq!(parse_export("tree.json").unwrap().row.format, Format::Skeleton);
+        assert_eq!(parse_export("tree.obj.zip").unwrap().row.format, Format::Obj);
+        assert_eq!(parse_export("tree.png").unwrap().row.format, Format::Picture);
         for bad in ["tree", "tree.obj", "glb", ".json"] {
             assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
         }
@@ -338,6 +339,8 @@ mod tests {
             ("espalier grow --metamers 9 --stats xml", ErrorKind::InvalidValue),
             ("espalier grow --metamers 9 --threads 0", ErrorKind::ValueValidation),
             ("espalier replay a.jsonl --export a.txt", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --lod 1", ErrorKind::MissingRequiredArgument),
+            ("espalier grow --metamers 9 --export a.glb --lod 7", ErrorKind::ValueValidation),
             ("espalier import tree.glb", ErrorKind::ValueValidation),
             ("espalier import tree.csv --unit 0", ErrorKind::ValueValidation),
             ("espalier import tree.csv --grow 0", ErrorKind::ValueValidation),

@@ -1,7 +1,7 @@
 //! What the shell does with whole documents: makes files of them.
 
 use espalier_export::{
-    About, ExportError, Origin, Sampling,
+    About, ExportError, Origin, Sampling, Sink,
     picture::{self, Look},
 };
 use espalier_growth::{
@@ -9,15 +9,16 @@ use espalier_growth::{
     species::{self, Species, Stage},
 };
 use espalier_mesh::Style;
+use espalier_proto::library::ExportFormat;
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
 
+use crate::order::{Order, Size, option};
+
 /// Pixels of a picture across and down.
-const PICTURE: (usize, usize) = (1000, 1000);
+const PICTURE: Size = Size(1000, 1000);
 /// What writes files, as they name it.
 const PROGRAM: &str = concat!("Espalier ", env!("CARGO_PKG_VERSION"));
-/// Points of a cloud: some two thousand a square metre of a grown tree.
-const POINTS: u32 = 1_000_000;
 
 /// A document cannot be made a file.
 #[derive(Debug, thiserror::Error)]
@@ -28,22 +29,9 @@ pub enum FileError {
     /// The format cannot hold it.
     #[error(transparent)]
     Export(#[from] ExportError),
-}
-
-/// What is known of a document's plants beyond the document.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Provenance<'a> {
-    /// The species whose schedule grew them.
-    pub species: Option<&'static Species>,
-    /// Who made them.
-    pub author: Option<&'a str>,
-    /// Under which licence they may be used.
-    pub licence: Option<&'a str>,
-}
-
-/// The plants of a stored document in a file format.
-pub fn export(bytes: &[u8], format: Format) -> Result<Vec<u8>, FileError> {
-    Ok(file(&mut Document::from_bytes(bytes)?, Provenance::default(), format)?)
+    /// The disk is full, or there is none.
+    #[error(transparent)]
+    Disk(#[from] std::io::Error),
 }
 
 /// A file format for plants.
@@ -51,6 +39,12 @@ pub fn export(bytes: &[u8], format: Format) -> Result<Vec<u8>, FileError> {
 pub enum Format {
     /// glTF binary.
     Glb,
+    /// Wavefront OBJ with its materials and textures, in a ZIP file.
+    Obj,
+    /// USD as text.
+    Usda,
+    /// The same with its textures.
+    Usdz,
     /// The skeleton as JSON.
     Skeleton,
     /// A multiscale tree graph.
@@ -65,52 +59,192 @@ pub enum Format {
     Document,
 }
 
-/// Each format, how the names of its files end, and what is in them.
-pub const FORMATS: &[(Format, &str, &str)] = &[
-    (Format::Glb, "glb", "triangles"),
-    (Format::Skeleton, "json", "skeleton"),
-    (Format::Mtg, "mtg", "axes and metamers for OpenAlea"),
-    (Format::Qsm, "csv", "cylinders as TreeQSM has them"),
-    (Format::Cloud, "ply", "labelled points"),
-    (Format::Picture, "png", "picture"),
-    (Format::Document, "espalier", "document"),
+/// What is known of a format.
+#[derive(Debug)]
+pub struct FormatRow {
+    /// Which it is.
+    pub format: Format,
+    /// How the names of its files end.
+    pub ending: &'static str,
+    /// What is in them.
+    pub what: &'static str,
+    /// Their media type.
+    pub media_type: &'static str,
+    /// What can be asked for, as in [`option`].
+    pub options: &'static [&'static str],
+    /// About how many bytes a file has at least, and for each metamer and each leaf at the finest level.
+    pub bytes: [f64; 3],
+}
+
+const fn row(
+    format: Format,
+    [ending, what, media_type]: [&'static str; 3],
+    options: &'static [&'static str],
+    bytes: [f64; 3],
+) -> FormatRow {
+    FormatRow { format, ending, what, media_type, options, bytes }
+}
+
+/// Every format.
+pub const FORMATS: &[FormatRow] = &[
+    row(
+        Format::Glb,
+        ["glb", "triangles", "model/gltf-binary"],
+        &[
+            option::LOD,
+            option::QUANTISED,
+            option::COMPRESSED,
+            option::INSTANCED,
+            option::HULL,
+            option::BY_LIMB,
+            option::AUTHOR,
+            option::LICENCE,
+        ],
+        [600e3, 500.0, 400.0],
+    ),
+    row(
+        Format::Obj,
+        ["obj.zip", "triangles for any program", "application/zip"],
+        option::MESHES,
+        [600e3, 900.0, 700.0],
+    ),
+    row(Format::Usda, ["usda", "triangles as USD", "model/vnd.usda"], option::SCENES, [4e3, 900.0, 700.0]),
+    row(
+        Format::Usdz,
+        ["usdz", "triangles as USD with textures", "model/vnd.usdz+zip"],
+        option::SCENES,
+        [600e3, 900.0, 700.0],
+    ),
+    row(Format::Skeleton, ["json", "skeleton", "application/json"], &[], [1e3, 160.0, 150.0]),
+    row(Format::Mtg, ["mtg", "axes and metamers for OpenAlea", "text/plain"], &[], [1e3, 80.0, 0.0]),
+    row(Format::Qsm, ["csv", "cylinders as TreeQSM has them", "text/csv"], &[], [1e3, 170.0, 0.0]),
+    row(
+        Format::Cloud,
+        ["ply", "labelled points", "application/octet-stream"],
+        &[option::POINTS],
+        [29e6, 0.0, 0.0],
+    ),
+    row(
+        Format::Picture,
+        ["png", "picture", "image/png"],
+        &[option::SIZE, option::TURN, option::RISE, option::FRAMES],
+        [300e3, 0.0, 0.0],
+    ),
+    row(Format::Document, ["espalier", "document", "application/octet-stream"], &[], [10e3, 45.0, 0.0]),
 ];
 
-/// The plants of a document in a file format, in a picture on their species' stand.
-pub fn file(document: &mut Document, from: Provenance<'_>, format: Format) -> Result<Vec<u8>, ExportError> {
+/// Shares of the bytes of the finest level that each level of detail has, and all together.
+const LEVELS: [f64; 4] = [1.0, 0.35, 0.1, 0.0];
+
+/// The shares of the bytes for metamers and for leaves that options leave.
+const SHARES: &[(&str, [f64; 2])] =
+    &[(option::QUANTISED, [0.55, 0.5]), (option::COMPRESSED, [0.4, 0.3]), (option::INSTANCED, [1.0, 0.12])];
+
+impl FormatRow {
+    /// What clients are told of it.
+    pub fn described(&self) -> ExportFormat {
+        let [least, metamer, leaf] = self.bytes;
+        ExportFormat {
+            ending: self.ending.to_owned(),
+            options: self.options.iter().map(|&option| option.to_owned()).collect(),
+            bytes: [least, metamer, leaf],
+            levels: LEVELS,
+            shares: SHARES
+                .iter()
+                .filter(|(option, _)| self.options.contains(option))
+                .map(|&(option, shares)| (option.to_owned(), shares))
+                .collect(),
+        }
+    }
+}
+
+/// A stored document that becomes a file.
+#[derive(Debug)]
+pub struct Stored(Document);
+
+impl Stored {
+    /// # Errors
+    /// Where the bytes are no document.
+    pub fn read(bytes: &[u8]) -> Result<Self, DocumentError> {
+        Ok(Self(Document::from_bytes(bytes)?))
+    }
+
+    /// About how many bytes its file has.
+    pub fn expected(&self, row: &FormatRow, order: &Order) -> u64 {
+        use espalier_export::Detail;
+        let leaves = f64::from(style_options(&self.0.parameters()).leaves_per_node);
+        let metamers = f64::from(self.0.metamers());
+        let level = match order.model().detail {
+            Detail::Set => LEVELS.iter().sum(),
+            Detail::Level(level) => LEVELS[usize::from(level)],
+        };
+        let [least, metamer, leaf] = row.bytes;
+        let given = order.given();
+        let shares = SHARES.iter().filter(|(option, _)| given.contains(option));
+        let [wood, foliage] = shares.fold([1.0, 1.0], |[a, b], (_, [c, d])| [a * c, b * d]);
+        let least = least * f64::from(order.frames.unwrap_or(1));
+        (least + level * metamers * (metamer * wood + 0.5 * leaves * leaf * foliage)) as u64
+    }
+
+    /// Writes its file.
+    pub fn write(&mut self, format: Format, order: &Order, out: &mut dyn Sink) -> Result<(), ExportError> {
+        write(&mut self.0, None, format, order, out)
+    }
+}
+
+/// Writes the plants of a document in a file format, in a picture on the stand of the species whose schedule grew them.
+pub fn write(
+    document: &mut Document,
+    species: Option<&'static Species>,
+    format: Format,
+    order: &Order,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
     let (parameters, appearance) = (document.parameters(), *document.appearance());
     let style = Style::new(style_options(&parameters));
     let (seed, metres) = (document.seed(), parameters.internode_length);
-    let species = from.species.or_else(|| species_of(&parameters, &appearance));
+    let species = species.or_else(|| species_of(&parameters, &appearance));
+    let about = About {
+        program: PROGRAM,
+        simulation: SIMULATION_VERSION,
+        species: species.map(|species| species.name),
+        seed: Some(seed),
+        parameters: &parameters,
+        author: order.author.as_deref(),
+        licence: order.licence.as_deref(),
+    };
+    let model = order.model();
     match format {
-        Format::Glb => {
-            let about = About {
-                program: PROGRAM,
-                simulation: SIMULATION_VERSION,
-                species: species.map(|species| species.name),
-                seed: Some(seed),
-                parameters: &parameters,
-                author: from.author,
-                licence: from.licence,
-            };
-            espalier_export::glb(document.portrait(), &style, &appearance, &about)
-        }
+        Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::Usda => espalier_export::usda(document.portrait(), &style, &appearance, &about, &model, out),
+        Format::Usdz => espalier_export::usdz(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Skeleton => {
             let species = species.map(|species| species.slug);
             let origin = Origin { species, seed, parameters: &parameters, looks: &appearance };
-            espalier_export::skeleton_json(document.portrait(), &style, &origin)
+            espalier_export::skeleton_json(document.portrait(), &style, &origin, out)
         }
-        Format::Mtg => espalier_export::mtg(document.plant(), &style, metres),
-        Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres),
+        Format::Mtg => espalier_export::mtg(document.plant(), &style, metres, out),
+        Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres, out),
         Format::Cloud => {
-            let sampling = Sampling { points: POINTS, seed };
-            espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling)
+            let sampling = Sampling { points: order.points(), seed };
+            espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling, out)
         }
-        Format::Document => Ok(document.to_saved_bytes()),
+        Format::Document => Ok(out.write_all(&document.to_saved_bytes())?),
         Format::Picture => {
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };
-            Ok(picture::draw(document.portrait(), &style, &look, PICTURE.0, PICTURE.1).png())
+            let Size(width, height) = order.size.unwrap_or(PICTURE);
+            let frames = order.frames.unwrap_or(1);
+            picture::turntable(
+                document.portrait(),
+                &style,
+                &look,
+                [width, height],
+                order.camera(),
+                frames,
+                out,
+            )
         }
     }
 }

@@ -114,7 +114,13 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::document as exports;
+    use crate::{document as exports, order::Order};
+
+    fn exported(document: &mut Document, format: exports::Format) -> Vec<u8> {
+        let order = Order::default();
+        let written = espalier_export::in_memory(|out| exports::write(document, None, format, &order, out));
+        written.unwrap_or_else(|error| panic!("{error}"))
+    }
 
     const SCAN: &str = include_str!("../../tests/fuzz/seeds/rtwig.csv");
 
@@ -168,14 +174,14 @@ mod tests {
         for action in espalier_session::script(species).into_iter().take(2).chain([grow]) {
             before.apply("someone", &action.into()).unwrap_or_else(|problem| panic!("{problem}"));
         }
-        let file = exports::file(&mut before, exports::Provenance::default(), exports::Format::Skeleton);
-        let after = of_wood(WoodFormat::Skeleton, &file.unwrap_or_else(|error| panic!("{error}")));
+        let file = exported(&mut before, exports::Format::Skeleton);
+        let after = of_wood(WoodFormat::Skeleton, &file);
         assert_eq!((after.seed(), after.metamers()), (77, before.metamers()));
         assert_eq!((after.parameters(), after.appearance()), (before.parameters(), before.appearance()));
         let again = Document::from_bytes(&after.to_saved_bytes()).map(|document| document.hash());
         assert_eq!(again, Ok(after.hash()));
-        let file = exports::file(&mut before, exports::Provenance::default(), exports::Format::Document);
-        let same = document(&file.unwrap_or_else(|error| panic!("{error}")), &import(Format::Document, &[]));
+        let file = exported(&mut before, exports::Format::Document);
+        let same = document(&file, &import(Format::Document, &[]));
         assert!(same.is_ok_and(|same| same.plant().hash() == before.plant().hash()));
     }
 

@@ -11,9 +11,11 @@ mod listener;
 mod live;
 mod maintenance;
 mod name;
+mod order;
 mod pool;
 mod portrait;
 mod serve;
+mod spool;
 mod store;
 
 use std::process::ExitCode;
@@ -56,6 +58,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         HeadlessError::Script(_)
         | HeadlessError::Read { .. }
         | HeadlessError::Import { .. }
+        | HeadlessError::Order(_)
         | HeadlessError::Parameters(_) => ExitCode::from(USAGE),
         _ => ExitCode::FAILURE,
     }

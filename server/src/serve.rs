@@ -86,6 +86,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         pool,
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
+        progresses: http::Progresses::default(),
         authority: authority::may,
         opening: Arc::default(),
     };

@@ -1927,3 +1927,35 @@ export type ChangeVersion = {
  * Up to 2000 characters.
  */
 note: string, };
+
+export type ExportFormat = { 
+/**
+ * How the names of its files end.
+ */
+ending: string, 
+/**
+ * What can be asked for.
+ */
+options: Array<string>, 
+/**
+ * About how many bytes a file has at least, and for each metamer and each leaf at the finest level of detail.
+ */
+bytes: [number, number, number], 
+/**
+ * The share of the bytes for metamers and leaves that each level of detail has.
+ */
+levels: [number, number, number, number], 
+/**
+ * The share of the bytes for metamers and for leaves that an option leaves.
+ */
+shares: { [key in string]: [number, number] }, };
+
+export type ExportProgress = { 
+/**
+ * Bytes so far.
+ */
+written: number, 
+/**
+ * About how many it will have.
+ */
+expected: number, };

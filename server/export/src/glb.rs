@@ -1,158 +1,111 @@
 //! glTF 2.0 binary: each plant as a node with its wood, leaves, flowers and fruits, textured, in metres, Y up.
 
+mod instances;
+mod material;
+mod packing;
+mod vertex;
 mod writer;
 
-use std::collections::BTreeMap;
+use espalier_mesh::{Style, TriangleMesh};
+use espalier_plant::Plant;
+use espalier_settings::Appearance;
+use glam::{Vec3, Vec4};
+use serde_json::Value;
 
-use espalier_mesh::{Style, seeds, wood};
-use espalier_plant::{MetamerId, Plant};
-use espalier_settings::{Appearance, ParameterValues};
-use serde_json::{Value, json};
-
-use self::writer::{Surface, Vertex, Writer};
+use self::{
+    vertex::Vertex,
+    writer::{Packing, Writer},
+};
 use crate::{
-    foliage::{Foliage, cards::Cards, living},
-    surface::{
-        bark::{Bark, CUT},
-        thin::{self, Thin},
-    },
+    About, ExportError, Model, Sink,
+    assembly::{Assembly, Builder, Part, Scatter, Surface},
+    gltf::{Asset, Scene},
 };
 
-/// Metamers whose leaves are made before they are written: so little is held beside the file itself.
-const BLOCK: usize = 1024;
-
-/// Why a plant could not be exported.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum ExportError {
-    /// Nothing can be that large or small.
-    #[error("an internode cannot be {0} m long")]
-    Scale(f32),
-    /// The format counts bytes in 32 bits.
-    #[error("the file would be larger than 4 GiB")]
-    TooLarge,
-    /// The plant is so large that a position in metres is infinite.
-    #[error("the tree is too large to be measured in metres")]
-    NotFinite,
-}
-
-/// What a file says about its plants.
-#[derive(Clone, Debug)]
-pub struct About<'a> {
-    /// The program and its version.
-    pub program: &'a str,
-    /// The version of the simulation that grew them.
-    pub simulation: u32,
-    /// The name of the species, if it is known.
-    pub species: Option<&'a str>,
-    /// The seed of all randomness, if it is known.
-    pub seed: Option<u32>,
-    /// The parameters in force; the length of an internode makes metres.
-    pub parameters: &'a ParameterValues,
-    /// Who made them.
-    pub author: Option<&'a str>,
-    /// Under which licence they may be used.
-    pub licence: Option<&'a str>,
-}
-
-impl About<'_> {
-    fn extras(&self) -> Value {
-        let Self { simulation, species, seed, parameters, author, licence, .. } = self;
-        let all = json!({
-            "simulation": simulation,
-            "species": species,
-            "seed": seed,
-            "metres_per_internode": parameters.internode_length,
-            "parameters": parameters,
-            "author": author,
-            "licence": licence,
-        });
-        let Value::Object(mut all) = all else { return all };
-        all.retain(|_, value| !value.is_null());
-        Value::Object(all)
-    }
-
-    fn copyright(&self) -> Option<String> {
-        let said: Vec<&str> = [self.author, self.licence].into_iter().flatten().collect();
-        (!said.is_empty()).then(|| said.join(", "))
-    }
-}
+/// Room for the JSON: of materials and the scene, and of a part with its node, mesh, accessors and views.
+const ROOM: usize = 12 * 1024;
+const ROOM_OF_PART: usize = 3 * 1024;
+/// The scene that only has hulls.
+const COLLISION: &str = "Collision";
+const HULL: Vec3 = Vec3::new(0.2, 0.6, 0.3);
 
 /// The present of `plant` as a glTF binary file. A plant without wood gives a valid file without meshes.
+///
+/// # Errors
+/// Where an internode cannot be as long as `about` says, the plant is too large, or the file cannot be written.
 pub fn glb(
     plant: &Plant,
     style: &Style,
     appearance: &Appearance,
     about: &About<'_>,
-) -> Result<Vec<u8>, ExportError> {
-    let scale = about.parameters.internode_length;
-    if !(scale.is_finite() && scale > 0.0) {
-        return Err(ExportError::Scale(scale));
-    }
-    let mut writer = Writer::new(scale, about);
-    let (bark, foliage) = (Bark::of(&appearance.bark), Foliage::of(plant, style, appearance));
-    let mut of_seed: BTreeMap<MetamerId, Vec<MetamerId>> = BTreeMap::new();
-    let seed_of = seeds(plant);
-    for id in living(plant) {
-        of_seed.entry(seed_of[id.index()]).or_default().push(id);
-    }
-    let [wood_surface, cut_surface] =
-        [Surface::Bark(&bark, appearance.bark.relief), Surface::Plain("Cut", CUT)];
-    let parts = [
-        Some(("Leaves", thin::leaves(&appearance.leaves))),
-        thin::flowers(&appearance.flowers).map(|thin| ("Flowers", thin)),
-        thin::fruits(&appearance.fruits).map(|thin| ("Fruits", thin)),
-    ];
-    let mut wood = wood(plant, style, &appearance.bark).into_iter().peekable();
-    let seeds: Vec<MetamerId> = (0..plant.metamer_count())
-        .map(MetamerId::new)
-        .filter(|&id| plant.is_seed(id) && plant.is_alive(id))
-        .collect();
-    for (number, &seed) in (1..).zip(&seeds) {
-        let species = about.species.unwrap_or("Tree");
-        let name = if seeds.len() == 1 { species.to_owned() } else { format!("{species} {number}") };
-        let ids = of_seed.get(&seed).map_or(&[][..], Vec::as_slice);
-        let extras = json!({ "row": seed.raw(), "metamers": ids.len() });
-        writer.begin_plant(name, plant.metamers().end(seed), extras);
-        let Some(wood) = wood.next_if(|wood| wood.seed == seed) else { continue };
-        let mut part = writer.begin_part();
-        for (vertex, &place) in wood.surface.positions.iter().enumerate() {
-            let (normal, tangent, uv) =
-                (wood.surface.normals[vertex], wood.tangents[vertex], wood.surface.uvs[vertex]);
-            part.vertex(Vertex { place, normal, tangent, uv, colour: bark.tint(wood.radii[vertex]) });
-        }
-        part.finish("Wood", &[(&wood.surface.indices, wood_surface), (&wood.cuts, cut_surface)])?;
-        drop(wood);
-        for (name, thin) in parts.iter().flatten() {
-            add_cards(&mut writer, name, thin, ids, |cards, id| match *name {
-                "Leaves" => foliage.add_leaves(cards, id),
-                "Flowers" => foliage.add_flowers(cards, id),
-                _ => foliage.add_fruits(cards, id),
-            })?;
-        }
-    }
+    model: &Model,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
+    let scale = about.scale()?;
+    let assembly = Assembly::of(plant, style, appearance, about.species, model);
+    let asset = Asset {
+        version: "2.0",
+        generator: about.program.to_owned(),
+        copyright: about.copyright(),
+        extras: about.extras(),
+    };
+    let room = match assembly.most_parts() {
+        0 => 0,
+        parts => ROOM + serde_json::to_vec(&asset)?.len() + parts * ROOM_OF_PART,
+    };
+    let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
+    let mut writer = Writer::new(out, asset, scale, packing, room)?;
+    assembly.build(&mut writer)?;
     writer.finish()
 }
 
-fn add_cards(
-    writer: &mut Writer,
-    name: &'static str,
-    thin: &Thin,
-    ids: &[MetamerId],
-    add: impl Fn(&mut Cards, MetamerId),
-) -> Result<(), ExportError> {
-    let (mut part, mut cards, mut indices) = (writer.begin_part(), Cards::default(), Vec::new());
-    for block in ids.chunks(BLOCK) {
-        for &id in block {
-            add(&mut cards, id);
-        }
-        let first = part.count();
-        indices.extend(cards.mesh.indices.iter().map(|&index| first + index));
-        for (vertex, &place) in cards.mesh.positions.iter().enumerate() {
-            let (normal, tangent, uv) =
-                (cards.mesh.normals[vertex], cards.tangents[vertex], cards.mesh.uvs[vertex]);
-            part.vertex(Vertex { place, normal, tangent, uv, colour: cards.hues[vertex] * thin.strength });
-        }
-        cards.clear();
+impl Builder for Writer<'_> {
+    fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError> {
+        self.open(name, place, extras);
+        Ok(())
     }
-    part.finish(name, &[(&indices, Surface::Thin(name, &thin.texture))])
+
+    fn end(&mut self) -> Result<(), ExportError> {
+        self.close();
+        Ok(())
+    }
+
+    fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
+        let mut vertices = self.begin_part(part.repeats, part.reach);
+        let mut triangles = [Vec::new(), Vec::new()];
+        (part.blocks)(&mut |block| {
+            let first = vertices.count();
+            for (index, &place) in block.mesh.positions.iter().enumerate() {
+                let (normal, uv) = (block.mesh.normals[index], block.mesh.uvs[index]);
+                let (tangent, colour) = (block.tangents[index], block.colours[index]);
+                vertices.vertex(self, &Vertex { place, normal, tangent, uv, colour })?;
+            }
+            for (to, from) in triangles.iter_mut().zip([&block.mesh.indices[..], block.second]) {
+                to.extend(from.iter().map(|&index| first + index));
+            }
+            Ok(())
+        })?;
+        let triangles: Vec<_> =
+            triangles.iter().zip(part.surfaces).map(|(indices, &surface)| (&indices[..], surface)).collect();
+        vertices.finish(self, part.name, &triangles)
+    }
+
+    fn scatter(&mut self, scatter: &Scatter<'_>) -> Result<(), ExportError> {
+        instances::scatter(self, scatter)
+    }
+
+    fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Result<(), ExportError> {
+        if self.root.scenes.len() == 1 {
+            self.root.scenes.push(Scene { name: COLLISION, nodes: Vec::new() });
+        }
+        let reach = mesh.positions.iter().map(|place| (*place - self.origin()).abs().max_element());
+        let mut vertices = self.begin_part(false, reach.fold(1.0, f32::max));
+        for (&place, &normal) in mesh.positions.iter().zip(&mesh.normals) {
+            let tangent: Vec4 = normal.any_orthonormal_vector().extend(1.0);
+            let vertex = Vertex { place, normal, tangent, uv: glam::Vec2::ZERO, colour: Vec3::ONE };
+            vertices.vertex(self, &vertex)?;
+        }
+        let surface = Surface::Plain(COLLISION, HULL);
+        vertices.finish_apart(self, name, &[(&mesh.indices, surface)])
+    }
 }

@@ -3,9 +3,13 @@
 use serde::Serialize;
 use serde_json::Value;
 
+/// `componentType` of quantised directions.
+pub(crate) const BYTE: u32 = 5120;
+/// `componentType` of quantised places and turns.
+pub(crate) const SHORT: u32 = 5122;
 /// `componentType` of colours.
 pub(crate) const UNSIGNED_BYTE: u32 = 5121;
-/// `componentType` of 16-bit indices.
+/// `componentType` of 16-bit indices and of quantised places in a texture.
 pub(crate) const UNSIGNED_SHORT: u32 = 5123;
 /// `componentType` of 32-bit indices.
 pub(crate) const UNSIGNED_INT: u32 = 5125;
@@ -17,10 +21,14 @@ pub(crate) const ARRAY_BUFFER: u32 = 34962;
 pub(crate) const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 /// The root. glTF forbids empty lists, so they are left out.
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Root {
     pub asset: Asset,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub extensions_used: Vec<&'static str>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub extensions_required: Vec<&'static str>,
     pub scene: usize,
     pub scenes: Vec<Scene>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -41,7 +49,7 @@ pub(crate) struct Root {
     pub buffers: Vec<Buffer>,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct Asset {
     pub version: &'static str,
     pub generator: String,
@@ -57,15 +65,20 @@ pub(crate) struct Scene {
     pub nodes: Vec<usize>,
 }
 
-#[derive(Serialize)]
+#[derive(Default, Serialize)]
 pub(crate) struct Node {
     pub name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub translation: Option<[f32; 3]>,
+    /// The same in all directions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub scale: Option<[f32; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<usize>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub children: Vec<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extensions: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub extras: Option<Value>,
 }
@@ -175,12 +188,16 @@ pub(crate) struct BufferView {
     pub byte_stride: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub target: Option<u32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extensions: Option<Value>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Buffer {
     pub byte_length: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub extensions: Option<Value>,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]

@@ -1,12 +1,12 @@
 //! Multiscale tree graphs as OpenAlea reads them: plants, axes and metamers, in metres, Z up.
 
-use std::fmt::Write;
+use std::fmt::Arguments;
 
 use espalier_mesh::Style;
 use espalier_plant::{MetamerId, Plant};
 
 use crate::{
-    ExportError,
+    ExportError, Sink,
     structure::{Structure, rounded, z_up},
 };
 
@@ -44,41 +44,46 @@ const FEATURES: [(&str, &str); 7] = [
 /// The living plants of the present; see `docs/formats.md`. The columns of the code are orders of branching.
 ///
 /// # Errors
-/// Where an internode cannot be as long as that.
-pub fn mtg(plant: &Plant, style: &Style, metres_per_internode: f32) -> Result<Vec<u8>, ExportError> {
+/// Where an internode cannot be as long as that, or the file cannot be written.
+pub fn mtg(
+    plant: &Plant,
+    style: &Style,
+    metres_per_internode: f32,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, metres_per_internode)?;
     let wood = structure.wood_of_axes();
     let has_wood = |&(axis, _): &(_, &Vec<MetamerId>)| plant.has_living_wood(axis);
     let orders = structure.axes.iter().copied().zip(&wood).filter(has_wood);
     let columns = orders.map(|(axis, _)| plant.axes().order(axis) as usize + 1).max().unwrap_or(1);
-    let mut file = Writer { structure: &structure, columns, text: HEAD.to_owned() };
+    let mut file = Writer { structure: &structure, columns, out };
+    file.out.write_all(HEAD.as_bytes())?;
     for (name, kind) in FEATURES {
-        file.line(format_args!("{name}\t{kind}"));
+        file.line(format_args!("{name}\t{kind}"))?;
     }
     let names: Vec<_> = FEATURES.iter().map(|(name, _)| *name).collect();
-    file.line(format_args!("\nMTG:\nTOPO{}{}", "\t".repeat(columns), names.join("\t")));
+    file.line(format_args!("\nMTG:\nTOPO{}{}", "\t".repeat(columns), names.join("\t")))?;
     let seeds = structure.metamers.iter().copied().filter(|&id| plant.is_seed(id));
     for (seed, number) in seeds.zip(1..) {
-        file.component(0, format_args!("/P{number}"), seed);
-        file.plant(seed, &wood);
+        file.component(0, format_args!("/P{number}"), seed)?;
+        file.plant(seed, &wood)?;
     }
-    Ok(file.text.into_bytes())
+    Ok(())
 }
 
 struct Writer<'a> {
     structure: &'a Structure<'a>,
     columns: usize,
-    text: String,
+    out: &'a mut dyn Sink,
 }
 
 impl Writer<'_> {
-    fn line(&mut self, line: std::fmt::Arguments<'_>) {
-        // Writing to memory does not fail.
-        let _ = writeln!(self.text, "{line}");
+    fn line(&mut self, line: Arguments<'_>) -> Result<(), ExportError> {
+        Ok(writeln!(self.out, "{line}")?)
     }
 
     /// The axes of a plant, each behind the metamer that bears it.
-    fn plant(&mut self, seed: MetamerId, wood: &[Vec<MetamerId>]) {
+    fn plant(&mut self, seed: MetamerId, wood: &[Vec<MetamerId>]) -> Result<(), ExportError> {
         let Structure { plant, .. } = *self.structure;
         // Axes that are being written, and how many of their metamers are.
         let mut open = vec![(plant.metamers().axis(seed), 0usize)];
@@ -92,21 +97,22 @@ impl Writer<'_> {
             };
             let column = plant.axes().order(axis) as usize;
             match (index, column) {
-                (0, 0) => self.component(column, format_args!("^/A{number}/M1"), id),
-                (0, _) => self.component(column, format_args!("+A{number}/M1"), id),
-                _ => self.component(column, format_args!("^<M{}", index + 1), id),
+                (0, 0) => self.component(column, format_args!("^/A{number}/M1"), id)?,
+                (0, _) => self.component(column, format_args!("+A{number}/M1"), id)?,
+                _ => self.component(column, format_args!("^<M{}", index + 1), id)?,
             }
             let laterals: Vec<_> = plant.laterals(id).filter(|&axis| plant.has_living_wood(axis)).collect();
             open.extend(laterals.into_iter().rev().map(|axis| (axis, 0)));
         }
+        Ok(())
     }
 
-    fn component(&mut self, column: usize, code: std::fmt::Arguments<'_>, id: MetamerId) {
+    fn component(&mut self, column: usize, code: Arguments<'_>, id: MetamerId) -> Result<(), ExportError> {
         let Structure { plant, .. } = *self.structure;
         let [x, y, z] = z_up(self.structure.place(id)).to_array().map(rounded);
         let diameter = rounded(2.0 * self.structure.metres(self.structure.radius(id)));
         let (birth, age, number) = (plant.birth(id), plant.age(id), self.structure.number(id));
         let (before, after) = ("\t".repeat(column), "\t".repeat(self.columns - column));
-        self.line(format_args!("{before}{code}{after}{x}\t{y}\t{z}\t{diameter}\t{birth}\t{age}\t{number}"));
+        self.line(format_args!("{before}{code}{after}{x}\t{y}\t{z}\t{diameter}\t{birth}\t{age}\t{number}"))
     }
 }

@@ -8,7 +8,7 @@ use espalier_settings::Appearance;
 use glam::{DVec2, DVec3};
 
 use crate::{
-    ExportError,
+    ExportError, Sink,
     foliage::{Foliage, cards::Cards, living},
     painted::Painted,
     structure::{Structure, z_up},
@@ -32,20 +32,21 @@ pub struct Sampling {
 /// without wood has none.
 ///
 /// # Errors
-/// Where an internode cannot be as long as that.
+/// Where an internode cannot be as long as that, or the file cannot be written.
 pub fn ply(
     plant: &Plant,
     style: &Style,
     looks: &Appearance,
     metres_per_internode: f32,
     Sampling { points, seed }: Sampling,
-) -> Result<Vec<u8>, ExportError> {
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, metres_per_internode)?;
-    let (foliage, painted) = (Foliage::of(plant, style, looks), Painted::leaf(looks.leaves.shape));
+    let (foliage, painted) = (Foliage::of(plant, style, looks, 0), Painted::leaf(looks.leaves.shape));
     let patches = || patches(&structure, &foliage, &painted);
     let total: f64 = patches().map(|patch| patch.area).sum();
     let points = if total > 0.0 { points } else { 0 };
-    let mut bytes = head(points).into_bytes();
+    out.write_all(head(points).as_bytes())?;
     let (mut below, mut next) = (0.0, 0);
     for patch in patches() {
         below += patch.area;
@@ -53,15 +54,17 @@ pub fn ply(
         // same as that of the total, so that no point is left over.
         while next < points && (f64::from(next) + 0.5) * total <= below * f64::from(points) {
             let (place, normal) = patch.sample(unit_square(seed, next));
-            for value in [z_up(place * structure.metres(1.0)), z_up(normal)].map(|v| v.as_vec3().to_array()) {
-                value.iter().for_each(|part| bytes.extend(part.to_le_bytes()));
+            let [place, normal] =
+                [z_up(place * structure.metres(1.0)), z_up(normal)].map(|v| v.as_vec3().to_array());
+            for part in place.into_iter().chain(normal) {
+                out.write_all(&part.to_le_bytes())?;
             }
-            bytes.push(patch.label);
-            bytes.extend(structure.number(patch.metamer).to_le_bytes());
+            out.write_all(&[patch.label])?;
+            out.write_all(&structure.number(patch.metamer).to_le_bytes())?;
             next += 1;
         }
     }
-    Ok(bytes)
+    Ok(())
 }
 
 fn head(points: u32) -> String {
@@ -203,7 +206,7 @@ mod tests {
         for &shape in LeafKind::ALL {
             let mut looks = Appearance::default();
             looks.leaves.shape = shape;
-            let (foliage, painted) = (Foliage::of(&plant, &style, &looks), Painted::leaf(shape));
+            let (foliage, painted) = (Foliage::of(&plant, &style, &looks, 0), Painted::leaf(shape));
             let mut cards = Cards::default();
             foliage.add_leaves(&mut cards, id);
             let triangles = cards.mesh.indices.as_chunks::<3>().0.iter();

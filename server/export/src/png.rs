@@ -1,5 +1,6 @@
 //! Files in the PNG format (ISO/IEC 15948).
 
+use crate::{ExportError, Sink};
 use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, Filter};
 
 /// A file of at most 256 colours, and for each pixel which of them.
@@ -12,6 +13,33 @@ pub(crate) fn indexed(width: usize, height: usize, colours: &[[u8; 3]], indices:
 pub(crate) fn square<const CHANNELS: usize>(side: usize, pixels: &[[u8; CHANNELS]]) -> Vec<u8> {
     let colours = if CHANNELS == 4 { ColorType::Rgba } else { ColorType::Rgb };
     file([side, side], colours, Filter::Adaptive, None, pixels.as_flattened())
+}
+
+/// A file of pictures that follow one another for ever, `seconds` for all `count` of them.
+pub(crate) fn animated(
+    [width, height]: [usize; 2],
+    [seconds, count]: [u16; 2],
+    pictures: impl Iterator<Item = Vec<[u8; 3]>>,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
+    let write = || -> Result<(), EncodingError> {
+        let mut encoder = Encoder::new(out, width as u32, height as u32);
+        encoder.set_color(ColorType::Rgb);
+        encoder.set_depth(BitDepth::Eight);
+        encoder.set_compression(Compression::Balanced);
+        encoder.set_filter(Filter::Adaptive);
+        encoder.set_animated(u32::from(count), 0)?;
+        encoder.set_frame_delay(seconds, count)?;
+        let mut writer = encoder.write_header()?;
+        for picture in pictures {
+            writer.write_image_data(picture.as_flattened())?;
+        }
+        writer.finish()
+    };
+    write().map_err(|error| match error {
+        EncodingError::IoError(error) => error.into(),
+        _ => ExportError::TooLarge,
+    })
 }
 
 fn file(

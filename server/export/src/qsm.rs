@@ -1,12 +1,10 @@
 //! A quantitative structure model: cylinders as comma-separated values, with the columns that TreeQSM's have in R.
 
-use std::fmt::Write;
-
 use espalier_mesh::Style;
 use espalier_plant::{MetamerId, Plant};
 
 use crate::{
-    ExportError,
+    ExportError, Sink,
     structure::{Structure, rounded, z_up},
 };
 
@@ -18,8 +16,13 @@ PositionInBranch,added,UnmodRadius\n";
 /// before that which bears it.
 ///
 /// # Errors
-/// Where an internode cannot be as long as that.
-pub fn qsm_csv(plant: &Plant, style: &Style, metres_per_internode: f32) -> Result<Vec<u8>, ExportError> {
+/// Where an internode cannot be as long as that, or the file cannot be written.
+pub fn qsm_csv(
+    plant: &Plant,
+    style: &Style,
+    metres_per_internode: f32,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, metres_per_internode)?;
     let wood = structure.wood_of_axes();
     // Cylinders and branches are counted from 1; 0 is none.
@@ -27,7 +30,7 @@ pub fn qsm_csv(plant: &Plant, style: &Style, metres_per_internode: f32) -> Resul
     for (id, number) in wood.iter().flatten().zip(1..) {
         cylinder[id.index()] = number;
     }
-    let mut text = HEAD.to_owned();
+    out.write_all(HEAD.as_bytes())?;
     let branches = wood.iter().zip(&structure.axes).filter(|(metamers, _)| !metamers.is_empty());
     for ((metamers, &axis), branch) in branches.zip(1..) {
         let order = plant.axes().order(axis);
@@ -36,14 +39,13 @@ pub fn qsm_csv(plant: &Plant, style: &Style, metres_per_internode: f32) -> Resul
             let parent = plant.metamers().parent(id).map_or(0, |parent| cylinder[parent.index()]);
             let Cylinder { start, axis, length, radius } = Cylinder::of(&structure, id);
             let [[x, y, z], [u, v, w]] = [start, axis];
-            // Writing to memory does not fail.
-            let _ = writeln!(
-                text,
+            writeln!(
+                out,
                 "{radius},{length},{x},{y},{z},{u},{v},{w},{parent},{extension},{branch},{order},{position},0,{radius}"
-            );
+            )?;
         }
     }
-    Ok(text.into_bytes())
+    Ok(())
 }
 
 struct Cylinder {

@@ -10,7 +10,7 @@ use glam::DVec3;
 use serde::{Serialize, Serializer};
 
 use crate::{
-    ExportError,
+    ExportError, Sink,
     foliage::{Foliage, living},
     structure::{Structure, rounded},
 };
@@ -34,10 +34,15 @@ pub struct Origin<'a> {
 /// The living plants of the present, in metres; see `docs/formats.md`.
 ///
 /// # Errors
-/// Where an internode cannot be as long as the parameters say.
-pub fn skeleton_json(plant: &Plant, style: &Style, origin: &Origin<'_>) -> Result<Vec<u8>, ExportError> {
+/// Where an internode cannot be as long as the parameters say, or the file cannot be written.
+pub fn skeleton_json(
+    plant: &Plant,
+    style: &Style,
+    origin: &Origin<'_>,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
     let structure = Structure::of(plant, style, origin.parameters.internode_length)?;
-    let foliage = Foliage::of(plant, style, origin.looks);
+    let foliage = Foliage::of(plant, style, origin.looks, 0);
     let file = File {
         format: "espalier-skeleton",
         version: VERSION,
@@ -60,10 +65,7 @@ pub fn skeleton_json(plant: &Plant, style: &Style, origin: &Origin<'_>) -> Resul
             })
         })),
     };
-    let mut bytes = Vec::new();
-    // Writing to memory does not fail, and all keys are strings.
-    serde_json::to_writer(&mut bytes, &file).expect("a skeleton is always JSON");
-    Ok(bytes)
+    Ok(serde_json::to_writer(out, &file)?)
 }
 
 #[derive(Serialize)]

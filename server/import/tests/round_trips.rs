@@ -3,7 +3,7 @@
 #[path = "../../export/tests/main/saplings.rs"]
 mod saplings;
 
-use espalier_export::{Origin, mtg, qsm_csv, skeleton_json};
+use espalier_export::{Origin, in_memory, mtg, qsm_csv, skeleton_json};
 use espalier_growth::{Parameters, transplant};
 use espalier_import::{WoodFile, WoodFormat, WoodOptions, read_wood};
 use espalier_mesh::{Style, StyleOptions};
@@ -26,7 +26,7 @@ fn skeleton(plant: &Plant) -> Vec<u8> {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let looks = Appearance::default();
     let origin = Origin { species: Some("pear"), seed: 7, parameters: &parameters, looks: &looks };
-    skeleton_json(plant, &style(), &origin).expect("it exports")
+    in_memory(|out| skeleton_json(plant, &style(), &origin, out)).expect("it exports")
 }
 
 fn read(format: WoodFormat, bytes: &[u8]) -> WoodFile {
@@ -87,7 +87,7 @@ proptest! {
     #[test]
     fn a_graph_is_the_same_plant_again(growth in saplings::growth()) {
         let before = saplings::grown(&growth);
-        let bytes = mtg(&before, &style(), METRES).expect("it exports");
+        let bytes = in_memory(|out| mtg(&before, &style(), METRES, out)).expect("it exports");
         is_same(&before, &planted(&read(WoodFormat::Mtg, &bytes)))?;
     }
 
@@ -96,10 +96,10 @@ proptest! {
         let before = saplings::grown(&growth);
         prop_assume!(before.living_count() > 0);
         let cylinders = |plant: &Plant| -> Vec<Vec<f64>> {
-            let text = String::from_utf8(qsm_csv(plant, &style(), METRES).expect("it exports")).expect("text");
+            let text = String::from_utf8(in_memory(|out| qsm_csv(plant, &style(), METRES, out)).expect("it exports")).expect("text");
             text.lines().skip(1).map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect()
         };
-        let bytes = qsm_csv(&before, &style(), METRES).expect("it exports");
+        let bytes = in_memory(|out| qsm_csv(&before, &style(), METRES, out)).expect("it exports");
         let after = planted(&read(WoodFormat::Qsm, &bytes));
         let (old, new) = (cylinders(&before), cylinders(&after));
         prop_assert_eq!(old.len(), new.len());
@@ -132,22 +132,22 @@ fn a_skeleton_of_version_1_is_read_in_internodes() {
 #[test]
 fn longer_cylinders_than_internodes_are_cut() {
     let pole = saplings::pole(3);
-    let bytes = qsm_csv(&pole, &style(), METRES).expect("it exports");
+    let bytes = in_memory(|out| qsm_csv(&pole, &style(), METRES, out)).expect("it exports");
     let fine = WoodOptions { internode_length: 0.5 * METRES, ..options() };
     let plant = planted(&read_wood(WoodFormat::Qsm, &bytes, &fine).expect("cylinders"));
     assert_eq!((plant.living_count(), plant.living_axes_count()), (6, 1));
     assert!(plant.metamers().end(MetamerId::new(6)).distance(6.0 * glam::Vec3::Y) < NEAR);
     // A metamer of a graph is one, however long.
-    let bytes = mtg(&pole, &style(), METRES).expect("it exports");
+    let bytes = in_memory(|out| mtg(&pole, &style(), METRES, out)).expect("it exports");
     let plant = planted(&read_wood(WoodFormat::Mtg, &bytes, &fine).expect("a graph"));
     assert_eq!(plant.living_count(), 3);
 }
 
 #[test]
 fn a_graph_that_came_in_goes_out_as_it_was() {
-    let bytes = mtg(&saplings::fork(), &style(), METRES).expect("it exports");
+    let bytes = in_memory(|out| mtg(&saplings::fork(), &style(), METRES, out)).expect("it exports");
     let plant = planted(&read(WoodFormat::Mtg, &bytes));
-    let again = mtg(&plant, &style(), METRES).expect("it exports");
+    let again = in_memory(|out| mtg(&plant, &style(), METRES, out)).expect("it exports");
     // Radii come back near enough, not to the last digit.
     let cells = |bytes: Vec<u8>| -> Vec<Vec<String>> {
         let text = String::from_utf8(bytes).expect("text");

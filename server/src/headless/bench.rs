@@ -118,6 +118,7 @@ impl Bench {
             peak_memory_bytes: stats::peak_memory_bytes(),
             tree_memory_bytes,
             bytes_per_metamer: tree_memory_bytes.map(|bytes| bytes as f64 / metamers),
+            seconds_export: None,
             plant_hash: format!("{:016x}", plant.hash()),
         }
     }

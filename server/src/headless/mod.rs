@@ -7,21 +7,22 @@ mod stats;
 
 use std::{
     fs,
-    io::{self, Read, Write},
+    io::{self, BufWriter, Read, Write},
     path::{Path, PathBuf},
+    time::Instant,
 };
 
 use espalier_export::ExportError;
-use espalier_growth::DEFAULT_METAMER_BUDGET;
+use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Species};
 use espalier_proto::{Action, Command, Problem, Steps};
 use espalier_session::Document;
 
 pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
 use crate::{
-    cli::{self, Grow, Replay, Results, Start},
-    document::{self, Provenance},
-    import as imports,
+    cli::{self, Export, Grow, Replay, Results, Start},
+    document, import as imports,
+    order::{Order, OrderError},
     pool::SimulationPool,
 };
 
@@ -63,6 +64,9 @@ pub enum HeadlessError {
         /// Why not.
         cause: io::Error,
     },
+    /// The format has no such option.
+    #[error("The export cannot be done: {0}.")]
+    Order(#[from] OrderError),
     /// The result does not fit its format.
     #[error("The export failed: {0}.")]
     Export(#[from] ExportError),
@@ -84,6 +88,7 @@ pub enum HeadlessError {
 
 /// `espalier replay`.
 pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
+    check(&options.results)?;
     let bytes =
         read(&options.script).map_err(|cause| HeadlessError::Read { path: options.script.clone(), cause })?;
     let name = options.script.display().to_string();
@@ -101,11 +106,12 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         }
         Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, Provenance::default(), &options.results)
+    finish(bench, None, &options.results)
 }
 
 /// `espalier grow`.
 pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
+    check(&options.results)?;
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         // Dead metamers count as well, and how many will die is not known before.
         let mut bench = match options.species {
@@ -134,11 +140,12 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
         }
         Ok(bench)
     })?;
-    finish(bench, Provenance { species: options.species, ..Provenance::default() }, &options.results)
+    finish(bench, options.species, &options.results)
 }
 
 /// `espalier import`.
 pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
+    check(&options.results)?;
     let path = options.file.path.clone();
     let bytes = read(&path).map_err(|cause| HeadlessError::Read { path: path.clone(), cause })?;
     let budget = options.start.budget.unwrap_or(DEFAULT_METAMER_BUDGET);
@@ -160,7 +167,12 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
         }
         Ok::<_, HeadlessError>(bench)
     })?;
-    finish(bench, Provenance::default(), &options.results)
+    finish(bench, None, &options.results)
+}
+
+/// Whether the export can be done, before anything grows.
+fn check(results: &Results) -> Result<(), OrderError> {
+    results.export.as_ref().map_or(Ok(()), |export| results.order.check(export.row.options))
 }
 
 /// A seedling as the options want it.
@@ -177,6 +189,29 @@ fn bench(document: Document, results: &Results) -> Bench {
     if results.no_deltas { bench.unfollowed() } else { bench }
 }
 
+/// Writes a file beside its place and moves it there when it is whole.
+fn write(
+    document: &mut Document,
+    species: Option<&'static Species>,
+    Export { path, row }: &Export,
+    order: &Order,
+) -> Result<(), HeadlessError> {
+    let failed = |cause| HeadlessError::Write { path: path.clone(), cause };
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let mut file = tempfile::Builder::new();
+    #[cfg(unix)]
+    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let file = file.tempfile_in(folder).map_err(failed)?;
+    let mut out = BufWriter::new(file);
+    match document::write(document, species, row.format, order, &mut out) {
+        Err(ExportError::Write(kind)) => return Err(failed(kind.into())),
+        written => written?,
+    }
+    let file = out.into_inner().map_err(|error| failed(error.into_error()))?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
 fn read(path: &Path) -> io::Result<Vec<u8>> {
     if path == Path::new("-") {
         let mut bytes = Vec::new();
@@ -186,14 +221,16 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     fs::read(path)
 }
 
-fn finish(mut bench: Bench, from: Provenance<'_>, results: &Results) -> Result<(), HeadlessError> {
-    let stats = bench.stats();
+fn finish(
+    mut bench: Bench,
+    species: Option<&'static Species>,
+    results: &Results,
+) -> Result<(), HeadlessError> {
+    let mut stats = bench.stats();
     if let Some(export) = &results.export {
-        let from =
-            Provenance { author: results.author.as_deref(), licence: results.licence.as_deref(), ..from };
-        let bytes = document::file(bench.document_mut(), from, export.format)?;
-        fs::write(&export.path, bytes)
-            .map_err(|cause| HeadlessError::Write { path: export.path.clone(), cause })?;
+        let begun = Instant::now();
+        write(bench.document_mut(), species, export, &results.order)?;
+        stats.exported(begun.elapsed());
     }
     let text = if results.stats.is_some() { stats.to_json() } else { stats.summary() };
     // A reader that has gone, as `head` may, is no error of ours.

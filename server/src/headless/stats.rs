@@ -1,5 +1,7 @@
 //! The figures of a run. `docs/command-line.md` explains each of them.
 
+use std::time::Duration;
+
 use serde::Serialize;
 
 /// The object that `--stats json` prints.
@@ -29,6 +31,8 @@ pub struct Stats {
     pub tree_memory_bytes: Option<u64>,
     /// The same for each living metamer.
     pub bytes_per_metamer: Option<f64>,
+    /// Making and writing the export, if there is one.
+    pub seconds_export: Option<f64>,
     /// A hash of the plants, in hexadecimal; equal plants have equal hashes.
     pub plant_hash: String,
 }
@@ -53,6 +57,12 @@ pub struct PhaseSeconds {
 }
 
 impl Stats {
+    /// Adds how long the export took.
+    pub fn exported(&mut self, time: Duration) {
+        self.seconds_export = Some(time.as_secs_f64());
+        self.peak_memory_bytes = peak_memory_bytes();
+    }
+
     /// One line of JSON.
     pub fn to_json(&self) -> String {
         serde_json::to_string(self).expect("figures are always JSON")
@@ -135,6 +145,7 @@ mod tests {
             peak_memory_bytes: None,
             tree_memory_bytes: Some(600),
             bytes_per_metamer: Some(200.0),
+            seconds_export: None,
             plant_hash: "00ff".into(),
         };
         assert_eq!(
@@ -142,7 +153,7 @@ mod tests {
             "{\"metamers_alive\":3,\"metamers_grown\":4,\"axes\":1,\"leaves\":9,\"steps\":2,\"seconds_total\":1.0,\
              \"seconds_last_step\":0.25,\"seconds\":{\"space\":0.5,\"light\":0.0,\"vigor\":0.0,\"growth\":0.0,\
              \"shedding\":0.0,\"girth\":0.0,\"delta\":0.0},\"delta_bytes\":99,\"peak_memory_bytes\":null,\
-             \"tree_memory_bytes\":600,\"bytes_per_metamer\":200.0,\
+             \"tree_memory_bytes\":600,\"bytes_per_metamer\":200.0,\"seconds_export\":null,\
              \"plant_hash\":\"00ff\"}"
         );
     }

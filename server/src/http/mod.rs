@@ -1,6 +1,7 @@
 //! The routes of `PROTOCOL.md`, and the client itself.
 
 mod client;
+mod exports;
 mod failure;
 mod guard;
 mod imports;
@@ -14,7 +15,7 @@ mod thumbnail;
 mod trees;
 mod versions;
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use axum::{
     Router,
@@ -27,10 +28,11 @@ use espalier_session::Principal;
 use tokio::sync::Mutex;
 use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
 
-use self::{failure::Failure, guard::Asked, sessions::Download};
+pub use self::exports::Progresses;
+use self::{failure::Failure, guard::Asked};
 use crate::{
     authority::{Action, Authority, Object},
-    document::Format,
+    document::{FORMATS, FormatRow},
     live::Sessions,
     pool::SimulationPool,
     portrait::Portraits,
@@ -45,7 +47,7 @@ const MAX_SAID_BODY: usize = 32 * 1024;
 const MAX_TREE_BODY: usize = 264 * 1024;
 /// Uploads at once: each holds a file and its triangles.
 const MAX_UPLOADS: usize = 2;
-/// Exports at once: each holds the triangles of a whole scene, hundreds of megabytes at worst.
+/// Exports made at once: each holds a scene of its own.
 const MAX_EXPORTS: usize = 1;
 
 /// Pictures of species made at once: sessions grow on the same threads.
@@ -70,6 +72,8 @@ pub struct Shared {
     pub authority: Authority,
     /// Held by whoever opens a tree.
     pub opening: Arc<Mutex<()>>,
+    /// How far exports are.
+    pub progresses: Progresses,
 }
 
 impl Shared {
@@ -82,32 +86,34 @@ impl Shared {
 /// An address of the API, what is asked for there, and how it is answered.
 struct Route {
     /// Method and path, in which `{session}` and `{tree}` name what is asked for.
-    address: &'static str,
+    address: Cow<'static, str>,
     action: Action,
     answer: MethodRouter<Shared>,
 }
 
-/// The API, but for the socket.
+/// Files of any format, each of which takes as long as it takes.
+fn downloads() -> Vec<Route> {
+    let exports = GlobalConcurrencyLimitLayer::new(MAX_EXPORTS);
+    let take = |row: &'static FormatRow| {
+        let answer = get(move |state: State<Shared>, path: Path<String>, query| {
+            exports::take(state, path, query, row)
+        });
+        let address = format!("GET /api/sessions/{{session}}/tree.{}", row.ending).into();
+        Route { address, action: Action::TakeTree, answer: answer.layer(exports.clone()) }
+    };
+    FORMATS.iter().map(take).collect()
+}
+
+/// The rest of the API, but for the socket.
 fn routes() -> Vec<Route> {
-    let route = |address, action, answer| Route { address, action, answer };
+    let route = |address: &'static str, action, answer| Route { address: address.into(), action, answer };
     let at_once = GlobalConcurrencyLimitLayer::new;
     let body = DefaultBodyLimit::max;
-    let exports = at_once(MAX_EXPORTS);
-    let take = |address: &'static str, format, media_type| {
-        let ending = address.rsplit_once('.').map_or("", |(_, ending)| ending);
-        let download = Download { format, ending, media_type };
-        let answer =
-            get(move |state: State<Shared>, path: Path<String>| sessions::export(state, path, download));
-        route(address, Action::TakeTree, answer.layer(exports.clone()))
-    };
     vec![
+        route("GET /api/formats", Action::SeeSpecies, get(exports::formats)),
+        route("GET /api/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress)),
         route("POST /api/sessions", Action::BeginSession, post(sessions::create)),
         route("GET /api/sessions/{session}", Action::SeeSession, get(sessions::find)),
-        take("GET /api/sessions/{session}/tree.glb", Format::Glb, "model/gltf-binary"),
-        take("GET /api/sessions/{session}/tree.json", Format::Skeleton, "application/json"),
-        take("GET /api/sessions/{session}/tree.mtg", Format::Mtg, "text/plain"),
-        take("GET /api/sessions/{session}/tree.csv", Format::Qsm, "text/csv"),
-        take("GET /api/sessions/{session}/tree.ply", Format::Cloud, "application/octet-stream"),
         route(
             "POST /api/sessions/{session}/obstacles",
             Action::EditSession,
@@ -164,7 +170,7 @@ fn routes() -> Vec<Route> {
 
 const SOCKET: &str = "GET /api/sessions/{session}/socket";
 
-fn path_of(address: &'static str) -> &'static str {
+fn path_of(address: &str) -> &str {
     address.split_once(' ').map_or(address, |(_, path)| path)
 }
 
@@ -172,16 +178,20 @@ fn path_of(address: &'static str) -> &'static str {
 pub fn router(shared: Shared) -> Router {
     let authority = shared.authority;
     let asks = |action| from_fn_with_state(Asked { authority, action }, guard::ask);
-    let api = routes().into_iter().fold(Router::new(), |router, Route { address, action, answer }| {
-        router.route(path_of(address), answer.layer(asks(action)))
-    });
-    let requests = api
+    let api = |routes: Vec<Route>| {
+        routes.into_iter().fold(Router::new(), |router, Route { address, action, answer }| {
+            router.route(path_of(&address), answer.layer(asks(action)))
+        })
+    };
+    let requests = api(routes())
         .route("/api/{*unknown}", get(failure::unknown_route))
         .route("/health", get("ok"))
         .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
         .layer(from_fn(guard::time_limit));
     Router::new()
         .merge(requests)
+        // Whoever no longer waits closes the connection, and that ends the work.
+        .merge(api(downloads()))
         // A socket lasts as long as its drawing, so no time limit holds here. Who comes is known by its hello: the session
         // asks then.
         .route(path_of(SOCKET), get(sessions::socket))
@@ -223,6 +233,7 @@ mod tests {
             portraits: Portraits::default(),
             authority,
             opening: Arc::default(),
+            progresses: Progresses::default(),
         })
     }
 
@@ -240,6 +251,7 @@ mod tests {
         path.replace("{session}", "oak")
             .replace("{tree}", "ash")
             .replace("{id}", "1")
+            .replace("{ticket}", "a-ticket-of-nobody")
             .replace("{slug}", "oak")
             .replace("{number}", "1")
     }
@@ -247,8 +259,8 @@ mod tests {
     #[tokio::test]
     async fn au1_every_address_asks_whether_one_may() {
         let (closed, open) = (server(|_, _, _| false).await, server(authority::may).await);
-        for Route { address, .. } in routes() {
-            let (method, path) = (method_of(address), filled(path_of(address)));
+        for Route { address, .. } in routes().into_iter().chain(downloads()) {
+            let (method, path) = (method_of(&address), filled(path_of(&address)));
             assert_eq!(status(&closed, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");
             assert_ne!(status(&open, &method, &path, "").await, StatusCode::FORBIDDEN, "{address}");
         }
@@ -308,9 +320,11 @@ mod tests {
             .collect();
         let named = |address: &str| {
             let address = address.replace("{session}", "NAME").replace("{slug}", "SLUG");
-            address.replace("{tree}", "ID").replace("{id}", "ID").replace("{number}", "N")
+            let address = address.replace("{tree}", "ID").replace("{id}", "ID").replace("{number}", "N");
+            address.replace("{ticket}", "TICKET")
         };
-        let answered = routes().into_iter().map(|route| route.address).chain([SOCKET]);
-        assert_eq!(listed, answered.map(named).collect());
+        let all = routes().into_iter().chain(downloads()).map(|route| route.address);
+        let answered = all.chain([SOCKET.into()]);
+        assert_eq!(listed, answered.map(|address| named(&address)).collect());
     }
 }

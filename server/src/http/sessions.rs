@@ -1,4 +1,4 @@
-//! Sessions: making one, its socket, its tree as a file.
+//! Sessions: making one, its socket.
 
 use axum::{
     Extension, Json,
@@ -6,7 +6,7 @@ use axum::{
         Path, State, WebSocketUpgrade,
         ws::{WebSocket, rejection::WebSocketUpgradeRejection},
     },
-    http::{StatusCode, header},
+    http::StatusCode,
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
@@ -23,7 +23,6 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     authority::{Action, Object},
-    document,
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
     name,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
@@ -33,14 +32,6 @@ use crate::{
 const READ_BUFFER: usize = 8 * 1024;
 /// Frames are written one at a time, so this only has to hold the largest one.
 const MAX_WRITE_BUFFER: usize = espalier_proto::frame::MAX_BODY_BYTES + 1024 * 1024;
-
-/// What a session's tree is downloaded as.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Download {
-    pub format: document::Format,
-    pub ending: &'static str,
-    pub media_type: &'static str,
-}
 
 pub(super) async fn create(
     State(shared): State<Shared>,
@@ -121,24 +112,6 @@ pub(super) async fn find(
     } else {
         Err(Failure::not_found("session"))
     }
-}
-
-pub(super) async fn export(
-    State(shared): State<Shared>,
-    Path(session): Path<String>,
-    Download { format, ending, media_type }: Download,
-) -> Result<impl IntoResponse, Failure> {
-    let document = open(&shared, &session).await?.read().await?;
-    let file = shared.pool.run(move || document::export(&document.bytes, format)).await?;
-    let file = file.map_err(|error| {
-        tracing::error!(session, %error, "a document cannot be exported");
-        Failure::unavailable("The tree cannot be exported.")
-    })?;
-    let headers = [
-        (header::CONTENT_TYPE, media_type.to_owned()),
-        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"tree.{ending}\"")),
-    ];
-    Ok((headers, file))
 }
 
 pub(super) async fn socket(

@@ -48,6 +48,19 @@ it("files of every species are glTF without error or warning, says Khronos' vali
   }
 }, 1_200_000);
 
+it.each([
+  [["--lod", "set", "--hull", "--quantised"], []],
+  [["--by-limb", "--quantised"], []],
+  [["--lod", "3"], []],
+  // The validator does not know these two, and says so as information.
+  [["--compressed", "--quantised"], ["UNSUPPORTED_EXTENSION"]],
+  [["--instanced"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
+])("so are files with %j", async (options, information) => {
+  const { issues } = await validateBytes(await grown("options", ["--species", "cherry", ...options]));
+  expect([issues.numErrors, issues.numWarnings]).toEqual([0, 0]);
+  expect([...new Set(issues.messages.map(({ code }) => code))].sort()).toEqual(information);
+}, 120_000);
+
 it("so is the file of a tree of no species", async () => {
   const { issues } = await validateBytes(await grown("tree", ["--metamers", "500", "--licence", "CC0-1.0"]));
   expect([issues.numErrors, issues.numWarnings]).toEqual([0, 0]);

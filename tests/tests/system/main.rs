@@ -5,6 +5,7 @@ mod bad_input;
 mod command_line;
 mod commands;
 mod crashes;
+mod exports;
 mod guiding;
 mod handshake;
 mod imports;

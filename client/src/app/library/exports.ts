@@ -1,10 +1,12 @@
-import { askFor } from "../requests/request";
-import { bytesOf, Transfer } from "../requests/transfer";
+import type { ExportProgress } from "../../wire/generated";
+import { newClientKey } from "../connection/client-record";
+import { ask, askFor } from "../requests/request";
+import { bytesOf, type Progress, Transfer } from "../requests/transfer";
 import { say } from "../words/say";
 import { fileName } from "./file-name";
 
-/** The formats that the server writes; a picture of the view is made here. */
-export type ServerFormat = "glb" | "json";
+/** How often the server is asked how far a file is. */
+const EVERY = 500;
 
 /** Makes a picture of so many pixels across and down as PNG, and tells what share of it is done. */
 export type Photographer = (
@@ -32,14 +34,30 @@ export class Exports {
     this.#options = options;
   }
 
-  /** The tree as a file that the server writes. */
-  async file(format: ServerFormat, name: string): Promise<void> {
+  /** The tree as a file that the server writes, named by its ending. */
+  async file(ending: string, name: string, options: ReadonlyMap<string, string> = new Map()): Promise<void> {
     const session = this.#options.session();
     if (session !== null) {
-      await this.#give(name, format, () =>
-        this.transfer.run(async (signal, tell) =>
-          bytesOf(await askFor("GET", addressOf(session, format), undefined, signal), tell),
-        ),
+      await this.#give(name, ending, () =>
+        this.transfer.run(async (signal, tell) => {
+          const place = `/api/sessions/${encodeURIComponent(session)}`;
+          const ticket = newClientKey();
+          let isMaking = true;
+          const watch = setInterval(
+            () => void tellProgress(`${place}/exports/${ticket}`, (progress) => isMaking && tell(progress)),
+            EVERY,
+          );
+          try {
+            const asked = new URLSearchParams([...options, ["ticket", ticket]]);
+            const answer = await askFor("GET", `${place}/tree.${ending}?${asked}`, undefined, signal);
+            isMaking = false;
+            clearInterval(watch);
+            return await bytesOf(answer, tell);
+          } finally {
+            isMaking = false;
+            clearInterval(watch);
+          }
+        }),
       );
     }
   }
@@ -81,7 +99,10 @@ export function keepFile(file: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/** Where a session's plants can be downloaded. */
-function addressOf(session: string, format: ServerFormat): string {
-  return `/api/sessions/${encodeURIComponent(session)}/tree.${format}`;
+/** Tells how far a file is that the server makes; it is no loss where the server does not say. */
+async function tellProgress(path: string, tell: (progress: Progress) => void): Promise<void> {
+  const progress = await ask<ExportProgress>("GET", path).catch(() => null);
+  if (progress) {
+    tell({ bytes: progress.written, total: progress.expected, isMaking: true });
+  }
 }

@@ -1,5 +1,6 @@
 import { effect, type Signal, signal } from "@preact/signals";
 import { BOUNDS } from "../../wire/generated";
+import { type ExportChoice, FIRST_CHOICE, isExportChoice } from "../library/export-choice";
 import { areUnsavedTrees, isSavedState, type SavedState, type UnsavedTree } from "../library/unsaved-tree";
 import { isSymmetry, OFF, type Symmetry } from "../tools/symmetry/symmetry";
 import { LANGUAGES, type Language } from "../words/say";
@@ -41,6 +42,8 @@ export interface Settings {
   readonly treeNames: Signal<Readonly<Record<string, string>>>;
   /** Whether it was read that the picture is slow here. */
   readonly slownessRead: Signal<boolean>;
+  /** What was downloaded last. */
+  readonly exportChoice: Signal<ExportChoice>;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
   /** Trees that were left and not saved, the last one first. */
@@ -74,6 +77,7 @@ export function loadSettings(store: Storage): Settings {
     namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
     treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
     slownessRead: kept(store, "slowness-read", false, (value) => typeof value === "boolean"),
+    exportChoice: kept<ExportChoice>(store, "export", FIRST_CHOICE, isExportChoice),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),
     savedState: kept<SavedState | null>(store, "saved", null, isSavedState),

@@ -6,6 +6,8 @@ import { refusal, silence } from "./request";
 export interface Progress {
   readonly bytes: number;
   readonly total: number | null;
+  /** Whether it is still made where it comes from. */
+  readonly isMaking?: boolean;
 }
 
 /** Something large on its way to or from the server, one at a time: shown while it lasts, and can be given up. */

@@ -5,6 +5,7 @@ import { BRUSH } from "./brush";
 import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
 import { CONTROLS } from "./controls";
+import { EXPORTS } from "./exports";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
 import { PARAMETERS } from "./parameters";
@@ -31,6 +32,7 @@ export const LATER = {
   ...PROBLEMS,
   ...SCENE,
   ...SHEETS,
+  ...EXPORTS,
   ...SUN,
   ...SHAPING,
   ...HELP,

@@ -43,21 +43,6 @@ export const SHEETS = {
   "sheets.library.delete.sure": ["Delete for good?", "Endgültig löschen?"],
   "sheets.library.keep": ["Keep", "Behalten"],
   "sheets.download.format": ["As", "Als"],
-  "sheets.download.png": ["Picture (PNG)", "Bild (PNG)"],
-  "sheets.download.png.text": [
-    "What you see of the tree now, without the controls.",
-    "Was du jetzt vom Baum siehst, ohne die Bedienung.",
-  ],
-  "sheets.download.glb": ["Model (glTF)", "Modell (glTF)"],
-  "sheets.download.glb.text": [
-    "Wood and leaves as triangles, in metres, for Blender and other programs.",
-    "Holz und Blätter als Dreiecke, in Metern, für Blender und andere Programme.",
-  ],
-  "sheets.download.json": ["Skeleton (JSON)", "Skelett (JSON)"],
-  "sheets.download.json.text": [
-    "Each internode with its place, thickness, order and birth, for programs of your own.",
-    "Jedes Internodium mit Ort, Dicke, Ordnung und Geburt, für eigene Programme.",
-  ],
   "sheets.download.size": ["Pixels", "Pixel"],
   "sheets.download.act": ["Download file", "Datei herunterladen"],
   "sheets.share.advice": [

@@ -1,6 +1,7 @@
 /** Files on their way. */
 export const TRANSFERS = {
   "transfers.export": ["Making the file…", "Die Datei entsteht…"],
+  "transfers.export.making": ["Making the file, {percent} %", "Die Datei entsteht, {percent} %"],
   "transfers.export.moving": ["Loading the file, {megabytes} MB", "Die Datei wird geladen, {megabytes} MB"],
   "transfers.export.part": [
     "Loading the file, {done} of {megabytes} MB",

@@ -5,7 +5,7 @@ use std::f32::consts::{PI, TAU};
 
 use espalier_mesh::{TriangleMesh, leaves::Leaf};
 use espalier_settings::{LeafKind, LeafNature, OrnamentNature};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Mat3, Quat, Vec2, Vec3, Vec4};
 
 use super::leaf_look::{bending, own_numbers};
 use crate::painted::LAYOUT;
@@ -31,7 +31,7 @@ pub(crate) struct Cards {
 
 /// How finely leaves are drawn.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fineness {
+struct Fineness {
     /// Parts across and along a blade.
     blade: [u32; 2],
     /// Crossed cards of a spray, and parts along each.
@@ -39,12 +39,12 @@ pub(crate) struct Fineness {
 }
 
 impl Fineness {
-    /// For so many leaves.
-    pub(crate) fn of(leaves: usize) -> Self {
-        if leaves > MANY_LEAVES {
-            Self { blade: [2, 1], spray: [2, 1] }
-        } else {
-            Self { blade: [2, 3], spray: [3, 2] }
+    /// For so many leaves, at a level of detail.
+    fn of(leaves: usize, level: usize) -> Self {
+        match level {
+            0 if leaves <= MANY_LEAVES => Self { blade: [2, 3], spray: [3, 2] },
+            0 | 1 => Self { blade: [2, 1], spray: [2, 1] },
+            _ => Self { blade: [1, 1], spray: [2, 1] },
         }
     }
 }
@@ -55,31 +55,75 @@ pub(crate) struct LeafForm {
     nature: LeafNature,
     reach: f32,
     fineness: Fineness,
+    level: u8,
 }
 
 impl LeafForm {
-    pub(crate) fn new(kind: LeafKind, fineness: Fineness) -> Self {
+    pub(crate) fn new(kind: LeafKind, leaves: usize, level: usize) -> Self {
         Self {
+            fineness: Fineness::of(leaves, level),
+            level: level as u8,
             nature: kind.nature(),
             reach: LAYOUT.leaf_reach.get(kind.name()).copied().unwrap_or(0.5),
-            fineness,
         }
     }
 
     /// Adds a leaf as it hangs.
     pub(crate) fn add(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
-        if self.nature.is_spray { self.add_spray(cards, leaf, hue) } else { self.add_blade(cards, leaf, hue) }
+        let own = own_numbers(leaf.random);
+        self.add_form(cards, &self.stand(leaf), own.x, bending(leaf.random, own.w), hue);
     }
 
-    fn add_blade(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
+    /// How many forms stand for all leaves where these are places: the pictures of an atlas, each mirrored as well.
+    pub(crate) const PROTOTYPES: usize = 8;
+
+    /// Adds one of the forms that stand for all leaves, at the origin, one internode long, along X and facing Y.
+    pub(crate) fn add_prototype(&self, cards: &mut Cards, which: usize) {
+        let stand = Stand { base: Vec3::ZERO, direction: Vec3::X, side: Vec3::Z, up: Vec3::Y, size: 1.0 };
+        let number = (which as f32 + 0.5) / Self::PROTOTYPES as f32;
+        self.add_form(cards, &stand, number, bending(0.5, 0.5), Vec3::ONE);
+    }
+
+    /// Which of those forms stands for a leaf, and where.
+    pub(crate) fn pose(&self, leaf: &Leaf) -> Pose {
+        let Stand { base, direction, side, up, size } = self.stand(leaf);
+        let number = own_numbers(leaf.random).x * Self::PROTOTYPES as f32;
+        Pose {
+            prototype: (number as usize).min(Self::PROTOTYPES - 1),
+            place: base,
+            rotation: Quat::from_mat3(&Mat3::from_cols(direction, up, side)).normalize(),
+            scale: size,
+        }
+    }
+
+    /// The level of detail that it is drawn at.
+    pub(crate) fn level(&self) -> u8 {
+        self.level
+    }
+
+    /// How a leaf stands when it has rolled about its midrib, or a spray has turned.
+    fn stand(&self, leaf: &Leaf) -> Stand {
         let Leaf { base, direction, normal, size, random } = *leaf;
         let own = own_numbers(random);
-        let (sin, cos) = libm::sincosf((own.y - 0.5) * ROLL);
+        let roll = if self.nature.is_spray { -TAU * own.y } else { (own.y - 0.5) * ROLL };
+        let (sin, cos) = libm::sincosf(roll);
         let level = direction.cross(normal);
-        let (side, up) = (level * cos - normal * sin, normal * cos + level * sin);
-        let [bow, fold] = bending(random, own.w).map(|much| much * self.nature.bend);
-        let tile = Tile::of(own.x);
-        cards.grid(self.fineness.blade, &tile, hue, |across, along| {
+        Stand { base, direction, side: level * cos - normal * sin, up: normal * cos + level * sin, size }
+    }
+
+    fn add_form(&self, cards: &mut Cards, stand: &Stand, number: f32, bending: [f32; 2], hue: Vec3) {
+        let tile = Tile::of(number);
+        if self.nature.is_spray {
+            self.add_spray(cards, stand, &tile, hue);
+        } else {
+            self.add_blade(cards, stand, &tile, bending, hue);
+        }
+    }
+
+    fn add_blade(&self, cards: &mut Cards, stand: &Stand, tile: &Tile, bending: [f32; 2], hue: Vec3) {
+        let Stand { base, direction, side, up, size } = *stand;
+        let [bow, fold] = bending.map(|much| much * self.nature.bend);
+        cards.grid(self.fineness.blade, tile, hue, |across, along| {
             let (out, along) = (across * full(self.reach), shifted(along));
             let sunk = bow * along * along;
             let place = direction * (along - 0.12 * sunk) + side * out + up * (out.abs() * fold - sunk);
@@ -89,17 +133,14 @@ impl LeafForm {
         });
     }
 
-    fn add_spray(&self, cards: &mut Cards, leaf: &Leaf, hue: Vec3) {
-        let Leaf { base, direction, normal, size, random } = *leaf;
-        let own = own_numbers(random);
-        let level = direction.cross(normal);
+    fn add_spray(&self, cards: &mut Cards, stand: &Stand, tile: &Tile, hue: Vec3) {
+        let Stand { base, direction, side: level, up, size } = *stand;
         let [count, parts] = self.fineness.spray;
-        let tile = Tile::of(own.x);
         for which in 0..count {
-            let (sin, cos) = libm::sincosf(PI * which as f32 / count as f32 + TAU * own.y);
-            let side = level * cos + normal * sin;
+            let (sin, cos) = libm::sincosf(PI * which as f32 / count as f32);
+            let side = level * cos + up * sin;
             let flat = side.cross(direction);
-            cards.grid([2, parts], &tile, hue, |across, along| {
+            cards.grid([2, parts], tile, hue, |across, along| {
                 let (out, along) = (across * full(self.reach), shifted(along));
                 let sag = SAG * self.nature.bend * along * along;
                 Corner {
@@ -111,6 +152,24 @@ impl LeafForm {
             });
         }
     }
+}
+
+/// A leaf that is one of few forms, moved, turned and scaled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pose {
+    pub prototype: usize,
+    pub place: Vec3,
+    pub rotation: Quat,
+    pub scale: f32,
+}
+
+/// How a leaf stands: unit vectors from its base to its tip, across, and out of its upper side.
+struct Stand {
+    base: Vec3,
+    direction: Vec3,
+    side: Vec3,
+    up: Vec3,
+    size: f32,
 }
 
 /// A flower or fruit in its place.
@@ -228,11 +287,7 @@ impl Cards {
 
     /// Forgets all triangles, but not their room.
     pub(crate) fn clear(&mut self) {
-        let TriangleMesh { positions, normals, uvs, indices } = &mut self.mesh;
-        positions.clear();
-        normals.clear();
-        uvs.clear();
-        indices.clear();
+        self.mesh.clear();
         self.tangents.clear();
         self.hues.clear();
     }
@@ -288,7 +343,7 @@ mod tests {
     fn leaves_of_every_kind_are_cards_with_tangents() {
         for &kind in LeafKind::ALL {
             for (leaves, most) in [(1, 24), (MANY_LEAVES + 1, 8)] {
-                let form = LeafForm::new(kind, Fineness::of(leaves));
+                let form = LeafForm::new(kind, leaves, 0);
                 for random in [0.1, 0.3, 0.6, 0.9] {
                     let mut cards = Cards::default();
                     form.add(&mut cards, &Leaf { random, ..LEAF }, Vec3::ONE);

@@ -13,10 +13,13 @@ use espalier_settings::Appearance;
 use glam::Vec3;
 
 use self::{
-    cards::{Cards, Fineness, LeafForm},
+    cards::{Cards, LeafForm, Pose},
     leaf_look::{LeafPainter, Shoot},
     ornaments::Bearer,
 };
+
+/// At each level of detail one of so many leaves is drawn, so large that they cover as much.
+const ONE_OF: [u32; 3] = [1, 2, 6];
 
 /// What each metamer of a plant bears in a look.
 pub(crate) struct Foliage<'a> {
@@ -28,10 +31,12 @@ pub(crate) struct Foliage<'a> {
     goes_on: Vec<bool>,
     painter: LeafPainter,
     form: LeafForm,
+    one_of: u32,
 }
 
 impl<'a> Foliage<'a> {
-    pub(crate) fn of(plant: &'a Plant, style: &'a Style, look: &'a Appearance) -> Self {
+    /// At a level of detail, from 0, the finest.
+    pub(crate) fn of(plant: &'a Plant, style: &'a Style, look: &'a Appearance, level: usize) -> Self {
         let count = living(plant).map(|id| usize::from(foliage::leaves(plant, id, style))).sum();
         Self {
             plant,
@@ -40,14 +45,20 @@ impl<'a> Foliage<'a> {
             widths: Widths::of(plant, style.girth()),
             goes_on: goes_on(plant),
             painter: LeafPainter::new(&look.leaves),
-            form: LeafForm::new(look.leaves.shape, Fineness::of(count)),
+            form: LeafForm::new(look.leaves.shape, count, level),
+            one_of: ONE_OF[level.min(ONE_OF.len() - 1)],
         }
     }
 
     /// The leaves of a metamer as they hang, and their colours.
     pub(crate) fn leaves(&self, id: MetamerId) -> impl Iterator<Item = (Leaf, Vec3)> {
         let shoot = Shoot::of(self.plant, id);
-        leaves::of(self.plant, id, self.style).filter_map(move |leaf| self.painter.paint(&leaf, &shoot))
+        let larger = (self.one_of as f32).sqrt();
+        let all = (id.raw()..).zip(leaves::of(self.plant, id, self.style));
+        all.filter(|(number, _)| number % self.one_of == 0).filter_map(move |(_, leaf)| {
+            let (leaf, hue) = self.painter.paint(&leaf, &shoot)?;
+            Some((Leaf { size: larger * leaf.size, ..leaf }, hue))
+        })
     }
 
     /// Adds the leaves of a metamer.
@@ -55,6 +66,26 @@ impl<'a> Foliage<'a> {
         for (leaf, hue) in self.leaves(id) {
             self.form.add(cards, &leaf, hue);
         }
+    }
+
+    /// The leaves of a metamer as places of few forms, and their colours.
+    pub(crate) fn poses(&self, id: MetamerId) -> impl Iterator<Item = (Pose, Vec3)> {
+        self.leaves(id).map(|(leaf, hue)| (self.form.pose(&leaf), hue))
+    }
+
+    /// What all its leaves have in common.
+    pub(crate) fn form(&self) -> &LeafForm {
+        &self.form
+    }
+
+    /// Whether a metamer bears leaves in summer.
+    pub(crate) fn is_leafy(&self, id: MetamerId) -> bool {
+        foliage::leaves(self.plant, id, self.style) > 0
+    }
+
+    /// The radius of a metamer, in internodes.
+    pub(crate) fn radius(&self, id: MetamerId) -> f32 {
+        self.widths.radius(id)
     }
 
     /// Adds the flowers of a metamer.
@@ -73,8 +104,8 @@ impl<'a> Foliage<'a> {
         Bearer {
             row: id.raw(),
             ends: [metamers.parent(id).map_or(to, |parent| metamers.end(parent)), to],
-            radius: self.widths.radius(id),
-            is_leafy: foliage::leaves(self.plant, id, self.style) > 0,
+            radius: self.radius(id),
+            is_leafy: self.is_leafy(id),
             is_tip: !self.goes_on[id.index()],
             vigor: Shoot::of(self.plant, id).vigor,
         }

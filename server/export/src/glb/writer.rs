@@ -1,292 +1,375 @@
 //! Writes vertices, triangles and textures into the binary part of a file, and says in JSON where they are.
 
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, io::SeekFrom};
 
-use glam::{Vec2, Vec3, Vec4};
-use serde_json::Value;
+use glam::Vec3;
+use serde_json::{Value, json};
 
-use super::{About, ExportError};
+use super::{
+    packing,
+    vertex::{Attribute, Layout, Vertex},
+};
 use crate::{
-    colour::encoded,
+    ExportError, Sink,
+    assembly::Surface,
     gltf::{
-        ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Image,
-        Material, Mesh, Node, NormalTexture, PbrMetallicRoughness, Primitive, Root, Scene,
-        Texture as TextureJson, TextureInfo, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT,
+        ARRAY_BUFFER, Accessor, Asset, Attributes, Buffer, BufferView, ELEMENT_ARRAY_BUFFER, FLOAT, Mesh,
+        Node, Primitive, Root, Scene, UNSIGNED_INT, UNSIGNED_SHORT,
     },
-    png,
-    surface::{Texture, bark::Bark},
 };
 
 const MAGIC: u32 = u32::from_le_bytes(*b"glTF");
 const VERSION: u32 = 2;
 const JSON_CHUNK: u32 = u32::from_le_bytes(*b"JSON");
 const BINARY_CHUNK: u32 = u32::from_le_bytes(*b"BIN\0");
+/// Bytes before the JSON, and between it and the binary part.
+const HEAD: usize = 20;
+const BETWEEN: usize = 8;
 /// The index that glTF keeps for restarting a strip; it must not name a vertex.
 const RESERVED_INDEX: usize = u16::MAX as usize;
-/// Bytes of a vertex: place, normal, tangent, place in the texture, colour.
-const STRIDE: usize = 12 + 12 + 16 + 8 + 4;
 
-/// One vertex, lengths in internodes.
-pub(super) struct Vertex {
-    pub place: Vec3,
-    pub normal: Vec3,
-    pub tangent: Vec4,
-    /// Upwards.
-    pub uv: Vec2,
-    /// Linear.
-    pub colour: Vec3,
+/// How vertices and triangles are packed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Packing {
+    pub is_quantised: bool,
+    pub is_compressed: bool,
 }
 
-/// What triangles look like.
-#[derive(Clone, Copy)]
-pub(super) enum Surface<'a> {
-    /// Bark, and how deep its furrows look.
-    Bark(&'a Bark, f32),
-    /// What has pictures with nothing around them.
-    Thin(&'static str, &'a Texture),
-    /// One linear colour.
-    Plain(&'static str, Vec3),
-}
-
-impl Surface<'_> {
-    fn name(&self) -> &'static str {
-        match self {
-            Self::Bark(..) => "Bark",
-            Self::Thin(name, _) | Self::Plain(name, _) => name,
-        }
-    }
+/// A node that is open: where it stands, and from where vertices below it are measured.
+struct Open {
+    node: usize,
+    origin: Vec3,
 }
 
 /// Collects the plants of one file.
-pub(super) struct Writer {
-    scale: f32,
-    /// The seed of the present plant, from which its vertices are measured.
-    origin: Vec3,
-    root: Root,
-    materials: BTreeMap<&'static str, usize>,
-    binary: Vec<u8>,
+pub(super) struct Writer<'a> {
+    out: &'a mut dyn Sink,
+    pub(super) packing: Packing,
+    pub(super) scale: f32,
+    pub(super) root: Root,
+    pub(super) materials: BTreeMap<&'static str, usize>,
+    open_nodes: Vec<Open>,
+    /// Meshes that several nodes show, by their level of detail and number.
+    pub(super) prototypes: BTreeMap<(u8, usize), usize>,
+    /// Bytes left for the JSON before the binary part; it is written last.
+    room: usize,
+    /// Bytes of the binary part.
+    pub(super) written: usize,
+    /// Bytes that its compressed views have when they are not.
+    unpacked: usize,
 }
 
-impl Writer {
-    pub(super) fn new(scale: f32, about: &About<'_>) -> Self {
-        let asset = Asset {
-            version: "2.0",
-            generator: about.program.to_owned(),
-            copyright: about.copyright(),
-            extras: about.extras(),
-        };
-        let root = Root {
-            asset,
-            scene: 0,
-            scenes: vec![Scene { name: "Scene", nodes: Vec::new() }],
-            nodes: Vec::new(),
-            meshes: Vec::new(),
-            materials: Vec::new(),
-            textures: Vec::new(),
-            images: Vec::new(),
-            accessors: Vec::new(),
-            buffer_views: Vec::new(),
-            buffers: Vec::new(),
-        };
-        Self { scale, origin: Vec3::ZERO, root, materials: BTreeMap::new(), binary: Vec::new() }
+impl<'a> Writer<'a> {
+    /// Begins a file with so much room for its JSON; without room there is no binary part.
+    pub(super) fn new(
+        out: &'a mut dyn Sink,
+        asset: Asset,
+        scale: f32,
+        packing: Packing,
+        room: usize,
+    ) -> Result<Self, ExportError> {
+        let room = room.next_multiple_of(4);
+        if room > 0 {
+            std::io::copy(
+                &mut std::io::Read::take(std::io::repeat(b' '), (HEAD + room + BETWEEN) as u64),
+                &mut *out,
+            )?;
+        }
+        let root =
+            Root { asset, scenes: vec![Scene { name: "Scene", nodes: Vec::new() }], ..Root::default() };
+        let (materials, open_nodes, prototypes) = Default::default();
+        let (written, unpacked) = (0, 0);
+        Ok(Self { out, packing, scale, root, materials, open_nodes, prototypes, room, written, unpacked })
     }
 
-    /// Adds the node of a plant that stands at a place; parts that follow are its own.
-    pub(super) fn begin_plant(&mut self, name: String, seed: Vec3, extras: Value) {
-        self.origin = seed;
-        let translation = (seed != Vec3::ZERO).then(|| (seed * self.scale).to_array());
-        self.root.scenes[0].nodes.push(self.root.nodes.len());
-        let node = Node { name, translation, mesh: None, children: Vec::new(), extras: Some(extras) };
+    /// Adds a node that stands at a place, below the one that is open; what follows is below it, until it is ended.
+    pub(super) fn open(&mut self, name: &str, place: Vec3, extras: Option<Value>) {
+        let node = self.root.nodes.len();
+        let parent = self.open_nodes.last().map_or(Vec3::ZERO, |parent| parent.origin);
+        let translation = (place != parent).then(|| ((place - parent) * self.scale).to_array());
+        self.adopt(Node { name: name.to_owned(), translation, extras, ..Node::default() }, 0);
+        self.open_nodes.push(Open { node, origin: place });
+    }
+
+    /// Ends the node that was begun last.
+    pub(super) fn close(&mut self) {
+        self.open_nodes.pop();
+    }
+
+    /// Adds a node below the one that is open, or at the root of a scene.
+    pub(super) fn adopt(&mut self, node: Node, scene: usize) {
+        let index = self.root.nodes.len();
+        match self.open_nodes.last().filter(|_| scene == 0) {
+            Some(parent) => self.root.nodes[parent.node].children.push(index),
+            None => self.root.scenes[scene].nodes.push(index),
+        }
         self.root.nodes.push(node);
     }
 
-    /// Begins a part of the present plant.
-    pub(super) fn begin_part(&mut self) -> Part<'_> {
-        let start = self.binary.len();
-        Part { writer: self, start, low: Vec3::MAX, high: Vec3::MIN }
+    /// The name of the node that is open.
+    pub(super) fn owner(&self) -> String {
+        self.open_nodes.last().map_or_else(String::new, |open| self.root.nodes[open.node].name.clone())
     }
 
-    /// The index of a material, which is made when it is first asked for.
-    fn material(&mut self, surface: &Surface<'_>) -> usize {
-        let name = surface.name();
-        if let Some(&index) = self.materials.get(name) {
-            return index;
-        }
-        let material = match surface {
-            Surface::Plain(_, colour) => plain(name, *colour, 0.9),
-            Surface::Thin(_, texture) => {
-                let colours: Vec<[u8; 4]> = texture.colours.iter().zip(&texture.cover).map(covered).collect();
-                let mut material = plain(name, Vec3::ONE, 0.7);
-                let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture = Some(self.texture(format!("{name} colour"), texture.side, &colours));
-                material.normal_texture = Some(self.normals(name, texture, 1.0));
-                material.alpha_mode = Some("MASK");
-                material.double_sided = true;
-                material
-            }
-            Surface::Bark(bark, relief) => {
-                let texture = &bark.texture;
-                let colours: Vec<[u8; 3]> = texture.colours.iter().map(|&colour| encoded(colour)).collect();
-                let mut material = plain(name, Vec3::ONE, 1.0);
-                let exposure = texture.exposure.as_ref().map(|exposure| {
-                    let channels: Vec<[u8; 3]> =
-                        exposure.iter().map(|&[sky, rough]| [byte(sky), byte(rough), 0]).collect();
-                    self.texture(format!("{name} occlusion and roughness"), texture.side, &channels)
-                });
-                let pbr = &mut material.pbr_metallic_roughness;
-                pbr.base_color_texture = Some(self.texture(format!("{name} colour"), texture.side, &colours));
-                pbr.metallic_roughness_texture = exposure;
-                material.occlusion_texture = exposure;
-                material.normal_texture = Some(self.normals(name, texture, *relief));
-                material
-            }
-        };
-        let index = self.root.materials.len();
-        self.root.materials.push(material);
-        self.materials.insert(name, index);
-        index
+    pub(super) fn origin(&self) -> Vec3 {
+        self.open_nodes.last().map_or(Vec3::ZERO, |open| open.origin)
     }
 
-    fn normals(&mut self, name: &str, texture: &Texture, scale: f32) -> NormalTexture {
-        let pixels: Vec<[u8; 3]> =
-            texture.normals.iter().map(|normal| (*normal * 0.5 + 0.5).to_array().map(byte)).collect();
-        let TextureInfo { index } = self.texture(format!("{name} normal"), texture.side, &pixels);
-        NormalTexture { index, scale }
+    /// Begins a mesh; what it shows lies within `reach` internodes of the open node if vertices are quantised.
+    pub(super) fn begin_part(&self, repeats: bool, reach: f32) -> Part {
+        let layout = Layout::new(self.packing.is_quantised, repeats);
+        let unit = if self.packing.is_quantised { reach * self.scale } else { 1.0 };
+        let (origin, start) = (self.origin(), self.written);
+        Part { layout, unit, origin, start, count: 0, held: Vec::new(), low: Vec3::MAX, high: Vec3::MIN }
     }
 
-    fn texture<const CHANNELS: usize>(
-        &mut self,
-        name: String,
-        side: usize,
-        pixels: &[[u8; CHANNELS]],
-    ) -> TextureInfo {
-        // An image's first row is its top.
-        let lines: Vec<[u8; CHANNELS]> = pixels.chunks(side).rev().flatten().copied().collect();
-        let start = self.binary.len();
-        self.binary.extend(png::square(side, &lines));
-        let buffer_view = self.view(start, None, None);
-        self.root.textures.push(TextureJson { source: self.root.images.len() });
-        self.root.images.push(Image { name, mime_type: "image/png", buffer_view });
-        TextureInfo { index: self.root.textures.len() - 1 }
+    /// Begins a mesh that is measured from its own origin, in internodes; it is small, and not quantised.
+    pub(super) fn begin_plain(&self) -> Part {
+        let layout = Layout::new(false, false);
+        let (unit, start) = (self.scale, self.written);
+        let (low, high) = (Vec3::MAX, Vec3::MIN);
+        Part { layout, unit, origin: Vec3::ZERO, start, count: 0, held: Vec::new(), low, high }
+    }
+
+    /// Makes bytes a view.
+    pub(super) fn whole_view(&mut self, bytes: &[u8], target: Option<u32>) -> Result<usize, ExportError> {
+        let start = self.written;
+        self.put(bytes)?;
+        self.view(start, None, target)
+    }
+
+    fn put(&mut self, bytes: &[u8]) -> Result<(), ExportError> {
+        self.written += bytes.len();
+        Ok(self.out.write_all(bytes)?)
     }
 
     /// Makes the bytes from `start` on a view.
-    fn view(&mut self, start: usize, byte_stride: Option<usize>, target: Option<u32>) -> usize {
-        let byte_length = self.binary.len() - start;
+    fn view(
+        &mut self,
+        start: usize,
+        byte_stride: Option<usize>,
+        target: Option<u32>,
+    ) -> Result<usize, ExportError> {
+        let byte_length = self.written - start;
+        self.pad()?;
+        let view =
+            BufferView { buffer: 0, byte_offset: start, byte_length, byte_stride, target, extensions: None };
+        self.root.buffer_views.push(view);
+        Ok(self.root.buffer_views.len() - 1)
+    }
+
+    /// Writes items of `stride` bytes each in their compressed form and makes them a view.
+    fn packed_view(
+        &mut self,
+        packed: &[u8],
+        [count, stride]: [usize; 2],
+        mode: &str,
+        target: u32,
+    ) -> Result<usize, ExportError> {
+        let (start, byte_length) = (self.written, count * stride);
+        self.put(packed)?;
+        self.pad()?;
+        let is_vertices = target == ARRAY_BUFFER;
         self.root.buffer_views.push(BufferView {
-            buffer: 0,
-            byte_offset: start,
+            buffer: 1,
+            byte_offset: self.unpacked,
             byte_length,
-            byte_stride,
-            target,
+            byte_stride: is_vertices.then_some(stride),
+            target: Some(target),
+            extensions: Some(json!({ packing::EXTENSION: {
+                "buffer": 0, "byteOffset": start, "byteLength": packed.len(),
+                "byteStride": stride, "count": count, "mode": mode,
+            }})),
         });
-        // The next view must begin where its components are aligned.
-        pad(&mut self.binary, 0);
-        self.root.buffer_views.len() - 1
+        self.unpacked = (self.unpacked + byte_length).next_multiple_of(4);
+        Ok(self.root.buffer_views.len() - 1)
     }
 
-    fn indices(&mut self, indices: &[u32], vertices: usize) -> usize {
-        let start = self.binary.len();
-        let component_type = if vertices <= RESERVED_INDEX {
-            self.binary.extend(indices.iter().flat_map(|&index| (index as u16).to_le_bytes()));
-            UNSIGNED_SHORT
+    /// The next view must begin where its components are aligned.
+    fn pad(&mut self) -> Result<(), ExportError> {
+        let filler = self.written.next_multiple_of(4) - self.written;
+        self.put(&[0; 3][..filler])
+    }
+
+    fn indices(&mut self, indices: &[u32], vertices: usize) -> Result<usize, ExportError> {
+        let is_short = vertices <= RESERVED_INDEX;
+        let component_type = if is_short { UNSIGNED_SHORT } else { UNSIGNED_INT };
+        let view = if self.packing.is_compressed {
+            let stride = if is_short { 2 } else { 4 };
+            let packed = packing::triangles(indices, vertices)?;
+            self.packed_view(&packed, [indices.len(), stride], "TRIANGLES", ELEMENT_ARRAY_BUFFER)?
         } else {
-            self.binary.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
-            UNSIGNED_INT
+            let start = self.written;
+            for block in indices.chunks(0x4000) {
+                let bytes: Vec<u8> = if is_short {
+                    block.iter().flat_map(|&index| (index as u16).to_le_bytes()).collect()
+                } else {
+                    block.iter().flat_map(|index| index.to_le_bytes()).collect()
+                };
+                self.put(&bytes)?;
+            }
+            self.view(start, None, Some(ELEMENT_ARRAY_BUFFER))?
         };
-        let view = self.view(start, None, Some(ELEMENT_ARRAY_BUFFER));
-        self.accessor(view, 0, component_type, "SCALAR", indices.len())
+        Ok(self.accessor(
+            view,
+            Attribute { offset: 0, component_type, shape: "SCALAR" },
+            false,
+            indices.len(),
+        ))
     }
 
-    fn accessor(
+    pub(super) fn accessor(
         &mut self,
         buffer_view: usize,
-        byte_offset: usize,
-        component_type: u32,
-        shape: &'static str,
+        Attribute { offset: byte_offset, component_type, shape }: Attribute,
+        normalized: bool,
         count: usize,
     ) -> usize {
-        let (normalized, min, max) = (component_type == UNSIGNED_BYTE, None, None);
+        let (min, max) = (None, None);
         let accessor =
             Accessor { buffer_view, byte_offset, component_type, normalized, count, shape, min, max };
         self.root.accessors.push(accessor);
         self.root.accessors.len() - 1
     }
 
-    pub(super) fn finish(mut self) -> Result<Vec<u8>, ExportError> {
-        if !self.binary.is_empty() {
-            self.root.buffers.push(Buffer { byte_length: self.binary.len() });
+    /// Says that readers have to know an extension.
+    pub(super) fn require(&mut self, extension: &'static str) {
+        for list in [&mut self.root.extensions_used, &mut self.root.extensions_required] {
+            if !list.contains(&extension) {
+                list.push(extension);
+            }
         }
-        // Writing to memory does not fail, and all keys are strings.
-        let mut json = serde_json::to_vec(&self.root).expect("the root is always JSON");
-        pad(&mut json, b' ');
-        let binary = if self.binary.is_empty() { 0 } else { 8 + self.binary.len() };
-        let length = u32::try_from(20 + json.len() + binary).map_err(|_| ExportError::TooLarge)?;
-        // The JSON is shorter than the file, whose length has 32 bits, and so is the binary part.
-        let mut head: Vec<u8> = [MAGIC, VERSION, length, json.len() as u32, JSON_CHUNK]
-            .into_iter()
-            .flat_map(u32::to_le_bytes)
-            .collect();
-        head.extend(json);
+    }
+
+    pub(super) fn finish(mut self) -> Result<(), ExportError> {
+        if self.written > 0 {
+            self.root.buffers.push(Buffer { byte_length: self.written, extensions: None });
+        }
+        if self.unpacked > 0 {
+            let fallback = Some(json!({ packing::EXTENSION: { "fallback": true } }));
+            self.root.buffers.push(Buffer { byte_length: self.unpacked, extensions: fallback });
+            self.require(packing::EXTENSION);
+        }
+        if self.packing.is_quantised {
+            self.require("KHR_mesh_quantization");
+        }
+        let mut json = serde_json::to_vec(&self.root)?;
+        json.resize(self.room.max(json.len().next_multiple_of(4)), b' ');
+        let binary = if self.room == 0 { 0 } else { BETWEEN + self.written };
+        let length = u32::try_from(HEAD + json.len() + binary).map_err(|_| ExportError::TooLarge)?;
+        debug_assert!(self.room == 0 || self.room == json.len(), "the JSON has too little room");
+        if self.room > 0 && json.len() > self.room {
+            return Err(ExportError::TooLarge);
+        }
+        self.out.seek(SeekFrom::Start(0))?;
+        // The JSON and the binary part are shorter than the file, whose length has 32 bits.
+        for word in [MAGIC, VERSION, length, json.len() as u32, JSON_CHUNK] {
+            self.out.write_all(&word.to_le_bytes())?;
+        }
+        self.out.write_all(&json)?;
         if binary > 0 {
-            head.extend([(binary - 8) as u32, BINARY_CHUNK].into_iter().flat_map(u32::to_le_bytes));
+            self.out.write_all(&(self.written as u32).to_le_bytes())?;
+            self.out.write_all(&BINARY_CHUNK.to_le_bytes())?;
         }
-        // The bytes move up within their own memory: the file is never there twice.
-        self.binary.splice(..0, head);
-        Ok(self.binary)
+        self.out.seek(SeekFrom::End(0))?;
+        Ok(self.out.flush()?)
     }
 }
 
 /// Vertices of one mesh.
-pub(super) struct Part<'a> {
-    writer: &'a mut Writer,
+pub(super) struct Part {
+    layout: Layout,
+    /// Metres in one unit of its node.
+    unit: f32,
+    origin: Vec3,
     start: usize,
+    count: usize,
+    /// Vertices that wait for being compressed.
+    held: Vec<u8>,
     low: Vec3,
     high: Vec3,
 }
 
-impl Part<'_> {
+impl Part {
     /// Vertices so far.
     pub(super) fn count(&self) -> u32 {
-        ((self.writer.binary.len() - self.start) / STRIDE) as u32
+        self.count as u32
     }
 
-    pub(super) fn vertex(&mut self, Vertex { place, normal, tangent, uv, colour }: Vertex) {
-        let place = (place - self.writer.origin) * self.writer.scale;
-        (self.low, self.high) = (self.low.min(place), self.high.max(place));
-        let floats = [&place.to_array()[..], &normal.to_array(), &tangent.to_array(), &[uv.x, 1.0 - uv.y]];
-        let mut bytes = [0; STRIDE];
-        for (to, float) in bytes.as_chunks_mut::<4>().0.iter_mut().zip(floats.into_iter().flatten()) {
-            *to = float.to_le_bytes();
+    pub(super) fn vertex(&mut self, writer: &mut Writer<'_>, vertex: &Vertex) -> Result<(), ExportError> {
+        let place = (vertex.place - self.origin) * writer.scale / self.unit;
+        let (bytes, counted) = self.layout.encode(vertex, place);
+        (self.low, self.high) = (self.low.min(counted), self.high.max(counted));
+        self.count += 1;
+        let bytes = &bytes[..self.layout.stride];
+        if writer.packing.is_compressed {
+            self.held.extend_from_slice(bytes);
+            return Ok(());
         }
-        let [r, g, b] = colour.to_array().map(byte);
-        bytes[STRIDE - 4..].copy_from_slice(&[r, g, b, 255]);
-        self.writer.binary.extend_from_slice(&bytes);
+        writer.put(bytes)
     }
 
-    /// Makes a mesh of them and the node that shows it. A mesh without triangles adds nothing, for an accessor must not
-    /// be empty.
-    pub(super) fn finish(
+    /// The same, with a node in a scene of its own, which stands where the open node does.
+    pub(super) fn finish_apart(
         self,
-        name: &'static str,
+        writer: &mut Writer<'_>,
+        name: &str,
         triangles: &[(&[u32], Surface<'_>)],
     ) -> Result<(), ExportError> {
-        let count = self.count() as usize;
-        let Self { writer, start, low, high } = self;
-        if triangles.iter().all(|(indices, _)| indices.is_empty()) {
-            writer.binary.truncate(start);
-            return Ok(());
+        let scale = (self.unit != 1.0).then_some([self.unit; 3]);
+        let translation = (self.origin != Vec3::ZERO).then(|| (self.origin * writer.scale).to_array());
+        if let Some(mesh) = self.mesh(writer, name.to_owned(), triangles)? {
+            let node =
+                Node { name: name.to_owned(), translation, scale, mesh: Some(mesh), ..Node::default() };
+            writer.adopt(node, 1);
+        }
+        Ok(())
+    }
+
+    /// Makes a mesh of them and the node that shows it; nothing of no vertices, for an accessor must not be empty.
+    pub(super) fn finish(
+        self,
+        writer: &mut Writer<'_>,
+        name: &str,
+        triangles: &[(&[u32], Surface<'_>)],
+    ) -> Result<(), ExportError> {
+        let scale = (self.unit != 1.0).then_some([self.unit; 3]);
+        let called = format!("{} {name}", writer.owner());
+        if let Some(mesh) = self.mesh(writer, called, triangles)? {
+            writer.adopt(Node { name: name.to_owned(), scale, mesh: Some(mesh), ..Node::default() }, 0);
+        }
+        Ok(())
+    }
+
+    /// Makes a mesh of them that no node shows yet.
+    pub(super) fn mesh(
+        self,
+        writer: &mut Writer<'_>,
+        name: String,
+        triangles: &[(&[u32], Surface<'_>)],
+    ) -> Result<Option<usize>, ExportError> {
+        let Self { layout, start, count, held, low, high, .. } = self;
+        if count == 0 {
+            return Ok(None);
         }
         if !(low.is_finite() && high.is_finite()) {
             return Err(ExportError::NotFinite);
         }
-        let view = writer.view(start, Some(STRIDE), Some(ARRAY_BUFFER));
+        let view = if writer.packing.is_compressed {
+            let packed = packing::vertices(&held, layout.stride)?;
+            writer.packed_view(&packed, [count, layout.stride], "ATTRIBUTES", ARRAY_BUFFER)?
+        } else {
+            writer.view(start, Some(layout.stride), Some(ARRAY_BUFFER))?
+        };
+        let is_textured = triangles.iter().any(|(_, surface)| !matches!(surface, Surface::Plain(..)));
+        let mut accessor =
+            |attribute: Attribute| writer.accessor(view, attribute, attribute.component_type != FLOAT, count);
         let attributes = Attributes {
-            position: writer.accessor(view, 0, FLOAT, "VEC3", count),
-            normal: writer.accessor(view, 12, FLOAT, "VEC3", count),
-            tangent: Some(writer.accessor(view, 24, FLOAT, "VEC4", count)),
-            texcoord_0: Some(writer.accessor(view, 40, FLOAT, "VEC2", count)),
-            color_0: Some(writer.accessor(view, 48, UNSIGNED_BYTE, "VEC4", count)),
+            position: accessor(layout.place),
+            normal: accessor(layout.normal),
+            tangent: is_textured.then(|| accessor(layout.tangent)),
+            texcoord_0: is_textured.then(|| accessor(layout.uv)),
+            color_0: is_textured.then(|| accessor(layout.colour)),
         };
         let places = &mut writer.root.accessors[attributes.position];
         (places.min, places.max) = (Some(low.to_array()), Some(high.to_array()));
@@ -299,55 +382,10 @@ impl Part<'_> {
                 }
                 _ => attributes,
             };
-            let indices = writer.indices(indices, count);
-            primitives.push(Primitive { attributes, indices, material: writer.material(surface) });
+            let indices = writer.indices(indices, count)?;
+            primitives.push(Primitive { attributes, indices, material: writer.material(surface)? });
         }
-        let (mesh, node) = (writer.root.meshes.len(), writer.root.nodes.len());
-        let plant = writer.root.scenes[0].nodes.last().copied();
-        let plant = plant.and_then(|plant| writer.root.nodes.get_mut(plant));
-        let of = plant.map(|plant| {
-            plant.children.push(node);
-            plant.name.clone()
-        });
-        writer.root.meshes.push(Mesh { name: format!("{} {name}", of.unwrap_or_default()), primitives });
-        writer.root.nodes.push(Node {
-            name: name.to_owned(),
-            translation: None,
-            mesh: Some(mesh),
-            children: Vec::new(),
-            extras: None,
-        });
-        Ok(())
+        writer.root.meshes.push(Mesh { name, primitives });
+        Ok(Some(writer.root.meshes.len() - 1))
     }
-}
-
-fn plain(name: &'static str, colour: Vec3, roughness: f32) -> Material {
-    Material {
-        name,
-        pbr_metallic_roughness: PbrMetallicRoughness {
-            base_color_factor: colour.extend(1.0).to_array(),
-            base_color_texture: None,
-            metallic_factor: 0.0,
-            roughness_factor: roughness,
-            metallic_roughness_texture: None,
-        },
-        normal_texture: None,
-        occlusion_texture: None,
-        alpha_mode: None,
-        double_sided: false,
-    }
-}
-
-fn covered((&colour, &cover): (&Vec3, &u8)) -> [u8; 4] {
-    let [r, g, b] = encoded(colour);
-    [r, g, b, cover]
-}
-
-fn byte(share: f32) -> u8 {
-    (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
-}
-
-/// Chunks and views begin at multiples of four.
-fn pad(bytes: &mut Vec<u8>, filler: u8) {
-    bytes.resize(bytes.len().next_multiple_of(4), filler);
 }

@@ -70,9 +70,14 @@ impl Canvas {
         small
     }
 
+    /// What each pixel shows on a screen.
+    pub(crate) fn pixels(&self) -> Vec<[u8; 3]> {
+        self.pixels.iter().map(|&pixel| encoded(pixel)).collect()
+    }
+
     /// The picture as a PNG file of at most 256 colours.
     pub fn png(&self) -> Vec<u8> {
-        let pixels: Vec<[u8; 3]> = self.pixels.iter().map(|&pixel| encoded(pixel)).collect();
+        let pixels = self.pixels();
         let (colours, indices) = palette::reduce(self.width, &pixels);
         png::indexed(self.width, self.height, &colours, &indices)
     }

@@ -3,10 +3,12 @@
 mod canvas;
 mod lettering;
 mod palette;
-mod raster;
+pub(crate) mod raster;
 mod scene;
 mod sheet;
+mod turntable;
 
 pub use canvas::Canvas;
 pub use scene::{Look, draw};
 pub use sheet::{Cell, sheet};
+pub use turntable::{Camera, turntable};

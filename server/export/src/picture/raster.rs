@@ -23,6 +23,16 @@ impl View {
         Self { axes: [right, eye.cross(right), eye], scale, origin }
     }
 
+    /// The unit vector to the eye.
+    pub(crate) fn eye(&self) -> Vec3 {
+        self.axes[2]
+    }
+
+    /// The unit vector to the right.
+    pub(crate) fn right(&self) -> Vec3 {
+        self.axes[0]
+    }
+
     /// Pixels to an internode.
     pub(crate) fn scale(&self) -> f32 {
         self.scale

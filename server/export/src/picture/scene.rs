@@ -80,21 +80,65 @@ const LAWN: [u8; 3] = [196, 202, 172];
 
 /// Draws a plant from the front, framed to fill the picture, its foot always at the same height.
 pub fn draw(plant: &Plant, style: &Style, look: &Look, width: usize, height: usize) -> Canvas {
-    let mut meshes = wooden(plant, style, &look.appearance);
-    meshes.extend(borne(plant, style, &look.appearance));
-    let (points, reach) = extent(&meshes);
-    let base = stand(&mut meshes, look.stand, reach);
-    // What it stands on is to be seen as well.
-    let (points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
-    ground(&mut meshes, base, reach);
-    let eye = Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize();
-    let size = Vec2::new((width * SAMPLES) as f32, (height * SAMPLES) as f32);
-    let view = framed(&points, eye, base, size);
-    let lawn = Vec2::new(0.5 * size.x, FOOT * size.y / eye.y) / view.scale();
-    let middle = (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale();
-    let sun = Sun::new(&meshes, &points);
-    let scene = Scene { sun, meshes, reach, lawn, middle };
-    scene.paint(&view, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
+    let (stage, size) = (Stage::of(plant, style, look), [width, height]);
+    let view = stage.framed(Vec3::new(0.0, EYE_HEIGHT, 1.0).normalize(), size, &Framing::default());
+    stage.seen(&view, size)
+}
+
+/// How a picture is framed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Framing {
+    /// Samples to an internode at most.
+    pub most: f32,
+    /// Whether the foot is in the middle, so that it stays there when the eye goes around.
+    pub is_steady: bool,
+}
+
+impl Default for Framing {
+    /// As large as fits.
+    fn default() -> Self {
+        Self { most: f32::MAX, is_steady: false }
+    }
+}
+
+/// A plant on what it stands on, ready for pictures.
+pub(super) struct Stage {
+    scene: Scene,
+    points: Vec<Vec3>,
+    base: f32,
+}
+
+impl Stage {
+    pub(super) fn of(plant: &Plant, style: &Style, look: &Look) -> Self {
+        let mut meshes = wooden(plant, style, &look.appearance);
+        meshes.extend(borne(plant, style, &look.appearance));
+        let (points, reach) = extent(&meshes);
+        let base = stand(&mut meshes, look.stand, reach);
+        // What it stands on is to be seen as well.
+        let (points, _) = if base < 0.0 { extent(&meshes) } else { (points, reach) };
+        ground(&mut meshes, base, reach);
+        let sun = Sun::new(&meshes, &points);
+        Self { scene: Scene { sun, meshes, reach }, points, base }
+    }
+
+    /// The view from a direction in which all of it fits above the foot line.
+    pub(super) fn framed(&self, eye: Vec3, size: [usize; 2], framing: &Framing) -> View {
+        framed(&self.points, eye, self.base, samples(size), framing)
+    }
+
+    pub(super) fn seen(&self, view: &View, size: [usize; 2]) -> Canvas {
+        let [width, height] = size;
+        let size = samples(size);
+        let lawn = Lawn {
+            reach: Vec2::new(0.5 * size.x, FOOT * size.y / view.eye().y) / view.scale(),
+            middle: (0.5 * size.x - view.project(Vec3::ZERO).x) / view.scale(),
+        };
+        self.scene.paint(view, &lawn, width * SAMPLES, height * SAMPLES).reduced(SAMPLES)
+    }
+}
+
+fn samples([width, height]: [usize; 2]) -> Vec2 {
+    Vec2::new((width * SAMPLES) as f32, (height * SAMPLES) as f32)
 }
 
 fn bare(mesh: TriangleMesh) -> Painted {
@@ -119,7 +163,7 @@ fn wooden(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted
 
 /// Leaves, flowers and fruits.
 fn borne(plant: &Plant, style: &Style, look: &Appearance) -> Vec<(Skin, Painted)> {
-    let foliage = Foliage::of(plant, style, look);
+    let foliage = Foliage::of(plant, style, look, 0);
     let painted = |thin: Thin, add: &dyn Fn(&mut Cards, MetamerId)| {
         let mut cards = Cards::default();
         for id in living(plant) {
@@ -149,7 +193,7 @@ fn extent(meshes: &[(Skin, Painted)]) -> (Vec<Vec3>, f32) {
 }
 
 /// A view in which all points fit above the foot line, which shows the height `base`.
-fn framed(points: &[Vec3], eye: Vec3, base: f32, size: Vec2) -> View {
+fn framed(points: &[Vec3], eye: Vec3, base: f32, size: Vec2, framing: &Framing) -> View {
     let plain = View::new(eye, 1.0, Vec2::ZERO);
     let foot = plain.project(Vec3::Y * base).y;
     let seen = points.iter().map(|&point| plain.project(point));
@@ -158,7 +202,11 @@ fn framed(points: &[Vec3], eye: Vec3, base: f32, size: Vec2) -> View {
         (low, high) = (low.min(point), high.max(point));
     }
     let room = Vec2::new(ROOM * size.x, (ROOM - FOOT) * size.y);
-    let scale = (room.x / (high.x - low.x)).min(room.y / (foot - low.y));
+    if framing.is_steady {
+        high.x = high.x.max(-low.x);
+        low.x = -high.x;
+    }
+    let scale = (room.x / (high.x - low.x)).min(room.y / (foot - low.y)).min(framing.most);
     let origin =
         Vec2::new(0.5 * size.x - scale * 0.5 * (low.x + high.x), (1.0 - FOOT) * size.y - scale * foot);
     View::new(eye, scale, origin)
@@ -280,14 +328,18 @@ struct Scene {
     meshes: Vec<(Skin, Painted)>,
     sun: Sun,
     reach: f32,
-    /// How far the lawn can be seen to the sides and to the front.
-    lawn: Vec2,
+}
+
+/// What is seen of the lawn.
+struct Lawn {
+    /// How far to the sides and to the front.
+    reach: Vec2,
     /// Where the middle of the picture is, to the right of the foot.
     middle: f32,
 }
 
 impl Scene {
-    fn paint(&self, view: &View, width: usize, height: usize) -> Canvas {
+    fn paint(&self, view: &View, lawn: &Lawn, width: usize, height: usize) -> Canvas {
         let mut canvas = Canvas::new(width, height, linear(SKY));
         let mut seen = Seen::new(width, height);
         let mut first = 0;
@@ -308,7 +360,7 @@ impl Scene {
                 }
                 let mesh = firsts.partition_point(|&first| first <= number) - 1;
                 let at = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-                if let Some(colour) = self.colour(view, mesh, number - firsts[mesh], at) {
+                if let Some(colour) = self.colour(view, lawn, mesh, number - firsts[mesh], at) {
                     canvas.set(x, y, colour);
                 }
             }
@@ -316,7 +368,7 @@ impl Scene {
         canvas
     }
 
-    fn colour(&self, view: &View, mesh: usize, triangle: u32, at: Vec2) -> Option<Vec3> {
+    fn colour(&self, view: &View, lawn: &Lawn, mesh: usize, triangle: u32, at: Vec2) -> Option<Vec3> {
         let (skin, painted) = &self.meshes[mesh];
         let Painted { mesh, colours, texture } = painted;
         let indices = mesh.indices.as_chunks::<3>().0[triangle as usize];
@@ -352,7 +404,8 @@ impl Scene {
             }
             Skin::Ground => {
                 let sun = self.sun.reaches(place, bias, 9.0);
-                let far = (Vec2::new(place.x - self.middle, place.z) / self.lawn).length();
+                let [right, front] = [view.right(), view.right().cross(Vec3::Y)].map(|way| way.dot(place));
+                let far = (Vec2::new(right - lawn.middle, front) / lawn.reach).length();
                 let lawn = linear(LAWN) * (0.5 + 0.5 * sun);
                 let fade = ((far - 0.3) / 0.7).clamp(0.0, 1.0);
                 lawn.lerp(linear(SKY), fade * fade * (3.0 - 2.0 * fade))

@@ -6,6 +6,8 @@ pub(crate) mod thin;
 
 use glam::{Vec2, Vec3};
 
+use crate::{colour::encoded, png};
+
 /// A square texture, line upon line from its foot.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
@@ -22,6 +24,37 @@ pub(crate) struct Texture {
 }
 
 impl Texture {
+    /// The colours as a PNG file, with cover where there is nothing in places.
+    pub(crate) fn colour_png(&self) -> Vec<u8> {
+        if self.cover.iter().all(|&cover| cover == 255) {
+            return self.png(|texel| encoded(self.colours[texel]));
+        }
+        self.png(|texel| {
+            let [r, g, b] = encoded(self.colours[texel]);
+            [r, g, b, self.cover[texel]]
+        })
+    }
+
+    /// The normals as a PNG file.
+    pub(crate) fn normal_png(&self) -> Vec<u8> {
+        self.png(|texel| (self.normals[texel] * 0.5 + 0.5).to_array().map(byte))
+    }
+
+    /// How much of the sky is seen (red) and how rough it is (green) as a PNG file, where it says so.
+    pub(crate) fn exposure_png(&self) -> Option<Vec<u8>> {
+        let exposure = self.exposure.as_ref()?;
+        Some(self.png(|texel| {
+            let [sky, rough] = exposure[texel];
+            [byte(sky), byte(rough), 0]
+        }))
+    }
+
+    fn png<const CHANNELS: usize>(&self, texel: impl Fn(usize) -> [u8; CHANNELS]) -> Vec<u8> {
+        // An image's first row is its top.
+        let lines = (0..self.side).rev().flat_map(|y| y * self.side..(y + 1) * self.side);
+        png::square(self.side, &lines.map(texel).collect::<Vec<_>>())
+    }
+
     /// The texel at a place; it comes again beyond the borders.
     pub(crate) fn texel(&self, at: Vec2) -> usize {
         let place = (at - at.floor()) * self.side as f32;
@@ -33,4 +66,8 @@ impl Texture {
     pub(crate) fn is_there(&self, at: Vec2) -> bool {
         self.cover[self.texel(at)] >= 128
     }
+}
+
+fn byte(share: f32) -> u8 {
+    (share.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }

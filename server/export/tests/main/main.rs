@@ -1,11 +1,13 @@
 //! Files are what their formats say, for any plant.
 
+mod models;
 mod reader;
 mod saplings;
+mod scenes;
 mod species;
 mod structure;
 
-use espalier_export::{About, ExportError};
+use espalier_export::{About, ExportError, Model, in_memory};
 use espalier_mesh::{Style, StyleOptions, leaves, wood};
 use espalier_plant::{Internode, MetamerId, Plant};
 use espalier_settings::{
@@ -27,6 +29,17 @@ fn looks() -> Appearance {
 
 /// A file of plants whose internodes are so long.
 fn glb(plant: &Plant, style: &Style, looks: &Appearance, metres: f32) -> Result<Vec<u8>, ExportError> {
+    model(plant, style, looks, metres, &Model::default())
+}
+
+/// The same with options.
+fn model(
+    plant: &Plant,
+    style: &Style,
+    looks: &Appearance,
+    metres: f32,
+    model: &Model,
+) -> Result<Vec<u8>, ExportError> {
     let parameters = ParameterValues { internode_length: metres, ..ParameterValues::default() };
     let about = About {
         program: "Espalier",
@@ -37,7 +50,7 @@ fn glb(plant: &Plant, style: &Style, looks: &Appearance, metres: f32) -> Result<
         author: Some("Ada"),
         licence: Some("CC-BY-4.0"),
     };
-    espalier_export::glb(plant, style, looks, &about)
+    in_memory(|out| espalier_export::glb(plant, style, looks, &about, model, out))
 }
 
 /// Whether places or directions are the same but for rounding.

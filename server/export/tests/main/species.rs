@@ -1,7 +1,7 @@
 //! What holds for a tree of each species.
 
 use espalier_growth::species::{self, Species};
-use espalier_mesh::{Style, checks, wood};
+use espalier_mesh::{Bodies, Grain, Style, Wood, checks, wood};
 use espalier_session::{Document, script, style_options};
 
 /// A tree of a species at the end of its schedule.
@@ -22,6 +22,13 @@ fn wood_is_closed_and_faces_outwards() {
         for wood in wood(document.portrait(), &style, &look) {
             assert_eq!(checks::wood(&wood), Ok(()), "{}", species.slug);
             triangles += wood.triangles().count();
+        }
+        for grain in Grain::LEVELS {
+            for body in Bodies::of(document.portrait(), &style, &look, grain).iter() {
+                let mut wood = Wood::of(body.seed());
+                body.sweep(&mut wood);
+                assert_eq!(checks::wood(&wood), Ok(()), "{} in {grain:?}", species.slug);
+            }
         }
     }
     assert!(triangles > 100_000, "{triangles}");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use espalier_export::{Origin, Sampling, mtg, ply, qsm_csv, skeleton_json};
+use espalier_export::{Origin, Sampling, in_memory, mtg, ply, qsm_csv, skeleton_json};
 use espalier_plant::{MetamerId, Plant, Widths, wood::as_written};
 use espalier_settings::ParameterValues;
 use glam::{DVec3, Vec3};
@@ -16,7 +16,10 @@ pub fn skeleton(plant: &Plant) -> Value {
     let parameters = ParameterValues { internode_length: METRES, ..ParameterValues::default() };
     let looks = looks();
     let origin = Origin { species: Some("pear"), seed: 7, parameters: &parameters, looks: &looks };
-    serde_json::from_slice(&skeleton_json(plant, &style(), &origin).expect("it exports")).expect("it is JSON")
+    serde_json::from_slice(
+        &in_memory(|out| skeleton_json(plant, &style(), &origin, out)).expect("it exports"),
+    )
+    .expect("it is JSON")
 }
 
 /// The radius in metres of a metamer in the skeleton.
@@ -76,7 +79,7 @@ proptest! {
     #[test]
     fn any_graph_names_each_living_metamer_once_behind_what_bears_it(growth in saplings::growth()) {
         let plant = saplings::grown(&growth);
-        let file = text(mtg(&plant, &style(), METRES).expect("it exports"));
+        let file = text(in_memory(|out| mtg(&plant, &style(), METRES, out)).expect("it exports"));
         let (_, code) = file.split_once("\nMTG:\n").expect("a graph");
         let mut lines = code.lines();
         let head: Vec<&str> = lines.next().expect("a head").split('\t').collect();
@@ -109,7 +112,7 @@ proptest! {
     #[test]
     fn any_model_has_a_cylinder_for_each_living_metamer(growth in saplings::growth()) {
         let plant = saplings::grown(&growth);
-        let file = text(qsm_csv(&plant, &style(), METRES).expect("it exports"));
+        let file = text(in_memory(|out| qsm_csv(&plant, &style(), METRES, out)).expect("it exports"));
         let mut lines = file.lines();
         let head: Vec<&str> = lines.next().expect("a head").split(',').collect();
         let rows: Vec<BTreeMap<&str, f64>> = lines
@@ -145,7 +148,7 @@ struct Point {
 
 fn cloud(plant: &Plant, points: u32, seed: u32) -> Vec<Point> {
     let sampling = Sampling { points, seed };
-    let file = ply(plant, &style(), &looks(), METRES, sampling).expect("it exports");
+    let file = in_memory(|out| ply(plant, &style(), &looks(), METRES, sampling, out)).expect("it exports");
     let end = b"end_header\n";
     let at = file.windows(end.len()).position(|window| window == end).expect("a head") + end.len();
     let head = std::str::from_utf8(&file[..at]).expect("text");
@@ -219,7 +222,7 @@ fn skeleton_of_a_fork_is_this() {
 
 #[test]
 fn graph_of_a_fork_is_this_text() {
-    let file = text(mtg(&saplings::fork(), &style(), METRES).expect("it exports"));
+    let file = text(in_memory(|out| mtg(&saplings::fork(), &style(), METRES, out)).expect("it exports"));
     let (_, code) = file.split_once("\nMTG:\n").expect("a graph");
     let expected = "\
 TOPO\t\tXX\tYY\tZZ\tTopDia\tBirth\tAge\tId

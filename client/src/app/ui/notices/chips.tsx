@@ -148,22 +148,24 @@ function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" |
   if (!shown || progress === null) {
     return null;
   }
-  const { bytes, total } = progress;
+  const { bytes, total, isMaking = false } = progress;
   const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
   const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   const megabytes = (count: number) => figures.format(count / 1e6);
   const text =
     bytes === 0
       ? say(`transfers.${name}`)
-      : percent === 100
-        ? say(`transfers.${name}.read`)
-        : total === null && name !== "picture"
-          ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
-          : say(`transfers.${name}.part`, {
-              done: megabytes(bytes),
-              megabytes: megabytes(total ?? 0),
-              percent: percent ?? 0,
-            });
+      : isMaking && name === "export"
+        ? say("transfers.export.making", { percent: percent ?? 0 })
+        : percent === 100
+          ? say(`transfers.${name}.read`)
+          : total === null && name !== "picture"
+            ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
+            : say(`transfers.${name}.part`, {
+                done: megabytes(bytes),
+                megabytes: megabytes(total ?? 0),
+                percent: percent ?? 0,
+              });
   return (
     <p class="chip">
       {/* Where the duration is not known, the bar only moves. */}

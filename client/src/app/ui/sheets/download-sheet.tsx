@@ -1,19 +1,30 @@
-import { useState } from "preact/hooks";
-import { MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { useEffect, useState } from "preact/hooks";
+import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { bytesExpected, type ExportChoice, optionsOf } from "../../library/export-choice";
+import { ask } from "../../requests/request";
 import type { Studio } from "../../studio";
-import { say } from "../../words/say";
+import { EXPORTS } from "../../words/exports";
+import { numberText } from "../../words/number-text";
+import { type Key, say } from "../../words/say";
 import { usualName } from "./name-field";
-
-const FORMATS = ["png", "glb", "json"] as const;
-type Format = (typeof FORMATS)[number];
 
 /** Pixels along the longer side of a picture for a large screen. */
 const LARGE = 3840;
+const LODS = ["0", "1", "2", "3", "set"] as const;
+const FRAMES = ["24", "36", "72"] as const;
+const SWITCHES = ["quantised", "compressed", "instanced", "hull", "by_limb"] as const;
+const TEXTS = ["author", "licence"] as const;
 
-/** Names and gives the tree as a file: a picture of the view, a model, or its skeleton. */
+/** Names and gives the tree as a file: a picture of the view, or what the server writes. */
 export function DownloadSheet({ studio }: { studio: Studio }) {
   const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
-  const [format, setFormat] = useState<Format>("png");
+  const [formats, askAgain] = useFormats();
+  const choice = studio.settings.exportChoice.value;
+  const choose = (part: Partial<ExportChoice>) => {
+    studio.settings.exportChoice.value = { ...choice, ...part };
+  };
+  const format = formats?.find(({ ending }) => ending === choice.format);
+  const options = format && optionsOf(choice, format);
   const sizes = sizesOf(studio.stage.pixels());
   const [chosen, setChosen] = useState(0);
   const size = sizes[chosen] ?? sizes[0];
@@ -22,8 +33,8 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
     event.preventDefault();
     // How far it is stands beside the tree, where it can be given up.
     studio.layout.sheet.value = null;
-    if (format !== "png") {
-      void studio.exports.file(format, name);
+    if (format && options) {
+      void studio.exports.file(format.ending, name, options);
     } else if (size) {
       void studio.exports.png(name, size);
     }
@@ -43,36 +54,155 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
           onInput={(event) => setName(event.currentTarget.value)}
         />
       </label>
-      <fieldset class="segments stacked">
-        <legend>{say("sheets.download.format")}</legend>
-        {FORMATS.map((value) => (
-          <label key={value}>
-            <input type="radio" name="format" checked={format === value} onChange={() => setFormat(value)} />
-            <span>{say(`sheets.download.${value}`)}</span>
-          </label>
-        ))}
-      </fieldset>
-      <p class="quiet">{say(`sheets.download.${format}.text`)}</p>
-      {format === "png" && (
-        <fieldset class="segments stacked">
-          <legend>{say("sheets.download.size")}</legend>
-          {sizes.map(({ width, height }, i) => (
-            <label key={width}>
-              <input type="radio" name="size" checked={chosen === i} onChange={() => setChosen(i)} />
-              <span>
-                {width} × {height}
-              </span>
-            </label>
-          ))}
-        </fieldset>
+      <Segments
+        legend={say("sheets.download.format")}
+        name="format"
+        values={["picture", ...(formats ?? []).map(({ ending }) => ending)]}
+        chosen={format ? choice.format : "picture"}
+        text={formatText}
+        onChoose={(format) => choose({ format })}
+      />
+      <p class="quiet">{format ? formatText(format.ending, ".text") : say("exports.picture.text")}</p>
+      {formats === null && (
+        <p class="quiet">
+          {say("exports.lost")}{" "}
+          <button type="button" onClick={askAgain}>
+            {say("exports.again")}
+          </button>
+        </p>
+      )}
+      {format ? (
+        <Options format={format} choice={choice} choose={choose} />
+      ) : (
+        <Segments
+          legend={say("sheets.download.size")}
+          name="size"
+          values={sizes.map((_, i) => String(i))}
+          chosen={String(chosen)}
+          text={(i) => `${sizes[Number(i)]?.width} × ${sizes[Number(i)]?.height}`}
+          onChoose={(i) => setChosen(Number(i))}
+        />
       )}
       <div class="actions">
-        <button type="submit" class="primary" disabled={format === "png" && size === undefined}>
+        {format && options && (
+          <p class="quiet">
+            {say("exports.about", {
+              megabytes: numberText(Math.max(0.1, bytesExpected(format, options, treeOf(studio)) / 1e6), 0.1),
+            })}
+          </p>
+        )}
+        <button type="submit" class="primary" disabled={!format && size === undefined}>
           {say("sheets.download.act")}
         </button>
       </div>
     </form>
   );
+}
+
+interface OptionsProps {
+  readonly format: ExportFormat;
+  readonly choice: ExportChoice;
+  readonly choose: (part: Partial<ExportChoice>) => void;
+}
+
+/** What the format can be asked for. */
+function Options({ format, choice, choose }: OptionsProps) {
+  const has = (option: string) => format.options.includes(option);
+  return (
+    <>
+      {has("lod") && (
+        <Segments
+          legend={say("exports.lod")}
+          name="lod"
+          values={LODS}
+          chosen={choice.lod}
+          text={(lod) => say(`exports.lod.${lod}` as Key)}
+          onChoose={(lod) => choose({ lod })}
+        />
+      )}
+      {has("frames") && (
+        <Segments
+          legend={say("exports.frames")}
+          name="frames"
+          values={FRAMES}
+          chosen={choice.frames}
+          text={(frames) => frames}
+          onChoose={(frames) => choose({ frames })}
+        />
+      )}
+      {SWITCHES.filter(has).map((option) => (
+        <label key={option} class="switch">
+          <input
+            type="checkbox"
+            checked={choice.on.includes(option)}
+            onChange={({ currentTarget: { checked } }) =>
+              choose({ on: [...choice.on.filter((other) => other !== option), ...(checked ? [option] : [])] })
+            }
+          />
+          <span>{say(`exports.${option}`)}</span>
+        </label>
+      ))}
+      {TEXTS.filter(has).map((option) => (
+        <label key={option} class="field">
+          <span>{say(`exports.${option}`)}</span>
+          <input
+            type="text"
+            value={choice[option]}
+            maxLength={80}
+            autocomplete="off"
+            onInput={(event) => choose({ [option]: event.currentTarget.value })}
+          />
+        </label>
+      ))}
+    </>
+  );
+}
+
+interface SegmentsProps {
+  readonly legend: string;
+  readonly name: string;
+  readonly values: readonly string[];
+  readonly chosen: string;
+  readonly text: (value: string) => string;
+  readonly onChoose: (value: string) => void;
+}
+
+/** One of several, below one another. */
+function Segments({ legend, name, values, chosen, text, onChoose }: SegmentsProps) {
+  return (
+    <fieldset class="segments stacked">
+      <legend>{legend}</legend>
+      {values.map((value) => (
+        <label key={value}>
+          <input type="radio" name={name} checked={chosen === value} onChange={() => onChoose(value)} />
+          <span>{text(value)}</span>
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+/** What the server writes: undefined until it has answered, null where it has not. */
+function useFormats() {
+  const [formats, set] = useState<readonly ExportFormat[] | null | undefined>();
+  const load = () => {
+    set(undefined);
+    ask<ExportFormat[]>("GET", "/api/formats").then(set, () => set(null));
+  };
+  useEffect(load, []);
+  return [formats, load] as const;
+}
+
+/** A later server may know formats that this page has no words for. */
+function formatText(ending: string, part: "" | ".text" = ""): string {
+  const key = `exports.${ending}${part}`;
+  return key in EXPORTS ? say(key as Key) : part === "" ? ending : "";
+}
+
+function treeOf(studio: Studio) {
+  const metamers = studio.document.peek()?.metamers ?? 0;
+  // Half of the nodes bear leaves.
+  return { metamers, leaves: 0.5 * metamers * (studio.parameters.peek()?.leaves_per_node ?? 0) };
 }
 
 /** The picture as large as on the screen, twice that, and for a large screen; none where there is no picture. */

@@ -1,0 +1,383 @@
+//! The plants of a scene as nodes and parts, in the order in which every file of triangles has them. Triangles come in
+//! blocks, so that little is held of them at once.
+
+use std::collections::BTreeMap;
+
+use espalier_mesh::{Bodies, Body, Grain, Style, TriangleMesh, Wood, seeds};
+use espalier_plant::{AxisId, MetamerId, Plant};
+use espalier_settings::Appearance;
+use glam::{Vec3, Vec4};
+use serde_json::{Value, json};
+
+use crate::{
+    Detail, ExportError, Model,
+    billboard::Billboard,
+    foliage::{
+        Foliage,
+        cards::{Cards, LeafForm, Pose},
+        living,
+    },
+    hull,
+    surface::{
+        Texture,
+        bark::{Bark, CUT},
+        thin::{self, Thin},
+    },
+};
+
+/// Metamers whose leaves are made before they are written.
+const BLOCK: usize = 1024;
+/// What reaches beyond the nodes of a plant, in internodes: leaves, flowers, fruits and the cones at tips.
+const BEYOND: f32 = 8.0;
+/// The name of a plant of no known species.
+const UNNAMED: &str = "Tree";
+
+/// What triangles look like.
+#[derive(Clone, Copy)]
+pub(crate) enum Surface<'a> {
+    /// Bark, and how deep its furrows look.
+    Bark(&'a Bark, f32),
+    /// What has pictures with nothing around them.
+    Thin(&'static str, &'a Texture),
+    /// One linear colour.
+    Plain(&'static str, Vec3),
+}
+
+impl Surface<'_> {
+    pub(crate) fn name(&self) -> &'static str {
+        match self {
+            Self::Bark(..) => "Bark",
+            Self::Thin(name, _) | Self::Plain(name, _) => name,
+        }
+    }
+}
+
+/// Some triangles of a part, which name the block's own vertices.
+pub(crate) struct Block<'a> {
+    pub mesh: &'a TriangleMesh,
+    pub tangents: &'a [Vec4],
+    /// The linear colour of each vertex, which multiplies that of the texture.
+    pub colours: &'a [Vec3],
+    /// Triangles of the part's second surface.
+    pub second: &'a [u32],
+}
+
+/// Gives blocks one by one, always the same; it may be asked several times.
+pub(crate) type Each<'a, T> =
+    &'a dyn Fn(&mut dyn FnMut(T) -> Result<(), ExportError>) -> Result<(), ExportError>;
+
+/// Takes the blocks of a part.
+pub(crate) type Take<'t> = dyn FnMut(Block<'_>) -> Result<(), ExportError> + 't;
+
+/// Gives the blocks of a part, as [`Each`] does.
+pub(crate) type Blocks<'a> = &'a dyn Fn(&mut Take<'_>) -> Result<(), ExportError>;
+
+/// What one node shows.
+pub(crate) struct Part<'a> {
+    pub name: &'static str,
+    pub surfaces: &'a [Surface<'a>],
+    /// Whether the texture comes again beyond its borders.
+    pub repeats: bool,
+    /// All vertices lie within so many internodes of the node, along each axis.
+    pub reach: f32,
+    pub blocks: Blocks<'a>,
+}
+
+/// Leaves as places of few forms.
+pub(crate) struct Scatter<'a> {
+    pub name: &'static str,
+    pub surface: Surface<'a>,
+    pub strength: f32,
+    pub form: &'a LeafForm,
+    pub each: Each<'a, (Pose, Vec3)>,
+}
+
+/// Makes a file of nodes and parts.
+pub(crate) trait Builder {
+    /// A node at a place, below the one that is open; what follows is below it.
+    fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError>;
+    /// The node that was begun last has all its parts.
+    fn end(&mut self) -> Result<(), ExportError>;
+    /// Triangles of the open node.
+    fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError>;
+    /// Leaves of the open node; asked for where the model is instanced.
+    fn scatter(&mut self, scatter: &Scatter<'_>) -> Result<(), ExportError>;
+    /// A convex body around a piece of the open plant.
+    fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Result<(), ExportError>;
+}
+
+/// The plants of a scene, ready to be drawn.
+pub(crate) struct Assembly<'a> {
+    plant: &'a Plant,
+    looks: &'a Appearance,
+    name: Option<&'a str>,
+    model: &'a Model,
+    bark: Bark,
+    thin: [Option<Thin>; 3],
+    levels: Vec<Level<'a>>,
+}
+
+const PARTS: [&str; 3] = ["Leaves", "Flowers", "Fruits"];
+
+struct Level<'a> {
+    number: u8,
+    bodies: Bodies,
+    foliage: Foliage<'a>,
+}
+
+/// What one node of a plant shows: all of it, or a limb.
+#[derive(Default)]
+struct Limb<'a> {
+    bodies: Vec<Body<'a>>,
+    metamers: Vec<MetamerId>,
+}
+
+impl<'a> Assembly<'a> {
+    pub(crate) fn of(
+        plant: &'a Plant,
+        style: &'a Style,
+        looks: &'a Appearance,
+        name: Option<&'a str>,
+        model: &'a Model,
+    ) -> Self {
+        let levels = model.detail.levels().into_iter().map(|number| {
+            // A billboard shows a plant of the middle level.
+            let drawn = usize::from(if number == Detail::BILLBOARD { 1 } else { number });
+            Level {
+                number,
+                bodies: Bodies::of(plant, style, &looks.bark, Grain::LEVELS[drawn]),
+                foliage: Foliage::of(plant, style, looks, drawn),
+            }
+        });
+        Self {
+            plant,
+            looks,
+            name,
+            model,
+            bark: Bark::of(&looks.bark),
+            thin: [
+                Some(thin::leaves(&looks.leaves)),
+                thin::flowers(&looks.flowers),
+                thin::fruits(&looks.fruits),
+            ],
+            levels: levels.collect(),
+        }
+    }
+
+    /// At most so many nodes will have parts; none where no plant has grown.
+    pub(crate) fn most_parts(&self) -> usize {
+        if living(self.plant).next().is_none() {
+            return 0;
+        }
+        let axes = (0..self.plant.axis_count()).map(AxisId::new);
+        let is_limb = |&axis: &AxisId| {
+            let order = self.plant.axes().order(axis);
+            order == 0 || (self.model.by_limb && order == 1 && self.plant.has_living_wood(axis))
+        };
+        let leaves = if self.model.instanced { LeafForm::PROTOTYPES } else { 1 };
+        let parts = PARTS.len() + leaves + 2 * usize::from(self.model.hull);
+        axes.filter(is_limb).count() * self.levels.len() * parts
+    }
+
+    /// Gives all nodes and parts to what makes a file of them.
+    pub(crate) fn build(&self, builder: &mut dyn Builder) -> Result<(), ExportError> {
+        let (plant, by_seed) = (self.plant, self.by_seed());
+        let is_standing = |&id: &MetamerId| plant.is_seed(id) && plant.is_alive(id);
+        let seeds: Vec<_> = (0..plant.metamer_count()).map(MetamerId::new).filter(is_standing).collect();
+        for (number, &seed) in (1..).zip(&seeds) {
+            let name = self.name.unwrap_or(UNNAMED);
+            let name = if seeds.len() == 1 { name.to_owned() } else { format!("{name} {number}") };
+            let ids = by_seed.get(&seed).map_or(&[][..], Vec::as_slice);
+            let place = plant.metamers().end(seed);
+            builder.begin(&name, place, Some(json!({ "row": seed.raw(), "metamers": ids.len() })))?;
+            if !ids.is_empty() {
+                self.plant(builder, &name, seed, ids)?;
+            }
+            builder.end()?;
+        }
+        Ok(())
+    }
+
+    fn plant(
+        &self,
+        builder: &mut dyn Builder,
+        name: &str,
+        seed: MetamerId,
+        ids: &[MetamerId],
+    ) -> Result<(), ExportError> {
+        let place = self.plant.metamers().end(seed);
+        let ends = ids.iter().map(|&id| (self.plant.metamers().end(id) - place).abs().max_element());
+        let reach = ends.fold(0.0, f32::max) + BEYOND;
+        for level in &self.levels {
+            let is_set = self.model.detail == Detail::Set;
+            if is_set {
+                let extras = json!({ "lod": level.number });
+                builder.begin(&format!("{name}_LOD{}", level.number), place, Some(extras))?;
+            }
+            let limbs = self.limbs(level, seed, ids);
+            if level.number == Detail::BILLBOARD {
+                self.billboard(builder, level, &limbs, place)?;
+            } else if self.model.by_limb {
+                for (number, (axis, limb)) in limbs.iter().enumerate() {
+                    let is_trunk = self.plant.axes().order(*axis) == 0;
+                    let name = if is_trunk { "Trunk".to_owned() } else { format!("Limb {number}") };
+                    let foot = limb.bodies.iter().find(|body| body.axis() == *axis).map(Body::foot);
+                    builder.begin(&name, foot.unwrap_or(place), Some(json!({ "axis": axis.raw() })))?;
+                    self.parts(builder, level, limb, 2.0 * reach)?;
+                    builder.end()?;
+                }
+            } else {
+                for limb in limbs.values() {
+                    self.parts(builder, level, limb, reach)?;
+                }
+            }
+            if is_set {
+                builder.end()?;
+            }
+        }
+        if self.model.hull
+            && let Some(level) = self.levels.first()
+        {
+            for (number, mesh) in (1..).zip(hull::of_plant(self.plant, &level.foliage, ids)) {
+                builder.hull(&format!("UCX_{name}_{number:02}"), &mesh)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The living metamers of each plant.
+    fn by_seed(&self) -> BTreeMap<MetamerId, Vec<MetamerId>> {
+        let seed_of = seeds(self.plant);
+        let mut by_seed: BTreeMap<MetamerId, Vec<MetamerId>> = BTreeMap::new();
+        for id in living(self.plant) {
+            by_seed.entry(seed_of[id.index()]).or_default().push(id);
+        }
+        by_seed
+    }
+
+    /// A plant's limbs by the axis that each begins with, or all of it in one.
+    fn limbs<'b>(
+        &self,
+        level: &'b Level<'_>,
+        seed: MetamerId,
+        ids: &[MetamerId],
+    ) -> BTreeMap<AxisId, Limb<'b>> {
+        let (axes, metamers) = (self.plant.axes(), self.plant.metamers());
+        let limb_of = |mut axis: AxisId| {
+            let most = u32::from(self.model.by_limb);
+            while axes.order(axis) > most
+                && let Some(bearer) = axes.bearer(axis)
+            {
+                axis = metamers.axis(bearer);
+            }
+            axis
+        };
+        let mut limbs: BTreeMap<AxisId, Limb<'b>> = BTreeMap::new();
+        for body in level.bodies.iter().filter(|body| body.seed() == seed) {
+            limbs.entry(limb_of(body.axis())).or_default().bodies.push(body);
+        }
+        for &id in ids {
+            limbs.entry(limb_of(metamers.axis(id))).or_default().metamers.push(id);
+        }
+        limbs
+    }
+
+    fn parts(
+        &self,
+        builder: &mut dyn Builder,
+        level: &Level<'_>,
+        limb: &Limb<'_>,
+        reach: f32,
+    ) -> Result<(), ExportError> {
+        let surfaces = [Surface::Bark(&self.bark, self.looks.bark.relief), Surface::Plain("Cut", CUT)];
+        let blocks: Blocks<'_> = &|take| self.wood(limb, take);
+        builder.part(&Part { name: "Wood", surfaces: &surfaces, repeats: true, reach, blocks })?;
+        for (kind, thin) in self.thin.iter().enumerate() {
+            let (name, Some(thin)) = (PARTS[kind], thin) else { continue };
+            let surface = Surface::Thin(name, &thin.texture);
+            if kind == 0 && self.model.instanced {
+                let each: Each<'_, (Pose, Vec3)> = &|take| {
+                    for &id in &limb.metamers {
+                        level.foliage.poses(id).try_for_each(&mut *take)?;
+                    }
+                    Ok(())
+                };
+                let (strength, form) = (thin.strength, level.foliage.form());
+                builder.scatter(&Scatter { name, surface, strength, form, each })?;
+                continue;
+            }
+            let blocks: Blocks<'_> = &|take| cards(level, limb, kind, thin.strength, take);
+            builder.part(&Part { name, surfaces: &[surface], repeats: false, reach, blocks })?;
+        }
+        Ok(())
+    }
+
+    fn wood(&self, limb: &Limb<'_>, take: &mut Take<'_>) -> Result<(), ExportError> {
+        let Some(first) = limb.bodies.first() else { return Ok(()) };
+        let mut wood = Wood::of(first.seed());
+        let mut colours = Vec::new();
+        for body in &limb.bodies {
+            body.sweep(&mut wood);
+            colours.extend(wood.radii.iter().map(|&radius| self.bark.tint(radius)));
+            let (mesh, tangents) = (&wood.surface, &wood.tangents);
+            take(Block { mesh, tangents, colours: &colours, second: &wood.cuts })?;
+            wood.clear();
+            colours.clear();
+        }
+        Ok(())
+    }
+
+    /// Two crossed cards with pictures of the plant.
+    fn billboard(
+        &self,
+        builder: &mut dyn Builder,
+        level: &Level<'_>,
+        limbs: &BTreeMap<AxisId, Limb<'_>>,
+        place: Vec3,
+    ) -> Result<(), ExportError> {
+        let each = |take: &mut dyn FnMut(&Texture, Block<'_>) -> Result<(), ExportError>| {
+            for limb in limbs.values() {
+                self.wood(limb, &mut |block| take(&self.bark.texture, block))?;
+                for (kind, thin) in self.thin.iter().enumerate() {
+                    let Some(thin) = thin else { continue };
+                    cards(level, limb, kind, thin.strength, &mut |block| take(&thin.texture, block))?;
+                }
+            }
+            Ok(())
+        };
+        let Billboard { cards, texture } = Billboard::of(place, &each)?;
+        let blocks: Blocks<'_> = &|take| {
+            take(Block { mesh: &cards.mesh, tangents: &cards.tangents, colours: &cards.hues, second: &[] })
+        };
+        let corners = cards.mesh.positions.iter().map(|corner| (*corner - place).abs().max_element());
+        let reach = corners.fold(1.0, f32::max);
+        let surfaces = [Surface::Thin("Billboard", &texture)];
+        builder.part(&Part { name: "Billboard", surfaces: &surfaces, repeats: false, reach, blocks })
+    }
+}
+
+/// Leaves, flowers or fruits.
+fn cards(
+    level: &Level<'_>,
+    limb: &Limb<'_>,
+    kind: usize,
+    strength: f32,
+    take: &mut Take<'_>,
+) -> Result<(), ExportError> {
+    let mut cards = Cards::default();
+    for block in limb.metamers.chunks(BLOCK) {
+        for &id in block {
+            match kind {
+                0 => level.foliage.add_leaves(&mut cards, id),
+                1 => level.foliage.add_flowers(&mut cards, id),
+                _ => level.foliage.add_fruits(&mut cards, id),
+            }
+        }
+        for hue in &mut cards.hues {
+            *hue *= strength;
+        }
+        take(Block { mesh: &cards.mesh, tangents: &cards.tangents, colours: &cards.hues, second: &[] })?;
+        cards.clear();
+    }
+    Ok(())
+}

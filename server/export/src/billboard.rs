@@ -1,0 +1,192 @@
+//! Two crossed cards that stand for a plant far away, and the pictures of it that they show.
+
+use glam::{Vec2, Vec3};
+
+use crate::{
+    ExportError,
+    assembly::Block,
+    foliage::cards::Cards,
+    picture::raster::{View, weights},
+    surface::Texture,
+};
+
+/// Texels along a side of the texture, whose left half shows the plant from the front and its right half from the side.
+const SIDE: usize = 512;
+/// Samples across a texel.
+const SAMPLES: usize = 2;
+const SIZE: [usize; 2] = [SIDE / 2 * SAMPLES, SIDE * SAMPLES];
+/// Where eyes look from.
+const EYES: [Vec3; 2] = [Vec3::Z, Vec3::X];
+
+/// Gives all blocks of a plant and what they show.
+pub(crate) type Blocks<'a> =
+    &'a dyn Fn(&mut dyn FnMut(&Texture, Block<'_>) -> Result<(), ExportError>) -> Result<(), ExportError>;
+
+/// Cards and their texture.
+pub(crate) struct Billboard {
+    pub cards: Cards,
+    pub texture: Texture,
+}
+
+impl Billboard {
+    /// Of a plant whose foot is at a place; the blocks are asked for twice.
+    pub(crate) fn of(foot: Vec3, blocks: Blocks<'_>) -> Result<Self, ExportError> {
+        let (mut low, mut high) = (foot, foot);
+        blocks(&mut |_, block| {
+            for &place in &block.mesh.positions {
+                (low, high) = (low.min(place), high.max(place));
+            }
+            Ok(())
+        })?;
+        let mut sides = EYES.map(|eye| Side::new(eye, low, high));
+        blocks(&mut |texture, block| {
+            sides.iter_mut().for_each(|side| side.add(texture, &block));
+            Ok(())
+        })?;
+        let mut cards = Cards::default();
+        for (half, side) in sides.iter().enumerate() {
+            side.add_card(&mut cards, foot, half as f32);
+        }
+        Ok(Self { cards, texture: texture(&sides) })
+    }
+}
+
+/// What is seen from one side.
+struct Side {
+    right: Vec3,
+    eye: Vec3,
+    /// The corners of the picture: along `right`, and upwards.
+    low: Vec2,
+    high: Vec2,
+    view: View,
+    samples: Vec<Sample>,
+}
+
+#[derive(Clone, Copy)]
+struct Sample {
+    near: f32,
+    colour: Vec3,
+    /// To the right, upwards, to the eye.
+    normal: Vec3,
+}
+
+const NOTHING: Sample = Sample { near: f32::NEG_INFINITY, colour: Vec3::ZERO, normal: Vec3::Z };
+
+impl Side {
+    fn new(eye: Vec3, low: Vec3, high: Vec3) -> Self {
+        let right = Vec3::Y.cross(eye);
+        let ends = [low.dot(right), high.dot(right)];
+        let low = Vec2::new(ends[0].min(ends[1]), low.y);
+        // No picture is flat.
+        let high = Vec2::new(ends[0].max(ends[1]), high.y).max(low + 1e-3);
+        let samples = vec![NOTHING; SIZE[0] * SIZE[1]];
+        Self { right, eye, low, high, view: View::new(eye, 1.0, Vec2::ZERO), samples }
+    }
+
+    /// The sample of a point, downwards, and how near it is.
+    fn project(&self, point: Vec3) -> Vec3 {
+        let at = self.view.project(point);
+        let share = (Vec2::new(at.x, -at.y) - self.low) / (self.high - self.low);
+        Vec3::new(share.x * SIZE[0] as f32, (1.0 - share.y) * SIZE[1] as f32, at.z)
+    }
+
+    fn add(&mut self, texture: &Texture, block: &Block<'_>) {
+        let (mesh, second) = (block.mesh, block.second);
+        for (part, triangles) in [&mesh.indices[..], second].into_iter().enumerate() {
+            for corners in triangles.as_chunks::<3>().0 {
+                let corners = corners.map(|corner| corner as usize);
+                let projected = corners.map(|corner| self.project(mesh.positions[corner]));
+                self.fill(projected, |weights| {
+                    let mix = |values: &[Vec3]| {
+                        let [a, b, c] = corners.map(|corner| values[corner]);
+                        a * weights.x + b * weights.y + c * weights.z
+                    };
+                    let [a, b, c] = corners.map(|corner| mesh.uvs[corner]);
+                    let texel = texture.texel(a * weights.x + b * weights.y + c * weights.z);
+                    let colour = mix(block.colours);
+                    // A second surface is plain.
+                    let colour = if part == 0 { colour * texture.colours[texel] } else { colour };
+                    (part == 1 || texture.cover[texel] >= 128).then(|| (colour, mix(&mesh.normals)))
+                });
+            }
+        }
+    }
+
+    /// Samples a projected triangle where it is in front, and `seen` finds anything.
+    fn fill(&mut self, corners: [Vec3; 3], seen: impl Fn(Vec3) -> Option<(Vec3, Vec3)>) {
+        let [a, b, c] = corners.map(Vec3::truncate);
+        // Casting takes what is below zero to zero.
+        let [left, top] = (a.min(b).min(c) - 0.5).ceil().to_array().map(|part| part as usize);
+        let [right, foot] = (a.max(b).max(c) + 0.5).floor().to_array().map(|part| part as usize);
+        for y in top..foot.min(SIZE[1]) {
+            for x in left..right.min(SIZE[0]) {
+                let at = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                let Some(weights) = weights(corners, at).filter(|weights| weights.min_element() >= 0.0)
+                else {
+                    continue;
+                };
+                let near = weights.x * corners[0].z + weights.y * corners[1].z + weights.z * corners[2].z;
+                let sample = &mut self.samples[y * SIZE[0] + x];
+                if near > sample.near
+                    && let Some((colour, normal)) = seen(weights)
+                {
+                    let facing = Vec3::new(normal.dot(self.right), normal.y, normal.dot(self.eye));
+                    // Both sides of a leaf look to the eye.
+                    let normal = if facing.z < 0.0 { -facing } else { facing };
+                    *sample = Sample { near, colour, normal };
+                }
+            }
+        }
+    }
+
+    fn add_card(&self, cards: &mut Cards, foot: Vec3, half: f32) {
+        let first = cards.mesh.positions.len() as u32;
+        let depth = self.eye * foot.dot(self.eye);
+        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+            let at = self.low + (self.high - self.low) * Vec2::new(x, y);
+            let place = depth + self.right * at.x + Vec3::Y * at.y;
+            cards.mesh.vertex(place, self.eye, Vec2::new(0.5 * (half + x), y));
+            cards.tangents.push(self.right.extend(1.0));
+            cards.hues.push(Vec3::ONE);
+        }
+        cards.mesh.triangle(first, first + 1, first + 2);
+        cards.mesh.triangle(first + 2, first + 1, first + 3);
+    }
+
+    /// A texel, from the foot upwards: its colour and normal, and what share of it is covered.
+    fn texel(&self, x: usize, y: usize) -> Option<(Vec3, Vec3, f32)> {
+        let (mut colour, mut normal, mut count) = (Vec3::ZERO, Vec3::ZERO, 0);
+        for i in 0..SAMPLES * SAMPLES {
+            let at = [x * SAMPLES + i % SAMPLES, (SIDE - 1 - y) * SAMPLES + i / SAMPLES];
+            let sample = self.samples[at[1] * SIZE[0] + at[0]];
+            if sample.near > f32::NEG_INFINITY {
+                colour += sample.colour;
+                normal += sample.normal;
+                count += 1;
+            }
+        }
+        let share = count as f32 / (SAMPLES * SAMPLES) as f32;
+        (count > 0).then(|| (colour / count as f32, normal.normalize_or(Vec3::Z), share))
+    }
+}
+
+fn texture(sides: &[Side; 2]) -> Texture {
+    let texels: Vec<_> = (0..SIDE * SIDE)
+        .map(|at| sides[at % SIDE * 2 / SIDE].texel(at % SIDE % (SIDE / 2), at / SIDE))
+        .collect();
+    let seen = || texels.iter().flatten();
+    // Coarser levels mix in what lies outside.
+    let mean = seen().map(|(colour, ..)| *colour).sum::<Vec3>() / seen().count().max(1) as f32;
+    // Where half of a texel is covered it is drawn, or thin crowns would vanish.
+    let cover = |share: f32| (510.0 * share).min(255.0) as u8;
+    Texture {
+        side: SIDE,
+        colours: texels
+            .iter()
+            .map(|texel| texel.map_or(mean, |(colour, ..)| colour.min(Vec3::ONE)))
+            .collect(),
+        cover: texels.iter().map(|texel| texel.map_or(0, |(.., share)| cover(share))).collect(),
+        normals: texels.iter().map(|texel| texel.map_or(Vec3::Z, |(_, normal, _)| normal)).collect(),
+        exposure: None,
+    }
+}

@@ -1,0 +1,109 @@
+//! A vertex in bytes: in 32-bit floats, or quantised (`KHR_mesh_quantization`) to less than half as many bytes.
+
+use glam::{Vec2, Vec3, Vec4};
+
+use crate::gltf::{BYTE, FLOAT, SHORT, UNSIGNED_BYTE, UNSIGNED_SHORT};
+
+/// The most bytes that a vertex has.
+const MOST: usize = 52;
+
+/// One vertex, lengths in internodes.
+pub(super) struct Vertex {
+    pub place: Vec3,
+    pub normal: Vec3,
+    pub tangent: Vec4,
+    /// Upwards.
+    pub uv: Vec2,
+    /// Linear.
+    pub colour: Vec3,
+}
+
+/// Where one attribute stands in the bytes of a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Attribute {
+    pub offset: usize,
+    pub component_type: u32,
+    pub shape: &'static str,
+}
+
+/// What lies where in the bytes of a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Layout {
+    pub place: Attribute,
+    pub normal: Attribute,
+    pub tangent: Attribute,
+    pub uv: Attribute,
+    pub colour: Attribute,
+    pub stride: usize,
+}
+
+const fn at(offset: usize, component_type: u32, shape: &'static str) -> Attribute {
+    Attribute { offset, component_type, shape }
+}
+
+const PLAIN: Layout = Layout {
+    place: at(0, FLOAT, "VEC3"),
+    normal: at(12, FLOAT, "VEC3"),
+    tangent: at(24, FLOAT, "VEC4"),
+    uv: at(40, FLOAT, "VEC2"),
+    colour: at(48, UNSIGNED_BYTE, "VEC4"),
+    stride: MOST,
+};
+/// For places in an atlas, which are between 0 and 1.
+const SMALL: Layout = Layout {
+    place: at(0, SHORT, "VEC3"),
+    normal: at(8, BYTE, "VEC3"),
+    tangent: at(12, BYTE, "VEC4"),
+    uv: at(16, UNSIGNED_SHORT, "VEC2"),
+    colour: at(20, UNSIGNED_BYTE, "VEC4"),
+    stride: 24,
+};
+/// For bark, which repeats itself along a limb.
+const SMALL_REPEATING: Layout =
+    Layout { uv: at(16, FLOAT, "VEC2"), colour: at(24, UNSIGNED_BYTE, "VEC4"), stride: 28, ..SMALL };
+
+impl Layout {
+    pub(super) fn new(is_quantised: bool, repeats: bool) -> Self {
+        match (is_quantised, repeats) {
+            (false, _) => PLAIN,
+            (true, false) => SMALL,
+            (true, true) => SMALL_REPEATING,
+        }
+    }
+
+    /// The bytes of a vertex whose `place` is in the units of its node, and the place as its accessor counts it.
+    pub(super) fn encode(&self, vertex: &Vertex, place: Vec3) -> ([u8; MOST], Vec3) {
+        let Vertex { normal, tangent, uv, colour, .. } = vertex;
+        let mut bytes = [0; MOST];
+        let mut put = |attribute: Attribute, values: &[f32]| {
+            let to = &mut bytes[attribute.offset..];
+            for (i, &value) in values.iter().enumerate() {
+                match attribute.component_type {
+                    FLOAT => to[4 * i..4 * i + 4].copy_from_slice(&value.to_le_bytes()),
+                    SHORT => {
+                        to[2 * i..2 * i + 2].copy_from_slice(&(whole(value, i16::MAX) as i16).to_le_bytes())
+                    }
+                    UNSIGNED_SHORT => {
+                        to[2 * i..2 * i + 2].copy_from_slice(&(whole(value, u16::MAX) as u16).to_le_bytes());
+                    }
+                    BYTE => to[i] = (whole(value, i8::MAX) as i8).cast_unsigned(),
+                    _ => to[i] = whole(value, u8::MAX) as u8,
+                }
+            }
+        };
+        put(self.place, &place.to_array());
+        put(self.normal, &normal.to_array());
+        put(self.tangent, &tangent.to_array());
+        put(self.uv, &[uv.x, 1.0 - uv.y]);
+        put(self.colour, &colour.clamp(Vec3::ZERO, Vec3::ONE).extend(1.0).to_array());
+        let counted =
+            if self.place.component_type == FLOAT { place } else { place.map(|part| whole(part, i16::MAX)) };
+        (bytes, counted)
+    }
+}
+
+/// A number from -1 to 1 in steps of the largest one.
+fn whole(value: f32, largest: impl Into<f32>) -> f32 {
+    let largest = largest.into();
+    (value.clamp(-1.0, 1.0) * largest).round()
+}

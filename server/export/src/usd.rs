@@ -1,0 +1,344 @@
+//! USD as text (`.usda`), and with its textures in one file (`.usdz`), in metres, Y up.
+
+mod arrays;
+mod materials;
+
+use std::io::{self, Write};
+
+use espalier_mesh::{Style, TriangleMesh};
+use espalier_plant::Plant;
+use espalier_settings::Appearance;
+use glam::Vec3;
+use serde_json::Value;
+
+use self::arrays::{Array, joined};
+use crate::{
+    About, Detail, ExportError, Model, Sink,
+    assembly::{Assembly, Builder, Part, Scatter},
+    foliage::cards::{Cards, LeafForm},
+    mean_materials::{MeanMaterial, MeanMaterials},
+    zip::Zip,
+};
+
+/// The prim that holds all others.
+const ROOT: &str = "Plants";
+
+/// The present of `plant` as USD in text, whose materials have one colour each; see `docs/formats.md`.
+///
+/// # Errors
+/// Where an internode cannot be as long as `about` says, the plant is too large, or the file cannot be written.
+pub fn usda(
+    plant: &Plant,
+    style: &Style,
+    appearance: &Appearance,
+    about: &About<'_>,
+    model: &Model,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
+    let assembly = Assembly::of(plant, style, appearance, about.species, model);
+    layer(&assembly, about, model, false, out)?;
+    Ok(())
+}
+
+/// The same in a package with its textures, as tablets show it.
+///
+/// # Errors
+/// Those of [`usda`].
+pub fn usdz(
+    plant: &Plant,
+    style: &Style,
+    appearance: &Appearance,
+    about: &About<'_>,
+    model: &Model,
+    out: &mut dyn Sink,
+) -> Result<(), ExportError> {
+    let assembly = Assembly::of(plant, style, appearance, about.species, model);
+    let mut zip = Zip::new(out);
+    let mut materials = MeanMaterials::default();
+    zip.add("tree.usda", |out| {
+        materials = layer(&assembly, about, model, true, out)?;
+        Ok(())
+    })?;
+    for (name, png) in materials.0.iter().flat_map(MeanMaterial::pictures) {
+        zip.add(&name, |out| Ok(out.write_all(&png)?))?;
+    }
+    zip.finish()
+}
+
+fn layer(
+    assembly: &Assembly<'_>,
+    about: &About<'_>,
+    model: &Model,
+    has_pictures: bool,
+    out: &mut dyn Write,
+) -> Result<MeanMaterials, ExportError> {
+    let scale = about.scale()?;
+    let quoted = |text: &str| Value::from(text.replace(['\n', '\r'], " ")).to_string();
+    let said = quoted(&about.extras().to_string());
+    let doc = about.copyright().map(|said| format!("    doc = {}\n", quoted(&said))).unwrap_or_default();
+    write!(
+        out,
+        "#usda 1.0\n(\n{doc}    customLayerData = {{\n        string creator = {}\n        string espalier = {said}\n    }}\n    \
+         defaultPrim = \"{ROOT}\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n)\n\n\
+         def Xform \"{ROOT}\" (\n    kind = \"group\"\n)\n{{\n",
+        quoted(about.program)
+    )?;
+    let mut writer = Writer { out, scale, model, open: Vec::new(), materials: MeanMaterials::default() };
+    assembly.build(&mut writer)?;
+    let Writer { out, materials, .. } = writer;
+    materials::write(&materials, has_pictures, out)?;
+    writeln!(out, "}}")?;
+    Ok(materials)
+}
+
+struct Writer<'a> {
+    out: &'a mut dyn Write,
+    scale: f32,
+    model: &'a Model,
+    /// The names of the nodes that are open, and where they stand, in internodes.
+    open: Vec<(String, Vec3)>,
+    materials: MeanMaterials,
+}
+
+impl Writer<'_> {
+    fn origin(&self) -> Vec3 {
+        self.open.last().map_or(Vec3::ZERO, |(_, place)| *place)
+    }
+
+    /// A name below the open node as a path.
+    fn path(&self, name: &str) -> String {
+        let all: Vec<&str> = self.open.iter().map(|(name, _)| name.as_str()).chain([name]).collect();
+        format!("/{ROOT}/{}", all.join("/"))
+    }
+
+    fn array<T>(
+        &mut self,
+        name: &str,
+        suffix: &str,
+        fill: impl FnOnce(&mut Array<'_>) -> Result<T, ExportError>,
+    ) -> Result<T, ExportError> {
+        let mut array = Array::begin(&mut *self.out, name)?;
+        let result = fill(&mut array)?;
+        array.end(suffix)?;
+        Ok(result)
+    }
+
+    fn bound(&mut self, material: &str) -> io::Result<()> {
+        writeln!(self.out, "rel material:binding = </{ROOT}/Looks/{material}>")
+    }
+
+    /// The arrays that all meshes have.
+    fn triangles(&mut self, mesh: &TriangleMesh, place: impl Fn(Vec3) -> Vec3) -> Result<(), ExportError> {
+        let corners = mesh.indices.as_chunks::<3>().0;
+        self.array("int[] faceVertexCounts", "", |array| corners.iter().try_for_each(|_| array.put(3)))?;
+        self.array("int[] faceVertexIndices", "", |array| {
+            mesh.indices.iter().try_for_each(|index| array.put(index))
+        })?;
+        self.array("point3f[] points", "", |array| {
+            mesh.positions.iter().try_for_each(|&position| array.vector(&place(position).to_array()))
+        })?;
+        self.array("normal3f[] normals", " (\ninterpolation = \"vertex\"\n)", |array| {
+            mesh.normals.iter().try_for_each(|normal| array.vector(&normal.to_array()))
+        })
+    }
+}
+
+impl Builder for Writer<'_> {
+    fn begin(&mut self, name: &str, place: Vec3, extras: Option<Value>) -> Result<(), ExportError> {
+        let [x, y, z] = ((place - self.origin()) * self.scale).to_array();
+        let name = identifier(name);
+        writeln!(self.out, "def Xform \"{name}\" (\nkind = \"group\"\n")?;
+        let lod = extras.as_ref().and_then(|extras| extras["lod"].as_u64());
+        if let Some(Value::Object(extras)) = &extras {
+            writeln!(self.out, "customData = {{")?;
+            for (name, value) in extras.iter().filter(|(_, value)| value.is_u64()) {
+                writeln!(self.out, "int {name} = {value}")?;
+            }
+            writeln!(self.out, "}}")?;
+        }
+        writeln!(self.out, ")\n{{")?;
+        writeln!(self.out, "double3 xformOp:translate = ({x}, {y}, {z})")?;
+        writeln!(self.out, "uniform token[] xformOpOrder = [\"xformOp:translate\"]")?;
+        if self.model.detail == Detail::Set && lod.is_some_and(|level| level > 0) {
+            // All levels stand at the same place; who wants another shows it.
+            writeln!(self.out, "token visibility = \"invisible\"")?;
+        }
+        self.open.push((name, place));
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<(), ExportError> {
+        self.open.pop();
+        Ok(writeln!(self.out, "}}")?)
+    }
+
+    fn part(&mut self, part: &Part<'_>) -> Result<(), ExportError> {
+        let (origin, scale) = (self.origin(), self.scale);
+        let [mut low, mut high] = [Vec3::MAX, Vec3::MIN];
+        let mut triangles = [0, 0];
+        (part.blocks)(&mut |block| {
+            triangles[0] += block.mesh.indices.len() / 3;
+            triangles[1] += block.second.len() / 3;
+            for &place in &block.mesh.positions {
+                let place = (place - origin) * scale;
+                (low, high) = (low.min(place), high.max(place));
+            }
+            for (surface, indices) in part.surfaces.iter().zip([&block.mesh.indices[..], block.second]) {
+                if !indices.is_empty() {
+                    self.materials.add(surface, &block);
+                }
+            }
+            Ok(())
+        })?;
+        if triangles == [0, 0] {
+            return Ok(());
+        }
+        if !(low.is_finite() && high.is_finite()) {
+            return Err(ExportError::NotFinite);
+        }
+        writeln!(
+            self.out,
+            "def Mesh \"{}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{",
+            part.name
+        )?;
+        writeln!(self.out, "uniform token subdivisionScheme = \"none\"")?;
+        if part.surfaces.len() == 1 {
+            writeln!(self.out, "uniform bool doubleSided = 1")?;
+        }
+        writeln!(self.out, "float3[] extent = [{}, {}]", joined(&low.to_array()), joined(&high.to_array()))?;
+        self.array("int[] faceVertexCounts", "", |array| {
+            (0..triangles[0] + triangles[1]).try_for_each(|_| array.put(3))
+        })?;
+        self.array("int[] faceVertexIndices", "", |array| {
+            // The triangles of the second surface stand behind all others, so that they can be told by their numbers.
+            for second in [false, true] {
+                let mut first = 0;
+                (part.blocks)(&mut |block| {
+                    let indices = if second { block.second } else { &block.mesh.indices };
+                    indices.iter().try_for_each(|index| array.put(first + index))?;
+                    first += block.mesh.positions.len() as u32;
+                    Ok(())
+                })?;
+            }
+            Ok(())
+        })?;
+        let vertex = " (\ninterpolation = \"vertex\"\n)";
+        self.array("point3f[] points", "", |array| {
+            (part.blocks)(&mut |block| {
+                let mut places = block.mesh.positions.iter().map(|&place| (place - origin) * scale);
+                places.try_for_each(|place| array.vector(&place.to_array()))
+            })
+        })?;
+        self.array("normal3f[] normals", vertex, |array| {
+            (part.blocks)(&mut |block| {
+                block.mesh.normals.iter().try_for_each(|way| array.vector(&way.to_array()))
+            })
+        })?;
+        self.array("texCoord2f[] primvars:st", vertex, |array| {
+            (part.blocks)(&mut |block| block.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array())))
+        })?;
+        self.array("color3f[] primvars:displayColor", vertex, |array| {
+            (part.blocks)(&mut |block| {
+                block.colours.iter().try_for_each(|colour| array.vector(&colour.to_array()))
+            })
+        })?;
+        let [first, second] =
+            [part.surfaces.first(), part.surfaces.get(1)].map(|one| one.map_or("", |one| one.name()));
+        self.bound(first)?;
+        if triangles[1] > 0 {
+            writeln!(self.out, "uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"")?;
+            writeln!(
+                self.out,
+                "def GeomSubset \"{second}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
+            )?;
+            writeln!(
+                self.out,
+                "uniform token elementType = \"face\"\nuniform token familyName = \"materialBind\""
+            )?;
+            self.array("int[] indices", "", |array| {
+                (triangles[0]..triangles[0] + triangles[1]).try_for_each(|face| array.put(face))
+            })?;
+            self.bound(second)?;
+            writeln!(self.out, "}}")?;
+        }
+        Ok(writeln!(self.out, "}}")?)
+    }
+
+    fn scatter(&mut self, scatter: &Scatter<'_>) -> Result<(), ExportError> {
+        let (origin, scale, each) = (self.origin(), self.scale, scatter.each);
+        let (mut sum, mut count) = (Vec3::ZERO, 0);
+        let mut is_finite = true;
+        each(&mut |(pose, hue)| {
+            (sum, count) = (sum + hue * scatter.strength, count + 1);
+            is_finite &= (pose.place * scale).is_finite();
+            Ok(())
+        })?;
+        if count == 0 {
+            return Ok(());
+        }
+        if !is_finite {
+            return Err(ExportError::NotFinite);
+        }
+        self.materials.count(&scatter.surface, sum, count);
+        writeln!(self.out, "def PointInstancer \"{}\"\n{{", scatter.name)?;
+        let leaf = |which: usize| format!("<{}/Leaf{which}>", self.path(scatter.name));
+        let prototypes: Vec<String> = (0..LeafForm::PROTOTYPES).map(leaf).collect();
+        writeln!(self.out, "rel prototypes = [{}]", prototypes.join(", "))?;
+        self.array("int[] protoIndices", "", |array| each(&mut |(pose, _)| array.put(pose.prototype)))?;
+        self.array("point3f[] positions", "", |array| {
+            each(&mut |(pose, _)| array.vector(&((pose.place - origin) * scale).to_array()))
+        })?;
+        self.array("quath[] orientations", "", |array| {
+            each(&mut |(pose, _)| {
+                let [x, y, z, w] = pose.rotation.to_array();
+                array.vector(&[w, x, y, z])
+            })
+        })?;
+        self.array("float3[] scales", "", |array| {
+            each(&mut |(pose, _)| array.vector(&[pose.scale * scale; 3]))
+        })?;
+        self.array("color3f[] primvars:displayColor", " (\ninterpolation = \"vertex\"\n)", |array| {
+            each(&mut |(_, hue)| array.vector(&(hue * scatter.strength).to_array()))
+        })?;
+        for which in 0..LeafForm::PROTOTYPES {
+            let mut cards = Cards::default();
+            scatter.form.add_prototype(&mut cards, which);
+            writeln!(
+                self.out,
+                "def Mesh \"Leaf{which}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{"
+            )?;
+            writeln!(self.out, "uniform token subdivisionScheme = \"none\"\nuniform bool doubleSided = 1")?;
+            self.triangles(&cards.mesh, |place| place)?;
+            self.array("texCoord2f[] primvars:st", " (\ninterpolation = \"vertex\"\n)", |array| {
+                cards.mesh.uvs.iter().try_for_each(|uv| array.vector(&uv.to_array()))
+            })?;
+            self.bound(scatter.surface.name())?;
+            writeln!(self.out, "}}")?;
+        }
+        Ok(writeln!(self.out, "}}")?)
+    }
+
+    fn hull(&mut self, name: &str, mesh: &TriangleMesh) -> Result<(), ExportError> {
+        let (origin, scale) = (self.origin(), self.scale);
+        writeln!(
+            self.out,
+            "def Mesh \"{}\" (\nprepend apiSchemas = [\"PhysicsCollisionAPI\", \"PhysicsMeshCollisionAPI\"]\n)\n{{\n\
+             uniform token subdivisionScheme = \"none\"\nuniform token purpose = \"guide\"\n\
+             uniform token physics:approximation = \"convexHull\"",
+            identifier(name)
+        )?;
+        self.triangles(mesh, |place| (place - origin) * scale)?;
+        Ok(writeln!(self.out, "}}")?)
+    }
+}
+
+/// A name as prims may have it.
+fn identifier(name: &str) -> String {
+    let known = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
+    let name: String = name.chars().map(known).collect();
+    if name.starts_with(|first: char| first.is_ascii_digit()) || name.is_empty() {
+        format!("_{name}")
+    } else {
+        name
+    }
+}

@@ -1,0 +1,61 @@
+//! Materials of `UsdPreviewSurface`.
+
+use std::io::{self, Write};
+
+use super::{ROOT, arrays::joined};
+use crate::mean_materials::{MeanMaterial, MeanMaterials};
+
+/// The scope of all materials.
+pub(super) fn write(materials: &MeanMaterials, has_pictures: bool, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "def Scope \"Looks\"\n{{")?;
+    for material in &materials.0 {
+        one(material, has_pictures && material.texture.is_some(), out)?;
+    }
+    writeln!(out, "}}")
+}
+
+fn one(material: &MeanMaterial, has_pictures: bool, out: &mut dyn Write) -> io::Result<()> {
+    let path = format!("/{ROOT}/Looks/{}", material.name);
+    writeln!(out, "def Material \"{}\"\n{{", material.name)?;
+    writeln!(out, "token outputs:surface.connect = <{path}/Surface.outputs:surface>")?;
+    writeln!(out, "def Shader \"Surface\"\n{{\nuniform token info:id = \"UsdPreviewSurface\"")?;
+    writeln!(out, "float inputs:roughness = 0.8")?;
+    if has_pictures {
+        writeln!(out, "color3f inputs:diffuseColor.connect = <{path}/Colour.outputs:rgb>")?;
+        writeln!(out, "normal3f inputs:normal.connect = <{path}/Normal.outputs:rgb>")?;
+        if material.is_cut_out {
+            writeln!(out, "float inputs:opacity.connect = <{path}/Colour.outputs:a>")?;
+            writeln!(out, "float inputs:opacityThreshold = 0.5")?;
+        }
+    } else {
+        writeln!(out, "color3f inputs:diffuseColor = {}", joined(&material.seen().to_array()))?;
+    }
+    writeln!(out, "token outputs:surface\n}}")?;
+    if has_pictures {
+        writeln!(out, "def Shader \"Place\"\n{{\nuniform token info:id = \"UsdPrimvarReader_float2\"")?;
+        writeln!(out, "string inputs:varname = \"st\"\nfloat2 outputs:result\n}}")?;
+        let [r, g, b] = material.mean().to_array();
+        let relief = material.texture.as_ref().map_or(1.0, |(_, relief)| *relief);
+        // Textures of normals count from -1 to 1; the relief makes them steeper.
+        let (slope, rest) = (2.0 * relief, -relief);
+        for (name, kind, space, settings) in [
+            ("Colour", "colour", "sRGB", format!("float4 inputs:scale = ({r}, {g}, {b}, 1)")),
+            (
+                "Normal",
+                "normal",
+                "raw",
+                format!(
+                    "float4 inputs:scale = ({slope}, {slope}, 2, 1)\nfloat4 inputs:bias = ({rest}, {rest}, -1, 0)"
+                ),
+            ),
+        ] {
+            writeln!(out, "def Shader \"{name}\"\n{{\nuniform token info:id = \"UsdUVTexture\"")?;
+            writeln!(out, "asset inputs:file = @{}@", material.picture(kind))?;
+            writeln!(out, "float2 inputs:st.connect = <{path}/Place.outputs:result>")?;
+            writeln!(out, "token inputs:sourceColorSpace = \"{space}\"\n{settings}")?;
+            writeln!(out, "token inputs:wrapS = \"repeat\"\ntoken inputs:wrapT = \"repeat\"")?;
+            writeln!(out, "float3 outputs:rgb\nfloat outputs:a\n}}")?;
+        }
+    }
+    writeln!(out, "}}")
+}

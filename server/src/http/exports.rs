@@ -1,0 +1,211 @@
+//! The tree as a file, in any format: made on disk beneath those who draw, sent as it is read from there.
+
+use std::{
+    collections::BTreeMap,
+    fs::File,
+    io::{self, Read},
+    sync::{
+        Arc, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use axum::{
+    Json,
+    body::{Body, Bytes},
+    extract::{Path, State},
+    http::header,
+    response::{IntoResponse, Response},
+};
+use espalier_proto::{
+    Problem, ProblemCode,
+    library::{ExportFormat, ExportProgress},
+};
+use futures_util::stream;
+use tokio::sync::{mpsc, oneshot};
+use tokio_util::sync::CancellationToken;
+
+use super::{
+    Shared,
+    failure::{Failure, Query},
+    sessions::open,
+};
+use crate::{
+    document::{FORMATS, FileError, FormatRow, Stored},
+    order::{Order, OrderError, option},
+    spool::Spool,
+};
+
+/// Bytes read from the disk at once, and how many times as many wait for the network.
+const PIECE: usize = 256 * 1024;
+const WAITING: usize = 2;
+/// Characters of a ticket: so many that nobody guesses one.
+const TICKET: std::ops::RangeInclusive<usize> = 16..=64;
+
+/// How far exports are, by the ticket that was given with each.
+#[derive(Clone, Debug, Default)]
+pub struct Progresses(Arc<Mutex<BTreeMap<String, Arc<Progress>>>>);
+
+/// Bytes of a file that is being made.
+#[derive(Debug, Default)]
+struct Progress {
+    written: Arc<AtomicU64>,
+    expected: AtomicU64,
+}
+
+/// Takes a ticket back when the export is done or given up.
+struct Held(Progresses, String);
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        self.0.lock().remove(&self.1);
+    }
+}
+
+impl Progresses {
+    fn lock(&self) -> std::sync::MutexGuard<'_, BTreeMap<String, Arc<Progress>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn hold(&self, ticket: Option<String>) -> Result<(Arc<Progress>, Option<Held>), Failure> {
+        let progress = Arc::new(Progress::default());
+        let Some(ticket) = ticket else { return Ok((progress, None)) };
+        if !TICKET.contains(&ticket.len()) || self.lock().contains_key(&ticket) {
+            return Err(wrong(
+                "ticket",
+                "16 to 64 characters that no other export has",
+                "ticket is of no use",
+            ));
+        }
+        self.lock().insert(ticket.clone(), Arc::clone(&progress));
+        Ok((progress, Some(Held(self.clone(), ticket))))
+    }
+}
+
+/// What can be asked for (`EX1`).
+pub(super) async fn formats() -> Json<Vec<ExportFormat>> {
+    Json(FORMATS.iter().map(FormatRow::described).collect())
+}
+
+/// How far an export is (`EX3`).
+pub(super) async fn progress(
+    State(shared): State<Shared>,
+    Path((_, ticket)): Path<(String, String)>,
+) -> Result<Json<ExportProgress>, Failure> {
+    let found = shared.progresses.lock().get(&ticket).cloned();
+    let found = found.ok_or_else(|| Failure::not_found("export"))?;
+    let written = found.written.load(Ordering::Relaxed);
+    let expected = found.expected.load(Ordering::Relaxed).max(written);
+    Ok(Json(ExportProgress { written, expected }))
+}
+
+/// A session's tree as a file (`EX2`).
+pub(super) async fn take(
+    State(shared): State<Shared>,
+    Path(session): Path<String>,
+    Query(said): Query<BTreeMap<String, String>>,
+    row: &'static FormatRow,
+) -> Result<Response, Failure> {
+    let (ticket, order) = read(said, row)?;
+    let (progress, held) = shared.progresses.hold(ticket)?;
+    let document = open(&shared, &session).await?.read().await?;
+    // Whoever goes away takes this along, and with it what is being made.
+    let stop = CancellationToken::new();
+    let gone = stop.clone().drop_guard();
+    let (made, whether_made) = oneshot::channel();
+    let (pieces, to_send) = mpsc::channel(WAITING);
+    let pool = shared.pool.clone();
+    tokio::task::spawn_blocking(move || {
+        let file = make(&document.bytes, row, &order, &progress, |written| Spool::new(pool, stop, written));
+        drop((document, held));
+        let (file, length) = match file {
+            Ok(file) => file,
+            Err(error) => return drop(made.send(Err(error))),
+        };
+        if made.send(Ok(length)).is_ok() {
+            send(file, &pieces);
+        }
+    });
+    let length = match whether_made.await {
+        Ok(Ok(length)) => length,
+        Ok(Err(error)) => {
+            tracing::error!(session, %error, "a document cannot be exported");
+            return Err(Failure::unavailable("The tree cannot be exported."));
+        }
+        Err(_) => return Err(crate::pool::Panicked.into()),
+    };
+    let headers = [
+        (header::CONTENT_TYPE, row.media_type.to_owned()),
+        (header::CONTENT_LENGTH, length.to_string()),
+        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"tree.{}\"", row.ending)),
+    ];
+    let pieces = stream::unfold((to_send, gone), |(mut to_send, gone)| async move {
+        to_send.recv().await.map(|piece| (piece, (to_send, gone)))
+    });
+    Ok((headers, Body::from_stream(pieces)).into_response())
+}
+
+fn make(
+    bytes: &[u8],
+    row: &FormatRow,
+    order: &Order,
+    progress: &Progress,
+    spool: impl FnOnce(Arc<AtomicU64>) -> io::Result<Spool>,
+) -> Result<(File, u64), FileError> {
+    let mut stored = Stored::read(bytes)?;
+    progress.expected.store(stored.expected(row, order), Ordering::Relaxed);
+    let mut out = spool(Arc::clone(&progress.written))?;
+    stored.write(row.format, order, &mut out)?;
+    Ok(out.into_file()?)
+}
+
+/// Sends a file piece by piece, as fast as they are taken.
+fn send(mut file: impl Read, pieces: &mpsc::Sender<io::Result<Bytes>>) {
+    let mut piece = vec![0; PIECE];
+    loop {
+        let sent = match file.read(&mut piece) {
+            Ok(0) => return,
+            Ok(count) => pieces.blocking_send(Ok(Bytes::copy_from_slice(&piece[..count]))),
+            Err(error) => return drop(pieces.blocking_send(Err(error))),
+        };
+        if sent.is_err() {
+            return;
+        }
+    }
+}
+
+fn read(mut said: BTreeMap<String, String>, row: &FormatRow) -> Result<(Option<String>, Order), Failure> {
+    let ticket = said.remove("ticket");
+    let order: Order = parsed(said)?;
+    order.check(row.options).map_err(|error| {
+        let allowed = match &error {
+            OrderError::NotOfFormat(_) => row.options.join(", "),
+            OrderError::OutOfRange(_, allowed) => allowed.clone(),
+        };
+        wrong(error.option(), &allowed, &format!("The export cannot be done: {error}."))
+    })?;
+    Ok((ticket, order))
+}
+
+/// Texts as an order: numbers and switches are written as in JSON.
+fn parsed(said: BTreeMap<String, String>) -> Result<Order, Failure> {
+    let value = |(name, text): (String, String)| {
+        let is_plain = option::PLAIN.contains(&name.as_str());
+        let plain = is_plain.then(|| serde_json::from_str(&text).ok()).flatten();
+        (name, plain.unwrap_or(serde_json::Value::String(text)))
+    };
+    let object: serde_json::Map<_, _> = said.into_iter().map(value).collect();
+    serde_json::from_value(object.into()).map_err(|error| {
+        Problem::new(ProblemCode::Malformed, format!("The request cannot be read: {error}.")).into()
+    })
+}
+
+fn wrong(field: &str, allowed: &str, sentence: &str) -> Failure {
+    Problem {
+        code: ProblemCode::OutOfRange,
+        field: Some(field.to_owned()),
+        allowed: Some(allowed.to_owned()),
+        message: sentence.to_owned(),
+    }
+    .into()
+}

@@ -1,0 +1,120 @@
+//! A file in the making: on disk, a slice at a time, beneath what draws, until somebody gives it up.
+
+use std::{
+    fs::File,
+    io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+    time::Duration,
+};
+
+use tokio_util::sync::CancellationToken;
+
+use crate::pool::SimulationPool;
+
+/// Bytes that are made in one go: some milliseconds of work.
+const SLICE: usize = 256 * 1024;
+/// How long a slice waits at most for those who draw.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// A temporary file that nobody else sees, gone when it is dropped.
+#[derive(Debug)]
+pub struct Spool(BufWriter<Slices>);
+
+#[derive(Debug)]
+struct Slices {
+    file: File,
+    pool: SimulationPool,
+    stop: CancellationToken,
+    written: Arc<AtomicU64>,
+}
+
+impl Spool {
+    /// An empty file. It counts in `written` the bytes that it has taken, and takes none after `stop`.
+    pub fn new(pool: SimulationPool, stop: CancellationToken, written: Arc<AtomicU64>) -> io::Result<Self> {
+        let file = tempfile::tempfile()?;
+        Ok(Self(BufWriter::with_capacity(SLICE, Slices { file, pool, stop, written })))
+    }
+
+    /// The whole file, from its beginning, and how many bytes it has.
+    pub fn into_file(self) -> io::Result<(File, u64)> {
+        let Slices { mut file, .. } = self.0.into_inner().map_err(io::IntoInnerError::into_error)?;
+        let length = file.seek(SeekFrom::End(0))?;
+        file.rewind()?;
+        Ok((file, length))
+    }
+}
+
+impl Write for Spool {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+impl Seek for Spool {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.0.seek(to)
+    }
+}
+
+impl Write for Slices {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.pool.give_way(PATIENCE);
+        if self.stop.is_cancelled() {
+            return Err(ErrorKind::ConnectionAborted.into());
+        }
+        let count = self.file.write(bytes)?;
+        self.written.fetch_add(count as u64, Ordering::Relaxed);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Slices {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use super::*;
+
+    fn spool(stop: &CancellationToken) -> Spool {
+        let pool = SimulationPool::new(std::num::NonZeroUsize::new(1)).unwrap();
+        Spool::new(pool, stop.clone(), Arc::default()).unwrap()
+    }
+
+    #[test]
+    fn what_was_written_is_read_from_its_beginning() {
+        let mut spool = spool(&CancellationToken::new());
+        spool.write_all(b"abc").unwrap();
+        spool.seek(SeekFrom::Start(1)).unwrap();
+        spool.write_all(b"X").unwrap();
+        let (mut file, length) = spool.into_file().unwrap();
+        let mut text = String::new();
+        file.read_to_string(&mut text).unwrap();
+        assert_eq!((text.as_str(), length), ("aXc", 3));
+    }
+
+    #[test]
+    fn a_file_that_nobody_wants_takes_no_more() {
+        let stop = CancellationToken::new();
+        let mut spool = spool(&stop);
+        spool.write_all(&vec![0; 2 * SLICE]).unwrap();
+        stop.cancel();
+        let error = spool.write_all(&vec![0; 2 * SLICE]).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::ConnectionAborted);
+    }
+}
