@@ -253,6 +253,9 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     let mut grown = document.simulation.clone();
     let parts = Plant::from_parts(document.plant().to_parts()).expect("its own parts");
     let mut afresh = Simulation::from_state(parts, document.simulation.state());
+    // Growth by hand ends the brush of a programme.
+    let strokes: Vec<_> = afresh.generator().strokes().filter(|stroke| stroke.is_of_programme()).collect();
+    strokes.into_iter().for_each(|stroke| afresh.end_stroke(stroke));
     for _ in 0..2 {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
         let schedule = GrowthSchedule::plain(grown.parameters().clone());
