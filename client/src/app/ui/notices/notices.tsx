@@ -46,10 +46,24 @@ export function ToastList({ studio }: { studio: Studio }) {
   }, [toasts]);
   return (
     <div class="toasts" ref={host} popover="manual" aria-live="polite">
-      {toasts.map((toast) => (
-        <button type="button" class="toast" key={toast.id} onClick={() => studio.toasts.dismiss(toast.id)}>
-          {toast.text}
-        </button>
+      {toasts.map(({ id, text, action }) => (
+        <div class="toast-row" key={id}>
+          <button type="button" class="toast" onClick={() => studio.toasts.dismiss(id)}>
+            {text}
+          </button>
+          {action && (
+            <button
+              type="button"
+              class="toast-action"
+              onClick={() => {
+                studio.toasts.dismiss(id);
+                action.act();
+              }}
+            >
+              {action.label}
+            </button>
+          )}
+        </div>
       ))}
     </div>
   );
