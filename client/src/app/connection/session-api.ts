@@ -1,20 +1,18 @@
 import type { NewSession, SessionCreated } from "../../wire/generated";
 import { ask, RequestFailed } from "../requests/request";
 
-/** Starts a session, empty or from a saved tree. */
-export async function createSession(request: NewSession = {}): Promise<string> {
-  const created = await ask<SessionCreated>("POST", "/api/sessions", request);
-  return created.session;
+/** Starts a session, empty or from a saved tree; or leads into the one in which that tree is (`LB3`). */
+export function createSession(request: NewSession = {}): Promise<SessionCreated> {
+  return ask<SessionCreated>("POST", "/api/sessions", request);
 }
 
-/** Whether a session exists. */
-export async function sessionExists(session: string): Promise<boolean> {
+/** A session by its name; null if there is none. */
+export async function findSession(session: string): Promise<SessionCreated | null> {
   try {
-    await ask<SessionCreated>("GET", `/api/sessions/${encodeURIComponent(session)}`);
-    return true;
+    return await ask<SessionCreated>("GET", `/api/sessions/${encodeURIComponent(session)}`);
   } catch (error) {
     if (error instanceof RequestFailed && error.status === 404) {
-      return false;
+      return null;
     }
     throw error;
   }

@@ -127,7 +127,7 @@ describe("another session", () => {
     serveSessions([], ["new"]);
     const { link, location, calls, addresses } = setUp("/s/oak");
     await link.start();
-    expect(await link.change()).toBe(true);
+    expect(await link.change()).toMatchObject({ session: "new" });
     expect([link.session.peek(), location.pathname]).toEqual(["new", "/s/new"]);
     location.pathname = "/s/oak";
     link.navigated();
@@ -139,16 +139,16 @@ describe("another session", () => {
     const { asked } = serveSessions([], ["one", "two"]);
     const { link } = setUp("/s/oak");
     await link.start();
-    expect(await Promise.all([link.change(), link.change()])).toEqual([true, false]);
+    expect(await Promise.all([link.change(), link.change()])).toMatchObject([{ session: "one" }, null]);
     expect(asked).toEqual(["POST /api/sessions"]);
-    expect(await link.change(), "and later again").toBe(true);
+    expect(await link.change(), "and later again").not.toBeNull();
   });
 
   it("that is not to be had leaves everything as it is", async () => {
     serveSessions([], []);
     const { link, calls, location } = setUp("/s/oak");
     await link.start();
-    expect(await link.change()).toBe(false);
+    expect(await link.change()).toBeNull();
     expect([link.session.peek(), location.pathname, calls.at(-1)]).toEqual(["oak", "/s/oak", "failed"]);
   });
 

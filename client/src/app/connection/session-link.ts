@@ -1,6 +1,6 @@
 import { batch, type Signal, signal } from "@preact/signals";
 import type { Frame } from "../../wire/frame";
-import type { Command } from "../../wire/generated";
+import type { Command, NewSession, SessionCreated } from "../../wire/generated";
 import type { AsideServerFrame } from "../../wire/server-frame";
 import { decodeServerFrame } from "../../wire/server-frame";
 import type { Clock } from "../page/clock";
@@ -15,7 +15,7 @@ import { PartedSessions } from "./parted-sessions";
 import { mayReload } from "./reload-guard";
 import type { RowStore } from "./row-store";
 import { pathOf, sessionInPath } from "./session-address";
-import { createSession, sessionExists, socketAddress } from "./session-api";
+import { createSession, findSession, socketAddress } from "./session-api";
 
 const RETRY_START = 2000;
 /** So many attempts at a first connection are quietly made. */
@@ -93,7 +93,7 @@ export class SessionLink implements PageEvents {
     }
     try {
       const last = lastSession.peek();
-      const session = last !== null && (await sessionExists(last)) ? last : await createSession();
+      const { session } = (last !== null && (await findSession(last))) || (await createSession());
       if (this.session.peek() === null) {
         page.history.replaceState(null, "", pathOf(session));
         this.#open(session);
@@ -111,21 +111,21 @@ export class SessionLink implements PageEvents {
     }
   }
 
-  /** Leaves this session for a new one, empty or from a saved tree; false if there is none to be had now. */
-  async change(tree?: string): Promise<boolean> {
+  /** Leaves this session for a new one, empty or from a saved tree; null if there is none to be had now. */
+  async change(request: NewSession = {}): Promise<SessionCreated | null> {
     // Two taps begin one session.
     if (this.#changing) {
-      return false;
+      return null;
     }
     this.#changing = true;
     try {
-      const session = await createSession(tree === undefined ? {} : { tree });
-      this.#options.page.history.pushState(null, "", pathOf(session));
-      this.#open(session);
-      return true;
+      const created = await createSession(request);
+      this.#options.page.history.pushState(null, "", pathOf(created.session));
+      this.#open(created.session);
+      return created;
     } catch (error) {
       this.#options.events.failed(error);
-      return false;
+      return null;
     } finally {
       this.#changing = false;
     }
@@ -134,7 +134,7 @@ export class SessionLink implements PageEvents {
   /** Goes back to a session that was left, if the server still has it. */
   async reopen(session: string): Promise<"opened" | "gone" | "failed"> {
     try {
-      if (!(await sessionExists(session))) {
+      if ((await findSession(session)) === null) {
         return "gone";
       }
     } catch (error) {

@@ -1,22 +1,84 @@
-import type { ChangeTree, SavedTree, SaveTree, TreePage } from "../../wire/generated";
+import type {
+  ChangeTree,
+  ChangeVersion,
+  CopyTree,
+  RestoreVersion,
+  SavedTree,
+  SaveTree,
+  SaveVersion,
+  TreePage,
+  TreeVersion,
+} from "../../wire/generated";
 import { ask } from "../requests/request";
+import type { Page } from "./pages";
 
-/** So many saved trees, newest first; those behind another page, if its `next` is given. */
-export function listTrees(limit: number, after?: string): Promise<TreePage> {
-  const page = new URLSearchParams({ limit: String(limit), ...(after === undefined ? {} : { after }) });
-  return ask<TreePage>("GET", `/api/trees?${page}`);
+/** Which trees are listed: all that are not deleted, if nothing is said. */
+export interface Which {
+  readonly template?: boolean;
+  readonly deleted?: boolean;
 }
 
-/** Saves a session's plants in the library. */
+/** So many saved trees, newest first; those behind another page, if its `next` is given. */
+export async function listTrees(limit: number, after?: string, which: Which = {}): Promise<Page<SavedTree>> {
+  const { trees, next } = await ask<TreePage>("GET", `/api/trees?${query({ limit, after, ...which })}`);
+  return next === undefined ? { items: trees } : { items: trees, next };
+}
+
+/** A tree as it is now, also one that was deleted. */
+export function findTree(id: string): Promise<SavedTree> {
+  return ask<SavedTree>("GET", pathOf(id));
+}
+
+/** Saves a session's plants as a new tree. */
 export function saveTree(request: SaveTree): Promise<SavedTree> {
   return ask<SavedTree>("POST", "/api/trees", request);
 }
 
-export function renameTree(id: string, name: string): Promise<SavedTree> {
-  const request: ChangeTree = { name };
-  return ask<SavedTree>("PATCH", `/api/trees/${encodeURIComponent(id)}`, request);
+/** Saves them as the next version of a tree, if that is at this revision still (`LB2`). */
+export function saveVersion(id: string, request: SaveVersion, revision: number): Promise<TreeVersion> {
+  return ask<TreeVersion>("POST", `${pathOf(id)}/versions`, request, revision);
+}
+
+export function changeTree(id: string, change: ChangeTree): Promise<SavedTree> {
+  return ask<SavedTree>("PATCH", pathOf(id), change);
+}
+
+/** Makes a new tree of one, or of one of its versions. */
+export function copyTree(id: string, request: CopyTree): Promise<SavedTree> {
+  return ask<SavedTree>("POST", `${pathOf(id)}/copies`, request);
 }
 
 export async function deleteTree(id: string): Promise<void> {
-  await ask<undefined>("DELETE", `/api/trees/${encodeURIComponent(id)}`);
+  await ask<undefined>("DELETE", pathOf(id));
+}
+
+export function undeleteTree(id: string): Promise<SavedTree> {
+  return ask<SavedTree>("POST", `${pathOf(id)}/undelete`);
+}
+
+/** So many versions, newest first; those before the number that another page ends with. */
+export async function listVersions(id: string, limit: number, before?: string): Promise<Page<TreeVersion>> {
+  const items = await ask<TreeVersion[]>("GET", `${pathOf(id)}/versions?${query({ limit, before })}`);
+  const last = items.at(-1)?.number ?? 1;
+  return last > 1 ? { items, next: String(last) } : { items };
+}
+
+export function changeVersion(id: string, number: number, change: ChangeVersion): Promise<TreeVersion> {
+  return ask<TreeVersion>("PATCH", `${pathOf(id)}/versions/${number}`, change);
+}
+
+/** Saves what a version holds as the newest one. */
+export function restoreVersion(id: string, number: number, request: RestoreVersion): Promise<TreeVersion> {
+  return ask<TreeVersion>("POST", `${pathOf(id)}/versions/${number}/restore`, request);
+}
+
+function pathOf(id: string): string {
+  return `/api/trees/${encodeURIComponent(id)}`;
+}
+
+function query(fields: Readonly<Record<string, string | number | boolean | undefined>>): string {
+  const asked = Object.entries(fields).flatMap(([name, value]) =>
+    value === undefined ? [] : [[name, String(value)] as [string, string]],
+  );
+  return new URLSearchParams(asked).toString();
 }

@@ -1,4 +1,6 @@
+import type { Signal } from "@preact/signals";
 import type { Stage } from "../view/stage";
+import { type Belonging, type Saving, saveNext } from "./belonging";
 import { saveTree } from "./library-api";
 import type { Trees } from "./trees";
 import type { UnsavedTrees } from "./unsaved-trees";
@@ -11,23 +13,51 @@ export interface SavedFrom {
   readonly stage: Pick<Stage, "thumbnail">;
   readonly unsaved: Pick<UnsavedTrees, "saved">;
   readonly trees: Pick<Trees, "call">;
+  readonly settings: { readonly author: Signal<string> };
 }
 
-/** Saves the tree of a session in the library, with its picture. */
-export async function saveWithPicture(page: SavedFrom, session: string, name: string): Promise<void> {
-  const thumbnail = await picture(page.stage);
-  await saveTree({ session, name, ...(thumbnail === undefined ? {} : { thumbnail }) });
+/** What is said of a version, and by whom; empty if nothing is. */
+export interface Said {
+  readonly note?: string;
+  readonly author?: string;
+}
+
+/** Saves the tree of a session in the library as a new one, with its picture. */
+export async function saveAsNew(page: SavedFrom, session: string, name: string, note = ""): Promise<void> {
+  await saveTree({ session, name, ...said(page, note), ...(await picture(page.stage)) });
+  saved(page, name);
+}
+
+/** Saves it as the next version of the tree that it belongs to. */
+export async function saveAsNext(page: SavedFrom, session: string, of: Belonging, note = ""): Promise<Saving> {
+  const saving = await saveNext(of, { session, ...said(page, note), ...(await picture(page.stage)) });
+  if ("version" in saving) {
+    saved(page, of.tree.name);
+  }
+  return saving;
+}
+
+/** What whoever is at the page says of what they save. */
+export function said({ settings }: Pick<SavedFrom, "settings">, note = ""): Said {
+  const [words, author] = [note.trim(), settings.author.peek().trim()];
+  return { ...(words === "" ? {} : { note: words }), ...(author === "" ? {} : { author }) };
+}
+
+function saved(page: SavedFrom, name: string): void {
   page.unsaved.saved();
   page.trees.call(name);
 }
 
 /** The largest picture that fits; a tree can be saved without one. */
-async function picture(stage: Pick<Stage, "thumbnail">): Promise<string | undefined> {
+async function picture(stage: Pick<Stage, "thumbnail">): Promise<{ thumbnail?: string }> {
   for (const size of [512, 384, 256]) {
-    const url = await stage.thumbnail(size).catch(() => undefined);
-    if (url === undefined || url.length <= MAX_PICTURE) {
-      return url;
+    const thumbnail = await stage.thumbnail(size).catch(() => undefined);
+    if (thumbnail === undefined) {
+      return {};
+    }
+    if (thumbnail.length <= MAX_PICTURE) {
+      return { thumbnail };
     }
   }
-  return undefined;
+  return {};
 }

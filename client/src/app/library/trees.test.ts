@@ -7,7 +7,7 @@ function page() {
   const session = signal<string | null>("oak");
   const names = signal<Readonly<Record<string, string>>>({});
   const sheet = signal<SheetName | null>(null);
-  const here = { isUnsaved: false, answers: true, gone: false };
+  const here = { isUnsaved: false, answers: true, gone: false, isSaved: true };
   const done: string[] = [];
   const open = (next: string) => {
     done.push(`open ${next}`);
@@ -19,7 +19,12 @@ function page() {
   const trees = new Trees({
     link: {
       session,
-      change: async (tree) => open(tree === undefined ? "empty" : `copy of ${tree}`),
+      change: async ({ tree, template } = {}) => {
+        const session = tree === undefined ? "empty" : `${template ? "begun as" : "with"} ${tree}`;
+        return open(session)
+          ? { session, ...(tree && !template ? { tree: { id: tree, version: 1, saved: here.isSaved } } : {}) }
+          : null;
+      },
       reopen: async (other) => (here.gone ? "gone" : open(other) ? "opened" : "failed"),
     },
     unsaved: {
@@ -52,16 +57,29 @@ it("a tree that is not saved is left only after the user was asked", async () =>
 it("a tree of the library comes with its name, and the one before is kept", async () => {
   const { trees, here, done } = page();
   here.isUnsaved = true;
-  await trees.leave({ id: "t1", name: "Old oak" });
-  expect(done).toEqual(["keep", "open copy of t1", "notices.kept-unsaved", "opened copy of t1"]);
+  await trees.leave({ tree: { id: "t1", name: "Old oak" } });
+  expect(done).toEqual(["keep", "open with t1", "notices.kept-unsaved", "opened with t1"]);
   expect(trees.name.value).toBe("Old oak");
+});
+
+it("a tree that others work on is not saved as it is", async () => {
+  const { trees, here, done } = page();
+  here.isSaved = false;
+  await trees.leave({ tree: { id: "t1", name: "Old oak" } });
+  expect(done).toEqual(["keep", "open with t1"]);
+});
+
+it("what is begun with a template has no name of its own yet", async () => {
+  const { trees, done } = page();
+  await trees.leave({ tree: { id: "t1", name: "Old oak" }, template: true });
+  expect([trees.name.value, done]).toEqual([null, ["keep", "open begun as t1", "opened begun as t1"]]);
 });
 
 it("where no other session is to be had, the sheet stays and nothing is called anything", async () => {
   const { trees, sheet, here, names } = page();
   sheet.value = "library";
   here.answers = false;
-  await trees.leave({ id: "t1", name: "Old oak" });
+  await trees.leave({ tree: { id: "t1", name: "Old oak" } });
   expect([sheet.value, names.value]).toEqual(["library", {}]);
 });
 

@@ -1,5 +1,5 @@
 import { computed, type ReadonlySignal, type Signal } from "@preact/signals";
-import type { SavedTree } from "../../wire/generated";
+import type { NewSession, SavedTree, SessionCreated } from "../../wire/generated";
 import type { SheetName } from "../page/layout";
 import type { Key } from "../words/say";
 import type { UnsavedTrees } from "./unsaved-trees";
@@ -7,10 +7,19 @@ import type { UnsavedTrees } from "./unsaved-trees";
 /** The device remembers the names of so many trees. */
 const KEPT_NAMES = 50;
 
+/** What a tree of the library is opened as. */
+export interface Start {
+  readonly tree: Pick<SavedTree, "id" | "name">;
+  /** The version to begin with; the newest one, or where others work, if absent. */
+  readonly version?: number;
+  /** Whether it is only what a tree of its own begins with. */
+  readonly template?: boolean;
+}
+
 export interface TreesOptions {
   readonly link: {
     readonly session: ReadonlySignal<string | null>;
-    change(tree?: string): Promise<boolean>;
+    change(request?: NewSession): Promise<SessionCreated | null>;
     reopen(session: string): Promise<"opened" | "gone" | "failed">;
   };
   readonly unsaved: Pick<UnsavedTrees, "isUnsaved" | "keep" | "opened" | "forget">;
@@ -51,17 +60,22 @@ export class Trees {
   }
 
   /**
-   * Leaves this tree for a new one, empty or from the library. What is not saved is kept under Unsaved, unless the user
-   * would not have it.
+   * Leaves this tree for a new one, empty or from the library; true once it is there. What is not saved is kept under
+   * Unsaved, unless the user would not have it.
    */
-  async leave(tree?: Pick<SavedTree, "id" | "name">, keeps = true): Promise<void> {
+  async leave(start?: Start, keeps = true): Promise<boolean> {
     const { link, unsaved } = this.#options;
-    const left = await this.#leave(keeps, () => link.change(tree?.id));
-    const session = link.session.peek();
-    if (left && tree !== undefined && session !== null) {
-      unsaved.opened(session);
-      this.call(tree.name);
+    const created = await this.#leave(keeps, () => link.change(start && requestOf(start)));
+    if (created !== null && start !== undefined) {
+      // Where others work on it, it may not be saved as it is.
+      if (created.tree?.saved !== false) {
+        unsaved.opened(created.session);
+      }
+      if (start.template !== true) {
+        this.call(start.tree.name);
+      }
     }
+    return created !== null;
   }
 
   /** Goes on with a tree that was left. */
@@ -73,17 +87,18 @@ export class Trees {
         unsaved.forget(session);
         say("notices.unsaved-gone");
       }
-      return came === "opened";
+      return came === "opened" || null;
     });
   }
 
-  /** Leaves this session for another one; false if there is none to be had. */
-  async #leave(keeps: boolean, open: () => Promise<boolean>): Promise<boolean> {
+  /** Leaves this session for another one; null if there is none to be had. */
+  async #leave<Opened>(keeps: boolean, open: () => Promise<Opened | null>): Promise<Opened | null> {
     const { unsaved, sheet, say } = this.#options;
     const from = sheet.peek();
     const kept = keeps && (await unsaved.keep());
-    if (!(await open())) {
-      return false;
+    const opened = await open();
+    if (opened === null) {
+      return null;
     }
     // The user may have closed the sheet meanwhile and opened another one.
     if (sheet.peek() === from) {
@@ -92,6 +107,14 @@ export class Trees {
     if (kept) {
       say("notices.kept-unsaved");
     }
-    return true;
+    return opened;
   }
+}
+
+function requestOf({ tree, version, template }: Start): NewSession {
+  return {
+    tree: tree.id,
+    ...(version === undefined ? {} : { version }),
+    ...(template === undefined ? {} : { template }),
+  };
 }

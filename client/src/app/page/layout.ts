@@ -1,16 +1,25 @@
 import { signal } from "@preact/signals";
+import type { SavedTree } from "../../wire/generated";
 
 /** Cards over the workspace, one at a time. */
-export const SHEET_NAMES = ["save", "leave", "library", "share", "download", "help", "settings"] as const;
+export const SHEET_NAMES = ["save", "leave", "library", "versions", "share", "download", "help", "settings"] as const;
 export type SheetName = (typeof SHEET_NAMES)[number];
 
 /** The panels, as they stand in the tool bar. */
 export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "background", "scene"] as const;
 export type PanelName = (typeof PANEL_NAMES)[number];
 
+/** What the library shows: its trees, those to begin new ones with, or those that can still be taken back. */
+export const SHELF_NAMES = ["trees", "templates", "deleted"] as const;
+export type ShelfName = (typeof SHELF_NAMES)[number];
+
 /** What stands on the page around the picture. */
 export class Layout {
   readonly sheet = signal<SheetName | null>(null);
+  /** What the library shows when it is opened. */
+  readonly shelf = signal<ShelfName>("trees");
+  /** The tree of the library that the sheet of versions is about. */
+  readonly subject = signal<SavedTree | null>(null);
   readonly panel = signal<PanelName | null>(null);
   /** Whether nothing but the workspace is shown. */
   readonly bare = signal(false);

@@ -38,6 +38,8 @@ export interface Settings {
   readonly tourSeen: Signal<boolean>;
   /** Whether every button shows its name. */
   readonly namesShown: Signal<boolean>;
+  /** How a person wants to be called where they save; empty if not at all. */
+  readonly author: Signal<string>;
   /** What trees were saved or opened as, by their sessions; the latest last. */
   readonly treeNames: Signal<Readonly<Record<string, string>>>;
   /** Whether it was read that the picture is slow here. */
@@ -75,6 +77,7 @@ export function loadSettings(store: Storage): Settings {
     theme: kept<Theme | null>(store, "theme", null, (value) => value === "light" || value === "dark"),
     tourSeen: kept(store, "tour", false, (value) => typeof value === "boolean"),
     namesShown: kept(store, "names", false, (value) => typeof value === "boolean"),
+    author: kept(store, "author", "", (value) => typeof value === "string"),
     treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
     slownessRead: kept(store, "slowness-read", false, (value) => typeof value === "boolean"),
     exportChoice: kept<ExportChoice>(store, "export", FIRST_CHOICE, isExportChoice),

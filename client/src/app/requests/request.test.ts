@@ -1,6 +1,6 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
-import { createSession, sessionExists, socketAddress } from "../connection/session-api";
-import { deleteTree, renameTree } from "../library/library-api";
+import { createSession, findSession, socketAddress } from "../connection/session-api";
+import { changeTree, deleteTree, saveVersion } from "../library/library-api";
 import { askAs } from "./principal";
 import { RequestFailed } from "./request";
 
@@ -15,17 +15,17 @@ afterEach(() => vi.unstubAllGlobals());
 describe("requests", () => {
   it("starts a session from a saved tree", async () => {
     const fetch = answer(201, { session: "oak" });
-    expect(await createSession({ tree: "t1" })).toBe("oak");
+    expect(await createSession({ tree: "t1" })).toEqual({ session: "oak" });
     expect(fetch).toHaveBeenCalledWith("/api/sessions", expect.objectContaining({ body: '{"tree":"t1"}' }));
   });
 
   it("AU1: says which client asks, once there is one", async () => {
     const fetch = answer(200, {});
     const headers = () => new Headers((fetch.mock.lastCall as unknown as [string, RequestInit])[1].headers);
-    await sessionExists("oak");
+    await findSession("oak");
     expect(headers().has("Espalier-Client")).toBe(false);
     askAs(() => "key-of-this-page");
-    await renameTree("t", "Oak");
+    await changeTree("t", { name: "Oak" });
     expect(headers().get("Espalier-Client")).toBe("key-of-this-page");
     expect(headers().get("Content-Type")).toBe("application/json");
     askAs(() => null);
@@ -33,16 +33,28 @@ describe("requests", () => {
     expect([...headers()]).toEqual([]);
   });
 
+  it("LB2: says which revision it changes, where that matters", async () => {
+    const fetch = answer(201, {});
+    const matched = () => {
+      const [, { headers }] = fetch.mock.lastCall as unknown as [string, RequestInit];
+      return new Headers(headers).get("If-Match");
+    };
+    await saveVersion("t", { session: "oak" }, 7);
+    expect(matched()).toBe('"7"');
+    await changeTree("t", { name: "Oak" });
+    expect(matched()).toBeNull();
+  });
+
   it("tells a missing session from a failing server", async () => {
     answer(404, { code: "not_found", message: "No such session." });
-    expect(await sessionExists("elm")).toBe(false);
+    expect(await findSession("elm")).toBeNull();
     answer(503, { code: "unavailable", message: "The disk is full." });
-    await expect(sessionExists("elm")).rejects.toThrow("The disk is full.");
+    await expect(findSession("elm")).rejects.toThrow("The disk is full.");
   });
 
   it("hands on the server's own sentence", async () => {
     answer(400, { code: "out_of_range", field: "name", allowed: "1 to 80", message: "The name is too long." });
-    const failure = await renameTree("t", "x".repeat(99)).catch((error: unknown) => error);
+    const failure = await changeTree("t", { name: "x".repeat(99) }).catch((error: unknown) => error);
     expect(failure).toBeInstanceOf(RequestFailed);
     expect(failure).toMatchObject({ status: 400, problem: { field: "name" }, message: "The name is too long." });
   });

@@ -16,9 +16,16 @@ export class RequestFailed extends Error {
   }
 }
 
-/** Asks the server with JSON, and gives the JSON of its answer; `undefined` where it has no body. */
-export async function ask<Answer>(method: string, path: string, body?: object): Promise<Answer> {
-  const sent = body && { type: "application/json", body: JSON.stringify(body) };
+/**
+ * Asks the server with JSON, and gives the JSON of its answer; `undefined` where it has no body. With a `revision` it
+ * is refused where what it changes has another one by now (`LB2`).
+ */
+export async function ask<Answer>(method: string, path: string, body?: object, revision?: number): Promise<Answer> {
+  const sent = body && {
+    type: "application/json",
+    body: JSON.stringify(body),
+    ...(revision === undefined ? {} : { revision }),
+  };
   const response = await askFor(method, path, sent);
   return (await response.json().catch(() => undefined)) as Answer;
 }
@@ -27,12 +34,16 @@ export async function ask<Answer>(method: string, path: string, body?: object): 
 export async function askFor(
   method: string,
   path: string,
-  sent?: { readonly type: string; readonly body: BodyInit },
+  sent?: { readonly type: string; readonly body: BodyInit; readonly revision?: number },
   signal?: AbortSignal,
 ): Promise<Response> {
   let response: Response;
   try {
-    const headers = { ...principal(), ...(sent ? { "content-type": sent.type } : {}) };
+    const headers = {
+      ...principal(),
+      ...(sent ? { "content-type": sent.type } : {}),
+      ...(sent?.revision === undefined ? {} : { "if-match": `"${sent.revision}"` }),
+    };
     response = await fetch(path, {
       method,
       headers,

@@ -59,10 +59,10 @@ export function App({ studio }: { studio: Studio }) {
           <PartView studio={studio} part={PANELS[panel]} />
         </Panel>
       )}
-      <ToastList studio={studio} />
+      {shown === null && <ToastList studio={studio} />}
       {ButtonLabel && <ButtonLabel />}
       {shown !== null && (
-        <Sheet studio={studio} title={say(shown.title)} wide={shown.wide} key={sheet}>
+        <Sheet studio={studio} title={say(shown.title)} size={shown.size} key={sheet}>
           <PartView studio={studio} part={shown.part} height={shown.height} />
         </Sheet>
       )}

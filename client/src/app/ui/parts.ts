@@ -6,11 +6,12 @@ import { laterWordsIn } from "../words/later-words";
 import { type Key, LANGUAGES } from "../words/say";
 import { Part } from "./part";
 import type { StudioView } from "./part-view";
+import type { SheetSize } from "./sheets/sheet";
 
 /** A card over the workspace, and about how high its content is. */
 interface SheetPart {
   readonly title: Key;
-  readonly wide?: boolean;
+  readonly size?: SheetSize;
   readonly height: string;
   readonly part: Part<StudioView>;
 }
@@ -37,9 +38,15 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
   },
   library: {
     title: "sheets.library",
-    wide: true,
+    size: "page",
     height: "16rem",
-    part: new Part(async () => (await import("./sheets/library-sheet")).LibrarySheet),
+    part: new Part(async () => (await import("./sheets/library/library-sheet")).LibrarySheet),
+  },
+  versions: {
+    title: "sheets.versions",
+    size: "page",
+    height: "16rem",
+    part: new Part(async () => (await import("./sheets/library/versions-sheet")).VersionsSheet),
   },
   share: {
     title: "sheets.share",
@@ -53,7 +60,7 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
   },
   help: {
     title: "sheets.help",
-    wide: true,
+    size: "wide",
     height: "46rem",
     // It is searched in every language.
     part: new Part(

@@ -214,12 +214,12 @@ export const HELP = {
   "help.topic.save.words": ["keep store backup", "sichern ablegen behalten Sicherung"],
   "help.topic.library": ["Library", "Bibliothek"],
   "help.topic.library.text": [
-    "Saved trees: open one as a new scene, rename, delete; unsaved ones of this device, to go on with",
-    "Gespeicherte Bäume: als neue Szene öffnen, umbenennen, löschen; ungespeicherte dieses Geräts, zum Weitermachen",
+    "Saved trees with all their versions, templates for new ones, and what was deleted in the last 30 days. A finger held on trees selects several; the menu of one has the rest",
+    "Gespeicherte Bäume mit allen Versionen, Vorlagen für neue, und was in den letzten 30 Tagen gelöscht wurde. Ein Finger, der auf Bäumen ruht, wählt mehrere aus; das Menü eines Baums hat den Rest",
   ],
   "help.topic.library.words": [
-    "open load saved unsaved gallery files recent my trees",
-    "öffnen laden gespeichert ungespeichert zuletzt Galerie Dateien meine Bäume",
+    "open load saved unsaved gallery files recent my trees version history compare restore branch template duplicate undelete note",
+    "öffnen laden gespeichert ungespeichert zuletzt Galerie Dateien meine Bäume Version Verlauf vergleichen wiederherstellen Vorlage duplizieren zurückholen Notiz",
   ],
   "help.topic.share": ["Share", "Teilen"],
   "help.topic.share.text": [

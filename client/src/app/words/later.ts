@@ -8,6 +8,7 @@ import { CONTROLS } from "./controls";
 import { EXPORTS } from "./exports";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
+import { LIBRARY } from "./library";
 import { PARAMETERS } from "./parameters";
 import { PROBLEMS } from "./problems";
 import { SCENE } from "./scene";
@@ -33,6 +34,7 @@ export const LATER = {
   ...SCENE,
   ...SHEETS,
   ...EXPORTS,
+  ...LIBRARY,
   ...SUN,
   ...SHAPING,
   ...HELP,

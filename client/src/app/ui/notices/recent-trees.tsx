@@ -4,6 +4,7 @@ import type { Studio } from "../../studio";
 import { dateText } from "../../words/date-text";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
+import { FromTemplate } from "../sheets/library/from-template";
 import { TreePicture } from "../sheets/tree-picture";
 
 /** So many are shown. */
@@ -15,7 +16,7 @@ interface Recent {
   /** When it was left or saved, as ISO 8601 has it. */
   readonly at: string;
   readonly thumbnail?: string | undefined;
-  readonly open: () => Promise<void>;
+  readonly open: () => Promise<unknown>;
 }
 
 /** On a page on which nothing has grown yet: the trees that were worked on last, to go on with. */
@@ -24,11 +25,11 @@ export function RecentTrees({ studio }: { studio: Studio }) {
   const [hidden, setHidden] = useState(false);
   useEffect(() => {
     const show = async () => {
-      const { trees } = await listTrees(MOST);
+      const { items } = await listTrees(MOST);
       setSaved(
-        trees.map((tree) => {
+        items.map((tree) => {
           const { id, name, saved_at: at, thumbnail } = tree;
-          return { key: id, name, at, thumbnail, open: () => studio.trees.leave(tree) };
+          return { key: id, name, at, thumbnail, open: () => studio.trees.leave({ tree }) };
         }),
       );
     };
@@ -64,6 +65,7 @@ export function RecentTrees({ studio }: { studio: Studio }) {
           </li>
         ))}
       </ul>
+      <FromTemplate studio={studio} />
     </section>
   );
 }

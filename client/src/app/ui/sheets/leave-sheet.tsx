@@ -1,24 +1,30 @@
 import { useState } from "preact/hooks";
-import { saveWithPicture } from "../../library/save-tree";
+import { saveAsNew, saveAsNext } from "../../library/save-tree";
 import { sentence } from "../../problems/plain-words";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
+import { FromTemplate } from "./library/from-template";
 import { NameField, usualName } from "./name-field";
+import { Looking, useBelonging } from "./save-sheet";
 
 /** Asks where the tree on the page stays when a new one is begun: in the library, under Unsaved, or nowhere. */
 export function LeaveSheet({ studio }: { studio: Studio }) {
+  const belonging = useBelonging(studio);
+  const { of } = belonging;
   const [name, setName] = useState(() => studio.trees.name.peek() ?? usualName());
   const [leaving, setLeaving] = useState(false);
   const trimmed = name.trim();
 
-  const leave = async (first: () => Promise<void>, keeps: boolean) => {
+  /** Leaves once the tree is where it should be; false if it is not. */
+  const leave = async (first: () => Promise<boolean>, keeps: boolean) => {
     if (leaving) {
       return;
     }
     setLeaving(true);
     try {
-      await first();
-      await studio.trees.leave(undefined, keeps);
+      if (await first()) {
+        await studio.trees.leave(undefined, keeps);
+      }
     } catch (error) {
       studio.toasts.show(sentence(error));
     }
@@ -27,26 +33,43 @@ export function LeaveSheet({ studio }: { studio: Studio }) {
   const save = async (event: Event) => {
     event.preventDefault();
     const session = studio.link.session.peek();
-    if (session !== null && trimmed !== "") {
-      await leave(() => saveWithPicture(studio, session, trimmed), true);
+    if (session === null || of === undefined || (of === null && trimmed === "")) {
+      return;
     }
+    await leave(async () => {
+      if (of === null) {
+        await saveAsNew(studio, session, trimmed);
+        return true;
+      }
+      const saving = await saveAsNext(studio, session, of);
+      if ("overtaken" in saving) {
+        // There the user sees what was saved meanwhile.
+        studio.layout.sheet.value = "save";
+        return false;
+      }
+      return true;
+    }, true);
   };
+  const nothing = async () => true;
 
   return (
     <form class="stack" onSubmit={save}>
       <p>{say("sheets.leave.text")}</p>
-      <NameField name={name} onInput={setName} />
+      {of === undefined && <Looking belonging={belonging} />}
+      {of === null && <NameField name={name} onInput={setName} />}
+      {of && <p class="standing">{say("sheets.leave.next", { name: of.tree.name, number: of.tree.version + 1 })}</p>}
       <div class="actions">
-        <button type="button" class="small danger" disabled={leaving} onClick={() => leave(async () => {}, false)}>
+        <button type="button" class="small danger" disabled={leaving} onClick={() => leave(nothing, false)}>
           {say("sheets.leave.drop")}
         </button>
-        <button type="button" class="small" disabled={leaving} onClick={() => leave(async () => {}, true)}>
+        <button type="button" class="small" disabled={leaving} onClick={() => leave(nothing, true)}>
           {say("sheets.leave.keep")}
         </button>
-        <button type="submit" class="primary" disabled={trimmed === "" || leaving}>
+        <button type="submit" class="primary" disabled={leaving || of === undefined || (of === null && trimmed === "")}>
           {say(leaving ? "sheets.save.saving" : "sheets.leave.save")}
         </button>
       </div>
+      <FromTemplate studio={studio} />
     </form>
   );
 }

@@ -3,16 +3,20 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
+import { ToastList } from "../notices/notices";
+
+/** How much of the page a sheet takes, where that is more than usual. */
+export type SheetSize = "wide" | "page";
 
 interface SheetProps {
   readonly studio: Studio;
   readonly title: string;
-  readonly wide?: boolean | undefined;
+  readonly size?: SheetSize | undefined;
   readonly children: ComponentChildren;
 }
 
 /** A modal card over the workspace; Escape, the cross or a tap beside it close it. */
-export function Sheet({ studio, title, wide = false, children }: SheetProps) {
+export function Sheet({ studio, title, size, children }: SheetProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   useEffect(() => dialog.current?.showModal(), []);
   const close = () => {
@@ -21,7 +25,8 @@ export function Sheet({ studio, title, wide = false, children }: SheetProps) {
   return (
     <dialog
       ref={dialog}
-      class={wide ? "sheet wide" : "sheet"}
+      class="sheet"
+      data-size={size}
       aria-label={title}
       onClose={close}
       onKeyDown={(event) => {
@@ -46,6 +51,8 @@ export function Sheet({ studio, title, wide = false, children }: SheetProps) {
         </header>
         {children}
       </div>
+      {/* What lies beside a modal card cannot be pressed. */}
+      <ToastList studio={studio} />
     </dialog>
   );
 }

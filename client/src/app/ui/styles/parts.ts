@@ -10,6 +10,7 @@ import "./looks.css";
 import "./sun.css";
 import "./branch.css";
 import "./sheet-contents.css";
+import "./library.css";
 import "./help.css";
 import "./recent.css";
 import "./vain.css";

@@ -3,12 +3,11 @@ import { useState } from "preact/hooks";
 import type { Species } from "../../../../wire/generated";
 import { pictureOf } from "../../../document/species/species-api";
 import { foundSpecies, speciesName, speciesSentence } from "../../../document/species/species-choice";
-import type { Studio } from "../../../studio";
 import { softly } from "../../../words/joints";
 import { say } from "../../../words/say";
 import { LeafSketch } from "./leaf-sketch";
 import { sketchSettled } from "./sketch-patience";
-import { kinNow, lastPicked, useSpecies } from "./species-list";
+import { kinNow, pick, useSpecies } from "./species-list";
 import type { WidgetProps } from "./widget";
 
 /** What is searched for; it outlasts the panel. */
@@ -60,14 +59,6 @@ export function SpeciesGrid({ studio }: WidgetProps) {
       </ul>
     </>
   );
-}
-
-/** Takes a species' growth and looks, all but what is around it, as one operation. */
-function pick(studio: Studio, { slug, programme, appearance: { leaves, flowers, fruits, bark } }: Species): void {
-  lastPicked.value = slug;
-  const gesture = studio.link.next;
-  studio.programme.set(programme, { gesture });
-  studio.looks.commit({ leaves, flowers, fruits, bark }, gesture);
 }
 
 interface SpeciesCardProps {

@@ -19,7 +19,18 @@ export function useSpecies(studio: Studio): readonly Species[] | null {
 }
 
 /** The species picked last on this page, by its slug: some differ only in how they are raised. */
-export const lastPicked = signal<string | undefined>(undefined);
+const lastPicked = signal<string | undefined>(undefined);
+
+/** Takes a species' growth and looks, all but what is around it, as one operation. */
+export function pick(
+  studio: Studio,
+  { slug, programme, appearance: { leaves, flowers, fruits, bark } }: Species,
+): void {
+  lastPicked.value = slug;
+  const gesture = studio.link.next;
+  studio.programme.set(programme, { gesture });
+  studio.looks.commit({ leaves, flowers, fruits, bark }, gesture);
+}
 
 /** The last answer, since many controls ask for the same in one frame. */
 let last: { readonly about: readonly unknown[]; readonly kin: Kin | null } = { about: [], kin: null };

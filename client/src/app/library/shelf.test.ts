@@ -1,0 +1,101 @@
+import { describe, expect, it } from "vitest";
+import { savedTree } from "../../../test/saved-tree";
+import type { ShelfName } from "../page/layout";
+import type { ToastAction } from "../page/toasts";
+import { Shelf } from "./shelf";
+
+/** A shelf of three trees, what it asks of the server, and what it says. */
+async function shelf(name: ShelfName = "trees") {
+  const all = ["a", "b", "c"].map((id) => savedTree({ id, name: id.toUpperCase() }));
+  const asked: string[] = [];
+  const said: { readonly text: string; readonly action: ToastAction | undefined }[] = [];
+  const server = { failsAt: "", between: () => {} };
+  const answer = (what: string, id: string) => {
+    asked.push(`${what} ${id}`);
+    server.between();
+    if (server.failsAt === id) throw new Error("The disk is full.");
+    return all.find((tree) => tree.id === id)!;
+  };
+  const shelf = new Shelf({
+    name,
+    api: {
+      listTrees: async () => ({ items: all }),
+      changeTree: async (id, change) => ({ ...answer("change", id), ...change }),
+      copyTree: async (id, { name }) => ({ ...answer("copy", id), id: `${id}2`, name }),
+      deleteTree: async (id) => void answer("delete", id),
+      undeleteTree: async (id) => answer("undelete", id),
+    },
+    said: () => ({ author: "Ann" }),
+    show: (text, action) => void said.push({ text, action }),
+  });
+  await shelf.pages.next();
+  return { shelf, all, asked, said, server, ids: () => shelf.pages.items.value?.map(({ id }) => id) };
+}
+
+describe("a shelf", () => {
+  it("deletes what is chosen, says so, and takes it back", async () => {
+    const { shelf: here, asked, said, ids } = await shelf();
+    here.toggle("a");
+    here.toggle("b");
+    here.toggle("c");
+    here.toggle("b");
+    await here.remove(here.chosenTrees);
+    expect([ids(), here.chosen.value, said[0]?.text]).toEqual([["b"], null, "2 trees are deleted"]);
+    said[0]?.action?.act();
+    await expect.poll(ids).toEqual(["c", "a", "b"]);
+    expect(asked).toEqual(["delete a", "delete c", "undelete a", "undelete c"]);
+  });
+
+  it("says how far it is, and stops at once", async () => {
+    const { shelf: here, all, said, server, ids } = await shelf();
+    const seen: unknown[] = [];
+    server.between = () => {
+      seen.push(here.work.progress.peek());
+      if (seen.length === 2) here.work.cancel();
+    };
+    await here.remove(all);
+    expect(seen).toEqual([
+      { bytes: 0, total: 3 },
+      { bytes: 1, total: 3 },
+    ]);
+    expect([ids(), said[0]?.text], "what is done can be taken back").toEqual([["c"], "2 trees are deleted"]);
+  });
+
+  it("what fails is told, and so is what was done before", async () => {
+    const { shelf: here, all, said, server, ids } = await shelf();
+    server.failsAt = "b";
+    await here.remove(all);
+    expect([ids(), said.map(({ text }) => text)]).toEqual([
+      ["b", "c"],
+      ["The disk is full.", "“A” is deleted"],
+    ]);
+  });
+
+  it("does one thing at a time, and says so", async () => {
+    const { shelf: here, all, said, asked } = await shelf();
+    await Promise.all([here.duplicate(all), here.remove(all)]);
+    expect(asked).toEqual(["copy a", "copy b", "copy c"]);
+    expect(said[0]?.text).toBe("Wait until the work on other trees is done.");
+  });
+
+  it("a template moves to the other shelf, and back", async () => {
+    const { shelf: here, all, said, ids } = await shelf();
+    await here.mark(all.slice(0, 1), true);
+    expect(ids()).toEqual(["b", "c"]);
+    said[0]?.action?.act();
+    await expect.poll(ids).toEqual(["a", "b", "c"]);
+  });
+
+  it("a copy stands first; a name has no more letters than fit", async () => {
+    const { shelf: here, all } = await shelf();
+    const long = "x".repeat(79);
+    await here.duplicate([all[1]!, { ...all[0]!, name: long }]);
+    expect(here.pages.items.value?.slice(0, 2).map(({ name }) => name)).toEqual([long, "B (copy)"]);
+  });
+
+  it("what is taken back leaves the shelf of deleted trees", async () => {
+    const { shelf: here, all, said, ids } = await shelf("deleted");
+    await here.takeBack(all.slice(1));
+    expect([ids(), said[0]?.text]).toEqual([["a"], "2 trees are back in the library"]);
+  });
+});

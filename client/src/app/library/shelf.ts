@@ -1,0 +1,166 @@
+import { signal } from "@preact/signals";
+import type { SavedTree } from "../../wire/generated";
+import type { ShelfName } from "../page/layout";
+import type { ToastAction } from "../page/toasts";
+import { sentence } from "../problems/plain-words";
+import { Transfer } from "../requests/transfer";
+import { say } from "../words/say";
+import type * as api from "./library-api";
+import { Pages } from "./pages";
+import type { Said } from "./save-tree";
+
+/** The longest name of a tree (`LB5`). */
+export const LONGEST_NAME = 80;
+
+/** What each shelf lists. */
+const LISTED = {
+  trees: { template: false },
+  templates: { template: true },
+  deleted: { deleted: true },
+} as const satisfies Record<ShelfName, api.Which>;
+
+export interface ShelfOptions {
+  readonly name: ShelfName;
+  readonly api: Pick<typeof api, "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree">;
+  readonly said: () => Said;
+  readonly show: (text: string, action?: ToastAction) => void;
+}
+
+/** A part of the library, and what is done with its trees, one or several at a time. */
+export class Shelf {
+  readonly name: ShelfName;
+  readonly pages: Pages<SavedTree>;
+  /** The trees that something is to be done with, by their ids; null while none are being chosen. */
+  readonly chosen = signal<ReadonlySet<string> | null>(null);
+  /** Work on several trees: its progress counts trees. */
+  readonly work = new Transfer();
+  #options: ShelfOptions;
+
+  constructor(options: ShelfOptions) {
+    this.name = options.name;
+    this.#options = options;
+    this.pages = new Pages(
+      (limit, after) => options.api.listTrees(limit, after, LISTED[options.name]),
+      ({ id }) => id,
+    );
+  }
+
+  /** The chosen trees, in the order of the shelf. */
+  get chosenTrees(): readonly SavedTree[] {
+    return (this.pages.items.value ?? []).filter(({ id }) => this.chosen.value?.has(id));
+  }
+
+  /** Chooses a tree, or no longer. */
+  toggle(id: string): void {
+    const chosen = new Set(this.chosen.peek() ?? []);
+    if (!chosen.delete(id)) {
+      chosen.add(id);
+    }
+    this.chosen.value = chosen;
+  }
+
+  /** Changes a tree's name or note. */
+  async change(tree: SavedTree, change: { readonly name?: string; readonly note?: string }): Promise<void> {
+    await this.#each([tree], async ({ id }) => this.pages.replace(id, await this.#options.api.changeTree(id, change)));
+  }
+
+  async mark(trees: readonly SavedTree[], template: boolean): Promise<void> {
+    const { api, show } = this.#options;
+    const done = await this.#each(trees, async ({ id }) => {
+      await api.changeTree(id, { template });
+      this.pages.replace(id, null);
+    });
+    if (done.length > 0) {
+      show(
+        told(template ? "template" : "no-template", done),
+        undo(() => this.#unmark(done, !template)),
+      );
+    }
+  }
+
+  async duplicate(trees: readonly SavedTree[]): Promise<void> {
+    const { api, said, show } = this.#options;
+    const done = await this.#each(trees, async ({ id, name }) => {
+      const copy = say("library.copy-of", { name });
+      const made = await api.copyTree(id, { name: copy.length > LONGEST_NAME ? name : copy, ...said() });
+      if (this.name === "trees") {
+        this.pages.begin(made);
+      }
+    });
+    if (done.length > 0) {
+      show(told("duplicated", done));
+    }
+  }
+
+  /** Deletes trees; they can be taken back. */
+  async remove(trees: readonly SavedTree[]): Promise<void> {
+    const { api, show } = this.#options;
+    const done = await this.#each(trees, async ({ id }) => {
+      await api.deleteTree(id);
+      this.pages.replace(id, null);
+    });
+    if (done.length > 0) {
+      show(
+        told("deleted", done),
+        undo(() => this.takeBack(done)),
+      );
+    }
+  }
+
+  /** Takes deleted trees back. */
+  async takeBack(trees: readonly SavedTree[]): Promise<void> {
+    const done = await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.undeleteTree(id)));
+    if (done.length > 0) {
+      this.#options.show(told("back", done));
+    }
+  }
+
+  async #unmark(trees: readonly SavedTree[], template: boolean): Promise<void> {
+    await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.changeTree(id, { template })));
+  }
+
+  /** A tree is where it was before: on this shelf, unless this is that of deleted ones. */
+  #returned(tree: SavedTree): void {
+    if (this.name === "deleted") {
+      this.pages.replace(tree.id, null);
+    } else {
+      this.pages.begin(tree);
+    }
+  }
+
+  /** Does something with each of some trees, until it is stopped or fails; gives those with which it was done. */
+  async #each(trees: readonly SavedTree[], act: (tree: SavedTree) => Promise<void>): Promise<readonly SavedTree[]> {
+    const { show } = this.#options;
+    const done: SavedTree[] = [];
+    if (this.work.progress.peek() !== null) {
+      show(say("library.busy"));
+      return done;
+    }
+    try {
+      await this.work.run(async (stop, tell) => {
+        for (const tree of trees) {
+          stop.throwIfAborted();
+          tell({ bytes: done.length, total: trees.length });
+          await act(tree);
+          done.push(tree);
+        }
+      });
+    } catch (error) {
+      show(sentence(error));
+    }
+    this.chosen.value = null;
+    return done;
+  }
+}
+
+const undo = (act: () => Promise<void>): ToastAction => ({ label: say("library.undo"), act: () => void act() });
+
+function told(
+  what: "template" | "no-template" | "duplicated" | "deleted" | "back",
+  trees: readonly SavedTree[],
+): string {
+  const [only] = trees;
+  return trees.length === 1 && only
+    ? say(`library.${what}.one`, { name: only.name })
+    : say(`library.${what}.some`, { count: trees.length });
+}

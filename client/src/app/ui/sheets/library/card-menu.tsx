@@ -1,0 +1,92 @@
+import { useLayoutEffect, useRef, useState } from "preact/hooks";
+import { MoreIcon } from "../../icons";
+
+/** So far from the edges of the page a menu stands, in pixels. */
+const EDGE = 8;
+
+export interface Deed {
+  readonly label: string;
+  readonly act: () => void;
+}
+
+interface CardMenuProps {
+  readonly label: string;
+  readonly deeds: readonly Deed[];
+}
+
+/** What can be done with one thing of a list, behind a button. */
+export function CardMenu({ label, deeds }: CardMenuProps) {
+  const [open, setOpen] = useState(false);
+  const button = useRef<HTMLButtonElement>(null);
+  const list = useRef<HTMLUListElement>(null);
+  // A press beside the menu closes it, also one on the button, which must not open it again.
+  const wasOpen = useRef(false);
+  useLayoutEffect(() => {
+    if (open && list.current && button.current) {
+      list.current.showPopover();
+      place(list.current, button.current.getBoundingClientRect());
+      list.current.querySelector("button")?.focus();
+    }
+  }, [open]);
+  return (
+    <>
+      <button
+        type="button"
+        class="tool"
+        ref={button}
+        aria-label={label}
+        aria-haspopup="menu"
+        aria-expanded={open}
+        onPointerDown={() => {
+          wasOpen.current = open;
+        }}
+        onClick={() => {
+          setOpen(!wasOpen.current);
+          wasOpen.current = false;
+        }}
+      >
+        <MoreIcon />
+      </button>
+      {open && (
+        <ul
+          class="menu card-menu"
+          ref={list}
+          popover="auto"
+          aria-label={label}
+          onToggle={({ newState }) => newState === "closed" && setOpen(false)}
+          onKeyDown={(event) => {
+            if (event.key === "Escape") {
+              // The sheet below stays.
+              event.preventDefault();
+              event.stopPropagation();
+              setOpen(false);
+              button.current?.focus();
+            }
+          }}
+        >
+          {deeds.map(({ label, act }) => (
+            <li key={label}>
+              <button
+                type="button"
+                onClick={() => {
+                  setOpen(false);
+                  act();
+                }}
+              >
+                {label}
+              </button>
+            </li>
+          ))}
+        </ul>
+      )}
+    </>
+  );
+}
+
+/** Below its button where there is room, else above; always on the page. */
+function place(list: HTMLElement, button: DOMRect): void {
+  const { width, height } = list.getBoundingClientRect();
+  const below = button.bottom + height <= innerHeight - EDGE;
+  list.style.left = `${Math.max(EDGE, Math.min(button.right - width, innerWidth - width - EDGE))}px`;
+  list.style.top = `${Math.max(EDGE, below ? button.bottom : Math.min(button.top, innerHeight - EDGE) - height)}px`;
+}

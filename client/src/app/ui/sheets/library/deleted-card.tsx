@@ -1,0 +1,35 @@
+import type { SavedTree } from "../../../../wire/generated";
+import type { Shelf } from "../../../library/shelf";
+import { daysLeft } from "../../../library/time-between";
+import { say } from "../../../words/say";
+import { TreePicture } from "../tree-picture";
+
+/** A tree that was deleted and can be taken back. */
+export function DeletedCard({ shelf, tree }: { readonly shelf: Shelf; readonly tree: SavedTree }) {
+  const days = daysLeft(tree.deleted_at ?? tree.saved_at);
+  return (
+    <li class="card" data-tree={tree.id}>
+      <div class="card-open" data-faded>
+        <TreePicture url={tree.thumbnail} />
+      </div>
+      <div class="card-foot">
+        <strong class="card-name">{tree.name}</strong>
+        <span class="quiet card-facts">
+          {days === 0
+            ? say("library.days-left.last")
+            : days === 1
+              ? say("library.days-left.one")
+              : say("library.days-left", { count: days })}
+        </span>
+        <button
+          type="button"
+          class="small card-back"
+          aria-label={say("library.take-back.which", { name: tree.name })}
+          onClick={() => void shelf.takeBack([tree])}
+        >
+          {say("library.take-back")}
+        </button>
+      </div>
+    </li>
+  );
+}

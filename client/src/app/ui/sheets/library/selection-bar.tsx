@@ -1,0 +1,54 @@
+import type { Shelf } from "../../../library/shelf";
+import { say } from "../../../words/say";
+
+/** What is done with the chosen trees; while it is done, how far it is. */
+export function SelectionBar({ shelf }: { readonly shelf: Shelf }) {
+  const progress = shelf.work.progress.value;
+  const chosen = shelf.chosen.value;
+  if (progress !== null && progress.total !== null && progress.total > 1) {
+    const text = say("library.working", { done: progress.bytes, total: progress.total });
+    return (
+      <div class="selection-bar">
+        <label>
+          <span>{text}</span>
+          <progress max={progress.total} value={progress.bytes} aria-label={text} />
+        </label>
+        <button type="button" class="small" onClick={() => shelf.work.cancel()}>
+          {say("library.stop")}
+        </button>
+      </div>
+    );
+  }
+  if (chosen === null) {
+    return null;
+  }
+  const trees = shelf.chosenTrees;
+  const none = trees.length === 0;
+  return (
+    <div class="selection-bar" role="toolbar" aria-label={say("library.selection")}>
+      <span role="status">{none ? say("library.choose-some") : say("library.chosen", { count: trees.length })}</span>
+      {shelf.name === "deleted" ? (
+        <button type="button" class="small" disabled={none} onClick={() => void shelf.takeBack(trees)}>
+          {say("library.take-back")}
+        </button>
+      ) : (
+        <>
+          <button type="button" class="small" disabled={none} onClick={() => void shelf.duplicate(trees)}>
+            {say("library.duplicate")}
+          </button>
+          <button
+            type="button"
+            class="small"
+            disabled={none}
+            onClick={() => void shelf.mark(trees, shelf.name === "trees")}
+          >
+            {say(shelf.name === "trees" ? "library.mark" : "library.unmark")}
+          </button>
+          <button type="button" class="small danger" disabled={none} onClick={() => void shelf.remove(trees)}>
+            {say("library.delete")}
+          </button>
+        </>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,44 @@
+import type { Species } from "../../../../wire/generated";
+import { pictureOf } from "../../../document/species/species-api";
+import { speciesName, speciesSentence } from "../../../document/species/species-choice";
+import type { Studio } from "../../../studio";
+import { say } from "../../../words/say";
+import { pick, useSpecies } from "../../panels/architecture/species-list";
+
+/** The species, each of which a new tree can be begun as. */
+export function SpeciesTemplates({ studio }: { studio: Studio }) {
+  const species = useSpecies(studio);
+  if (species === null || species.length === 0) {
+    return null;
+  }
+  return (
+    <section aria-label={say("library.species")}>
+      <h3 class="shelf-head">{say("library.species")}</h3>
+      <ul class="library">
+        {species.map((one) => (
+          <li class="card" key={one.slug}>
+            <button
+              type="button"
+              class="card-open"
+              aria-label={say("library.begin-which", { name: speciesName(one) })}
+              onClick={() => void begin(studio, one)}
+            >
+              <img src={pictureOf(one.slug)} alt="" loading="lazy" />
+            </button>
+            <div class="card-foot">
+              <strong class="card-name">{speciesName(one)}</strong>
+              <span class="quiet card-facts card-sentence">{speciesSentence(one)}</span>
+            </div>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+/** Begins a new tree and has it grow as a species. */
+async function begin(studio: Studio, species: Species): Promise<void> {
+  if (await studio.trees.leave()) {
+    pick(studio, species);
+  }
+}
