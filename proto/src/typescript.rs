@@ -26,6 +26,7 @@ pub fn declarations() -> String {
     constant("MAX_OUTLINE_POINTS", version::MAX_OUTLINE_POINTS.to_string());
     constant("MAX_OUTLINE_STEPS", version::MAX_OUTLINE_STEPS.to_string());
     constant("MAX_NAME_CHARACTERS", version::MAX_NAME_CHARACTERS.to_string());
+    constant("MAX_NOTE_CHARACTERS", version::MAX_NOTE_CHARACTERS.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());
     constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());

@@ -24,6 +24,9 @@ pub const MAX_OUTLINE_STEPS: u32 = 400;
 /// The most characters of a tree's name (`LM4`).
 pub const MAX_NAME_CHARACTERS: usize = 80;
 
+/// The most characters of a note on a tree or a version (`LB5`).
+pub const MAX_NOTE_CHARACTERS: usize = 2000;
+
 /// The most touches of one bend (`LM7`).
 pub const MAX_BEND_TOUCHES: usize = 8;
 

@@ -8,6 +8,7 @@ export const MIN_OUTLINE_POINTS = 3;
 export const MAX_OUTLINE_POINTS = 4096;
 export const MAX_OUTLINE_STEPS = 400;
 export const MAX_NAME_CHARACTERS = 80;
+export const MAX_NOTE_CHARACTERS = 2000;
 export const FARTHEST = 1000;
 export const DEEPEST = -10;
 export const MAX_BEND_TOUCHES = 8;

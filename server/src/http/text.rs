@@ -1,9 +1,11 @@
 //! Names and notes that people give.
 
-use espalier_proto::{Problem, version::MAX_NAME_CHARACTERS};
+use espalier_proto::{
+    Problem,
+    version::{MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS},
+};
 use unicode_properties::{GeneralCategory, UnicodeGeneralCategory};
 
-const MAX_NOTE_CHARACTERS: usize = 2000;
 
 /// Letters and symbols that show nothing: the fillers of Hangul and the empty braille pattern.
 const BLANKS: [char; 5] = ['\u{115f}', '\u{1160}', '\u{2800}', '\u{3164}', '\u{ffa0}'];

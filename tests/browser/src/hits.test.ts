@@ -56,7 +56,7 @@ async function lookIntoLibrary(tablet: Tablet, look: (where: string, within: str
   await page.getByRole("button", { name: "Done", exact: true }).click();
   await page.getByRole("radio", { name: "Templates", exact: true }).check();
   await page.getByRole("region", { name: "Species" }).waitFor();
-  await look("the shelves", ".shelf-bar");
+  await look("the sections", ".library-bar");
   await page.getByRole("radio", { name: "Trees", exact: true }).check();
   await unfold();
   await menu.getByRole("button", { name: "Versions (1)" }).click();

@@ -58,8 +58,8 @@ async function choose(tablet: Tablet, of: string, deed: string): Promise<void> {
   await tablet.page.locator(".card-menu").getByRole("button", { name: deed }).tap();
 }
 
-const cards = (tablet: Tablet) => tablet.page.locator(".shelf > .library .card-name");
-const shelf = (tablet: Tablet, name: string) => tablet.page.getByRole("radio", { name, exact: true }).check();
+const cards = (tablet: Tablet) => tablet.page.locator(".library-sections > .library .card-name");
+const section = (tablet: Tablet, name: string) => tablet.page.getByRole("radio", { name, exact: true }).check();
 
 test("a tree is saved as the next version of its own, with a note, and versions are compared and restored", async () => {
   const { tablet, address, metamers } = await grown();
@@ -150,11 +150,11 @@ test("on a phone a tree is renamed in a row of its own, noted, deleted and taken
   await page.locator(".toast-row", { hasText: "is deleted" }).getByRole("button", { name: "Undo" }).tap();
   await cards(tablet).getByText("Old ash").waitFor();
   await choose(tablet, "Old ash", "Delete");
-  await shelf(tablet, "Deleted");
+  await section(tablet, "Deleted");
   await page.locator(".card", { hasText: "Old ash" }).getByText("30 days left").waitFor();
   await tablet.show("deleted-phone");
   await page.getByRole("button", { name: "Take Old ash back" }).tap();
-  await shelf(tablet, "Trees");
+  await section(tablet, "Trees");
   await cards(tablet).getByText("Old ash").waitFor();
 });
 
@@ -209,7 +209,7 @@ test("a new tree begins with a template, or as a species", async () => {
   await page.keyboard.press("Escape");
   await page.getByRole("dialog").waitFor({ state: "detached" });
   await open(tablet, "Library");
-  await shelf(tablet, "Templates");
+  await section(tablet, "Templates");
   const species = page.getByRole("region", { name: "Species" }).locator(".card-open").first();
   await species.waitFor();
   await tablet.untilSettled();

@@ -10,14 +10,14 @@ export const PANEL_NAMES = ["architecture", "brush", "leaves", "branches", "back
 export type PanelName = (typeof PANEL_NAMES)[number];
 
 /** What the library shows: its trees, those to begin new ones with, or those that can still be taken back. */
-export const SHELF_NAMES = ["trees", "templates", "deleted"] as const;
-export type ShelfName = (typeof SHELF_NAMES)[number];
+export const SECTION_NAMES = ["trees", "templates", "deleted"] as const;
+export type SectionName = (typeof SECTION_NAMES)[number];
 
 /** What stands on the page around the picture. */
 export class Layout {
   readonly sheet = signal<SheetName | null>(null);
   /** What the library shows when it is opened. */
-  readonly shelf = signal<ShelfName>("trees");
+  readonly section = signal<SectionName>("trees");
   /** The tree of the library that the sheet of versions is about. */
   readonly subject = signal<SavedTree | null>(null);
   readonly panel = signal<PanelName | null>(null);

@@ -1,9 +1,9 @@
-/** The library's page: its shelves, what is done with trees, and their versions. */
+/** The library's page: its sections, what is done with trees, and their versions. */
 export const LIBRARY = {
-  "library.shelves": ["Shelf", "Regal"],
-  "library.shelf.trees": ["Trees", "Bäume"],
-  "library.shelf.templates": ["Templates", "Vorlagen"],
-  "library.shelf.deleted": ["Deleted", "Gelöscht"],
+  "library.sections": ["Part of the library", "Teil der Bibliothek"],
+  "library.section.trees": ["Trees", "Bäume"],
+  "library.section.templates": ["Templates", "Vorlagen"],
+  "library.section.deleted": ["Deleted", "Gelöscht"],
   "library.empty.trees": [
     "Nothing saved yet. Trees you save appear here.",
     "Noch nichts gespeichert. Gespeicherte Bäume erscheinen hier.",

@@ -148,7 +148,7 @@ function Options({ format, choice, choose }: OptionsProps) {
           <input
             type="text"
             value={choice[option]}
-            maxLength={80}
+            maxLength={MAX_NAME_CHARACTERS}
             autocomplete="off"
             onInput={(event) => choose({ [option]: event.currentTarget.value })}
           />

@@ -1,6 +1,6 @@
+import { MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS } from "../../../wire/generated";
 import type { Studio } from "../../studio";
 import { say } from "../../words/say";
-import { LONGEST_NOTE } from "./library/card-form";
 
 interface SaidFieldsProps {
   readonly studio: Studio;
@@ -18,7 +18,7 @@ export function SaidFields({ studio, note, onNote }: SaidFieldsProps) {
         <textarea
           rows={2}
           value={note}
-          maxLength={LONGEST_NOTE}
+          maxLength={MAX_NOTE_CHARACTERS}
           onInput={(event) => onNote(event.currentTarget.value)}
         />
       </label>
@@ -27,7 +27,7 @@ export function SaidFields({ studio, note, onNote }: SaidFieldsProps) {
         <input
           type="text"
           value={author.value}
-          maxLength={80}
+          maxLength={MAX_NAME_CHARACTERS}
           autocomplete="nickname"
           onInput={(event) => {
             author.value = event.currentTarget.value;

@@ -1,9 +1,6 @@
 import { useRef } from "preact/hooks";
-import { LONGEST_NAME } from "../../../library/shelf";
+import { MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS } from "../../../../wire/generated";
 import { say } from "../../../words/say";
-
-/** The longest note (`LB5`). */
-export const LONGEST_NOTE = 2000;
 
 interface CardFormProps {
   readonly kind: "name" | "note";
@@ -40,9 +37,9 @@ export function CardForm({ kind, label, value, onSave, onEnd }: CardFormProps) {
   return (
     <form class="card-form" ref={form} onSubmit={end}>
       {kind === "name" ? (
-        <input {...field} type="text" maxLength={LONGEST_NAME} ref={(input) => input?.focus()} />
+        <input {...field} type="text" maxLength={MAX_NAME_CHARACTERS} ref={(input) => input?.focus()} />
       ) : (
-        <textarea {...field} rows={3} maxLength={LONGEST_NOTE} ref={(area) => area?.focus()} />
+        <textarea {...field} rows={3} maxLength={MAX_NOTE_CHARACTERS} ref={(area) => area?.focus()} />
       )}
       <button type="button" class="small" onClick={onEnd}>
         {say("library.cancel")}

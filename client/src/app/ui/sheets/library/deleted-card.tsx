@@ -1,11 +1,11 @@
 import type { SavedTree } from "../../../../wire/generated";
-import type { Shelf } from "../../../library/shelf";
+import type { LibrarySection } from "../../../library/library-section";
 import { daysLeft } from "../../../library/time-between";
 import { say } from "../../../words/say";
 import { TreePicture } from "../tree-picture";
 
 /** A tree that was deleted and can be taken back. */
-export function DeletedCard({ shelf, tree }: { readonly shelf: Shelf; readonly tree: SavedTree }) {
+export function DeletedCard({ section, tree }: { readonly section: LibrarySection; readonly tree: SavedTree }) {
   const days = daysLeft(tree.deleted_at ?? tree.saved_at);
   return (
     <li class="card" data-tree={tree.id}>
@@ -25,7 +25,7 @@ export function DeletedCard({ shelf, tree }: { readonly shelf: Shelf; readonly t
           type="button"
           class="small card-back"
           aria-label={say("library.take-back.which", { name: tree.name })}
-          onClick={() => void shelf.takeBack([tree])}
+          onClick={() => void section.takeBack([tree])}
         >
           {say("library.take-back")}
         </button>

@@ -8,7 +8,7 @@ export function FromTemplate({ studio }: { studio: Studio }) {
       type="button"
       class="small from-template"
       onClick={() => {
-        studio.layout.shelf.value = "templates";
+        studio.layout.section.value = "templates";
         studio.layout.sheet.value = "library";
       }}
     >

@@ -1,8 +1,8 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import * as api from "../../../library/library-api";
+import { LibrarySection } from "../../../library/library-section";
 import { said } from "../../../library/save-tree";
-import { Shelf } from "../../../library/shelf";
-import { SHELF_NAMES } from "../../../page/layout";
+import { SECTION_NAMES } from "../../../page/layout";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { UnsavedSection } from "../unsaved-section";
@@ -15,11 +15,11 @@ import { TreeCard } from "./tree-card";
 
 /** The library: its trees, templates, and what was deleted; a tap opens a tree. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
-  const { shelf: shown, sheet } = studio.layout;
+  const { section: shown, sheet } = studio.layout;
   const name = shown.value;
-  const shelf = useMemo(
+  const section = useMemo(
     () =>
-      new Shelf({
+      new LibrarySection({
         name,
         api,
         said: () => said(studio),
@@ -28,36 +28,36 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
     [studio, name],
   );
   useEffect(() => {
-    void shelf.pages.next();
+    void section.pages.next();
     // Nobody sees any more how far the work is.
-    return () => shelf.work.cancel();
-  }, [shelf]);
+    return () => section.work.cancel();
+  }, [section]);
   useEffect(
     () => () => {
-      // Whoever comes back from the versions of a tree finds the shelf as it was.
+      // Whoever comes back from the versions of a tree finds the section as it was.
       if (sheet.peek() !== "versions") {
         shown.value = "trees";
       }
     },
     [sheet, shown],
   );
-  const trees = shelf.pages.items.value;
-  const choosing = shelf.chosen.value !== null;
+  const trees = section.pages.items.value;
+  const choosing = section.chosen.value !== null;
   return (
-    <div class="shelf">
-      <div class="shelf-bar">
-        <fieldset class="segments" aria-label={say("library.shelves")}>
-          {SHELF_NAMES.map((one) => (
+    <div class="library-sections">
+      <div class="library-bar">
+        <fieldset class="segments" aria-label={say("library.sections")}>
+          {SECTION_NAMES.map((one) => (
             <label key={one}>
               <input
                 type="radio"
-                name="shelf"
+                name="section"
                 checked={one === name}
                 onChange={() => {
                   shown.value = one;
                 }}
               />
-              <span>{say(`library.shelf.${one}`)}</span>
+              <span>{say(`library.section.${one}`)}</span>
             </label>
           ))}
         </fieldset>
@@ -67,7 +67,7 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
             class="small"
             aria-pressed={choosing}
             onClick={() => {
-              shelf.chosen.value = choosing ? null : new Set();
+              section.chosen.value = choosing ? null : new Set();
             }}
           >
             {say(choosing ? "library.select.end" : "library.select")}
@@ -76,18 +76,18 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
       </div>
       {name === "trees" && <UnsavedSection studio={studio} />}
       {trees?.length === 0 && <p class="quiet empty">{say(`library.empty.${name}`)}</p>}
-      <Grid studio={studio} shelf={shelf} />
-      <More pages={shelf.pages} />
+      <Grid studio={studio} section={section} />
+      <More pages={section.pages} />
       {name === "templates" && <SpeciesTemplates studio={studio} />}
-      <SelectionBar shelf={shelf} />
+      <SelectionBar section={section} />
     </div>
   );
 }
 
 /** The trees in pictures; arrows lead from one to the next, Delete deletes. */
-function Grid({ studio, shelf }: { readonly studio: Studio; readonly shelf: Shelf }) {
+function Grid({ studio, section }: { readonly studio: Studio; readonly section: LibrarySection }) {
   const list = useRef<HTMLUListElement>(null);
-  const trees = shelf.pages.items.value ?? [];
+  const trees = section.pages.items.value ?? [];
   const onKeyDown = (event: KeyboardEvent) => {
     const buttons = [...(list.current?.querySelectorAll<HTMLElement>("button.card-open") ?? [])];
     const at = buttons.indexOf(event.target as HTMLElement);
@@ -99,19 +99,19 @@ function Grid({ studio, shelf }: { readonly studio: Studio; readonly shelf: Shel
     if (next !== null) {
       event.preventDefault();
       next.focus();
-    } else if (event.key === "Delete" && shelf.name !== "deleted") {
+    } else if (event.key === "Delete" && section.name !== "deleted") {
       // The one that takes its place is at hand next.
       (buttons[at + 1] ?? buttons[at - 1])?.focus();
-      void shelf.remove(shelf.chosenTrees.length > 0 ? shelf.chosenTrees : [tree]);
+      void section.remove(section.chosenTrees.length > 0 ? section.chosenTrees : [tree]);
     }
   };
   return (
     <ul class="library" ref={list} onKeyDown={onKeyDown}>
       {trees.map((tree) =>
-        shelf.name === "deleted" && shelf.chosen.value === null ? (
-          <DeletedCard key={tree.id} shelf={shelf} tree={tree} />
+        section.name === "deleted" && section.chosen.value === null ? (
+          <DeletedCard key={tree.id} section={section} tree={tree} />
         ) : (
-          <TreeCard key={tree.id} studio={studio} shelf={shelf} tree={tree} />
+          <TreeCard key={tree.id} studio={studio} section={section} tree={tree} />
         ),
       )}
     </ul>

@@ -1,10 +1,10 @@
-import type { Shelf } from "../../../library/shelf";
+import type { LibrarySection } from "../../../library/library-section";
 import { say } from "../../../words/say";
 
 /** What is done with the chosen trees; while it is done, how far it is. */
-export function SelectionBar({ shelf }: { readonly shelf: Shelf }) {
-  const progress = shelf.work.progress.value;
-  const chosen = shelf.chosen.value;
+export function SelectionBar({ section }: { readonly section: LibrarySection }) {
+  const progress = section.work.progress.value;
+  const chosen = section.chosen.value;
   if (progress !== null && progress.total !== null && progress.total > 1) {
     const text = say("library.working", { done: progress.bytes, total: progress.total });
     return (
@@ -13,7 +13,7 @@ export function SelectionBar({ shelf }: { readonly shelf: Shelf }) {
           <span>{text}</span>
           <progress max={progress.total} value={progress.bytes} aria-label={text} />
         </label>
-        <button type="button" class="small" onClick={() => shelf.work.cancel()}>
+        <button type="button" class="small" onClick={() => section.work.cancel()}>
           {say("library.stop")}
         </button>
       </div>
@@ -22,29 +22,29 @@ export function SelectionBar({ shelf }: { readonly shelf: Shelf }) {
   if (chosen === null) {
     return null;
   }
-  const trees = shelf.chosenTrees;
+  const trees = section.chosenTrees;
   const none = trees.length === 0;
   return (
     <div class="selection-bar" role="toolbar" aria-label={say("library.selection")}>
       <span role="status">{none ? say("library.choose-some") : say("library.chosen", { count: trees.length })}</span>
-      {shelf.name === "deleted" ? (
-        <button type="button" class="small" disabled={none} onClick={() => void shelf.takeBack(trees)}>
+      {section.name === "deleted" ? (
+        <button type="button" class="small" disabled={none} onClick={() => void section.takeBack(trees)}>
           {say("library.take-back")}
         </button>
       ) : (
         <>
-          <button type="button" class="small" disabled={none} onClick={() => void shelf.duplicate(trees)}>
+          <button type="button" class="small" disabled={none} onClick={() => void section.duplicate(trees)}>
             {say("library.duplicate")}
           </button>
           <button
             type="button"
             class="small"
             disabled={none}
-            onClick={() => void shelf.mark(trees, shelf.name === "trees")}
+            onClick={() => void section.mark(trees, section.name === "trees")}
           >
-            {say(shelf.name === "trees" ? "library.mark" : "library.unmark")}
+            {say(section.name === "trees" ? "library.mark" : "library.unmark")}
           </button>
-          <button type="button" class="small danger" disabled={none} onClick={() => void shelf.remove(trees)}>
+          <button type="button" class="small danger" disabled={none} onClick={() => void section.remove(trees)}>
             {say("library.delete")}
           </button>
         </>

@@ -13,7 +13,7 @@ export function SpeciesTemplates({ studio }: { studio: Studio }) {
   }
   return (
     <section aria-label={say("library.species")}>
-      <h3 class="shelf-head">{say("library.species")}</h3>
+      <h3 class="library-head">{say("library.species")}</h3>
       <ul class="library">
         {species.map((one) => (
           <li class="card" key={one.slug}>

@@ -1,6 +1,6 @@
 import { useState } from "preact/hooks";
 import type { SavedTree } from "../../../../wire/generated";
-import type { Shelf } from "../../../library/shelf";
+import type { LibrarySection } from "../../../library/library-section";
 import type { Studio } from "../../../studio";
 import { dateText } from "../../../words/date-text";
 import { language, say } from "../../../words/say";
@@ -11,22 +11,22 @@ import { useHold } from "./use-hold";
 
 interface TreeCardProps {
   readonly studio: Studio;
-  readonly shelf: Shelf;
+  readonly section: LibrarySection;
   readonly tree: SavedTree;
 }
 
 /** A tree of the library: a tap opens it, a finger held on it chooses it, and the rest is in its menu. */
-export function TreeCard({ studio, shelf, tree }: TreeCardProps) {
+export function TreeCard({ studio, section, tree }: TreeCardProps) {
   const [edited, setEdited] = useState<"name" | "note" | null>(null);
   const { name } = tree;
-  const chosen = shelf.chosen.value;
+  const chosen = section.chosen.value;
   const begin = () => void studio.trees.leave({ tree, template: true });
   const open = () => void studio.trees.leave({ tree });
-  const isTemplate = shelf.name === "templates";
+  const isTemplate = section.name === "templates";
   const isChosen = chosen?.has(tree.id) ?? false;
   const press = useHold(
-    () => shelf.toggle(tree.id),
-    () => (chosen === null ? (isTemplate ? begin() : open()) : shelf.toggle(tree.id)),
+    () => section.toggle(tree.id),
+    () => (chosen === null ? (isTemplate ? begin() : open()) : section.toggle(tree.id)),
   );
   const deeds: readonly Deed[] = [
     { label: say("library.open"), act: open },
@@ -40,12 +40,12 @@ export function TreeCard({ studio, shelf, tree }: TreeCardProps) {
         studio.layout.sheet.value = "versions";
       },
     },
-    { label: say("library.duplicate"), act: () => void shelf.duplicate([tree]) },
+    { label: say("library.duplicate"), act: () => void section.duplicate([tree]) },
     {
       label: say(isTemplate ? "library.unmark" : "library.mark"),
-      act: () => void shelf.mark([tree], !isTemplate),
+      act: () => void section.mark([tree], !isTemplate),
     },
-    { label: say("library.delete"), act: () => void shelf.remove([tree]) },
+    { label: say("library.delete"), act: () => void section.remove([tree]) },
   ];
   const label = chosen === null ? (isTemplate ? "library.begin-which" : "sheets.library.open") : "library.choose";
   return (
@@ -65,7 +65,7 @@ export function TreeCard({ studio, shelf, tree }: TreeCardProps) {
           kind={edited}
           label={say(edited === "name" ? "library.new-name" : "library.note-of", { name })}
           value={tree[edited]}
-          onSave={(value) => void shelf.change(tree, { [edited]: value })}
+          onSave={(value) => void section.change(tree, { [edited]: value })}
           onEnd={() => setEdited(null)}
         />
       ) : (

@@ -36,8 +36,8 @@ function Versions({ studio, tree }: { readonly studio: Studio; readonly tree: Sa
   const deeds = deedsOf(studio, tree, pages);
   const [newer, older] = pair;
   return (
-    <div class="shelf">
-      <div class="shelf-bar">
+    <div class="library-sections">
+      <div class="library-bar">
         <button
           type="button"
           class="small"
@@ -51,7 +51,7 @@ function Versions({ studio, tree }: { readonly studio: Studio; readonly tree: Sa
         >
           {say(comparing ? "library.to-versions" : "library.to-library")}
         </button>
-        <strong class="shelf-title">{tree.name}</strong>
+        <strong class="library-title">{tree.name}</strong>
         {!comparing && (
           <button
             type="button"

@@ -1,6 +1,6 @@
 import { signal } from "@preact/signals";
-import type { SavedTree } from "../../wire/generated";
-import type { ShelfName } from "../page/layout";
+import { MAX_NAME_CHARACTERS, type SavedTree } from "../../wire/generated";
+import type { SectionName } from "../page/layout";
 import type { ToastAction } from "../page/toasts";
 import { sentence } from "../problems/plain-words";
 import { Transfer } from "../requests/transfer";
@@ -9,34 +9,31 @@ import type * as api from "./library-api";
 import { Pages } from "./pages";
 import type { Said } from "./save-tree";
 
-/** The longest name of a tree (`LB5`). */
-export const LONGEST_NAME = 80;
-
-/** What each shelf lists. */
+/** What each section lists. */
 const LISTED = {
   trees: { template: false },
   templates: { template: true },
   deleted: { deleted: true },
-} as const satisfies Record<ShelfName, api.Which>;
+} as const satisfies Record<SectionName, api.Which>;
 
-export interface ShelfOptions {
-  readonly name: ShelfName;
+export interface SectionOptions {
+  readonly name: SectionName;
   readonly api: Pick<typeof api, "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree">;
   readonly said: () => Said;
   readonly show: (text: string, action?: ToastAction) => void;
 }
 
 /** A part of the library, and what is done with its trees, one or several at a time. */
-export class Shelf {
-  readonly name: ShelfName;
+export class LibrarySection {
+  readonly name: SectionName;
   readonly pages: Pages<SavedTree>;
   /** The trees that something is to be done with, by their ids; null while none are being chosen. */
   readonly chosen = signal<ReadonlySet<string> | null>(null);
   /** Work on several trees: its progress counts trees. */
   readonly work = new Transfer();
-  #options: ShelfOptions;
+  #options: SectionOptions;
 
-  constructor(options: ShelfOptions) {
+  constructor(options: SectionOptions) {
     this.name = options.name;
     this.#options = options;
     this.pages = new Pages(
@@ -45,7 +42,7 @@ export class Shelf {
     );
   }
 
-  /** The chosen trees, in the order of the shelf. */
+  /** The chosen trees, in the order of the section. */
   get chosenTrees(): readonly SavedTree[] {
     return (this.pages.items.value ?? []).filter(({ id }) => this.chosen.value?.has(id));
   }
@@ -82,7 +79,7 @@ export class Shelf {
     const { api, said, show } = this.#options;
     const done = await this.#each(trees, async ({ id, name }) => {
       const copy = say("library.copy-of", { name });
-      const made = await api.copyTree(id, { name: copy.length > LONGEST_NAME ? name : copy, ...said() });
+      const made = await api.copyTree(id, { name: copy.length > MAX_NAME_CHARACTERS ? name : copy, ...said() });
       if (this.name === "trees") {
         this.pages.begin(made);
       }
@@ -119,7 +116,7 @@ export class Shelf {
     await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.changeTree(id, { template })));
   }
 
-  /** A tree is where it was before: on this shelf, unless this is that of deleted ones. */
+  /** A tree is where it was before: on this section, unless this is that of deleted ones. */
   #returned(tree: SavedTree): void {
     if (this.name === "deleted") {
       this.pages.replace(tree.id, null);

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
 import { savedTree } from "../../../test/saved-tree";
-import type { ShelfName } from "../page/layout";
+import type { SectionName } from "../page/layout";
 import type { ToastAction } from "../page/toasts";
-import { Shelf } from "./shelf";
+import { LibrarySection } from "./library-section";
 
-/** A shelf of three trees, what it asks of the server, and what it says. */
-async function shelf(name: ShelfName = "trees") {
+/** A section of three trees, what it asks of the server, and what it says. */
+async function section(name: SectionName = "trees") {
   const all = ["a", "b", "c"].map((id) => savedTree({ id, name: id.toUpperCase() }));
   const asked: string[] = [];
   const said: { readonly text: string; readonly action: ToastAction | undefined }[] = [];
@@ -16,7 +16,7 @@ async function shelf(name: ShelfName = "trees") {
     if (server.failsAt === id) throw new Error("The disk is full.");
     return all.find((tree) => tree.id === id)!;
   };
-  const shelf = new Shelf({
+  const section = new LibrarySection({
     name,
     api: {
       listTrees: async () => ({ items: all }),
@@ -28,13 +28,13 @@ async function shelf(name: ShelfName = "trees") {
     said: () => ({ author: "Ann" }),
     show: (text, action) => void said.push({ text, action }),
   });
-  await shelf.pages.next();
-  return { shelf, all, asked, said, server, ids: () => shelf.pages.items.value?.map(({ id }) => id) };
+  await section.pages.next();
+  return { section, all, asked, said, server, ids: () => section.pages.items.value?.map(({ id }) => id) };
 }
 
-describe("a shelf", () => {
+describe("a section", () => {
   it("deletes what is chosen, says so, and takes it back", async () => {
-    const { shelf: here, asked, said, ids } = await shelf();
+    const { section: here, asked, said, ids } = await section();
     here.toggle("a");
     here.toggle("b");
     here.toggle("c");
@@ -47,7 +47,7 @@ describe("a shelf", () => {
   });
 
   it("says how far it is, and stops at once", async () => {
-    const { shelf: here, all, said, server, ids } = await shelf();
+    const { section: here, all, said, server, ids } = await section();
     const seen: unknown[] = [];
     server.between = () => {
       seen.push(here.work.progress.peek());
@@ -62,7 +62,7 @@ describe("a shelf", () => {
   });
 
   it("what fails is told, and so is what was done before", async () => {
-    const { shelf: here, all, said, server, ids } = await shelf();
+    const { section: here, all, said, server, ids } = await section();
     server.failsAt = "b";
     await here.remove(all);
     expect([ids(), said.map(({ text }) => text)]).toEqual([
@@ -72,14 +72,14 @@ describe("a shelf", () => {
   });
 
   it("does one thing at a time, and says so", async () => {
-    const { shelf: here, all, said, asked } = await shelf();
+    const { section: here, all, said, asked } = await section();
     await Promise.all([here.duplicate(all), here.remove(all)]);
     expect(asked).toEqual(["copy a", "copy b", "copy c"]);
     expect(said[0]?.text).toBe("Wait until the work on other trees is done.");
   });
 
-  it("a template moves to the other shelf, and back", async () => {
-    const { shelf: here, all, said, ids } = await shelf();
+  it("a template moves to the other section, and back", async () => {
+    const { section: here, all, said, ids } = await section();
     await here.mark(all.slice(0, 1), true);
     expect(ids()).toEqual(["b", "c"]);
     said[0]?.action?.act();
@@ -87,14 +87,14 @@ describe("a shelf", () => {
   });
 
   it("a copy stands first; a name has no more letters than fit", async () => {
-    const { shelf: here, all } = await shelf();
+    const { section: here, all } = await section();
     const long = "x".repeat(79);
     await here.duplicate([all[1]!, { ...all[0]!, name: long }]);
     expect(here.pages.items.value?.slice(0, 2).map(({ name }) => name)).toEqual([long, "B (copy)"]);
   });
 
-  it("what is taken back leaves the shelf of deleted trees", async () => {
-    const { shelf: here, all, said, ids } = await shelf("deleted");
+  it("what is taken back leaves the section of deleted trees", async () => {
+    const { section: here, all, said, ids } = await section("deleted");
     await here.takeBack(all.slice(1));
     expect([ids(), said[0]?.text]).toEqual([["a"], "2 trees are back in the library"]);
   });
