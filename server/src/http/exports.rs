@@ -71,11 +71,14 @@ impl Progresses {
         let progress = Arc::new(Progress::default());
         let Some(ticket) = ticket else { return Ok((progress, None)) };
         if !TICKET.contains(&ticket.len()) || self.lock().contains_key(&ticket) {
-            return Err(wrong(
-                "ticket",
-                "16 to 64 characters that no other export has",
-                "ticket is of no use",
-            ));
+            let allowed =
+                format!("{} to {} characters that no other export has", TICKET.start(), TICKET.end());
+            return Err(Problem {
+                field: Some("ticket".into()),
+                allowed: Some(allowed),
+                ..Problem::new(ProblemCode::OutOfRange, "ticket is of no use for an export")
+            }
+            .into());
         }
         self.lock().insert(ticket.clone(), Arc::clone(&progress));
         Ok((progress, Some(Held(self.clone(), ticket))))
@@ -182,7 +185,11 @@ fn read(mut said: BTreeMap<String, String>, row: &FormatRow) -> Result<(Option<S
             OrderError::NotOfFormat(_) => row.options.join(", "),
             OrderError::OutOfRange(_, allowed) => allowed.clone(),
         };
-        wrong(error.option(), &allowed, &format!("The export cannot be done: {error}."))
+        Problem {
+            field: Some(error.option().to_owned()),
+            allowed: Some(allowed),
+            ..Problem::new(ProblemCode::OutOfRange, format!("The export cannot be done: {error}."))
+        }
     })?;
     Ok((ticket, order))
 }
@@ -198,14 +205,4 @@ fn parsed(said: BTreeMap<String, String>) -> Result<Order, Failure> {
     serde_json::from_value(object.into()).map_err(|error| {
         Problem::new(ProblemCode::Malformed, format!("The request cannot be read: {error}.")).into()
     })
-}
-
-fn wrong(field: &str, allowed: &str, sentence: &str) -> Failure {
-    Problem {
-        code: ProblemCode::OutOfRange,
-        field: Some(field.to_owned()),
-        allowed: Some(allowed.to_owned()),
-        message: sentence.to_owned(),
-    }
-    .into()
 }

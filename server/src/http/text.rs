@@ -6,7 +6,6 @@ use espalier_proto::{
 };
 use unicode_properties::{GeneralCategory, UnicodeGeneralCategory};
 
-
 /// Letters and symbols that show nothing: the fillers of Hangul and the empty braille pattern.
 const BLANKS: [char; 5] = ['\u{115f}', '\u{1160}', '\u{2800}', '\u{3164}', '\u{ffa0}'];
 

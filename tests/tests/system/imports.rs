@@ -58,8 +58,8 @@ async fn im1_what_cannot_be_read_is_refused_and_not_kept() {
         ("name=Oak&format=exe", SCAN.to_owned(), "out_of_range", json!("format")),
         ("name=Oak&format=csv&unit=0", SCAN.to_owned(), "out_of_range", json!("unit")),
         ("name=%07&format=csv", SCAN.to_owned(), "out_of_range", json!("name")),
-        ("name=Oak&format=csv&colour=red", SCAN.to_owned(), "malformed", json!(null)),
-        ("format=csv", SCAN.to_owned(), "malformed", json!(null)),
+        ("name=Oak&format=csv&colour=red", SCAN.to_owned(), "malformed", json!("colour")),
+        ("format=csv", SCAN.to_owned(), "malformed", json!("name")),
     ];
     for (query, file, code, field) in cases {
         let answer = post(&server, query, &file);

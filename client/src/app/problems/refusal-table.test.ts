@@ -35,6 +35,7 @@ const BORROWED = new Set([
   "message: impl Into<String>",
   "ProblemCode::Refused, message",
   "ProblemCode::Refused, sentence",
+  "ProblemCode::Stale, sentence",
   "ProblemCode::Malformed, message",
   "ProblemCode::Unavailable, sentence",
   "ProblemCode::TooMany, message",
@@ -120,7 +121,7 @@ const known = (table: typeof REFUSALS, words: string) => table.some(([pattern]) 
 
 /** What a client of this very server can only say wrongly; it is shown in one sentence. */
 const FOR_PROGRAMMERS =
-  /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has|a page begins behind/;
+  /^the message is|^the command cannot be read|cannot be read: 7$|^kind is|^hello is|^clients send|^The request (must|cannot)|first message|^this server speaks|client key has|^after is not|^ticket is/;
 /** Why a session was not restored is written to the log, why a socket closes to nobody. */
 const FOR_THE_LOG = /^The session cannot be read|^7: 7$/;
 

@@ -164,6 +164,14 @@ export const PROBLEMS = {
     "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",
   ],
   "problems.tree-damaged": ["The saved tree is damaged.", "Der gespeicherte Baum ist beschädigt."],
+  "problems.stale": [
+    "Somebody else has changed this tree meanwhile. Look at it and try again.",
+    "Jemand anders hat diesen Baum inzwischen verändert. Sieh ihn dir an und versuche es noch einmal.",
+  ],
+  "problems.export-option": [
+    "This format has no such option, or not in this range.",
+    "Dieses Format hat diese Option nicht oder nicht in diesem Bereich.",
+  ],
   "problems.not-exported": ["The tree cannot be exported.", "Der Baum lässt sich nicht exportieren."],
   "problems.no-picture": ["This picture cannot be drawn.", "Dieses Bild lässt sich nicht zeichnen."],
   "problems.not-opened": ["The tree cannot be opened now.", "Der Baum lässt sich gerade nicht öffnen."],
@@ -199,6 +207,7 @@ export const PROBLEMS = {
   "problems.allowed.plain": ["characters one can see", "sichtbare Zeichen"],
   "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
   "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],
+  "problems.allowed.most-characters": ["up to {most} characters", "höchstens {most} Zeichen"],
   "problems.allowed.most": ["up to {most}", "höchstens {most}"],
   "problems.people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
   "problems.out-of-range": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
