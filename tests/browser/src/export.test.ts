@@ -55,11 +55,15 @@ it.each([
   // The validator does not know these two, and says so as information.
   [["--compressed", "--quantised"], ["UNSUPPORTED_EXTENSION"]],
   [["--instanced"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
-])("so are files with %j", async (options, information) => {
-  const { issues } = await validateBytes(await grown("options", ["--species", "cherry", ...options]));
-  expect([issues.numErrors, issues.numWarnings]).toEqual([0, 0]);
-  expect([...new Set(issues.messages.map(({ code }) => code))].sort()).toEqual(information);
-}, 120_000);
+])(
+  "so are files with %j",
+  async (options, information) => {
+    const { issues } = await validateBytes(await grown("options", ["--species", "cherry", ...options]));
+    expect([issues.numErrors, issues.numWarnings]).toEqual([0, 0]);
+    expect([...new Set(issues.messages.map(({ code }) => code))].sort()).toEqual(information);
+  },
+  120_000,
+);
 
 it("so is the file of a tree of no species", async () => {
   const { issues } = await validateBytes(await grown("tree", ["--metamers", "500", "--licence", "CC0-1.0"]));

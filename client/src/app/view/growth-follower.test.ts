@@ -4,7 +4,7 @@ import { GrowthFollower } from "./growth-follower";
 
 /** A tree of a height, in a view that shows up to some height. */
 function setUp(shown = 40) {
-  const world = { height: 0, shown, moves: 0, growing: false, held: false, enabled: true, widened: 0 };
+  const world = { opened: true, height: 0, shown, moves: 0, growing: false, held: false, enabled: true, widened: 0 };
   const follower = new GrowthFollower({
     view: () => ({
       frames: (box) => box.max[1] <= world.shown,
@@ -14,7 +14,7 @@ function setUp(shown = 40) {
       },
       moves: world.moves,
     }),
-    box: (): Box => ({ min: [0, 0, 0], max: [5, world.height, 5] }),
+    box: (): Box | null => (world.opened ? { min: [0, 0, 0], max: [5, world.height, 5] } : null),
     growing: () => world.growing,
     held: () => world.held,
     enabled: () => world.enabled,
@@ -37,6 +37,14 @@ describe("following growth", () => {
     expect(to({ height: 80 })).toBe(2);
     to({ growing: false });
     expect(to({ growing: true, height: 200 }), "and so does the next growth").toBe(3);
+  });
+
+  it("takes a tree that is opened for what was there before", () => {
+    const { to, follower } = setUp();
+    follower.forget();
+    to({ opened: false });
+    expect(to({ opened: true, height: 90 })).toBe(0);
+    expect(to({ growing: true, height: 100 }), "the picture showed a part of it").toBe(0);
   });
 
   it("waits until no finger is down", () => {

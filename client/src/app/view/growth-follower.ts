@@ -12,8 +12,8 @@ export interface FollowedView {
 
 export interface FollowerOptions {
   readonly view: () => FollowedView | null;
-  /** The box around all that has grown. */
-  readonly box: () => Box;
+  /** The box around all that has grown; null before the rows of the session have come. */
+  readonly box: () => Box | null;
   /** Whether something grows. */
   readonly growing: () => boolean;
   /** Whether a finger is down or a lever held. */
@@ -40,10 +40,11 @@ export class GrowthFollower {
   follow(): void {
     const { view: find, box: measure, growing, held, enabled } = this.#options;
     const view = find();
-    if (!view) {
+    const measured = measure();
+    if (!view || !measured) {
       return;
     }
-    const box = copied(measure());
+    const box = copied(measured);
     const before = this.#before;
     this.#began ??= { framed: before !== null && view.frames(before), moves: view.moves };
     const { framed, moves } = this.#began;

@@ -58,7 +58,7 @@ export class Stage {
     this.#table = options.table;
     this.#follower = new GrowthFollower({
       view: () => this.#view,
-      box: () => this.#table.bounds(),
+      box: () => (this.#table.rows > 0 ? this.#table.bounds() : null),
       growing: options.growing,
       held: () => this.#holds.held,
       enabled: () => options.settings.followsGrowth.peek(),
