@@ -143,7 +143,7 @@ test("a tree is saved, found in the library and opened again", async () => {
   const { tablet, metamers } = await workshop.drawn();
   const { page } = tablet;
   await tablet.tap("Save");
-  await page.getByLabel("Name").fill("My pear");
+  await page.getByLabel("Name", { exact: true }).fill("My pear");
   await page.getByRole("button", { name: "Save tree" }).tap();
   await page.getByText("Saved “My pear”").waitFor();
   await tablet.tap("New tree");

@@ -168,7 +168,7 @@ describe("files", () => {
     const { tablet, metamers } = await workshop.stem(LANDSCAPE);
     const { page } = tablet;
     await tablet.tap("Save");
-    await page.getByRole("textbox", { name: "Name" }).fill("Old: oak");
+    await page.getByRole("textbox", { name: "Name", exact: true }).fill("Old: oak");
     await page.getByRole("button", { name: "Save tree" }).tap();
     await page.getByText("Saved “", { exact: false }).waitFor();
 
