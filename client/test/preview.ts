@@ -27,6 +27,6 @@ const sample = file
 table.apply({ ...sample, catchUp: !query.has("grow") });
 viewport.changed();
 const view = viewIn(location.search);
-if (view) viewport.look(view);
-if (query.has("frame")) viewport.fitTree();
+if (view) viewport.camera.look(view);
+if (query.has("frame")) viewport.camera.fitTree();
 Object.assign(globalThis, { table, viewport, appearance });

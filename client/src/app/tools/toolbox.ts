@@ -202,14 +202,14 @@ export class Toolbox {
         this.#gripDrop();
         break;
       case "pan":
-        view?.pan(gesture.dx, gesture.dy);
+        view?.camera.pan(gesture.dx, gesture.dy);
         break;
       case "orbit":
-        view?.orbit(gesture.dx, gesture.dy);
+        view?.camera.orbit(gesture.dx, gesture.dy);
         break;
       case "zoom":
         if (this.#active?.zoom?.(gesture.factor) !== true) {
-          view?.zoom(gesture.factor, gesture.x, gesture.y);
+          view?.camera.zoom(gesture.factor, gesture.x, gesture.y);
         }
         break;
     }

@@ -57,7 +57,7 @@ export class Stage {
     this.#options = options;
     this.#table = options.table;
     this.#follower = new GrowthFollower({
-      view: () => this.#view,
+      view: () => this.#view?.camera ?? null,
       box: () => (this.#table.rows > 0 ? this.#table.bounds() : null),
       growing: options.growing,
       held: () => this.#holds.held,
@@ -77,7 +77,7 @@ export class Stage {
       view.changed();
     }
     if (this.#look) {
-      view.look(this.#look);
+      view.camera.look(this.#look);
       this.#look = null;
     }
   }
@@ -125,13 +125,13 @@ export class Stage {
   moved(): void {
     if (this.#view) {
       this.widest.value = Math.min(MAX_RADIUS, Math.floor(10 * this.#view.widest()) / 10);
-      this.widened.value = this.#view.isWidened;
+      this.widened.value = this.#view.camera.isWidened;
     }
   }
 
   /** Goes back to what was shown before the camera moved back. */
   unwiden(): void {
-    this.#view?.unwiden();
+    this.#view?.camera.unwiden();
     this.moved();
   }
 
@@ -162,12 +162,12 @@ export class Stage {
   }
 
   fitTree(): void {
-    this.#view?.fitTree();
+    this.#view?.camera.fitTree();
   }
 
   look(view: View): void {
     if (this.#view) {
-      this.#view.look(view);
+      this.#view.camera.look(view);
     } else {
       this.#look = view;
     }
@@ -175,12 +175,12 @@ export class Stage {
 
   /** Turns the tree around the vertical, by radians: above 0 its front goes to the right. */
   turn(radians: number): void {
-    this.#view?.orbit(radians / RADIANS_PER_PIXEL, 0);
+    this.#view?.camera.orbit(radians / RADIANS_PER_PIXEL, 0);
   }
 
   /** Turns the tree to its front. */
   face(): void {
-    this.#view?.face();
+    this.#view?.camera.face();
   }
 
   /** How far the tree is turned, in radians from −π to π; 0 as a page opens. */

@@ -25,11 +25,13 @@ function setUp(right: readonly [number, number, number] = [1, 0, 0]) {
     placeGhost: (pose: GhostPose) => {
       seen.pose = pose;
     },
-    fitTree: () => {
-      seen.fitted += 1;
-    },
-    restoreView: () => {
-      seen.restored += 1;
+    camera: {
+      fitTree: () => {
+        seen.fitted += 1;
+      },
+      restore: () => {
+        seen.restored += 1;
+      },
     },
     addOverlay: (overlay: Overlay) => seen.overlays.add(overlay),
     removeOverlay: (overlay: Overlay) => seen.overlays.delete(overlay),

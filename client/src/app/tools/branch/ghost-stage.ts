@@ -73,7 +73,7 @@ export class GhostStage {
     view.placeGhost({ turn: UNTURNED, from: [0, 0, 0], to });
     this.beside.value = to;
     if (first) {
-      view.fitTree(COVERED);
+      view.camera.fitTree(COVERED);
     }
   }
 
@@ -83,9 +83,9 @@ export class GhostStage {
     const view = this.#view;
     view?.showGhost(null);
     if (becoming) {
-      view?.fitBox(becoming.bounds(), COVERED);
+      view?.camera.fitBox(becoming.bounds(), COVERED);
     } else {
-      view?.restoreView();
+      view?.camera.restore();
     }
   }
 

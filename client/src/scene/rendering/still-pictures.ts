@@ -1,0 +1,78 @@
+import type { WebGLRenderer } from "three";
+import type { CameraPose } from "../camera/camera-pose";
+import { fitted } from "../camera/camera-rig";
+import type { PictureSize } from "../camera/sight";
+import type { ViewCamera } from "../camera/view-camera";
+import type { Vec3 } from "../vector";
+import type { World } from "../world";
+import { pictureInTiles, type Tile } from "./picture-tiles";
+import { PICTURE_SAMPLES, QUALITIES, type Quality } from "./quality";
+import type { Screen } from "./screen";
+import { encodePicture } from "./thumbnail";
+
+/** What a picture beside the one on the canvas is made with. */
+export interface Sitting {
+  readonly renderer: WebGLRenderer;
+  readonly world: World;
+  readonly camera: ViewCamera;
+  readonly screen: Screen;
+  /** Takes over what changed in the table. */
+  readonly sync: () => void;
+  /** Chooses details for a picture of so many pixels in height, from so far. */
+  readonly refine: (height: number, samples: number, quality: Quality, distance: number) => void;
+}
+
+/** A picture of the whole tree as a data URL of at most 192 KiB, too small for every detail. */
+export async function thumbnail(sitting: Sitting, width: number, height: number): Promise<string> {
+  const { renderer, world, camera, sync, refine } = sitting;
+  const pose = fitted(world.table.bounds(), width / height, camera.rig.pose.yaw);
+  const passing = [world.brush.mesh, world.ghost.group].filter(({ visible }) => visible);
+  for (const object of passing) object.visible = false;
+  const { mode } = world;
+  if (mode !== "lit") world.setMode("lit");
+  sync();
+  camera.sight.aim(pose, camera.rig.eye(pose), width / height);
+  refine(height, PICTURE_SAMPLES, QUALITIES[1], pose.distance);
+  if (world.shadow.stale) world.drawShadow(renderer);
+  const picture = encodePicture(renderer, width, height, () => drawScene(sitting));
+  for (const object of passing) object.visible = true;
+  if (mode !== "lit") world.setMode(mode);
+  return picture;
+}
+
+/** The view as PNG, of so many pixels. */
+export async function picture(
+  sitting: Sitting,
+  size: PictureSize,
+  stop: AbortSignal,
+  tell: (share: number) => void,
+): Promise<Blob> {
+  const { renderer, camera, sync } = sitting;
+  const [pose, eye] = [structuredClone(camera.rig.pose), camera.rig.eye()];
+  sync();
+  return pictureInTiles({ renderer, ...size, stop, tell, draw: (tile) => drawTile(sitting, pose, eye, size, tile) });
+}
+
+function drawTile(sitting: Sitting, pose: CameraPose, eye: Vec3, size: PictureSize, tile: Tile): void {
+  const { renderer, world, camera, screen, refine } = sitting;
+  const brush = world.brush.mesh.visible;
+  const shown = screen.size.clone();
+  world.brush.mesh.visible = false;
+  camera.sight.aimAtTile(pose, eye, size, tile);
+  refine(size.height, PICTURE_SAMPLES, QUALITIES[0], pose.distance);
+  if (world.shadow.stale) {
+    const target = renderer.getRenderTarget();
+    world.drawShadow(renderer);
+    renderer.setRenderTarget(target);
+  }
+  screen.size.set(tile.width, tile.height);
+  drawScene(sitting);
+  screen.size.copy(shown);
+  world.brush.mesh.visible = brush;
+  camera.aimed();
+}
+
+function drawScene({ renderer, world, camera }: Sitting): void {
+  renderer.clear();
+  renderer.render(world.scene, camera.sight.camera);
+}

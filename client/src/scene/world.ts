@@ -1,0 +1,127 @@
+import { type Mesh, Scene, type WebGLRenderer } from "three";
+import type { Appearance } from "../wire/generated";
+import { BrushShell } from "./brush-shell";
+import type { Box } from "./camera/camera-pose";
+import { union } from "./camera/camera-rig";
+import { extent } from "./camera/extent";
+import { Environment } from "./light/environment";
+import { ShadowDue } from "./light/shadow-due";
+import { Sun } from "./light/sun";
+import { type Materials, makeMaterials, type Uniforms } from "./materials";
+import type { DrawMode } from "./mode/draw-mode";
+import { NoiseTextures } from "./noise-texture";
+import { type DrawnObstacle, ObstacleMeshes } from "./obstacle-meshes";
+import { Ghost } from "./overlay/ghost";
+import { Painter } from "./painting/painter";
+import type { TreeTable } from "./table/tree-table";
+import { TreeView } from "./tree-view";
+
+/** What a picture shows: the tree, what stands and shines around it, the brush and the ghost. */
+export class World {
+  readonly scene = new Scene();
+  readonly uniforms: Uniforms;
+  readonly painter: Painter;
+  readonly tree: TreeView;
+  readonly environment: Environment;
+  readonly sun: Sun;
+  readonly obstacles: ObstacleMeshes;
+  readonly brush: BrushShell;
+  readonly ghost: Ghost;
+  readonly shadow = new ShadowDue();
+  mode: DrawMode = "lit";
+  private readonly noise = new NoiseTextures();
+  private readonly materials: Materials;
+
+  /** `seen` are the uniforms of how it is looked at; `painted` is called when a texture has been painted. */
+  constructor(
+    readonly table: TreeTable,
+    seen: Uniforms,
+    painted: () => void,
+  ) {
+    this.uniforms = {
+      ...seen,
+      uTime: { value: 0 },
+      uLeafSize: { value: 0.7 },
+      uNoise: { value: this.noise.space },
+      uFlatNoise: { value: this.noise.plane },
+    };
+    this.painter = new Painter(painted);
+    this.sun = new Sun(this.uniforms);
+    this.materials = makeMaterials(this.uniforms);
+    this.tree = new TreeView(table, this.materials, this.uniforms, this.painter);
+    this.environment = new Environment(this.materials, this.uniforms);
+    this.obstacles = new ObstacleMeshes(this.materials);
+    this.brush = new BrushShell(this.materials, this.uniforms);
+    this.scene.add(...this.environment.meshes, this.tree.group, this.brush.mesh);
+    this.ghost = new Ghost(this.uniforms);
+    this.scene.add(this.obstacles.bodies, this.ghost.group);
+    this.sun.casters.add(this.tree.casters, this.obstacles.casters);
+  }
+
+  /** What nearly every picture of a tree needs. */
+  get essential(): readonly Mesh[] {
+    return [...this.environment.meshes, ...this.tree.essential, ...this.sun.essential];
+  }
+
+  /** How the tree and its surroundings look. */
+  setAppearance(appearance: Appearance): void {
+    this.environment.setBackground(appearance.background);
+    this.tree.setAppearance(appearance);
+    this.shadow.stale = true;
+  }
+
+  /** What is shown of the tree. */
+  setMode(mode: DrawMode): void {
+    this.mode = mode;
+    this.tree.setMode(mode);
+    this.environment.setNeutral(mode !== "lit");
+    this.shadow.stale = true;
+  }
+
+  /** Length of a leaf in internodes; false if it is the same as before. */
+  setLeafSize(size: number): boolean {
+    if (this.uniforms.uLeafSize!.value === size) return false;
+    this.uniforms.uLeafSize!.value = size;
+    this.shadow.stale = true;
+    return true;
+  }
+
+  /** Shows these obstacles and no others; one may be marked. */
+  showObstacles(obstacles: readonly DrawnObstacle[], chosen: number | null): void {
+    this.obstacles.show(obstacles, chosen);
+    this.shadow.stale = true;
+  }
+
+  /** The tree with what stands around it. */
+  extent(): Box {
+    return extent(this.table.bounds(), this.obstacles.bounds());
+  }
+
+  /** The same with the ghost. */
+  reach(): Box {
+    return this.withGhost(this.extent());
+  }
+
+  /** A box with the ghost, if there is one. */
+  withGhost(box: Box): Box {
+    const ghost = this.ghost.bounds();
+    return ghost ? union(box, ghost) : box;
+  }
+
+  drawShadow(renderer: WebGLRenderer): void {
+    this.sun.render(renderer, this.extent(), this.environment.towardsLight);
+  }
+
+  /** A restored context has lost every texture and buffer. */
+  restored(): void {
+    this.tree.restored();
+    this.ghost.restored();
+    this.shadow.stale = true;
+  }
+
+  dispose(): void {
+    const { tree, environment, obstacles, brush, ghost, noise, sun, painter } = this;
+    for (const part of [tree, environment, obstacles, brush, ghost, noise, sun, painter]) part.dispose();
+    for (const material of Object.values(this.materials)) material.dispose();
+  }
+}
