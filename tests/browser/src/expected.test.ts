@@ -102,12 +102,21 @@ describe("the brush and the picture", () => {
     // From the first view, which is 40 internodes high, the widest brush would be twice as wide as the picture.
     const track = await tablet.boxOf(slider);
     const x = track.x + track.width / 2;
-    await tablet.swipe([way({ x, y: track.y + track.height / 2 }, { x, y: track.y + 4 })]);
+    await tablet.swipe([way({ x, y: track.y + track.height / 2 }, { x, y: track.y - 40 })]);
     await tooWide.waitFor();
     const widest = await radius();
     expect(widest).toBeGreaterThan(10);
     expect(widest).toBeLessThan(20);
     await tooWide.tap();
+    // All of its way does something.
+    const radii = [widest];
+    for (const share of [0.1, 0.2, 0.3]) {
+      await tablet.tapAt({ x, y: track.y + share * track.height });
+      await expect.poll(radius).toBeLessThan(radii.at(-1)!);
+      radii.push(await radius());
+    }
+    expect(radii.at(-1)).toBeGreaterThan(widest / 5);
+    expect(await tooWide.count()).toBe(0);
     await tablet.tap("Brush");
     const typed = page.getByLabel("Radius: value", { exact: true });
     await typed.fill("35");

@@ -19,6 +19,20 @@ describe("brush radius", () => {
     expect(placeOf(0)).toBe(0);
   });
 
+  it("has all of its way for what the picture has room for", () => {
+    for (const widest of [1, 6.4, 18]) {
+      expect(radiusAt(1, widest)).toBeCloseTo(widest, 6);
+      expect(radiusAt(0.95, widest)).toBeLessThan(widest);
+      expect(radiusAt(placeOf(0.8, widest), widest)).toBeCloseTo(0.8, 6);
+      expect(placeOf(widest, widest)).toBeCloseTo(1, 6);
+    }
+  });
+
+  it("still goes upwards where the picture has room for no brush at all", () => {
+    expect(radiusAt(0.3, 0.2)).toBeGreaterThan(radiusAt(0.2, 0.2));
+    expect(placeOf(MIN_BRUSH, 0.2)).toBeLessThan(placeOf(0.6, 0.2));
+  });
+
   it("steps out of sketching and back", () => {
     expect(stepRadius(0, 1)).toBeCloseTo(MIN_BRUSH, 6);
     expect(stepRadius(MIN_BRUSH, -1)).toBe(0);

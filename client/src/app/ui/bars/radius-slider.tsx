@@ -1,19 +1,24 @@
 import { useRef } from "preact/hooks";
 import type { Studio } from "../../studio";
-import { placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
+import { MAX_RADIUS, placeOf, radiusAt, radiusLabel, stepRadius } from "../../tools/brush/brush-radius";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
+
+/** Who pulls past the slider's end by this share of its way asks for more than there is room for. */
+const PAST_END = 1.08;
 
 /** A vertical slider for the brush's radius. */
 export function RadiusSlider({ studio }: { studio: Studio }) {
   const track = useRef<HTMLDivElement>(null);
   const { radius } = studio.stage;
-  const place = placeOf(radius);
+  const widest = studio.stage.widest.value;
+  const place = placeOf(radius, widest);
 
   const follow = (event: PointerEvent) => {
     const frame = track.current?.getBoundingClientRect();
     if (frame && (event.type === "pointerdown" || event.buttons % 2 === 1)) {
-      studio.stage.setRadius(radiusAt((frame.bottom - event.clientY) / frame.height));
+      const pulled = (frame.bottom - event.clientY) / frame.height;
+      studio.stage.setRadius(pulled > PAST_END ? MAX_RADIUS : radiusAt(pulled, widest));
     }
   };
   const onKeyDown = (event: KeyboardEvent) => {
@@ -21,7 +26,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
     if (notches !== undefined) {
       studio.stage.setRadius(stepRadius(radius, notches));
     } else if (event.key === "Home" || event.key === "End") {
-      studio.stage.setRadius(event.key === "Home" ? 0 : studio.stage.widest.peek());
+      studio.stage.setRadius(event.key === "Home" ? 0 : widest);
     } else {
       return;
     }
@@ -41,7 +46,7 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
         aria-label={say("bars.radius")}
         aria-orientation="vertical"
         aria-valuemin={0}
-        aria-valuemax={studio.stage.widest.value}
+        aria-valuemax={widest}
         aria-valuenow={Math.round(radius * 10) / 10}
         aria-valuetext={
           radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })

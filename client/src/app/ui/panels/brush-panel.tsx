@@ -92,7 +92,8 @@ const STOPS = 200;
 
 function RadiusField({ studio }: { studio: Studio }) {
   const { radius } = studio.stage;
-  const [place, zone] = [placeOf(radius), zoneIn(studio)];
+  const widest = studio.stage.widest.value;
+  const [place, zone] = [placeOf(radius, widest), zoneIn(studio)];
   const label = say("brush.radius");
   const shown = radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) });
   return (
@@ -125,12 +126,12 @@ function RadiusField({ studio }: { studio: Studio }) {
             step={1}
             value={Math.round(place * STOPS)}
             style={{ "--place": place }}
-            onInput={(event) => studio.stage.setRadius(radiusAt(Number(event.currentTarget.value) / STOPS))}
+            onInput={(event) => studio.stage.setRadius(radiusAt(Number(event.currentTarget.value) / STOPS, widest))}
           />
           <div
             class="brush-zones"
             aria-hidden="true"
-            style={{ "--narrow": placeOf(MIN_BRUSH), "--wide": placeOf(zone) }}
+            style={{ "--narrow": placeOf(MIN_BRUSH, widest), "--wide": placeOf(zone, widest) }}
           >
             {(["sketch", "narrow", "wide"] as const).map((deed) => (
               <span key={deed} data-now={deed === deedOf(studio)} />

@@ -1,6 +1,6 @@
 import { DEFAULTS } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
-import { MAX_RADIUS, placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
+import { placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
 import { say } from "../../words/say";
 import { Grip } from "./architecture/grip";
 import { short } from "./architecture/place";
@@ -18,10 +18,12 @@ const FOOT = { x: 40, y: HEIGHT - 14 };
 
 /** The brush with the markers it sows, beside a shoot as large as it is to the brush; its rim can be pulled. */
 export function BrushPicture({ studio }: { studio: Studio }) {
-  const radius = studio.settings.radius.value;
+  const { radius } = studio.stage;
+  const widest = studio.stage.widest.value;
   const { marker_density: density, tropism_from_stroke: led } = studio.parameters.value ?? DEFAULTS;
-  const drawn = radius === 0 ? 0 : pixelsOf(radius);
-  const internode = radius === 0 ? pixelsOf(radiusAt(0.1)) / radiusAt(0.1) : drawn / radius;
+  const drawn = radius === 0 ? 0 : pixelsOf(radius, widest);
+  const narrow = radiusAt(0.1, widest);
+  const internode = radius === 0 ? pixelsOf(narrow, widest) / narrow : drawn / radius;
   // What lies in the ball's middle slice, as thick as an internode.
   const count = Math.min(MOST_MARKERS, Math.round(density * Math.PI * radius * radius + (radius > 0 ? 3 : 0)));
   return (
@@ -48,11 +50,11 @@ export function BrushPicture({ studio }: { studio: Studio }) {
           text={radius === 0 ? say("bars.radius.sketch") : say("bars.radius.value", { radius: radiusLabel(radius) })}
           value={Math.round(radius * 10) / 10}
           least={0}
-          most={MAX_RADIUS}
+          most={widest}
           step={0.5}
           way="level"
-          at={{ x: MIDDLE.x + pixelsOf(radius) + OUTSIDE, y: MIDDLE.y }}
-          onPull={({ x }) => studio.stage.setRadius(radiusOf(x - MIDDLE.x - OUTSIDE))}
+          at={{ x: MIDDLE.x + pixelsOf(radius, widest) + OUTSIDE, y: MIDDLE.y }}
+          onPull={({ x }) => studio.stage.setRadius(radiusOf(x - MIDDLE.x - OUTSIDE, widest))}
           onValue={(value) => studio.stage.setRadius(value)}
           onRelease={() => {}}
         />
@@ -62,12 +64,12 @@ export function BrushPicture({ studio }: { studio: Studio }) {
 }
 
 /** Pixels grow with the slider's way, so that a wide brush fits and a narrow one is seen. */
-function pixelsOf(radius: number): number {
-  return NARROW + (WIDE - NARROW) * placeOf(radius);
+function pixelsOf(radius: number, widest: number): number {
+  return NARROW + (WIDE - NARROW) * placeOf(radius, widest);
 }
 
-function radiusOf(pixels: number): number {
-  return radiusAt((pixels - NARROW) / (WIDE - NARROW));
+function radiusOf(pixels: number, widest: number): number {
+  return radiusAt((pixels - NARROW) / (WIDE - NARROW), widest);
 }
 
 /** A shoot with a bud at each node, in turn to the left and to the right. */
