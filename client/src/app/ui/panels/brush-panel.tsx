@@ -1,3 +1,4 @@
+import { BOUNDS } from "../../../wire/generated";
 import { DEFAULTS, OF_THE_BRUSH } from "../../document/growth/growth-parameters";
 import type { Studio } from "../../studio";
 import { MAX_RADIUS, MIN_BRUSH, placeOf, radiusAt, radiusLabel } from "../../tools/brush/brush-radius";
@@ -61,11 +62,10 @@ export function BrushPanel({ studio }: { studio: Studio }) {
           <Slider
             label={say("brush.lasso-depth")}
             help={say("brush.lasso-depth.help")}
-            least={0.1}
-            most={1}
+            {...BOUNDS.Depth}
             step={0.05}
             value={settings.lassoDepth.value}
-            standard={1}
+            standard={BOUNDS.Depth.most}
             onDrag={(depth) => {
               settings.lassoDepth.value = depth;
             }}

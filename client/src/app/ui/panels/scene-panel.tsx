@@ -1,6 +1,14 @@
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
-import { MAX_OBSTACLES, type PlacedObstacle, type Pose, type Shape } from "../../../wire/generated";
+import {
+  BOUNDS,
+  DEEPEST,
+  FARTHEST,
+  MAX_OBSTACLES,
+  type PlacedObstacle,
+  type Pose,
+  type Shape,
+} from "../../../wire/generated";
 import { type SimpleShape, UndoGroup } from "../../document/obstacles/obstacle-list";
 import { rotationOf, turningOf } from "../../document/obstacles/turning";
 import type { Studio } from "../../studio";
@@ -138,24 +146,24 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
         name="scene.across"
         value={x}
         first={firstX}
-        least={-1000}
-        most={1000}
+        least={-FARTHEST}
+        most={FARTHEST}
         onCommit={(value) => move({ position: [value, y, z] })}
       />
       <Measure
         name="scene.up"
         value={y}
         first={firstY}
-        least={-10}
-        most={1000}
+        least={DEEPEST}
+        most={FARTHEST}
         onCommit={(value) => move({ position: [x, value, z] })}
       />
       <Measure
         name="scene.deep"
         value={z}
         first={firstZ}
-        least={-1000}
-        most={1000}
+        least={-FARTHEST}
+        most={FARTHEST}
         onCommit={(value) => move({ position: [x, y, value] })}
       />
       {shape.kind !== "sphere" && (
@@ -185,8 +193,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
           name="scene.radius"
           value={shape.radius}
           first={first.shape.kind === "sphere" ? first.shape.radius : shape.radius}
-          least={0.1}
-          most={500}
+          {...BOUNDS.SphereRadius}
           onCommit={(radius) => reshape({ kind: "sphere", radius })}
         />
       )}
