@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
-import { LANDSCAPE, PHONE, type Point, type Screen, type Tab, type Tablet, way } from "./tablet";
+import { LANDSCAPE, middle, PHONE, type Point, type Screen, SMALL, type Tab, type Tablet, way } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -149,6 +149,27 @@ test("a species is picked by its picture, and undone as one", async () => {
   }
   await until("it is no species", async () => (await tablet.page.locator(".origin").innerText()) === "Your own");
   await until("the sketch is as it was", async () => (await sketch(tablet)) === drawn);
+});
+
+test("each number of a programme's stage stands beside its name", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const { page } = tablet;
+  await tablet.tap("Architecture");
+  await tablet.turnTo("Species");
+  await page.locator('[data-species="stone-pine"]').tap();
+  await tablet.untilQuiet();
+  await tablet.turnTo("Growth");
+  const course = page.getByLabel("Parameter whose course is shown");
+  const numbers = page.locator(".programme-number");
+  for (const name of ["Shedding", "Set-point angle"]) {
+    await course.selectOption(name);
+    await expect.poll(() => numbers.allInnerTexts()).toEqual(["From age", name]);
+    for (const number of await numbers.all()) {
+      const [text, field] = [number.locator("span").first(), number.getByRole("textbox")];
+      const [left, right] = [await tablet.boxOf(text), await tablet.boxOf(field)];
+      expect(Math.abs(middle(left).y - middle(right).y), "they stand side by side").toBeLessThan(4);
+    }
+  }
 });
 
 test("species are found by their names in any language", async () => {

@@ -151,26 +151,31 @@ function Course({ studio, inForce }: PartProps) {
       </Diagram>
       <StageSteps points={points} place={place} choose={choose} />
       <div class="programme-stage">
-        <span>{say("architecture.programme.from")}</span>
-        <TypedNumber
-          label={say("architecture.programme.age")}
-          unit=""
-          least={0}
-          most={MAX_AGE}
-          step={1}
-          value={point.age}
-          disabled={point.change === null}
-          onCommit={(to) => commit(withPoint(programme, parameter, point.change, { ...point, age: to }))}
-        />
-        <TypedNumber
-          label={nameOf(parameter)}
-          unit=""
-          least={parameter.least}
-          most={parameter.most}
-          step={parameter.step}
-          value={point.value}
-          onCommit={(to) => commit(withPoint(programme, parameter, point.change, { ...point, value: to }))}
-        />
+        <span class="programme-number">
+          <span>{say("architecture.programme.from")}</span>
+          <TypedNumber
+            label={say("architecture.programme.age")}
+            unit=""
+            least={0}
+            most={MAX_AGE}
+            step={1}
+            value={point.age}
+            disabled={point.change === null}
+            onCommit={(to) => commit(withPoint(programme, parameter, point.change, { ...point, age: to }))}
+          />
+        </span>
+        <span class="programme-number">
+          <span>{nameOf(parameter)}</span>
+          <TypedNumber
+            label={nameOf(parameter)}
+            unit=""
+            least={parameter.least}
+            most={parameter.most}
+            step={parameter.step}
+            value={point.value}
+            onCommit={(to) => commit(withPoint(programme, parameter, point.change, { ...point, value: to }))}
+          />
+        </span>
         {point.change !== null && (
           <button type="button" onClick={() => commit(withoutChange(programme, point.change ?? 0))}>
             {say("architecture.programme.remove")}
