@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { misses } from "./hits";
 import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
-import { atWork, openPart, PARTS, SHEETS } from "./visits";
+import { atWork, openPart, PARTS, press, SHEETS } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
@@ -31,13 +31,6 @@ async function grown(screen: Screen): Promise<Tablet> {
     await fetch("/api/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
   });
   return tablet;
-}
-
-/** Presses a button of the tool bar, in its menu where it is folded. */
-async function press(tablet: Tablet, name: string): Promise<void> {
-  const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
-  if ((await button.count()) === 0) await tablet.page.getByRole("button", { name: "More", exact: true }).click();
-  await button.click();
 }
 
 /** The library with what it unfolds: a tree's menu and its name, choosing, templates, versions. */

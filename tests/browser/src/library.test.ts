@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { until } from "./server";
 import { middle, PHONE, SMALL, type Tablet } from "./tablet";
+import { press } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
@@ -11,13 +12,6 @@ async function grown(screen = SMALL): Promise<{ tablet: Tablet; address: string;
   await workshop.act(address, [{ kind: "grow", steps: 4 }]);
   await tablet.until("it has grown", ({ metamers }) => metamers > 0);
   return { tablet, address, metamers: (await tablet.untilQuiet()).metamers };
-}
-
-/** Presses a button of the tool bar, in its menu where it is folded. */
-async function press(tablet: Tablet, name: string): Promise<void> {
-  const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
-  if ((await button.count()) === 0) await tablet.tap("More");
-  await button.tap();
 }
 
 /** Opens a sheet, and waits for what it has to say. */
@@ -151,7 +145,14 @@ test("on a phone a tree is renamed in a row of its own, noted, deleted and taken
   await cards(tablet).getByText("Old ash").waitFor();
   await choose(tablet, "Old ash", "Delete");
   await section(tablet, "Deleted");
-  await page.locator(".card", { hasText: "Old ash" }).getByText("30 days left").waitFor();
+  const days = page.locator(".card", { hasText: "Old ash" }).getByText("30 days left");
+  await days.waitFor();
+  const lines = (element: Element) => {
+    const text = document.createRange();
+    text.selectNodeContents(element);
+    return text.getClientRects().length;
+  };
+  expect(await days.evaluate(lines), "the days stand in one line").toBe(1);
   await tablet.show("deleted-phone");
   await page.getByRole("button", { name: "Take Old ash back" }).tap();
   await section(tablet, "Trees");

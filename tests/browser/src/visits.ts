@@ -1,3 +1,4 @@
+import type { Locator } from "playwright-core";
 import { until } from "./server";
 import { loop, type Point, type Tab, type Tablet, way } from "./tablet";
 import { SEED } from "./workshop";
@@ -132,4 +133,12 @@ async function under(tablet: Tablet, path: readonly Point[], look: () => Promise
   await tablet.lead([path]);
   await look();
   await tablet.touch("touchEnd", []);
+}
+
+/** Presses a button of the tool bar, in its menu where it is folded. */
+export async function press(tablet: Tablet, name: string): Promise<void> {
+  const push = (button: Locator) => (tablet.touches ? button.tap() : button.click());
+  const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
+  if ((await button.count()) === 0) await push(tablet.page.getByRole("button", { name: "More", exact: true }));
+  await push(button);
 }

@@ -14,7 +14,7 @@ export function DeletedCard({ section, tree }: { readonly section: LibrarySectio
       </div>
       <div class="card-foot">
         <strong class="card-name">{tree.name}</strong>
-        <span class="quiet card-facts">
+        <span class="quiet card-facts card-days">
           {days === 0
             ? say("library.days-left.last")
             : days === 1
