@@ -1,12 +1,13 @@
 import { expect, test } from "vitest";
-import { SMALL, type Tablet } from "./tablet";
+import { PHONE, type Screen, SMALL, type Tablet } from "./tablet";
+import { press } from "./visits";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
 
 /** A tablet with a tree that nobody has saved. */
-async function unsaved(): Promise<{ tablet: Tablet; metamers: number }> {
-  const { tablet, address } = await workshop.fresh(SMALL);
+async function unsaved(screen: Screen = SMALL): Promise<{ tablet: Tablet; metamers: number }> {
+  const { tablet, address } = await workshop.fresh(screen);
   await workshop.act(address, [{ kind: "grow", steps: 5 }]);
   await tablet.until("it has grown", ({ metamers }) => metamers > 0);
   return { tablet, metamers: (await tablet.untilQuiet()).metamers };
@@ -49,6 +50,22 @@ test("a tree that is kept under Unsaved is found there, and on the first screen"
   // It can be taken back and forth as before: it is the very session.
   await tablet.tap("Undo");
   await tablet.until("undo goes on", (facts) => facts.metamers === 0);
+});
+
+test.each<[string, Screen]>([
+  ["a tablet", SMALL],
+  ["a phone", PHONE],
+])("each answer to where a tree stays has a row of its own: %s", async (_, screen) => {
+  const { tablet } = await unsaved(screen);
+  await press(tablet, "New tree");
+  const asked = tablet.page.getByRole("dialog", { name: "A new tree" });
+  const boxes = [];
+  for (const name of ["Save it", "Keep under Unsaved", "Do not keep it"])
+    boxes.push(await tablet.boxOf(asked.getByRole("button", { name })));
+  await tablet.show(`a-new-tree-${screen.width}`);
+  expect(new Set(boxes.map(({ x }) => x)).size).toBe(1);
+  expect(new Set(boxes.map(({ width }) => width)).size).toBe(1);
+  expect(boxes.map(({ y }) => y)).toEqual(boxes.map(({ y }) => y).sort((a, b) => a - b));
 });
 
 test("a tree that is saved is not asked for again until it changes", async () => {

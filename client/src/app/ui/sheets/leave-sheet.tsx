@@ -58,15 +58,15 @@ export function LeaveSheet({ studio }: { studio: Studio }) {
       {of === undefined && <Looking belonging={belonging} />}
       {of === null && <NameField name={name} onInput={setName} />}
       {of && <p class="standing">{say("sheets.leave.next", { name: of.tree.name, number: of.tree.version + 1 })}</p>}
-      <div class="actions">
-        <button type="button" class="small danger" disabled={leaving} onClick={() => leave(nothing, false)}>
-          {say("sheets.leave.drop")}
+      <div class="answers">
+        <button type="submit" class="primary" disabled={leaving || of === undefined || (of === null && trimmed === "")}>
+          {say(leaving ? "sheets.save.saving" : "sheets.leave.save")}
         </button>
         <button type="button" class="small" disabled={leaving} onClick={() => leave(nothing, true)}>
           {say("sheets.leave.keep")}
         </button>
-        <button type="submit" class="primary" disabled={leaving || of === undefined || (of === null && trimmed === "")}>
-          {say(leaving ? "sheets.save.saving" : "sheets.leave.save")}
+        <button type="button" class="small danger" disabled={leaving} onClick={() => leave(nothing, false)}>
+          {say("sheets.leave.drop")}
         </button>
       </div>
       <FromTemplate studio={studio} />
