@@ -44,6 +44,22 @@ test.each<[string, Screen, number]>([
   expect(await opened(tablet)).toEqual(before);
 });
 
+test("an icon says its name before the first tree is drawn", async () => {
+  const { tablet } = await workshop.fresh(SMALL);
+  const { page } = tablet;
+  const place = middle(await tablet.boxOf(page.getByRole("button", { name: "Leaves", exact: true })));
+  // The rows of a tree never come.
+  await page.routeWebSocket(/socket/, () => {});
+  await page.reload({ waitUntil: "domcontentloaded" });
+  await page.getByRole("button", { name: "Leaves", exact: true }).waitFor();
+  await tablet.touch("touchStart", [place]);
+  await page.locator(".button-label:popover-open strong", { hasText: "Leaves" }).waitFor();
+  expect(await tablet.facts()).toMatchObject({ rows: 0 });
+  await tablet.touch("touchEnd", []);
+  await page.locator(".button-label:popover-open").waitFor({ state: "detached" });
+  expect(await page.getByRole("region", { name: "Leaves", exact: true }).count()).toBe(0);
+});
+
 test("a pen that was held on a button presses it only the next time", async () => {
   const tablet = await naming(SMALL);
   const { page } = tablet;

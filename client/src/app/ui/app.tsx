@@ -1,4 +1,5 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { listenForHolds, type NamedControl } from "../input/button-holds";
 import { followChoices } from "../page/language-and-theme";
 import type { Studio } from "../studio";
 import { symmetryNow } from "../tools/symmetry/stroke-copies";
@@ -42,7 +43,6 @@ export function App({ studio }: { studio: Studio }) {
   const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.layout.bare.value;
-  const ButtonLabel = usePart(studio, NAMES, true);
   const panel = bare ? null : studio.layout.panel.value;
   return (
     <div
@@ -60,7 +60,7 @@ export function App({ studio }: { studio: Studio }) {
         </Panel>
       )}
       {shown === null && <ToastList studio={studio} />}
-      {ButtonLabel && <ButtonLabel />}
+      <HeldName studio={studio} />
       {shown !== null && (
         <Sheet studio={studio} title={say(shown.title)} size={shown.size} key={sheet}>
           <PartView studio={studio} part={shown.part} height={shown.height} />
@@ -68,6 +68,14 @@ export function App({ studio }: { studio: Studio }) {
       )}
     </div>
   );
+}
+
+/** The name of the button that a finger is held on; whoever asks for it does not wait for the first picture. */
+function HeldName({ studio }: { studio: Studio }) {
+  const [control, hold] = useState<NamedControl | null>(null);
+  useEffect(() => listenForHolds(hold), []);
+  const ButtonLabel = usePart(studio, NAMES, control !== null, true);
+  return ButtonLabel && <ButtonLabel control={control} />;
 }
 
 /** The picture with what lies over it; it shrinks beside a panel and stays in use. */
@@ -127,10 +135,10 @@ function useToolViews(studio: Studio) {
 
 /**
  * A part that has no place for a sentence of its own, asked for whenever `need` becomes another; null until it is there.
- * The first picture goes before it, unless something keeps that from coming.
+ * The first picture goes before it, unless it is wanted at once or something keeps that picture from coming.
  */
-function usePart<Content>(studio: Studio, part: Part<Content>, need: string | boolean): Content | null {
-  const mayCome = studio.stage.opened.value || studio.hindrance.value !== null;
+function usePart<Content>(studio: Studio, part: Part<Content>, need: string | boolean, atOnce = false): Content | null {
+  const mayCome = atOnce || studio.stage.opened.value || studio.hindrance.value !== null;
   useEffect(() => {
     if (mayCome && need !== false) {
       void part.open().then(() => {

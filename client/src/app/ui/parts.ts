@@ -100,13 +100,14 @@ export const SUN = new Part(async () => (await import("./overlays/sun-handle")).
 
 export const TOUR = new Part(async () => (await import("./notices/tour-card")).TourCard);
 
-/** Names of buttons; they are held only once there is something to see. */
+/** The name of the button that a finger is held on. */
 export const NAMES = new Part(async () => (await import("./notices/button-label")).ButtonLabel);
 
 export const RECENT = new Part(async () => (await import("./notices/recent-trees")).RecentTrees);
 
 /** All of them, those first that are needed first. */
 const ALL: readonly Part<unknown>[] = [
+  NAMES,
   CHIPS,
   TIMELINE,
   PREDICTION,

@@ -1,5 +1,5 @@
-import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
-import { listenForHolds, type NamedControl } from "../../input/button-holds";
+import { useLayoutEffect, useRef } from "preact/hooks";
+import type { NamedControl } from "../../input/button-holds";
 
 /** What is left free between a label and the edge of the page. */
 const MARGIN = 8;
@@ -7,10 +7,8 @@ const MARGIN = 8;
 const FINGER = 28;
 
 /** The name of the button that a finger is held on, beside it, above whatever else is open. */
-export function ButtonLabel() {
+export function ButtonLabel({ control }: { control: NamedControl | null }) {
   const host = useRef<HTMLDivElement>(null);
-  const [control, setControl] = useState<NamedControl | null>(null);
-  useEffect(() => listenForHolds(setControl), []);
   useLayoutEffect(() => {
     const label = host.current;
     if (!label?.showPopover || control === null) {
