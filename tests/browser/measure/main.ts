@@ -6,6 +6,7 @@ import { launchBrowser } from "../src/browser";
 import { inTime, Server, until } from "../src/server";
 import { withClient } from "../src/tablet";
 import { A_TREE, type FrameRecord, instrument } from "./instruments";
+import { measureLever } from "./lever";
 
 /** Metamers of the tree that budgets are for; it has about twice as many leaves. */
 const METAMERS = 100_000;
@@ -23,8 +24,15 @@ const ALL_CALLBACKS = "PageAnimator::serviceScriptedAnimations";
 
 const BUDGET = { calls: 25, triangles: 1_500_000, script: 4, gzip: 200_000, first: 1000 };
 
-/** Measures the client with a large tree and prints what it costs; `--metamers N` for another size. Gives the exit code: 0 if every goal was kept. */
+/**
+ * Measures the client with a large tree and prints what it costs; `--metamers N` for another size, `lever` for how exactly
+ * growth by hand ends. Gives the exit code: 0 if every goal was kept.
+ */
 export async function main(words: readonly string[]): Promise<number> {
+  if (words[0] === "lever") {
+    await measureLever();
+    return 0;
+  }
   const at = words.indexOf("--metamers");
   const metamers = at < 0 ? METAMERS : Number(words[at + 1]);
   const server = new Server();
