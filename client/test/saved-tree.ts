@@ -12,6 +12,8 @@ export function savedTree(fields: Partial<SavedTree> = {}): SavedTree {
     saved_at: at,
     created_at: at,
     template: false,
+    tags: [],
+    favourite: false,
     people: 0,
     revision: 1,
     ...fields,

@@ -171,6 +171,14 @@ pub struct SavedTree {
     pub created_at: String,
     /// Whether new trees are begun with it.
     pub template: bool,
+    /// Its tags, in order.
+    pub tags: Vec<String>,
+    /// The collection it lies in, if it lies in one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub collection: Option<String>,
+    /// Whether it is a favourite of whoever asks.
+    pub favourite: bool,
     /// What its first version is a copy of.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -272,6 +280,66 @@ pub struct ChangeTree {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub template: Option<bool>,
+    /// All of its tags: up to 32, each of 1 to 80 characters without a comma.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub tags: Option<Vec<String>>,
+    /// The collection it lies in; an empty text for none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub collection: Option<String>,
+}
+
+/// A folder of trees and other collections; `GET /api/collections` lists all of them by name.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeCollection {
+    /// Its identifier.
+    pub id: String,
+    /// Its name.
+    pub name: String,
+    /// The collection it lies in, if it lies in one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub parent: Option<String>,
+    /// How many trees lie in it itself.
+    pub trees: u32,
+}
+
+/// `POST /api/collections`: make a collection.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewCollection {
+    /// 1 to 80 characters.
+    pub name: String,
+    /// The collection it lies in, if it lies in one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub parent: Option<String>,
+}
+
+/// `PATCH /api/collections/ID`: what is left out stays as it is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ChangeCollection {
+    /// 1 to 80 characters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+    /// The collection it lies in; an empty text for none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub parent: Option<String>,
+}
+
+/// A tag that trees have; `GET /api/tags` lists all of them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeTag {
+    /// The tag.
+    pub tag: String,
+    /// How many trees have it.
+    pub trees: u32,
 }
 
 /// `PATCH /api/trees/ID/versions/N`: what is said of a version.

@@ -139,6 +139,10 @@ pub fn declarations() -> String {
         library::ChangeVersion::decl(&config),
         library::ExportFormat::decl(&config),
         library::ExportProgress::decl(&config),
+        library::TreeCollection::decl(&config),
+        library::NewCollection::decl(&config),
+        library::ChangeCollection::decl(&config),
+        library::TreeTag::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

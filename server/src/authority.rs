@@ -25,6 +25,8 @@ pub enum Action {
     ChangeTree,
     /// Deletes a tree, or takes that back.
     DeleteTree,
+    /// Makes, changes and deletes collections.
+    ChangeCollections,
 }
 
 /// What it is asked for.
@@ -75,7 +77,8 @@ impl Action {
             | Self::OpenTree
             | Self::SeeTree
             | Self::ChangeTree
-            | Self::DeleteTree => Right::Anybody,
+            | Self::DeleteTree
+            | Self::ChangeCollections => Right::Anybody,
         }
     }
 }

@@ -1845,6 +1845,18 @@ created_at: string,
  */
 template: boolean, 
 /**
+ * Its tags, in order.
+ */
+tags: Array<string>, 
+/**
+ * The collection it lies in, if it lies in one.
+ */
+collection?: string, 
+/**
+ * Whether it is a favourite of whoever asks.
+ */
+favourite: boolean, 
+/**
  * What its first version is a copy of.
  */
 origin?: Origin, 
@@ -1921,7 +1933,15 @@ note?: string,
 /**
  * Whether new trees are begun with it.
  */
-template?: boolean, };
+template?: boolean, 
+/**
+ * All of its tags: up to 32, each of 1 to 80 characters without a comma.
+ */
+tags?: Array<string>, 
+/**
+ * The collection it lies in; an empty text for none.
+ */
+collection?: string, };
 
 export type ChangeVersion = { 
 /**
@@ -1960,3 +1980,51 @@ written: number,
  * About how many it will have.
  */
 expected: number, };
+
+export type TreeCollection = { 
+/**
+ * Its identifier.
+ */
+id: string, 
+/**
+ * Its name.
+ */
+name: string, 
+/**
+ * The collection it lies in, if it lies in one.
+ */
+parent?: string, 
+/**
+ * How many trees lie in it itself.
+ */
+trees: number, };
+
+export type NewCollection = { 
+/**
+ * 1 to 80 characters.
+ */
+name: string, 
+/**
+ * The collection it lies in, if it lies in one.
+ */
+parent?: string, };
+
+export type ChangeCollection = { 
+/**
+ * 1 to 80 characters.
+ */
+name?: string, 
+/**
+ * The collection it lies in; an empty text for none.
+ */
+parent?: string, };
+
+export type TreeTag = { 
+/**
+ * The tag.
+ */
+tag: string, 
+/**
+ * How many trees have it.
+ */
+trees: number, };

@@ -79,11 +79,12 @@ impl From<Problem> for Failure {
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
         match error {
-            StoreError::NotFound => return Self::not_found("tree, or no such version of it"),
+            StoreError::NotFound => return Self::not_found("tree, version or collection"),
             StoreError::Stale => {
                 let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
                 return Problem::new(ProblemCode::Stale, sentence).into();
             }
+            StoreError::Cycle => return Self::conflict("A collection cannot lie in itself."),
             _ => {}
         }
         tracing::error!(%error, "the store failed");

@@ -71,5 +71,5 @@ pub(super) async fn upload(
     });
     let saved = made.await?.map_err(|error| Problem::from(&error))?;
     let version = versions::new(&principal, Said::default(), Contents::New(Box::new(saved)));
-    Ok((StatusCode::CREATED, trees::add(&shared, name, version).await?))
+    Ok((StatusCode::CREATED, trees::add(&shared, &principal, name, version).await?))
 }

@@ -1,6 +1,7 @@
 //! The routes of `PROTOCOL.md`, and the client itself.
 
 mod client;
+mod collections;
 mod exports;
 mod failure;
 mod guard;
@@ -21,7 +22,7 @@ use axum::{
     Router,
     extract::{DefaultBodyLimit, Path, State},
     middleware::{from_fn, from_fn_with_state, map_response},
-    routing::{MethodRouter, delete, get, patch, post},
+    routing::{MethodRouter, delete, get, patch, post, put},
 };
 use espalier_proto::version::{MAX_GLB_BYTES, MAX_WOOD_BYTES};
 use espalier_session::Principal;
@@ -147,6 +148,13 @@ fn routes() -> Vec<Route> {
             Action::OpenTree,
             post(trees::copy).layer(body(MAX_SAID_BODY)),
         ),
+        route("PUT /api/trees/{tree}/favourite", Action::SeeTree, put(collections::like)),
+        route("DELETE /api/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike)),
+        route("GET /api/tags", Action::ListTrees, get(collections::tags)),
+        route("GET /api/collections", Action::ListTrees, get(collections::list)),
+        route("POST /api/collections", Action::ChangeCollections, post(collections::add)),
+        route("PATCH /api/collections/{id}", Action::ChangeCollections, patch(collections::change)),
+        route("DELETE /api/collections/{id}", Action::ChangeCollections, delete(collections::delete)),
         route("GET /api/trees/{tree}/versions", Action::SeeTree, get(versions::list)),
         route(
             "POST /api/trees/{tree}/versions",

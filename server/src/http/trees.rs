@@ -1,6 +1,6 @@
 //! The library: its trees as a whole.
 
-use std::time::SystemTime;
+use std::{collections::BTreeSet, time::SystemTime};
 
 use axum::{
     Extension, Json,
@@ -26,13 +26,20 @@ use super::{
 use crate::{
     authority::{Action, Object},
     name,
-    store::{Contents, Deletion, Library, NewTree, NewVersion, StoredTree, TreeChange, TreePlace, TreeQuery},
+    store::{
+        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoredTree, TreeChange, TreePlace,
+        TreeQuery,
+    },
 };
 
 /// Trees in one answer.
 const MAX_TREES: u32 = 500;
+/// Words, or tags, that are searched at once.
+const MAX_WORDS: usize = 8;
+/// Tags of a tree.
+const MAX_TAGS: usize = 32;
 
-/// Which trees of the library to list.
+/// Which trees of the library to list (`LB7`).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Page {
@@ -43,21 +50,94 @@ pub(super) struct Page {
     #[serde(default)]
     deleted: bool,
     template: Option<bool>,
+    /// Words to search.
+    #[serde(default)]
+    q: String,
+    /// Tags, with commas between.
+    #[serde(default)]
+    tags: String,
+    /// A collection; an empty text for none.
+    collection: Option<String>,
+    #[serde(default)]
+    favourite: bool,
+    species: Option<String>,
+    author: Option<String>,
+    /// Only those that whoever asks saved last.
+    #[serde(default)]
+    mine: bool,
+    min_metamers: Option<u32>,
+    max_metamers: Option<u32>,
+    saved_from: Option<String>,
+    saved_before: Option<String>,
+    #[serde(default)]
+    sort: Order,
+}
+
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Order {
+    #[default]
+    Newest,
+    Oldest,
+    Name,
+    Largest,
+    Smallest,
+}
+
+impl Page {
+    fn query(self, principal: &Principal) -> Result<TreeQuery, Problem> {
+        let words: Vec<String> = self.q.split_whitespace().map(str::to_owned).collect();
+        let tags = self.tags.split(',').map(str::trim).filter(|tag| !tag.is_empty());
+        let tags: Vec<String> = tags.map(str::to_owned).collect();
+        for (field, count) in [("q", words.len()), ("tags", tags.len())] {
+            if count > MAX_WORDS {
+                return Err(Problem::out_of_range(
+                    field,
+                    format!("{count} words"),
+                    format!("up to {MAX_WORDS} words"),
+                ));
+            }
+        }
+        let whoever = || Some(principal.to_string());
+        Ok(TreeQuery {
+            is_deleted: self.deleted,
+            is_template: self.template,
+            words,
+            tags,
+            collection: self.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
+            favourites_of: self.favourite.then(whoever).flatten(),
+            species: self.species,
+            author: self.author,
+            saved_by: self.mine.then(whoever).flatten(),
+            metamers: self.min_metamers.unwrap_or(0)..=self.max_metamers.unwrap_or(u32::MAX),
+            saved_from: self.saved_from,
+            saved_before: self.saved_before,
+            sort: match self.sort {
+                Order::Newest => Sort::Newest,
+                Order::Oldest => Sort::Oldest,
+                Order::Name => Sort::Name,
+                Order::Largest => Sort::Largest,
+                Order::Smallest => Sort::Smallest,
+            },
+            limit: limit_of(self.limit, MAX_TREES)?,
+            after: self.after.as_deref().map(read_place).transpose()?,
+        })
+    }
 }
 
 pub(super) async fn list(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Query(page): Query<Page>,
 ) -> Result<Json<TreePage>, Failure> {
-    let limit = limit_of(page.limit, MAX_TREES)?;
-    let after = page.after.as_deref().map(read_place).transpose()?;
-    let query = TreeQuery { is_deleted: page.deleted, is_template: page.template, limit, after };
+    let query = page.query(&principal)?;
     let trees = shared.store.trees(&query).await?;
-    let last = trees.last().filter(|_| trees.len() == limit as usize);
+    let last = trees.last().filter(|_| trees.len() == query.limit as usize);
     let next = last.map(|tree| write_place(&query.place_of(tree)));
+    let favourites = shared.store.favourites(&principal.to_string()).await?;
     let mut told = Vec::with_capacity(trees.len());
     for tree in trees {
-        told.push(to_proto(&shared, tree).await);
+        told.push(to_proto(&shared, tree, &favourites).await);
     }
     Ok(Json(TreePage { trees: told, next }))
 }
@@ -91,9 +171,10 @@ fn read_place(text: &str) -> Result<TreePlace, Problem> {
 
 pub(super) async fn find(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Path(id): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
-    answer(&shared, &id).await
+    answer(&shared, &principal, &id).await
 }
 
 pub(super) async fn save(
@@ -104,7 +185,7 @@ pub(super) async fn save(
     let name = text::name("name", &save.name)?;
     let SaveTree { session, note, author, thumbnail, .. } = save;
     let version = versions::read(&shared, &principal, Saving { session, note, author, thumbnail }).await?;
-    Ok((StatusCode::CREATED, add(&shared, name, version).await?))
+    Ok((StatusCode::CREATED, add(&shared, &principal, name, version).await?))
 }
 
 pub(super) async fn copy(
@@ -122,22 +203,24 @@ pub(super) async fn copy(
     };
     let contents = Contents::Of { tree: id, version };
     let version = versions::new(&principal, said, contents);
-    Ok((StatusCode::CREATED, add(&shared, name, version).await?))
+    Ok((StatusCode::CREATED, add(&shared, &principal, name, version).await?))
 }
 
 /// Puts a new tree into the library.
 pub(super) async fn add(
     shared: &Shared,
+    principal: &Principal,
     name: String,
     version: NewVersion,
 ) -> Result<impl IntoResponse + use<>, Failure> {
     let id = name::unguessable();
     shared.store.add_tree(NewTree { id: id.clone(), name, version }).await?;
-    answer(shared, &id).await
+    answer(shared, principal, &id).await
 }
 
 pub(super) async fn change(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Path(id): Path<String>,
     Expected(expected): Expected,
     Body(change): Body<ChangeTree>,
@@ -146,10 +229,30 @@ pub(super) async fn change(
         name: change.name.map(|name| text::name("name", &name)).transpose()?,
         note: change.note.map(|note| text::note(&note)).transpose()?,
         is_template: change.template,
+        tags: change.tags.map(|tags| parse_tags(&tags)).transpose()?,
+        collection: change.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
         ..TreeChange::default()
     };
     shared.store.change_tree(&id, expected, change).await?;
-    answer(&shared, &id).await
+    answer(&shared, &principal, &id).await
+}
+
+fn parse_tags(tags: &[String]) -> Result<Vec<String>, Problem> {
+    if tags.len() > MAX_TAGS {
+        return Err(Problem::out_of_range(
+            "tags",
+            format!("{} tags", tags.len()),
+            format!("up to {MAX_TAGS} tags"),
+        ));
+    }
+    let parse = |(number, tag): (usize, &String)| {
+        let field = format!("tags[{number}]");
+        match text::name(&field, tag)? {
+            tag if tag.contains(',') => Err(Problem::out_of_range(field, "two tags", "no comma")),
+            tag => Ok(tag),
+        }
+    };
+    tags.iter().enumerate().map(parse).collect()
 }
 
 pub(super) async fn delete(
@@ -164,12 +267,13 @@ pub(super) async fn delete(
 
 pub(super) async fn undelete(
     State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
     Path(id): Path<String>,
     Expected(expected): Expected,
 ) -> Result<impl IntoResponse, Failure> {
     let deletion = Some(Deletion::Undeleted);
     shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
-    answer(&shared, &id).await
+    answer(&shared, &principal, &id).await
 }
 
 /// The present time, as the library keeps it.
@@ -178,16 +282,21 @@ pub(super) fn now() -> String {
 }
 
 /// A tree as it is now.
-async fn answer(shared: &Shared, id: &str) -> Result<impl IntoResponse + use<>, Failure> {
+async fn answer(
+    shared: &Shared,
+    principal: &Principal,
+    id: &str,
+) -> Result<impl IntoResponse + use<>, Failure> {
     let tree = stored(shared, id).await?;
-    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree).await)))
+    let favourites = shared.store.favourites(&principal.to_string()).await?;
+    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree, &favourites).await)))
 }
 
 pub(super) async fn stored(shared: &Shared, id: &str) -> Result<StoredTree, Failure> {
     shared.store.tree(id).await?.ok_or_else(|| Failure::not_found("tree"))
 }
 
-async fn to_proto(shared: &Shared, tree: StoredTree) -> SavedTree {
+async fn to_proto(shared: &Shared, tree: StoredTree, favourites: &BTreeSet<String>) -> SavedTree {
     let people = match &tree.session {
         Some(session) => shared.sessions.people(session).await.len() as u32,
         None => 0,
@@ -195,6 +304,7 @@ async fn to_proto(shared: &Shared, tree: StoredTree) -> SavedTree {
     let head = tree.head;
     SavedTree {
         thumbnail: versions::thumbnail_of(&tree.id, &head),
+        favourite: favourites.contains(&tree.id),
         id: tree.id,
         name: tree.name,
         note: tree.note,
@@ -205,6 +315,8 @@ async fn to_proto(shared: &Shared, tree: StoredTree) -> SavedTree {
         species: head.species,
         created_at: tree.created_at,
         template: tree.is_template,
+        tags: tree.tags,
+        collection: tree.collection,
         origin: tree.origin.map(|(tree, version)| Origin { tree, version }),
         deleted_at: tree.deleted_at,
         people,

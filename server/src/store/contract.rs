@@ -1,5 +1,6 @@
 //! What every store must do, as tests: `contract::all(make)` runs them on stores that `make` gives, each empty.
 
+mod finding;
 mod library;
 
 use std::ops::RangeInclusive;
@@ -7,6 +8,10 @@ use std::ops::RangeInclusive;
 use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
+use self::finding::{
+    collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
+    searching_is_looking_into_every_text, tags_and_favourites_find_trees,
+};
 pub use self::library::tree;
 pub(super) use self::library::tree_of_bytes;
 use self::library::{
@@ -14,10 +19,10 @@ use self::library::{
     trees_are_listed_newest_first, trees_come_back_whole, versions_are_restored_and_copied,
     what_is_deleted_comes_back_whole, what_was_deleted_long_ago_goes,
 };
-use super::{Damage, Lease, Library, NewSession, NewSnapshot, Store, StoreError, StoredSession};
+use super::{Damage, Finding, Lease, Library, NewSession, NewSnapshot, Store, StoreError, StoredSession};
 
 /// A store whose parts can be damaged behind its back.
-pub trait Breakable: Store + Library {
+pub trait Breakable: Store + Library + Finding {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -72,6 +77,11 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         what_is_deleted_comes_back_whole,
         what_was_deleted_long_ago_goes,
         sessions_belong_to_trees,
+        collections_lie_in_each_other,
+        tags_and_favourites_find_trees,
+        searching_is_looking_into_every_text,
+        every_order_goes_page_by_page,
+        filters_hold_at_once,
         a_closed_store_takes_nothing,
     );
 }

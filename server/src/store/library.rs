@@ -1,6 +1,6 @@
 //! The library: trees, each with the versions that were saved of it.
 
-use super::StoreError;
+use super::{StoreError, TreeQuery};
 
 /// Keeps trees. What a call that writes has returned from is durable. A change of a tree may name the revision that it
 /// is made to: at another one it is [`StoreError::Stale`]. Where there is no such tree or version, or it is deleted, it
@@ -136,6 +136,10 @@ pub struct TreeChange {
     pub is_template: Option<bool>,
     /// What is said of a version.
     pub version_note: Option<(u32, String)>,
+    /// Its tags.
+    pub tags: Option<Vec<String>>,
+    /// The collection it lies in, or none.
+    pub collection: Option<Option<String>>,
     /// Whether it is deleted. All else is changed of trees that are not.
     pub deletion: Option<Deletion>,
 }
@@ -149,36 +153,6 @@ pub enum Deletion {
     Undeleted,
 }
 
-/// Which trees are wanted, newest first and by id where times are equal.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct TreeQuery {
-    /// Those that were deleted, or those that were not.
-    pub is_deleted: bool,
-    /// Those that are templates, or those that are not.
-    pub is_template: Option<bool>,
-    /// So many at most.
-    pub limit: u32,
-    /// Those behind this place, where a tree was that may be gone by now.
-    pub after: Option<TreePlace>,
-}
-
-impl TreeQuery {
-    /// The place of a tree in this list.
-    pub fn place_of(&self, tree: &StoredTree) -> TreePlace {
-        let deleted_at = tree.deleted_at.as_ref().filter(|_| self.is_deleted);
-        TreePlace { value: deleted_at.unwrap_or(&tree.head.saved_at).clone(), id: tree.id.clone() }
-    }
-}
-
-/// A tree's place in a list.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct TreePlace {
-    /// What the list goes by.
-    pub value: String,
-    /// The tree's identifier.
-    pub id: String,
-}
-
 /// One tree of the library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StoredTree {
@@ -190,6 +164,10 @@ pub struct StoredTree {
     pub note: String,
     /// Whether new trees are begun with it.
     pub is_template: bool,
+    /// Its tags, in order.
+    pub tags: Vec<String>,
+    /// The collection it lies in.
+    pub collection: Option<String>,
     /// What its first version is a copy of.
     pub origin: Option<(String, u32)>,
     /// When its first version was saved.

@@ -1,9 +1,10 @@
 //! The model of a store: what the contract means, in the plainest way. It forgets all when it is dropped.
 
+mod finding;
 mod library;
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
@@ -11,7 +12,7 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Store, StoreError, StoredSession,
+    Collection, Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Store, StoreError, StoredSession,
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
@@ -28,6 +29,9 @@ struct Kept {
     closed: bool,
     sessions: BTreeMap<String, Session>,
     trees: BTreeMap<String, library::Tree>,
+    collections: BTreeMap<String, Collection>,
+    /// Principals and trees.
+    favourites: BTreeSet<(String, String)>,
 }
 
 #[derive(Debug)]

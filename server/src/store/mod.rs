@@ -1,10 +1,12 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`] and [`Library`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`] and [`Finding`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
 #[cfg(test)]
 mod contract;
+mod finding;
+mod folding;
 mod lease;
 mod library;
 #[cfg(test)]
@@ -12,7 +14,7 @@ mod memory;
 mod seal;
 mod sqlite;
 
-use std::error::Error;
+use std::{collections::BTreeSet, error::Error};
 
 use espalier_proto::Notice;
 use espalier_session::JournalEntry;
@@ -23,10 +25,11 @@ pub use self::{
     memory::MemoryStore,
 };
 pub use self::{
+    finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     lease::Lease,
     library::{
         Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
-        StoredVersion, TreeChange, TreeDocument, TreePlace, TreeQuery,
+        StoredVersion, TreeChange, TreeDocument,
     },
     sqlite::{OpenError, SqliteStore},
 };
@@ -113,6 +116,9 @@ pub enum StoreError {
     /// A tree is at another revision than was expected.
     #[error("the tree has changed meanwhile")]
     Stale,
+    /// A collection was to lie in itself.
+    #[error("a collection cannot lie in itself")]
+    Cycle,
     /// The store has been closed; the server is stopping.
     #[error("the store is closed")]
     Closed,
@@ -128,6 +134,7 @@ impl StoreError {
             Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
             Self::NotFound => "it is not there",
             Self::Stale => "it has changed meanwhile",
+            Self::Cycle => "a collection cannot lie in itself",
             Self::Closed => "it is stopping",
         }
     }
@@ -334,5 +341,35 @@ impl Library for AnyStore {
 
     async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
         delegate!(self.purge(before, limit))
+    }
+}
+
+impl Finding for AnyStore {
+    async fn collections(&self) -> Result<Vec<Collection>, StoreError> {
+        delegate!(self.collections())
+    }
+
+    async fn add_collection(&self, new: Collection) -> Result<(), StoreError> {
+        delegate!(self.add_collection(new))
+    }
+
+    async fn change_collection(&self, id: &str, change: CollectionChange) -> Result<(), StoreError> {
+        delegate!(self.change_collection(id, change))
+    }
+
+    async fn delete_collection(&self, id: &str) -> Result<(), StoreError> {
+        delegate!(self.delete_collection(id))
+    }
+
+    async fn tags(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        delegate!(self.tags())
+    }
+
+    async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {
+        delegate!(self.favourites(principal))
+    }
+
+    async fn set_favourite(&self, principal: &str, tree: &str, is_one: bool) -> Result<(), StoreError> {
+        delegate!(self.set_favourite(principal, tree, is_one))
     }
 }

@@ -229,3 +229,58 @@ async fn lb5_what_is_said_is_plain_text() {
     let said = library.ask("PATCH", &path, Some(json!({ "note": " Two\nlines " })));
     assert_eq!(said.json()["note"], json!("Two\nlines"));
 }
+
+#[tokio::test]
+async fn lb7_trees_are_found_by_what_is_said_of_them() {
+    let library = Library::new().await;
+    let found = |query: &str| {
+        let page = library.get(&format!("/api/trees?{query}"));
+        let trees = page["trees"].as_array().expect("a list").clone();
+        trees.iter().map(|tree| tree["name"].as_str().expect("a name").to_owned()).collect::<Vec<_>>()
+    };
+    let [oak, pear, apple] = ["Érable", "Pear", "Äpfel"].map(|name| path_of(&library.save(name)));
+    let wood = library.post("/api/collections", json!({ "name": "Wood" }), 201);
+    let copse = library.post("/api/collections", json!({ "name": "Copse", "parent": wood["id"] }), 201);
+    let said = json!({ "tags": ["old", "Red maple"], "note": "By the lake", "collection": copse["id"] });
+    let changed = library.ask("PATCH", &oak, Some(said)).json();
+    assert_eq!((&changed["tags"], &changed["collection"]), (&json!(["Red maple", "old"]), &copse["id"]));
+    assert_eq!(library.ask("PUT", &format!("{pear}/favourite"), None).status, 204);
+    assert_eq!(library.get(&pear)["favourite"], json!(true));
+    let first = library.get("/api/trees?sort=name&limit=1");
+    let next = first["next"].as_str().expect("there are more");
+    for (query, expected) in [
+        ("q=erab", vec!["Érable"]),
+        ("q=LAKE%20maple", vec!["Érable"]),
+        ("q=%C3%A4pf", vec!["Äpfel"]),
+        ("q=e", vec!["Äpfel", "Pear", "Érable"]),
+        ("q=%22*%22", vec![]),
+        ("tags=old,Red%20maple", vec!["Érable"]),
+        (&format!("collection={}", copse["id"].as_str().expect("an id")), vec!["Érable"]),
+        ("collection=", vec!["Äpfel", "Pear"]),
+        ("favourite=true", vec!["Pear"]),
+        ("mine=true&min_metamers=1", vec!["Äpfel", "Pear", "Érable"]),
+        ("max_metamers=0", vec![]),
+        ("sort=oldest&q=r", vec!["Érable", "Pear"]),
+        ("saved_before=2000", vec![]),
+        (&format!("sort=name&after={next}"), vec!["Érable", "Pear"]),
+    ] {
+        assert_eq!(found(query), expected, "{query}");
+    }
+    assert_eq!(
+        library.get("/api/tags"),
+        json!([{ "tag": "Red maple", "trees": 1 }, { "tag": "old", "trees": 1 }])
+    );
+    let under_itself = json!({ "parent": copse["id"] });
+    let at = |collection: &Value| format!("/api/collections/{}", collection["id"].as_str().expect("an id"));
+    assert_eq!(library.ask("PATCH", &at(&wood), Some(under_itself)).status, 409);
+    assert_eq!(library.ask("DELETE", &at(&copse), None).status, 204);
+    assert_eq!(library.get("/api/collections")[0]["trees"], json!(1), "what lay in it lies in its parent");
+    for query in ["q=a+b+c+d+e+f+g+h+i", "sort=best", "after=x", "limit=0", "colour=red"] {
+        let refused = library.ask("GET", &format!("/api/trees?{query}"), None);
+        assert_eq!(refused.status, 400, "{query}: {}", refused.text());
+    }
+    for (path, tags) in [(&apple, json!(["a,b"])), (&apple, json!([""])), (&apple, json!(vec!["x"; 33]))] {
+        let refused = library.ask("PATCH", path, Some(json!({ "tags": tags })));
+        assert_eq!(refused.status, 400, "{}", refused.text());
+    }
+}

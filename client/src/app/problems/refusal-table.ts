@@ -2,6 +2,9 @@ import type { Key } from "../words/say";
 
 /** What the server says in English, and the same among our words; `limit`, `cause` and the like are parts of it. */
 export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
+  // A file may be at fault in whatever way.
+  [/^The file cannot become a tree: (?<cause>[\s\S]*)\.$/, "problems.no-tree-file"],
+
   // The tree and its branches.
   [/^there is no living metamer with row/, "problems.branch-gone"],
   [/nothing to undo/, "problems.nothing-to-undo"],
@@ -52,6 +55,7 @@ export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
   [/^There is no such tree/, "problems.no-tree"],
   [/^There is no such session/, "problems.no-session"],
   [/^There is no such/, "problems.none-such"],
+  [/^A collection cannot lie in itself/, "problems.in-itself"],
   [/^A newer Espalier/, "problems.newer"],
   [/^The session is damaged|^The session cannot be restored/, "problems.session-damaged"],
   [/^You may not/, "problems.forbidden"],
@@ -86,5 +90,8 @@ export const ALLOWED: readonly (readonly [RegExp, Key])[] = [
   [/^(?<least>-?[\d.]+) to (?<most>-?[\d.]+), or null$/, "problems.allowed.range"],
   [/^(?<least>-?[\d.]+) to (?<most>-?[\d.]+)$/, "problems.allowed.range"],
   [/^up to (?<most>-?[\d.]+) characters$/, "problems.allowed.most-characters"],
+  [/^up to (?<most>\d+) words$/, "problems.allowed.most-words"],
+  [/^up to (?<most>\d+) tags$/, "problems.allowed.most-tags"],
+  [/^no comma$/, "problems.allowed.no-comma"],
   [/^up to (?<most>-?[\d.]+)$/, "problems.allowed.most"],
 ];

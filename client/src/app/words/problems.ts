@@ -102,6 +102,8 @@ export const PROBLEMS = {
     "All models of the scene and its history together may have {limit} triangles; this would be more.",
     "Alle Modelle der Szene und ihrer Vorgeschichte dürfen zusammen {limit} Dreiecke haben; so wären es mehr.",
   ],
+  "problems.no-tree-file": ["It cannot become a tree: {cause}.", "Daraus wird kein Baum: {cause}."],
+  "problems.in-itself": ["A collection cannot lie in itself.", "Eine Sammlung kann nicht in sich selbst liegen."],
   "problems.file.kind": [
     "This is no glTF file. Export the model as .glb.",
     "Das ist keine glTF-Datei. Exportiere das Modell als .glb.",
@@ -208,6 +210,9 @@ export const PROBLEMS = {
   "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
   "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],
   "problems.allowed.most-characters": ["up to {most} characters", "höchstens {most} Zeichen"],
+  "problems.allowed.most-words": ["up to {most} words", "höchstens {most} Wörter"],
+  "problems.allowed.most-tags": ["up to {most} tags", "höchstens {most} Tags"],
+  "problems.allowed.no-comma": ["a tag without a comma", "ein Tag ohne Komma"],
   "problems.allowed.most": ["up to {most}", "höchstens {most}"],
   "problems.people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
   "problems.out-of-range": ["That value is not possible.", "Dieser Wert ist nicht möglich."],

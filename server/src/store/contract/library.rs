@@ -43,7 +43,7 @@ fn of(tree: &str, number: u32) -> NewVersion {
     version("2028", Contents::Of { tree: tree.into(), version: number })
 }
 
-fn page(limit: u32, after: Option<TreePlace>) -> TreeQuery {
+pub(super) fn page(limit: u32, after: Option<TreePlace>) -> TreeQuery {
     TreeQuery { limit, after, ..TreeQuery::default() }
 }
 
@@ -51,7 +51,7 @@ fn place(tree: &StoredTree) -> TreePlace {
     TreePlace { value: tree.head.saved_at.clone(), id: tree.id.clone() }
 }
 
-async fn ids(store: &impl Library, query: &TreeQuery) -> Vec<String> {
+pub(super) async fn ids(store: &impl Library, query: &TreeQuery) -> Vec<String> {
     store.trees(query).await.unwrap().into_iter().map(|tree| tree.id).collect()
 }
 

@@ -6,7 +6,7 @@ use super::{
         StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
         seal::{document_hash, tree_sum, version_sum},
     },
-    Kept, MemoryStore,
+    Kept, MemoryStore, finding,
 };
 
 /// A tree as it is kept.
@@ -15,8 +15,10 @@ pub(super) struct Tree {
     pub(super) name: String,
     note: String,
     is_template: bool,
+    pub(super) tags: Vec<String>,
+    pub(super) collection: Option<String>,
     origin: Option<(String, u32)>,
-    deleted_at: Option<String>,
+    pub(super) deleted_at: Option<String>,
     pub(super) session: Option<String>,
     revision: u64,
     checksum: u32,
@@ -64,6 +66,8 @@ impl Tree {
             name: self.name.clone(),
             note: self.note.clone(),
             is_template: self.is_template,
+            tags: self.tags.clone(),
+            collection: self.collection.clone(),
             origin: self.origin.clone(),
             created_at: self.versions[0].new.saved_at.clone(),
             deleted_at: self.deleted_at.clone(),
@@ -135,6 +139,8 @@ impl Library for MemoryStore {
             name,
             note: String::new(),
             is_template: false,
+            tags: Vec::new(),
+            collection: None,
             origin,
             deleted_at: None,
             session: None,
@@ -173,9 +179,11 @@ impl Library for MemoryStore {
         change: TreeChange,
     ) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
+        let is_known = |collection: &String| kept.collections.contains_key(collection);
+        let has_collection = change.collection.iter().flatten().all(is_known);
         let tree = kept.tree(id, expected)?;
-        let TreeChange { name, note, is_template, version_note, deletion } = change;
-        if tree.deleted_at.is_some() != (deletion == Some(Deletion::Undeleted)) {
+        let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
+        if !has_collection || tree.deleted_at.is_some() != (deletion == Some(Deletion::Undeleted)) {
             return Err(StoreError::NotFound);
         }
         if let Some((number, note)) = version_note {
@@ -189,6 +197,10 @@ impl Library for MemoryStore {
         }
         tree.note = note.unwrap_or_else(|| tree.note.clone());
         tree.is_template = is_template.unwrap_or(tree.is_template);
+        tree.collection = collection.unwrap_or_else(|| tree.collection.clone());
+        tree.tags = tags.unwrap_or_else(|| tree.tags.clone());
+        tree.tags.sort();
+        tree.tags.dedup();
         tree.deleted_at = match deletion {
             Some(Deletion::Deleted(at)) => Some(at),
             Some(Deletion::Undeleted) | None => None,
@@ -201,11 +213,17 @@ impl Library for MemoryStore {
         let kept = self.kept();
         let mut trees: Vec<StoredTree> = kept.trees.iter().map(|(id, tree)| tree.stored(id)).collect();
         trees.retain(|tree| {
-            tree.deleted_at.is_some() == query.is_deleted
-                && query.is_template.is_none_or(|wanted| tree.is_template == wanted)
-                && query.after.as_ref().is_none_or(|after| query.place_of(tree) < *after)
+            let by = kept.trees[&tree.id].versions.last().map_or("", |version| &version.new.principal);
+            finding::is_wanted(tree, query, by, &kept.favourites)
         });
-        trees.sort_by_key(|tree| std::cmp::Reverse(query.place_of(tree)));
+        trees.sort_by_key(|tree| query.place_of(tree));
+        if !query.is_ascending() {
+            trees.reverse();
+        }
+        let behind = |place| if query.is_ascending() { place } else { std::cmp::Ordering::reverse(place) };
+        trees.retain(|tree| {
+            query.after.as_ref().is_none_or(|after| behind(query.place_of(tree).cmp(after)).is_gt())
+        });
         trees.truncate(query.limit as usize);
         Ok(trees)
     }
@@ -261,7 +279,10 @@ impl Library for MemoryStore {
             kept.trees.iter().filter_map(|(id, tree)| Some((deleted(tree)?, id.clone()))).collect();
         gone.sort();
         gone.truncate(limit as usize);
-        gone.iter().for_each(|(_, id)| drop(kept.trees.remove(id)));
+        for (_, id) in &gone {
+            kept.trees.remove(id);
+            kept.favourites.retain(|(_, tree)| tree != id);
+        }
         Ok(gone.len() as u64)
     }
 }

@@ -1,5 +1,6 @@
 //! A store in one SQLite file: one writer that commits in groups, and readers beside it.
 
+mod finding;
 mod identity;
 mod open;
 mod sessions;
@@ -7,16 +8,19 @@ mod tree_writes;
 mod trees;
 mod writer;
 
+use std::collections::BTreeSet;
+
 use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 #[cfg(test)]
 use self::open::tests::Folder;
 pub use self::open::{OpenError, SqliteStore};
-use self::{sessions::SessionWrite, tree_writes::TreeWrite, writer::Write};
+use self::{finding::FindingWrite, sessions::SessionWrite, tree_writes::TreeWrite, writer::Write};
 use super::{
-    Damage, Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Picture, SessionTree, Store,
-    StoreError, StoredSession, StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
+    Collection, CollectionChange, Damage, Finding, Lease, Library, NewSession, NewSnapshot, NewTree,
+    NewVersion, Picture, SessionTree, Store, StoreError, StoredSession, StoredTree, StoredVersion,
+    TreeChange, TreeDocument, TreeQuery,
     seal::{JournalRow, SnapshotRow},
 };
 
@@ -140,6 +144,39 @@ impl Library for SqliteStore {
 
     async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
         self.writer.write(Write::Tree(TreeWrite::Purge { before: before.to_owned(), limit })).await
+    }
+}
+
+impl Finding for SqliteStore {
+    async fn collections(&self) -> Result<Vec<Collection>, StoreError> {
+        finding::collections(&self.readers).await
+    }
+
+    async fn add_collection(&self, new: Collection) -> Result<(), StoreError> {
+        self.writer.write(Write::Finding(FindingWrite::AddCollection(new))).await.map(drop)
+    }
+
+    async fn change_collection(&self, id: &str, change: CollectionChange) -> Result<(), StoreError> {
+        let write = FindingWrite::ChangeCollection(id.to_owned(), change);
+        self.writer.write(Write::Finding(write)).await.map(drop)
+    }
+
+    async fn delete_collection(&self, id: &str) -> Result<(), StoreError> {
+        self.writer.write(Write::Finding(FindingWrite::DeleteCollection(id.to_owned()))).await.map(drop)
+    }
+
+    async fn tags(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        finding::tags(&self.readers).await
+    }
+
+    async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {
+        finding::favourites(&self.readers, principal).await
+    }
+
+    async fn set_favourite(&self, principal: &str, tree: &str, is_one: bool) -> Result<(), StoreError> {
+        let (principal, tree) = (principal.to_owned(), tree.to_owned());
+        let write = FindingWrite::SetFavourite { principal, tree, is_one };
+        self.writer.write(Write::Finding(write)).await.map(drop)
     }
 }
 

@@ -15,14 +15,15 @@ use sqlx::{
     },
 };
 
-use super::{identity, in_words, writer::Writer};
+use super::{finding, identity, in_words, writer::Writer};
 
 /// The schema: one file of `migrations/` for each change, in order.
-const MIGRATIONS: [(&str, &str); 4] = [
+const MIGRATIONS: [(&str, &str); 5] = [
     ("0001_sessions_and_trees", include_str!("../../../../migrations/0001_sessions_and_trees.sql")),
     ("0002_checksums", include_str!("../../../../migrations/0002_checksums.sql")),
     ("0003_whole_sessions", include_str!("../../../../migrations/0003_whole_sessions.sql")),
     ("0004_trees_with_versions", include_str!("../../../../migrations/0004_trees_with_versions.sql")),
+    ("0005_finding_trees", include_str!("../../../../migrations/0005_finding_trees.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.
@@ -85,6 +86,7 @@ impl SqliteStore {
             .run_direct(None, &mut connection, false)
             .await
             .map_err(|error| migration_sentence(&error))?;
+        finding::fold_all(&mut connection).await.map_err(|error| error.to_string())?;
 
         let readers = SqlitePoolOptions::new()
             .max_connections(READERS)

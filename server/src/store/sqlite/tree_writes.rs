@@ -2,9 +2,12 @@
 
 use sqlx::{Row, sqlite::SqliteConnection};
 
-use super::super::{
-    Contents, Deletion, NewTree, NewVersion, Saved, StoreError, TreeChange,
-    seal::{document_hash, tree_sum, version_sum},
+use super::{
+    super::{
+        Contents, Deletion, NewTree, NewVersion, Saved, StoreError, TreeChange,
+        seal::{document_hash, tree_sum, version_sum},
+    },
+    finding,
 };
 
 #[derive(Debug)]
@@ -212,6 +215,7 @@ async fn add_version(
     .bind(tree.id)
     .execute(&mut *connection)
     .await?;
+    finding::fold(connection, tree.id).await?;
     if let Some((session, through)) = &version.session {
         sqlx::query("UPDATE sessions SET tree = ?, tree_version = ?, saved_through = ? WHERE name = ?")
             .bind(tree.id)
@@ -230,7 +234,7 @@ async fn change_tree(
     expected: Option<u64>,
     change: &TreeChange,
 ) -> Result<u64, StoreError> {
-    let TreeChange { name, note, is_template, version_note, deletion } = change;
+    let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
     let tree = Tree::at(connection, key, expected).await?;
     let is_undeleted = *deletion == Some(Deletion::Undeleted);
     if tree.deleted_at.is_some() != is_undeleted {
@@ -242,6 +246,18 @@ async fn change_tree(
         if changed.rows_affected() == 0 {
             return Err(StoreError::NotFound);
         }
+    }
+    if let Some(tags) = tags {
+        sqlx::query("DELETE FROM tree_tags WHERE tree = ?").bind(tree.id).execute(&mut *connection).await?;
+        for tag in tags {
+            let query = sqlx::query("INSERT OR IGNORE INTO tree_tags (tree, tag) VALUES (?, ?)");
+            query.bind(tree.id).bind(tag).execute(&mut *connection).await?;
+        }
+    }
+    if let Some(collection) = collection {
+        let row = finding::row_of(connection, collection.as_deref()).await?;
+        let query = sqlx::query("UPDATE trees SET collection = ? WHERE id = ?").bind(row).bind(tree.id);
+        query.execute(&mut *connection).await?;
     }
     let deleted_at = match deletion {
         Some(Deletion::Deleted(at)) => Some(at),
@@ -259,7 +275,9 @@ async fn change_tree(
     .bind(tree.revision + 1)
     .bind(tree.checksum_as(name.as_ref().unwrap_or(&tree.name), tree.head))
     .bind(tree.id);
-    Ok(changed.execute(connection).await?.rows_affected())
+    changed.execute(&mut *connection).await?;
+    finding::fold(connection, tree.id).await?;
+    Ok(1)
 }
 
 /// What no version holds any more goes as well.

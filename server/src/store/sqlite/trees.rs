@@ -2,28 +2,24 @@
 
 use sqlx::{QueryBuilder, Row, Sqlite, SqlitePool, sqlite::SqliteRow};
 
-use super::super::{
-    Picture, SessionTree, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
-    seal::{document_hash, tree_sum, version_sum},
+use super::{
+    super::{
+        Picture, SessionTree, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
+        seal::{document_hash, tree_sum, version_sum},
+    },
+    finding,
 };
 
 /// What lists tell of a tree; its newest version's note is asked for with its versions.
 const TREE: &str =
     "SELECT key, name, note, is_template, origin, origin_version, head AS number, metamers, species,
-    author, has_picture, saved_at, created_at, deleted_at, session, revision FROM trees";
+    author, has_picture, saved_at, created_at, deleted_at, session, revision,
+    (SELECT group_concat(tag, char(10)) FROM tree_tags WHERE tree = id) AS tags,
+    (SELECT collections.key FROM collections WHERE collections.id = collection) AS collection FROM trees";
 
 pub(super) async fn list(readers: &SqlitePool, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
     let mut sql = QueryBuilder::<Sqlite>::new(TREE);
-    let value = if query.is_deleted { "deleted_at" } else { "saved_at" };
-    sql.push(if query.is_deleted { " WHERE deleted_at IS NOT NULL" } else { " WHERE deleted_at IS NULL" });
-    if let Some(is_template) = query.is_template {
-        sql.push(" AND is_template = ").push_bind(is_template);
-    }
-    if let Some(place) = &query.after {
-        sql.push(format!(" AND ({value}, key) < (")).push_bind(&place.value);
-        sql.push(", ").push_bind(&place.id).push(")");
-    }
-    sql.push(format!(" ORDER BY {value} DESC, key DESC LIMIT ")).push_bind(query.limit);
+    finding::narrow(&mut sql, query);
     let rows = sql.build().fetch_all(readers).await?;
     Ok(rows.iter().map(tree).collect::<Result<_, _>>()?)
 }
@@ -56,11 +52,16 @@ fn row_u32(row: &SqliteRow, column: &str) -> Result<Option<u32>, sqlx::Error> {
 
 fn tree(row: &SqliteRow) -> Result<StoredTree, sqlx::Error> {
     let origin: Option<String> = row.try_get("origin")?;
+    let tags: Option<String> = row.try_get("tags")?;
+    let mut tags: Vec<String> = tags.iter().flat_map(|tags| tags.split('\n')).map(str::to_owned).collect();
+    tags.sort();
     Ok(StoredTree {
         id: row.try_get("key")?,
         name: row.try_get("name")?,
         note: row.try_get("note")?,
         is_template: row.try_get("is_template")?,
+        tags,
+        collection: row.try_get("collection")?,
         origin: origin.zip(row_u32(row, "origin_version")?),
         created_at: row.try_get("created_at")?,
         deleted_at: row.try_get("deleted_at")?,

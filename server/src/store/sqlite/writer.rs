@@ -12,6 +12,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     super::{StoreError, lease::Leases},
+    finding::FindingWrite,
     sessions::SessionWrite,
     tree_writes::TreeWrite,
 };
@@ -28,6 +29,7 @@ const QUEUE: usize = 256;
 pub(super) enum Write {
     Session(SessionWrite),
     Tree(TreeWrite),
+    Finding(FindingWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -38,6 +40,7 @@ impl Write {
         match self {
             Self::Session(write) => write.apply(connection, leases).await,
             Self::Tree(write) => write.apply(connection).await,
+            Self::Finding(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));

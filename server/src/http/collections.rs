@@ -1,0 +1,85 @@
+//! The library: collections, tags and favourites.
+
+use axum::{
+    Extension, Json,
+    extract::{Path, State},
+    http::StatusCode,
+    response::IntoResponse,
+};
+use espalier_proto::library::{ChangeCollection, NewCollection, TreeCollection, TreeTag};
+use espalier_session::Principal;
+
+use super::{
+    Shared,
+    failure::{Body, Failure},
+    text,
+};
+use crate::{
+    name,
+    store::{Collection, CollectionChange, Finding},
+};
+
+pub(super) async fn list(State(shared): State<Shared>) -> Result<Json<Vec<TreeCollection>>, Failure> {
+    let all = shared.store.collections().await?;
+    Ok(Json(all.into_iter().map(to_proto).collect()))
+}
+
+pub(super) async fn add(
+    State(shared): State<Shared>,
+    Body(new): Body<NewCollection>,
+) -> Result<impl IntoResponse, Failure> {
+    let (id, name) = (name::unguessable(), text::name("name", &new.name)?);
+    let new = Collection { id, name, parent: new.parent, trees: 0 };
+    shared.store.add_collection(new.clone()).await?;
+    Ok((StatusCode::CREATED, Json(to_proto(new))))
+}
+
+pub(super) async fn change(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+    Body(change): Body<ChangeCollection>,
+) -> Result<Json<TreeCollection>, Failure> {
+    let change = CollectionChange {
+        name: change.name.map(|name| text::name("name", &name)).transpose()?,
+        parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
+    };
+    shared.store.change_collection(&id, change).await?;
+    let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
+    found.map(|found| Json(to_proto(found))).ok_or_else(|| Failure::not_found("collection"))
+}
+
+pub(super) async fn delete(
+    State(shared): State<Shared>,
+    Path(id): Path<String>,
+) -> Result<StatusCode, Failure> {
+    shared.store.delete_collection(&id).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+pub(super) async fn tags(State(shared): State<Shared>) -> Result<Json<Vec<TreeTag>>, Failure> {
+    let tags = shared.store.tags().await?;
+    Ok(Json(tags.into_iter().map(|(tag, trees)| TreeTag { tag, trees }).collect()))
+}
+
+pub(super) async fn like(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path(tree): Path<String>,
+) -> Result<StatusCode, Failure> {
+    shared.store.set_favourite(&principal.to_string(), &tree, true).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+pub(super) async fn unlike(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path(tree): Path<String>,
+) -> Result<StatusCode, Failure> {
+    shared.store.set_favourite(&principal.to_string(), &tree, false).await?;
+    Ok(StatusCode::NO_CONTENT)
+}
+
+fn to_proto(collection: Collection) -> TreeCollection {
+    let Collection { id, name, parent, trees } = collection;
+    TreeCollection { id, name, parent, trees }
+}

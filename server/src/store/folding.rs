@@ -1,0 +1,31 @@
+//! How texts are compared when trees are sorted and searched.
+
+use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
+
+/// A text without the difference of large and small letters, and without accents.
+pub(super) fn folded(text: &str) -> String {
+    let plain = |text: &str| -> String { text.nfkd().filter(|letter| !is_combining_mark(*letter)).collect() };
+    // Some letters have their accents only once they are small.
+    plain(&plain(text).to_lowercase())
+}
+
+/// All that is searched of a tree, folded.
+pub(super) fn searched(name: &str, tags: &[String], note: &str, species: Option<&str>) -> String {
+    let parts = [name].into_iter().chain(tags.iter().map(String::as_str)).chain([note]).chain(species);
+    folded(&parts.collect::<Vec<_>>().join("\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn case_and_accents_make_no_difference() {
+        for (text, expected) in
+            [("Äpfel", "apfel"), ("ÉRABLE", "erable"), ("İris", "iris"), ("木", "木"), ("ﬁr", "fir")]
+        {
+            assert_eq!(folded(text), expected);
+            assert_eq!(folded(expected), expected);
+        }
+    }
+}

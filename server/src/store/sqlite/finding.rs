@@ -1,0 +1,216 @@
+//! What trees are found by, in SQLite.
+
+use std::collections::BTreeSet;
+
+use sqlx::{QueryBuilder, Sqlite, SqlitePool, sqlite::SqliteConnection};
+
+use super::super::{
+    Collection, CollectionChange, Sort, StoreError, TreeQuery,
+    folding::{folded, searched},
+};
+
+#[derive(Debug)]
+pub(super) enum FindingWrite {
+    AddCollection(Collection),
+    ChangeCollection(String, CollectionChange),
+    DeleteCollection(String),
+    SetFavourite { principal: String, tree: String, is_one: bool },
+}
+
+/// Adds the conditions of a query to one for trees.
+pub(super) fn narrow(sql: &mut QueryBuilder<Sqlite>, query: &TreeQuery) {
+    sql.push(if query.is_deleted { " WHERE deleted_at IS NOT NULL" } else { " WHERE deleted_at IS NULL" });
+    if let Some(is_template) = query.is_template {
+        sql.push(" AND is_template = ").push_bind(is_template);
+    }
+    let words: Vec<String> = query.words.iter().map(|word| folded(word)).collect();
+    // An index of three letters finds no fewer.
+    let (long, short): (Vec<_>, Vec<_>) =
+        words.into_iter().partition(|word| word.chars().count() >= 3 && !word.contains(char::is_control));
+    if !long.is_empty() {
+        let quoted: Vec<String> =
+            long.iter().map(|word| format!("\"{}\"", word.replace('"', "\"\""))).collect();
+        sql.push(" AND id IN (SELECT rowid FROM trees_text WHERE trees_text MATCH ");
+        sql.push_bind(quoted.join(" ")).push(")");
+    }
+    for word in short {
+        sql.push(" AND instr(search, ").push_bind(word).push(") > 0");
+    }
+    for tag in &query.tags {
+        sql.push(" AND id IN (SELECT tree FROM tree_tags WHERE tag = ").push_bind(tag.clone()).push(")");
+    }
+    match &query.collection {
+        None => {}
+        Some(None) => drop(sql.push(" AND collection IS NULL")),
+        Some(Some(key)) => {
+            sql.push(" AND collection = (SELECT id FROM collections WHERE key = ");
+            sql.push_bind(key.clone()).push(")");
+        }
+    }
+    if let Some(principal) = &query.favourites_of {
+        sql.push(" AND id IN (SELECT tree FROM favourites WHERE principal = ");
+        sql.push_bind(principal.clone()).push(")");
+    }
+    for (condition, value) in [
+        (" AND species = ", &query.species),
+        (" AND author = ", &query.author),
+        (" AND principal = ", &query.saved_by),
+        (" AND saved_at >= ", &query.saved_from),
+        (" AND saved_at < ", &query.saved_before),
+    ] {
+        if let Some(value) = value {
+            sql.push(condition).push_bind(value.clone());
+        }
+    }
+    let (least, most) = (*query.metamers.start(), *query.metamers.end());
+    if (least, most) != (0, u32::MAX) {
+        sql.push(" AND metamers BETWEEN ").push_bind(least).push(" AND ").push_bind(most);
+    }
+    let value = match (query.is_deleted, query.sort) {
+        (true, _) => "deleted_at",
+        (false, Sort::Newest | Sort::Oldest) => "saved_at",
+        (false, Sort::Name) => "folded",
+        (false, Sort::Largest | Sort::Smallest) => "metamers",
+    };
+    let (behind, order) = if query.is_ascending() { (">", "ASC") } else { ("<", "DESC") };
+    if let Some(place) = &query.after {
+        sql.push(format!(" AND ({value}, key) {behind} ("));
+        if value == "metamers" {
+            sql.push("CAST(").push_bind(place.value.clone()).push(" AS INTEGER)");
+        } else {
+            sql.push_bind(place.value.clone());
+        }
+        sql.push(", ").push_bind(place.id.clone()).push(")");
+    }
+    sql.push(format!(" ORDER BY {value} {order}, key {order} LIMIT ")).push_bind(query.limit);
+}
+
+/// Folds anew what is searched of a tree, and how its name is sorted.
+pub(super) async fn fold(connection: &mut SqliteConnection, id: i64) -> Result<(), StoreError> {
+    let tree = sqlx::query_as("SELECT name, note, species FROM trees WHERE id = ?").bind(id);
+    let (name, note, species): (String, String, Option<String>) = tree.fetch_one(&mut *connection).await?;
+    let tags = sqlx::query_scalar("SELECT tag FROM tree_tags WHERE tree = ? ORDER BY tag").bind(id);
+    let tags: Vec<String> = tags.fetch_all(&mut *connection).await?;
+    sqlx::query("UPDATE trees SET folded = ?, search = ? WHERE id = ?")
+        .bind(folded(&name))
+        .bind(searched(&name, &tags, &note, species.as_deref()))
+        .bind(id)
+        .execute(connection)
+        .await?;
+    Ok(())
+}
+
+/// The same for trees of an earlier program.
+pub(super) async fn fold_all(connection: &mut SqliteConnection) -> Result<(), StoreError> {
+    let new = sqlx::query_scalar("SELECT id FROM trees WHERE search IS NULL");
+    for id in new.fetch_all(&mut *connection).await? {
+        fold(connection, id).await?;
+    }
+    Ok(())
+}
+
+pub(super) async fn collections(readers: &SqlitePool) -> Result<Vec<Collection>, StoreError> {
+    let rows: Vec<(String, String, Option<String>, u32)> = sqlx::query_as(
+        "SELECT key, name, (SELECT key FROM collections AS above WHERE above.id = collections.parent),
+                (SELECT count(*) FROM trees WHERE collection = collections.id AND deleted_at IS NULL)
+         FROM collections",
+    )
+    .fetch_all(readers)
+    .await?;
+    let mut all: Vec<Collection> =
+        rows.into_iter().map(|(id, name, parent, trees)| Collection { id, name, parent, trees }).collect();
+    all.sort_by_key(|collection| (folded(&collection.name), collection.id.clone()));
+    Ok(all)
+}
+
+pub(super) async fn tags(readers: &SqlitePool) -> Result<Vec<(String, u32)>, StoreError> {
+    Ok(sqlx::query_as(
+        "SELECT tag, count(*) FROM tree_tags JOIN trees ON id = tree WHERE deleted_at IS NULL GROUP BY tag ORDER BY tag",
+    )
+    .fetch_all(readers)
+    .await?)
+}
+
+pub(super) async fn favourites(
+    readers: &SqlitePool,
+    principal: &str,
+) -> Result<BTreeSet<String>, StoreError> {
+    let keys = sqlx::query_scalar(
+        "SELECT key FROM favourites JOIN trees ON id = tree WHERE favourites.principal = ?",
+    );
+    Ok(keys.bind(principal).fetch_all(readers).await?.into_iter().collect())
+}
+
+/// The row of a collection, where one is named.
+pub(super) async fn row_of(
+    connection: &mut SqliteConnection,
+    key: Option<&str>,
+) -> Result<Option<i64>, StoreError> {
+    let Some(key) = key else { return Ok(None) };
+    let found = sqlx::query_scalar("SELECT id FROM collections WHERE key = ?").bind(key);
+    found.fetch_optional(connection).await?.map(Some).ok_or(StoreError::NotFound)
+}
+
+impl FindingWrite {
+    pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
+        let query = match self {
+            Self::AddCollection(Collection { id, name, parent, .. }) => {
+                let parent = row_of(connection, parent.as_deref()).await?;
+                let query = sqlx::query("INSERT INTO collections (key, name, parent) VALUES (?, ?, ?)");
+                query.bind(id).bind(name).bind(parent)
+            }
+            Self::ChangeCollection(key, change) => return change_collection(connection, key, change).await,
+            Self::DeleteCollection(key) => {
+                let id = row_of(connection, Some(key)).await?;
+                for sql in [
+                    "UPDATE trees SET collection = (SELECT parent FROM collections WHERE id = ?1) WHERE collection = ?1",
+                    "UPDATE collections SET parent = (SELECT parent FROM collections WHERE id = ?1) WHERE parent = ?1",
+                ] {
+                    sqlx::query(sql).bind(id).execute(&mut *connection).await?;
+                }
+                sqlx::query("DELETE FROM collections WHERE id = ?").bind(id)
+            }
+            Self::SetFavourite { principal, tree, is_one } => {
+                let found = sqlx::query_scalar("SELECT id FROM trees WHERE key = ?").bind(tree);
+                let id: i64 = found.fetch_optional(&mut *connection).await?.ok_or(StoreError::NotFound)?;
+                let query = sqlx::query(if *is_one {
+                    "INSERT OR IGNORE INTO favourites (principal, tree) VALUES (?, ?)"
+                } else {
+                    "DELETE FROM favourites WHERE principal = ? AND tree = ?"
+                });
+                query.bind(principal).bind(id)
+            }
+        };
+        Ok(query.execute(connection).await?.rows_affected())
+    }
+}
+
+async fn change_collection(
+    connection: &mut SqliteConnection,
+    key: &str,
+    change: &CollectionChange,
+) -> Result<u64, StoreError> {
+    let id = row_of(connection, Some(key)).await?;
+    if let Some(name) = &change.name {
+        let query = sqlx::query("UPDATE collections SET name = ? WHERE id = ?").bind(name).bind(id);
+        query.execute(&mut *connection).await?;
+    }
+    if let Some(parent) = &change.parent {
+        let parent = row_of(connection, parent.as_deref()).await?;
+        let is_above: bool = sqlx::query_scalar(
+            "WITH RECURSIVE above (id) AS
+                 (SELECT ?1 UNION SELECT parent FROM collections JOIN above USING (id) WHERE parent IS NOT NULL)
+             SELECT EXISTS (SELECT 1 FROM above WHERE id = ?2)",
+        )
+        .bind(parent)
+        .bind(id)
+        .fetch_one(&mut *connection)
+        .await?;
+        if is_above {
+            return Err(StoreError::Cycle);
+        }
+        let query = sqlx::query("UPDATE collections SET parent = ? WHERE id = ?").bind(parent).bind(id);
+        query.execute(connection).await?;
+    }
+    Ok(1)
+}
