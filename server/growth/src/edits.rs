@@ -41,8 +41,9 @@ impl<G: Generator> Simulation<G> {
 
     /// Moves the wood on a path and what it bears ([`espalier_plant::Plant::carry`]).
     pub fn carry(&mut self, path: &[MetamerId], motions: &[Motion]) -> Result<(), EditError> {
+        let before = self.plant().step();
         if self.scene.record_edit(|step| step.carry(path, motions)) {
-            self.generator.follow(&self.scene, &Change::Edited);
+            self.follow_edit(before);
             return Ok(());
         }
         self.scene.go_to(self.scene.plant.step() - 1);
@@ -106,8 +107,16 @@ impl<G: Generator> Simulation<G> {
     }
 
     fn edit<T>(&mut self, edit: impl FnOnce(&mut Recording<'_>) -> T) -> T {
+        let before = self.plant().step();
         let done = self.scene.record_edit(edit);
-        self.generator.follow(&self.scene, &Change::Edited);
+        self.follow_edit(before);
         done
+    }
+
+    /// Tells the generator of an edit, if it has left a step beyond this one: one that changes nothing leaves none.
+    fn follow_edit(&mut self, before: u32) {
+        if self.plant().step() != before {
+            self.generator.follow(&self.scene, &Change::Edited);
+        }
     }
 }

@@ -43,7 +43,7 @@ pub use self::{
     transplanting::TransplantError,
 };
 pub(crate) use self::{
-    generators::{Generators, Step},
+    generators::{GeneratorState, Generators, Step},
     hints::DrawnInVain,
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
@@ -118,7 +118,7 @@ impl Document {
         };
         Self {
             simulation: Simulation::new(seed, parameters)
-                .grown_by(|growth| Generators::new(growth, schedule, 0)),
+                .grown_by(|growth| Generators::new(growth, schedule, GeneratorState::default())),
             history: History::new(initial),
             futures: Futures::default(),
             strokes: OpenStrokes::default(),
@@ -293,7 +293,7 @@ impl Document {
         self.require_room()?;
         self.record(Kind::Seed, cause);
         self.simulation.sow(position);
-        self.history.reach(self.plant().step());
+        self.reach();
         Ok(())
     }
 

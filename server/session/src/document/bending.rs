@@ -180,7 +180,7 @@ impl Document {
             }
             return carried.map_err(said);
         }
-        self.history.reach(now + 1);
+        self.reach();
         self.history.keep_places(places);
         Ok(())
     }

@@ -52,18 +52,21 @@ impl Document {
         let now = self.plant().step();
         self.simulation.go_to(now - 1);
         let former = self.simulation.stash_future();
+        self.keep_state();
         let motion = self.turn_about(branch, base, rotation);
         if let Err(error) = self.simulation.carry(&[branch], &[motion]) {
             // It was cut off right here.
             let _fits = self.simulation.take_future(former);
             self.simulation.go_to(now);
+            self.keep_state();
             return Err(said(error));
         }
         if self.plant().step() == now {
             self.history.latest = Some(Latest { step: now, row: branch.raw(), rotation: Some(rotation) });
+            self.note_state();
         } else {
             self.history.latest = None;
-            self.history.reach(now - 1);
+            self.reach();
             self.forget_idle();
         }
         Ok(())
@@ -71,7 +74,7 @@ impl Document {
 
     fn turned(&mut self, row: u32, rotation: Quat, places: usize) {
         let step = self.plant().step();
-        self.history.reach(step);
+        self.reach();
         self.history.keep_places(places);
         self.history.latest = Some(Latest { step, row, rotation: Some(rotation) });
     }
@@ -117,7 +120,7 @@ impl Document {
             self.refuse(recorded);
             return Err(said(error));
         }
-        self.history.reach(self.plant().step());
+        self.reach();
         self.release_lost_bends();
         Ok(())
     }

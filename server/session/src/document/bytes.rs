@@ -8,7 +8,7 @@ mod gestures;
 mod growth;
 mod packing;
 mod programmes;
-mod sections;
+pub(super) mod sections;
 mod settings;
 mod times;
 mod wood;
@@ -28,7 +28,12 @@ use self::{
     sections::{Kind, Release},
     settings::Pool,
 };
-use super::{Document, Generators, futures::Futures, hints::Hints, obstacles::Obstacles};
+use super::{
+    Document, Generators,
+    futures::{Futures, all_states},
+    hints::Hints,
+    obstacles::Obstacles,
+};
 use crate::schedule::GrowthSchedule;
 
 /// Bytes are not a document that this program reads.
@@ -100,10 +105,14 @@ impl Document {
         }
         let pool = Pool::of(&self.history, futures, &self.setting());
         add(&sections::PARAMETERS, &|out| pool.write_parameters(out));
-        if pool.has_programmes() || programmes::has_ages(&self.history, futures) {
+        if pool.has_programmes() || all_states(&self.history, futures).next().is_some() {
             add(&sections::PROGRAMMES, &|out| {
                 programmes::write(out, &pool, self.schedule(), &self.history, futures);
             });
+        }
+        #[cfg(test)]
+        if super::tests::forks::has_grown(&self.history, futures) {
+            add(&sections::FORKS, &|out| super::tests::forks::write(out, &self.history, futures));
         }
         add(&sections::LOOKS, &|out| pool.write_looks(out, &self.appearance));
         add(&sections::OBSTACLES, &|out| pool.write_obstacles(out, &self.obstacles));
@@ -165,14 +174,16 @@ impl Document {
             Some(number) => pool.schedule(number)?,
             None => Arc::new(GrowthSchedule::plain(state.parameters.clone())),
         };
-        programmes.tell_ages(&mut history, &mut futures)?;
+        programmes.tell_states(&mut history, &mut futures)?;
+        #[cfg(test)]
+        super::tests::forks::read(container, &mut history, &mut futures)?;
         times::check_futures(&futures, &history, &plant)?;
         let (strokes, bends) = container.read(&sections::GESTURES, gestures::read)?.unwrap_or_default();
         gestures::check(&strokes, &bends, &plant)?;
-        let ahead = history.ahead_at(plant.step());
+        let generators = history.state_at(plant.step());
         let simulation = Simulation::from_state(plant, state);
         Ok(Self {
-            simulation: simulation.grown_by(|growth| Generators::new(growth, schedule, ahead)),
+            simulation: simulation.grown_by(|growth| Generators::new(growth, schedule, generators)),
             history,
             futures,
             strokes,

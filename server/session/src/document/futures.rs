@@ -10,7 +10,7 @@ use espalier_proto::{Problem, ProblemCode, version::MAX_FUTURES};
 
 use super::{
     Document,
-    history::{AgeMark, Before, Kind, Operation, Setting, hash_operations},
+    history::{Before, History, Kind, Operation, Setting, StateMark, hash_operations},
     refused,
 };
 use crate::cause::Cause;
@@ -31,8 +31,8 @@ pub(super) struct Future {
     pub fork: Fork,
     /// What is done on it, the operation that it cuts in two first.
     pub operations: Vec<Operation>,
-    /// Where plants became older on it without a step of growth.
-    pub ages: Vec<AgeMark>,
+    /// Where the state of generators changed on it.
+    pub states: Vec<StateMark>,
     pub rows: Rows,
 }
 
@@ -53,6 +53,14 @@ pub(super) struct Futures {
     pub present: u32,
     /// The highest number of any line so far.
     pub newest: u32,
+}
+
+/// All marks of the present line, then those of each future.
+pub(super) fn all_states<'a>(
+    history: &'a History,
+    futures: &'a Futures,
+) -> impl Iterator<Item = &'a StateMark> {
+    history.states.iter().chain(futures.all.iter().flat_map(|future| &future.states))
 }
 
 /// That an operation was recorded, which may yet be refused.
@@ -171,7 +179,7 @@ impl Document {
             self.futures.newest -= 1;
         } else {
             self.history.operations.truncate(before.done);
-            self.history.hand_ages_down();
+            self.history.hand_states_down();
         }
         self.history.done = before.done;
         self.history.latest = before.latest;
@@ -202,11 +210,11 @@ impl Document {
         }
         history.latest = None;
         let fork = Fork { shared, step: now };
-        let ages = history.cut_ages(fork, &operations);
+        let states = history.cut_states(fork, &operations);
         let line = self.futures.present;
         self.futures.hand_over(fork, line);
         let rows = self.simulation.stash_future();
-        self.futures.all.push(Future { line, on: None, fork, operations, ages, rows });
+        self.futures.all.push(Future { line, on: None, fork, operations, states, rows });
         self.futures.newest += 1;
         self.futures.present = self.futures.newest;
         Some(line)
@@ -214,9 +222,11 @@ impl Document {
 
     /// Takes the future up again that was left last, right here.
     fn return_to_future(&mut self) {
-        let Some(Future { line, fork, operations, ages, rows, .. }) = self.futures.all.pop() else { return };
-        self.history.cut_ages(fork, &operations);
-        self.history.ages.extend(ages);
+        let Some(Future { line, fork, operations, states, rows, .. }) = self.futures.all.pop() else {
+            return;
+        };
+        self.history.cut_states(fork, &operations);
+        self.history.states.extend(states);
         self.history.operations.truncate(fork.shared);
         self.history.operations.extend(operations);
         self.futures.take_over(line);
@@ -248,17 +258,22 @@ impl Document {
         let Some(at) = self.futures.position(line) else { return Ok(()) };
         let fork = self.futures.all[at].fork;
         self.travel(fork.step);
-        let Future { operations, ages, rows, .. } = self.futures.all.remove(at);
+        let Future { operations, states, rows, .. } = self.futures.all.remove(at);
         let left = self.history.operations.split_off(fork.shared.min(self.history.operations.len()));
-        let left_ages = self.history.cut_ages(fork, if left.is_empty() { &operations } else { &left });
+        let left_states = self.history.cut_states(fork, if left.is_empty() { &operations } else { &left });
         let left_rows = self.simulation.stash_future();
         let is_left = !left.is_empty() || left_rows.steps() > 0;
         if is_left {
             let present = self.futures.present;
             self.futures.hand_over(fork, present);
-            let future =
-                Future { line: present, on: None, fork, operations: left, ages: left_ages, rows: left_rows };
-            self.futures.all.push(future);
+            self.futures.all.push(Future {
+                line: present,
+                on: None,
+                fork,
+                operations: left,
+                states: left_states,
+                rows: left_rows,
+            });
         }
         self.history.done = self.history.operations.len();
         if let Err(error) = self.simulation.take_future(rows) {
@@ -271,7 +286,7 @@ impl Document {
         self.futures.take_over(line);
         self.futures.present = line;
         self.history.operations.extend(operations);
-        self.history.ages.extend(ages);
+        self.history.states.extend(states);
         self.history.done = self.history.done_at(fork.step);
         Ok(())
     }

@@ -1,13 +1,12 @@
-//! What grows a document's scene. Another generator is a field here and a kind of [`Step`]; its state is written in
-//! `bytes`.
+//! What grows a document's scene. Another generator is a field here and a kind of [`Step`]. What its next step depends
+//! on beside the scene stands in [`GeneratorState`], which goes back and forth in time with the plants, and into a
+//! section of its own in `bytes`.
 
 use std::sync::Arc;
 
 use espalier_growth::{Change, Generator, Growth, Observer, Scene, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 
-#[cfg(test)]
-use super::tests::forks::Forks;
 use crate::schedule::{GrowthSchedule, ScheduledAction};
 
 /// Steps in a row in which the brush of a programme finds nothing to do.
@@ -18,11 +17,27 @@ const PATIENCE: u32 = 64;
 pub(crate) struct Generators {
     growth: Growth,
     schedule: Arc<GrowthSchedule>,
+    state: GeneratorState,
+}
+
+/// What generators keep from one step to the next that does not follow from the scene. Each place on a line of time has
+/// the state it had when the line came there first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct GeneratorState {
     /// By how much the plants are older than the steps of growth they have taken: a programme goes on where its
     /// brush finds nothing to do.
-    ahead: u32,
+    pub(super) ahead: u32,
+    /// That of the generator which tests have.
     #[cfg(test)]
-    forks: Forks,
+    pub(super) forks: super::tests::forks::Forks,
+}
+
+impl GeneratorState {
+    /// The same, of plants that are older by so much.
+    pub(super) fn aged(mut self, ahead: u32) -> Self {
+        self.ahead = ahead;
+        self
+    }
 }
 
 /// One step of one of them.
@@ -65,34 +80,28 @@ impl Generator for Generators {
             &Step::Age { chosen, until } => self.grow_older(scene, chosen, until, observer),
             #[cfg(test)]
             Step::Fork => {
-                let outcome = self.forks.step(scene, &(), observer);
+                let outcome = self.state.forks.step(scene, &(), observer);
                 self.growth.follow(scene, &Change::Edited);
                 return outcome;
             }
         };
         self.keep_schedule(scene);
         #[cfg(test)]
-        self.forks.follow(scene, &Change::Edited);
+        self.state.forks.follow(scene, &Change::Edited);
         outcome
     }
 
     fn follow(&mut self, scene: &Scene, change: &Change) {
         self.growth.follow(scene, change);
         #[cfg(test)]
-        self.forks.follow(scene, change);
+        self.state.forks.follow(scene, change);
     }
 }
 
 impl Generators {
-    /// Growth by a schedule, on plants that are older than their steps by so much.
-    pub(crate) fn new(growth: Growth, schedule: Arc<GrowthSchedule>, ahead: u32) -> Self {
-        Self {
-            growth,
-            schedule,
-            ahead,
-            #[cfg(test)]
-            forks: Forks::default(),
-        }
+    /// Growth by a schedule, and all generators in this state.
+    pub(crate) fn new(growth: Growth, schedule: Arc<GrowthSchedule>, state: GeneratorState) -> Self {
+        Self { growth, schedule, state }
     }
 
     /// The schedule in force.
@@ -102,18 +111,18 @@ impl Generators {
 
     /// The age of the plants.
     pub(crate) fn age(&self, scene: &Scene) -> u32 {
-        scene.plant().growths().saturating_add(self.ahead)
+        scene.plant().growths().saturating_add(self.state.ahead)
     }
 
-    /// By how much the plants are older than the steps of growth they have taken.
-    pub(crate) fn ahead(&self) -> u32 {
-        self.ahead
+    /// What they keep from step to step.
+    pub(super) fn state(&self) -> &GeneratorState {
+        &self.state
     }
 
-    /// Another schedule, or another age; [`Document::keep_schedule`](super::Document::keep_schedule) puts it in force.
-    pub(crate) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>, ahead: u32) {
+    /// Another schedule, or another state; [`Document::turn_to`](super::Document::turn_to) puts the parameters in force.
+    pub(super) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>, state: GeneratorState) {
         self.schedule = Arc::clone(schedule);
-        self.ahead = ahead;
+        self.state = state;
     }
 
     /// Makes the parameters those of the schedule at the present age.
@@ -179,7 +188,7 @@ impl Generators {
     }
 
     fn be_at_least(&mut self, scene: &Scene, age: u32) {
-        self.ahead += age.saturating_sub(self.age(scene));
+        self.state.ahead += age.saturating_sub(self.age(scene));
     }
 
     fn end_stroke(&mut self, stroke: StrokeId) {
@@ -195,13 +204,6 @@ impl Generators {
         let is_over = |stroke: &StrokeId| stroke.is_of_programme() && Some(*stroke) != but;
         let over: Vec<_> = self.growth.strokes().filter(is_over).collect();
         over.into_iter().for_each(|stroke| self.growth.end_stroke(stroke));
-    }
-}
-
-#[cfg(test)]
-impl Generators {
-    pub(super) fn forks(&self) -> &Forks {
-        &self.forks
     }
 }
 

@@ -86,12 +86,18 @@ impl Document {
                 }
             }
         }
-        self.history.reach(self.simulation.plant().step());
+        self.reach();
         self.release_lost_bends();
         if self.pending.is_empty() && self.strokes.is_empty() {
             self.forget_idle();
         }
         true
+    }
+
+    /// The operation in progress has reached the present step.
+    pub(super) fn reach(&mut self) {
+        self.history.reach(self.plant().step());
+        self.note_state();
     }
 
     /// A stroke grows on after somebody did something else meanwhile: what it grows from here on is an operation of
@@ -223,9 +229,7 @@ impl Document {
 
     fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
         self.steps_begun = self.steps_begun.wrapping_add(1);
-        let outcome = self.simulation.step(step, observer);
-        self.note_age();
-        outcome
+        self.simulation.step(step, observer)
     }
 
     pub(super) fn is_stopped(&self) -> bool {

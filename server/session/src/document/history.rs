@@ -8,6 +8,7 @@ use glam::Quat;
 
 use super::{
     futures::Fork,
+    generators::GeneratorState,
     obstacles::{Standings, stand_alike},
 };
 use crate::{cause::Cause, schedule::GrowthSchedule};
@@ -98,15 +99,15 @@ pub(super) struct Latest {
     pub rotation: Option<Quat>,
 }
 
-/// From a step on plants are older than the steps of growth they have taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct AgeMark {
+/// From a step on the generators have another state than before.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct StateMark {
     /// The step.
     pub step: u32,
-    /// Operations in force when they became so; the mark goes with the last of them.
+    /// Operations in force when it changed; the mark goes with the last of them.
     pub done: u32,
-    /// By how much they are older.
-    pub ahead: u32,
+    /// The state.
+    pub state: GeneratorState,
 }
 
 /// What there was before the last operation was recorded.
@@ -135,15 +136,15 @@ pub(super) struct History {
     /// The setting before the first of them.
     pub initial: Setting,
     pub latest: Option<Latest>,
-    /// Where plants became older without a step of growth (`PG2`), in order.
-    pub ages: Vec<AgeMark>,
+    /// Where the state of generators changed, in order. Before the first mark it is the default.
+    pub states: Vec<StateMark>,
     /// How to take back that the last operation was recorded; none once something else has happened.
     pub before: Option<Before>,
 }
 
 impl History {
     pub fn new(initial: Setting) -> Self {
-        Self { operations: Vec::new(), done: 0, initial, latest: None, ages: Vec::new(), before: None }
+        Self { operations: Vec::new(), done: 0, initial, latest: None, states: Vec::new(), before: None }
     }
 
     /// The last operation in force.
@@ -206,41 +207,41 @@ impl History {
         self.done == self.operations.len() && self.current().is_some_and(idle)
     }
 
-    /// Takes the last operation off, which is in force. What it made older without growth stays so.
+    /// Takes the last operation off, which is in force. What it did to the state of generators stays so.
     pub fn pop(&mut self) {
         self.operations.pop();
         self.done = self.done.min(self.operations.len());
-        self.hand_ages_down();
+        self.hand_states_down();
     }
 
-    /// What an operation has made older that is gone belongs to the last one that is there.
-    pub fn hand_ages_down(&mut self) {
+    /// States that belong to an operation which is gone belong to the last one that is there.
+    pub fn hand_states_down(&mut self) {
         let done = self.operations.len() as u32;
-        self.ages.iter_mut().for_each(|mark| mark.done = mark.done.min(done));
+        self.states.iter_mut().for_each(|mark| mark.done = mark.done.min(done));
     }
 
-    /// By how much plants are older at a step than the steps of growth they have taken.
-    pub fn ahead_at(&self, step: u32) -> u32 {
-        let is_past = |mark: &&AgeMark| mark.step <= step && mark.done as usize <= self.done;
-        self.ages.iter().rev().find(is_past).map_or(0, |mark| mark.ahead)
+    /// The state of the generators at a step.
+    pub fn state_at(&self, step: u32) -> GeneratorState {
+        let is_past = |mark: &&StateMark| mark.step <= step && mark.done as usize <= self.done;
+        self.states.iter().rev().find(is_past).map(|mark| mark.state.clone()).unwrap_or_default()
     }
 
-    /// At a step, the last of the line, plants are older by so much.
-    pub fn note_ahead(&mut self, step: u32, ahead: u32) {
-        if self.ahead_at(step) != ahead {
-            let done = self.done as u32;
-            self.ages.retain(|mark| (mark.step, mark.done) < (step, done));
-            self.ages.push(AgeMark { step, done, ahead });
+    /// At a step, the last of the line, the generators have this state.
+    pub fn note_state(&mut self, step: u32, state: &GeneratorState) {
+        let done = self.done as u32;
+        self.states.truncate(self.states.partition_point(|mark| (mark.step, mark.done) < (step, done)));
+        if self.state_at(step) != *state {
+            self.states.push(StateMark { step, done, state: state.clone() });
         }
     }
 
-    /// Takes off what was noted on the line from the place on where it is left with these operations.
-    pub fn cut_ages(&mut self, Fork { shared, step }: Fork, left: &[Operation]) -> Vec<AgeMark> {
+    /// Takes off the states noted on the line from the place on where it is left with these operations.
+    pub fn cut_states(&mut self, Fork { shared, step }: Fork, left: &[Operation]) -> Vec<StateMark> {
         let is_in_part = left.first().is_some_and(|operation| operation.first < step);
         let operations = shared + usize::from(is_in_part);
-        let stays = |mark: &AgeMark| mark.step <= step && mark.done as usize <= operations;
-        let first = self.ages.iter().position(|mark| !stays(mark)).unwrap_or(self.ages.len());
-        self.ages.split_off(first)
+        let stays = |mark: &StateMark| mark.step <= step && mark.done as usize <= operations;
+        let first = self.states.iter().position(|mark| !stays(mark)).unwrap_or(self.states.len());
+        self.states.split_off(first)
     }
 
     /// The operation in progress has left things so.

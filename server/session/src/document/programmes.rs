@@ -74,19 +74,25 @@ impl Document {
         }
     }
 
-    /// Grows by a schedule from here on, at the age that the line has at the present step.
+    /// Grows by a schedule from here on, in the state that the line has at the present step.
     pub(super) fn turn_to(&mut self, schedule: &Arc<GrowthSchedule>) {
-        let ahead = self.history.ahead_at(self.plant().step());
-        self.simulation.generator_mut().turn_to(schedule, ahead);
+        let state = self.history.state_at(self.plant().step());
+        self.simulation.generator_mut().turn_to(schedule, state);
         let wanted = schedule.at(self.age());
         if **wanted != *self.simulation.parameters() {
             self.simulation.set_parameters((**wanted).clone());
         }
     }
 
-    /// Notes the age that the plants have come to.
-    pub(super) fn note_age(&mut self) {
-        self.history.note_ahead(self.plant().step(), self.simulation.generator().ahead());
+    /// Puts the generators into the state that the line has at the present step.
+    pub(super) fn keep_state(&mut self) {
+        let schedule = Arc::clone(self.schedule());
+        self.turn_to(&schedule);
+    }
+
+    /// Notes the state that the generators have come to.
+    pub(super) fn note_state(&mut self) {
+        self.history.note_state(self.plant().step(), self.simulation.generator().state());
     }
 
     pub(super) fn hash_schedule(&self, hash: &mut StableHash) {
@@ -94,8 +100,8 @@ impl Document {
             to_words(&**programme).into_iter().for_each(|word| hash.word(word));
             to_words(self.schedule().by_hand()).into_iter().for_each(|word| hash.word(word));
         }
-        for mark in &self.history.ages {
-            hash.word(u64::from(mark.step) | u64::from(mark.ahead) << 32);
+        for mark in &self.history.states {
+            hash.word(u64::from(mark.step) | u64::from(mark.state.ahead) << 32);
         }
     }
 }

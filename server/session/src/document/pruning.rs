@@ -33,7 +33,7 @@ impl Document {
             self.record(Kind::Prune, cause);
         }
         self.simulation.prune(cuts);
-        self.history.reach(self.plant().step());
+        self.reach();
         self.release_lost_bends();
     }
 }

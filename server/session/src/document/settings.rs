@@ -63,6 +63,7 @@ impl Document {
                 self.unrecord();
             }
         }
+        self.note_state();
     }
 }
 

@@ -3,6 +3,7 @@
 mod arranging;
 mod damage;
 pub(super) mod forks;
+mod generating;
 mod histories;
 mod looks;
 mod programmes;

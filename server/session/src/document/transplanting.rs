@@ -7,7 +7,7 @@ use espalier_plant::{BrokenPlant, Wood};
 use espalier_proto::Problem;
 use espalier_settings::{Appearance, OutOfRange, ParameterValues};
 
-use super::{Document, Generators, history::History};
+use super::{Document, Generators, generators::GeneratorState, history::History};
 
 /// Wood cannot become a document.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,8 +47,8 @@ impl Document {
             tick: plant.step(),
         };
         let schedule = Arc::clone(document.schedule());
-        document.simulation =
-            Simulation::from_state(plant, state).grown_by(|growth| Generators::new(growth, schedule, 0));
+        document.simulation = Simulation::from_state(plant, state)
+            .grown_by(|growth| Generators::new(growth, schedule, GeneratorState::default()));
         document.appearance = Arc::new(looks);
         document.history = History::new(document.setting());
         Ok(document)

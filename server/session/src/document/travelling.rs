@@ -61,6 +61,8 @@ impl Document {
     pub(super) fn keep_to_line(&mut self) {
         let setting = self.history.setting().clone();
         self.set(&setting);
+        // What was done to the obstacles is no news to the generators.
+        self.keep_state();
     }
 
     /// Travels in time; strokes in progress end where they are, and bends are given up.
@@ -70,7 +72,6 @@ impl Document {
         self.history.latest = None;
         self.history.before = None;
         self.simulation.go_to(step);
-        let schedule = Arc::clone(self.schedule());
-        self.turn_to(&schedule);
+        self.keep_state();
     }
 }

@@ -36,8 +36,8 @@ impl Document {
             self.record(Kind::Width, cause);
         }
         self.simulation.set_width(metamer, diameter);
+        self.reach();
         let step = self.plant().step();
-        self.history.reach(step);
         // Back where the gesture began, there is nothing to undo.
         self.forget_idle();
         let is_kept = self.history.continues(&[Kind::Width], cause, step);
@@ -74,6 +74,7 @@ impl Document {
         let before = self.plant().step().saturating_sub(1);
         self.simulation.go_to(before);
         self.simulation.stash_future();
-        self.history.reach(before);
+        self.keep_state();
+        self.reach();
     }
 }

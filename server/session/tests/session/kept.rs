@@ -62,6 +62,18 @@ fn kept_files_that_were_damaged_are_refused() {
     }
 }
 
+/// `golden/later.espalier` is a document with a generator that only the tests of this crate have, and this program has
+/// not.
+#[test]
+fn op1_a_document_with_an_unknown_generator_names_the_program_that_reads_it() {
+    let later = include_bytes!("../../golden/later.espalier");
+    let needed = "a later version of Espalier wrote the document: it has a section FORK of version 1, which version \
+                  9.0.0 and later ones read";
+    assert_eq!(Document::from_bytes(later).unwrap_err().to_string(), needed);
+    let restored = Session::restore("elm", 1, Some(later), 0, []).map(drop);
+    assert_eq!(restored.unwrap_err().to_string(), format!("the snapshot cannot be read: {needed}"));
+}
+
 /// The entries that no snapshot covers: number, client, id, command.
 fn tail(release: &str) -> Vec<JournalEntry> {
     let rows: Vec<(u64, String, u32, String)> =

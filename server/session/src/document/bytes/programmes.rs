@@ -1,4 +1,4 @@
-//! Programmes, which schedules go by which, and the ages that lines of time have come to.
+//! Programmes, which schedules go by which, and where on lines of time the state of generators changed, with the ages.
 
 use std::sync::Arc;
 
@@ -12,7 +12,8 @@ use super::{
 use crate::{
     document::{
         futures::Futures,
-        history::{AgeMark, History},
+        generators::GeneratorState,
+        history::{History, StateMark},
     },
     schedule::{GrowthSchedule, Plan},
 };
@@ -25,14 +26,9 @@ pub(super) struct Programmes {
     of_schedules: Vec<Option<u32>>,
     /// The number of the schedule in force; none where it has no programme.
     pub(super) present: Option<u32>,
-    ages: Vec<AgeMark>,
+    states: Vec<StateMark>,
     /// Those of each future.
-    ages_of_futures: Vec<Vec<AgeMark>>,
-}
-
-/// Whether plants are older anywhere than their steps of growth.
-pub(super) fn has_ages(history: &History, futures: &Futures) -> bool {
-    !history.ages.is_empty() || futures.all.iter().any(|future| !future.ages.is_empty())
+    states_of_futures: Vec<Vec<StateMark>>,
 }
 
 pub(super) fn write(
@@ -53,8 +49,8 @@ pub(super) fn write(
     out.list(&plans, |out, plan| write_json(out, &**plan.programme()));
     out.list(&of_schedules, |out, &number| out.option(number));
     out.option(present.plan().map(|_| number(pool.schedules(), present)));
-    write_ages(out, &history.ages);
-    out.list(&futures.all, |out, future| write_ages(out, &future.ages));
+    write_states(out, &history.states);
+    out.list(&futures.all, |out, future| write_states(out, &future.states));
 }
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError> {
@@ -67,8 +63,8 @@ pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError>
         plans,
         of_schedules: reader.list(Reader::option)?,
         present: reader.option()?,
-        ages: read_ages(reader)?,
-        ages_of_futures: reader.list(read_ages)?,
+        states: read_states(reader)?,
+        states_of_futures: reader.list(read_states)?,
     })
 }
 
@@ -89,27 +85,35 @@ impl Programmes {
         parameters.iter().enumerate().map(schedule).collect()
     }
 
-    /// Puts the ages where they belong.
-    pub(super) fn tell_ages(self, history: &mut History, futures: &mut Futures) -> Result<(), DocumentError> {
-        if self.ages_of_futures.len() > futures.all.len() {
+    /// Puts the states where they belong.
+    pub(super) fn tell_states(
+        self,
+        history: &mut History,
+        futures: &mut Futures,
+    ) -> Result<(), DocumentError> {
+        if self.states_of_futures.len() > futures.all.len() {
             return Err(damaged("a future is missing that has ages"));
         }
-        history.ages = self.ages;
-        for (future, ages) in futures.all.iter_mut().zip(self.ages_of_futures) {
-            future.ages = ages;
+        history.states = self.states;
+        for (future, states) in futures.all.iter_mut().zip(self.states_of_futures) {
+            future.states = states;
         }
         Ok(())
     }
 }
 
-fn write_ages(out: &mut Writer, ages: &[AgeMark]) {
-    out.list(ages, |out, mark| {
+/// Each place where a state changes, with the age there; what else belongs to a state stands in sections of its own.
+fn write_states(out: &mut Writer, states: &[StateMark]) {
+    out.list(states, |out, mark| {
         out.u32(mark.step);
         out.u32(mark.done);
-        out.u32(mark.ahead);
+        out.u32(mark.state.ahead);
     });
 }
 
-fn read_ages(reader: &mut Reader<'_>) -> Result<Vec<AgeMark>, DocumentError> {
-    reader.list(|r| Ok(AgeMark { step: r.u32()?, done: r.u32()?, ahead: r.u32()? }))
+fn read_states(reader: &mut Reader<'_>) -> Result<Vec<StateMark>, DocumentError> {
+    reader.list(|r| {
+        let (step, done) = (r.u32()?, r.u32()?);
+        Ok(StateMark { step, done, state: GeneratorState::default().aged(r.u32()?) })
+    })
 }

@@ -90,6 +90,9 @@ pub(super) const GESTURES: Kind = first(*b"GEST", "gestures");
 pub(super) const WRITER: Kind = Kind { is_required: false, ..first(*b"WRIT", "writer") };
 /// Of a session's snapshot alone: who has done how much. A document is whole without it.
 pub(crate) const SESSION: Kind = first(*b"SESS", "session");
+/// The state of the generator that tests have; none if it never made a step. No release reads it.
+#[cfg(test)]
+pub(crate) const FORKS: Kind = Kind { since: Release(9, 0, 0), ..first(*b"FORK", "forks") };
 
 const ALL: &[&Kind] = &[
     &PLANT,
@@ -107,6 +110,8 @@ const ALL: &[&Kind] = &[
     &GESTURES,
     &WRITER,
     &SESSION,
+    #[cfg(test)]
+    &FORKS,
 ];
 
 impl Kind {

@@ -57,7 +57,7 @@ pub(super) fn read_history(reader: &mut Reader<'_>, pool: &Pool) -> Result<Histo
     if before.is_some_and(|before| before.done >= operations.len()) {
         return Err(damaged("the last operation began after itself"));
     }
-    Ok(History { operations, done, initial, latest, ages: Vec::new(), before })
+    Ok(History { operations, done, initial, latest, states: Vec::new(), before })
 }
 
 pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
@@ -87,7 +87,7 @@ pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futur
         if operations.iter().any(|operation| operation.last > fork.step.saturating_add(rows.steps())) {
             return Err(damaged("an operation of a future spans steps that are not there"));
         }
-        Ok(Future { line, on, fork, operations, ages: Vec::new(), rows })
+        Ok(Future { line, on, fork, operations, states: Vec::new(), rows })
     })?;
     Ok(Futures { all, present, newest })
 }

@@ -259,7 +259,7 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     for _ in 0..2 {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
         let schedule = GrowthSchedule::plain(grown.parameters().clone());
-        grown.generator_mut().turn_to(&Arc::new(schedule), 0);
+        grown.generator_mut().turn_to(&Arc::new(schedule), GeneratorState::default());
         grown.step(&Step::Growth(input.clone()), &mut espalier_growth::NoObserver);
         afresh.step(&input, &mut espalier_growth::NoObserver);
     }
