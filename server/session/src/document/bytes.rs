@@ -144,13 +144,7 @@ impl Document {
             .map_err(|error| damaged(error.to_string()))?;
         let (mut state, steps_begun) =
             container.require(&sections::GROWTH, |r| Ok((growth::read(r)?, r.u32()?)))?;
-        for (stroke, first_born, sweep) in
-            container.read(&sections::SWEEPS, growth::read_sweeps)?.unwrap_or_default()
-        {
-            if let Some(guide) = state.guides.get_mut(&stroke) {
-                (guide.first_born, guide.sweep) = (first_born, sweep);
-            }
-        }
+        container.read(&sections::SWEEPS, |r| growth::read_sweeps(r, &mut state.guides))?;
         growth::check(&state, &plant)?;
 
         let all_parameters = container.require(&sections::PARAMETERS, settings::read_parameters)?;

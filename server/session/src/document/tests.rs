@@ -8,6 +8,7 @@ mod histories;
 mod looks;
 mod programmes;
 mod shaping;
+mod strokes;
 mod times;
 
 use espalier_proto::{

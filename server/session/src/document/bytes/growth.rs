@@ -11,6 +11,10 @@ use super::{
     settings,
 };
 
+/// Flags of a stroke in progress.
+const CONNECTING: u8 = 1;
+const OUT_OF_REACH: u8 = 2;
+
 /// All but the obstacles, which stand in a section of their own.
 pub(super) fn write(out: &mut Writer, state: &SimulationState) {
     out.u32(state.seed);
@@ -80,22 +84,35 @@ pub(super) fn write_sweeps(out: &mut Writer, guides: &BTreeMap<StrokeId, Guide>)
             out.vector(place.position);
             out.f32(place.radius);
         });
+        let flag = |is_set: bool, flag: u8| if is_set { flag } else { 0 };
+        out.u8(flag(guide.is_connecting, CONNECTING) | flag(guide.is_out_of_reach, OUT_OF_REACH));
     });
 }
 
+/// Reads that into the guides.
 pub(super) fn read_sweeps(
     reader: &mut Reader<'_>,
-) -> Result<Vec<(StrokeId, MetamerId, Sweep)>, DocumentError> {
-    reader.up_to(1)?;
-    reader.list(|r| {
+    guides: &mut BTreeMap<StrokeId, Guide>,
+) -> Result<(), DocumentError> {
+    let version = reader.up_to(2)?;
+    let read = reader.list(|r| {
         let (stroke, first_born) = (StrokeId(r.u32()?), r.u32()?);
         if first_born == u32::MAX {
             return Err(damaged("a metamer is not there"));
         }
         let first_born = MetamerId::new(first_born as usize);
         let places = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
-        Ok((stroke, first_born, Sweep::from_places(places)))
-    })
+        // The first version has no flags: a stroke is as it was begun.
+        let flags = if version > 1 { r.u8()? } else { CONNECTING };
+        if let Some(guide) = guides.get_mut(&stroke) {
+            guide.first_born = first_born;
+            guide.sweep = Sweep::from_places(places);
+            guide.is_connecting = flags & CONNECTING != 0;
+            guide.is_out_of_reach = flags & OUT_OF_REACH != 0;
+        }
+        Ok(())
+    });
+    read.map(drop)
 }
 
 /// Checks that every guide is about wood of the plant.

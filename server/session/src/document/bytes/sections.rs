@@ -70,8 +70,9 @@ pub(super) const WIDTHS: Kind = first(*b"WIDT", "widths");
 pub(super) const GIVEN_RADII: Kind = first(*b"RADI", "given radii");
 /// What the next step of growth depends on beside plant and obstacles.
 pub(super) const GROWTH: Kind = first(*b"GROW", "growth");
-/// What the brushes of strokes in progress have swept; nothing if it is not there.
-pub(super) const SWEEPS: Kind = first(*b"SWEP", "sweeps");
+/// What the brushes of strokes in progress have swept, and whether wood has come to their paths; nothing if it is not
+/// there.
+pub(super) const SWEEPS: Kind = Kind { version: 2, ..first(*b"SWEP", "sweeps") };
 /// Every set of parameters that an operation holds.
 pub(super) const PARAMETERS: Kind = first(*b"PARA", "parameters");
 /// Programmes, which parameters belong to which, and the ages they have led to; none if it is not there.
