@@ -148,7 +148,7 @@ pub struct DocumentState {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Notice {
-    /// The last commands were done again by newer rules of growth, and may have grown otherwise (`OP2`).
+    /// The last commands were done again by other rules of growth, and may have grown otherwise (`OP2`).
     Regrown {
         /// The version of the simulation by which they were done first.
         from: u32,

@@ -6,6 +6,8 @@ use espalier_proto::{Problem, ProblemCode};
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
 
+use crate::live::OpenError;
+
 /// A file format that a tree is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
@@ -101,6 +103,9 @@ impl From<&ImportError> for Problem {
             }
             ImportError::Wood(TransplantError::Parameters(error)) => {
                 (ProblemCode::OutOfRange, Some(format!("parameters.{}", error.field)))
+            }
+            ImportError::Document(DocumentError::Later(what)) => {
+                return Self::new(ProblemCode::Refused, OpenError::Later(what.clone()).to_string());
             }
             ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None),
         };

@@ -168,18 +168,10 @@ pub(super) async fn saved_document(
 /// A snapshot of a new session that goes on with a saved tree.
 async fn planted(shared: &Shared, tree: &str, version: u32) -> Result<Vec<u8>, Failure> {
     let document = saved_document(shared, tree, version).await?;
-    let version = document.simulation_version;
-    if version > SIMULATION_VERSION {
-        return Err(Failure::conflict(format!(
-            "A newer Espalier saved this tree (simulation {version}; this one has {SIMULATION_VERSION}): update the server."
-        )));
-    }
     let budget = shared.metamer_budget;
     let planted = shared.pool.run(move || Session::first_snapshot(&document.bytes, budget)).await?;
     planted.map_err(|error| match error {
-        RestoreError::Document(DocumentError::Later(what)) => {
-            Failure::conflict(format!("A newer Espalier saved this tree ({what}): update the server."))
-        }
+        error @ RestoreError::Document(DocumentError::Later(_)) => OpenError::from(error).into(),
         RestoreError::Document(error) => unreadable(tree, &error),
         error => unreadable(tree, &error),
     })

@@ -22,15 +22,7 @@ pub enum OpenError {
     /// What was read is not a session.
     #[error("The session cannot be restored: {0}.")]
     Restore(#[source] RestoreError),
-    /// A newer program made it.
-    #[error(
-        "A newer Espalier made this tree (simulation {found}; this one has {SIMULATION_VERSION}): update the server."
-    )]
-    Newer {
-        /// The version of the simulation it was made with.
-        found: u32,
-    },
-    /// A newer program wrote its snapshot or its journal, in a way that this one cannot read.
+    /// A newer program wrote its snapshot, its journal or a saved tree, in a way that this one cannot read.
     #[error("A newer Espalier made this tree ({0}): update the server.")]
     Later(String),
     /// Restoring it panicked.
@@ -118,9 +110,6 @@ async fn restore(
     lease: &Lease,
     stored: StoredSession,
 ) -> Result<Session, OpenError> {
-    if stored.newest_version > SIMULATION_VERSION {
-        return Err(OpenError::Newer { found: stored.newest_version });
-    }
     let last = stored.through + stored.entries.len() as u64;
     tracing::info!(session = name, entries = stored.entries.len(), last, "loading");
     let fresh = notices(&stored);
@@ -162,8 +151,8 @@ async fn restore(
 
 /// What everybody who comes into the session is notified of.
 fn notices(stored: &StoredSession) -> Vec<Notice> {
-    let older = stored.oldest_entries.filter(|&version| version < SIMULATION_VERSION);
-    let regrown = older.map(|from| Notice::Regrown { from, to: SIMULATION_VERSION });
+    let other = stored.simulations.iter().find(|&&version| version != SIMULATION_VERSION);
+    let regrown = other.map(|&from| Notice::Regrown { from, to: SIMULATION_VERSION });
     let lost = stored.damage.iter().filter_map(|damage| match *damage {
         Damage::Journal(entry) => Some(Notice::Damaged { entry }),
         // What it contained has been done again.

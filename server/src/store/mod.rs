@@ -179,10 +179,8 @@ pub struct StoredSession {
     pub through: u64,
     /// The entries after that snapshot.
     pub entries: Vec<JournalEntry>,
-    /// The greatest version of the simulation that any of this was made by.
-    pub newest_version: u32,
-    /// The least version that any of the entries was made by; none without entries.
-    pub oldest_entries: Option<u32>,
+    /// The versions of the simulation that the entries were made by.
+    pub simulations: BTreeSet<u32>,
     /// What of it is damaged or missing.
     pub damage: Vec<Damage>,
     /// What nobody has been notified of yet.

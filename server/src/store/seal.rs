@@ -221,7 +221,6 @@ impl Found {
         let lost = expected.filter(|_| expected > newest).map(Damage::Snapshot);
         let mut stored = StoredSession {
             seed: row.seed,
-            newest_version: row.simulation_version,
             notices: row.notices(),
             written_by: row.written_by.clone(),
             damage: lost.into_iter().chain(passed_over).collect(),
@@ -229,7 +228,7 @@ impl Found {
         };
         match snapshot {
             Some(snapshot) => {
-                (stored.through, stored.newest_version) = (snapshot.through, snapshot.simulation_version);
+                stored.through = snapshot.through;
                 stored.snapshot = Some(snapshot.bytes);
             }
             // The journal alone is no way back: what came before the oldest snapshot may be gone, or a saved tree.
@@ -248,10 +247,7 @@ impl Found {
             stored.entries.extend(entries.into_iter().filter(|entry| entry.number >= next));
             if end > next {
                 next = end;
-                let version = journal.simulation_version;
-                stored.newest_version = stored.newest_version.max(version);
-                stored.oldest_entries =
-                    Some(stored.oldest_entries.map_or(version, |oldest| oldest.min(version)));
+                stored.simulations.insert(journal.simulation_version);
             }
             if next <= journal.last {
                 stored.damage.push(Damage::Journal(next));

@@ -9,6 +9,7 @@ mod exports;
 mod guiding;
 mod handshake;
 mod imports;
+mod later_programs;
 mod library;
 mod obstacles;
 mod shaping;

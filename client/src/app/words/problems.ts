@@ -153,8 +153,8 @@ export const PROBLEMS = {
   ],
   "problems.session-damaged": ["The record of this tree is damaged.", "Die Aufzeichnung dieses Baums ist beschädigt."],
   "problems.regrown": [
-    "Espalier was updated while this tree was open. The last strokes have been grown again by the new rules.",
-    "Espalier wurde aktualisiert, während dieser Baum offen war. Die letzten Striche sind nach den neuen Regeln neu gewachsen.",
+    "Another version of Espalier was at work on this tree. The last strokes have been grown again by the rules of this one.",
+    "An diesem Baum hat eine andere Version von Espalier gearbeitet. Die letzten Striche sind nach den Regeln von dieser neu gewachsen.",
   ],
   "problems.damaged": [
     "The last part of this tree’s record was damaged. You see the tree as it was before; the rest is kept on the server.",

@@ -351,6 +351,8 @@ async fn set_aside(
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeSet;
+
     use super::super::{
         super::{
             Store,
@@ -381,7 +383,7 @@ mod tests {
         store.append(&lease, 9, &entries(1..=2)).await.unwrap();
         store.sql("UPDATE journal SET checksum = NULL, simulation_version = NULL".into()).await;
         let stored = store.load_session("oak", None).await.unwrap().unwrap();
-        assert_eq!((stored.entries, stored.oldest_entries), (entries(1..=2), Some(3)));
+        assert_eq!((stored.entries, stored.simulations), (entries(1..=2), BTreeSet::from([3])));
         for nonsense in ["x'ff'", "'[]'", "'[[\"browser-1\",1]]'", "'{'"] {
             store.sql(format!("UPDATE journal SET entries = CAST({nonsense} AS TEXT)")).await;
             let stored = store.load_session("oak", None).await.unwrap().unwrap();
