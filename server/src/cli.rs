@@ -9,8 +9,8 @@ use espalier_settings::{ParameterValues, ParametersPatch};
 
 use crate::{
     document::{FORMATS, FormatRow},
+    export_options::ExportOptions,
     import,
-    order::Order,
 };
 
 const EXAMPLES: &str = "\
@@ -192,7 +192,7 @@ pub struct Results {
     #[arg(long, value_name = "OUT", value_parser = parse_export)]
     pub export: Option<Export>,
     #[command(flatten)]
-    pub order: Order,
+    pub options: ExportOptions,
     /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
     #[arg(long, value_name = "FORMAT")]
     pub stats: Option<Stats>,

@@ -13,7 +13,7 @@ use espalier_proto::library::ExportFormat;
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
 
-use crate::order::{Order, Size, option};
+use crate::export_options::{ExportOptions, Size, option};
 
 /// Pixels of a picture across and down.
 const PICTURE: Size = Size(1000, 1000);
@@ -170,25 +170,30 @@ impl Stored {
     }
 
     /// About how many bytes its file has.
-    pub fn expected(&self, row: &FormatRow, order: &Order) -> u64 {
+    pub fn expected(&self, row: &FormatRow, options: &ExportOptions) -> u64 {
         use espalier_export::Detail;
         let leaves = f64::from(style_options(&self.0.parameters()).leaves_per_node);
         let metamers = f64::from(self.0.metamers());
-        let level = match order.model().detail {
+        let level = match options.model().detail {
             Detail::Set => LEVELS.iter().sum(),
             Detail::Level(level) => LEVELS[usize::from(level)],
         };
         let [least, metamer, leaf] = row.bytes;
-        let given = order.given();
+        let given = options.given();
         let shares = SHARES.iter().filter(|(option, _)| given.contains(option));
         let [wood, foliage] = shares.fold([1.0, 1.0], |[a, b], (_, [c, d])| [a * c, b * d]);
-        let least = least * f64::from(order.frames.unwrap_or(1));
+        let least = least * f64::from(options.frames());
         (least + level * metamers * (metamer * wood + 0.5 * leaves * leaf * foliage)) as u64
     }
 
     /// Writes its file.
-    pub fn write(&mut self, format: Format, order: &Order, out: &mut dyn Sink) -> Result<(), ExportError> {
-        write(&mut self.0, None, format, order, out)
+    pub fn write(
+        &mut self,
+        format: Format,
+        options: &ExportOptions,
+        out: &mut dyn Sink,
+    ) -> Result<(), ExportError> {
+        write(&mut self.0, None, format, options, out)
     }
 }
 
@@ -197,7 +202,7 @@ pub fn write(
     document: &mut Document,
     species: Option<&'static Species>,
     format: Format,
-    order: &Order,
+    options: &ExportOptions,
     out: &mut dyn Sink,
 ) -> Result<(), ExportError> {
     let (parameters, appearance) = (document.parameters(), *document.appearance());
@@ -210,10 +215,10 @@ pub fn write(
         species: species.map(|species| species.name),
         seed: Some(seed),
         parameters: &parameters,
-        author: order.author.as_deref(),
-        licence: order.licence.as_deref(),
+        author: options.author.as_deref(),
+        licence: options.licence.as_deref(),
     };
-    let model = order.model();
+    let model = options.model();
     match format {
         Format::Glb => espalier_export::glb(document.portrait(), &style, &appearance, &about, &model, out),
         Format::Obj => espalier_export::obj(document.portrait(), &style, &appearance, &about, &model, out),
@@ -227,21 +232,21 @@ pub fn write(
         Format::Mtg => espalier_export::mtg(document.plant(), &style, metres, out),
         Format::Qsm => espalier_export::qsm_csv(document.plant(), &style, metres, out),
         Format::Cloud => {
-            let sampling = Sampling { points: order.points(), seed };
+            let sampling = Sampling { points: options.points(), seed };
             espalier_export::ply(document.portrait(), &style, &appearance, metres, sampling, out)
         }
         Format::Document => Ok(out.write_all(&document.to_saved_bytes())?),
         Format::Picture => {
             let stand = species.map(|species| species.stand).unwrap_or_default();
             let look = Look { appearance, stand };
-            let Size(width, height) = order.size.unwrap_or(PICTURE);
-            let frames = order.frames.unwrap_or(1);
+            let Size(width, height) = options.size.unwrap_or(PICTURE);
+            let frames = options.frames();
             picture::turntable(
                 document.portrait(),
                 &style,
                 &look,
                 [width, height],
-                order.camera(),
+                options.camera(),
                 frames,
                 out,
             )

@@ -119,11 +119,11 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::{document as exports, order::Order};
+    use crate::{document as exports, export_options::ExportOptions};
 
     fn exported(document: &mut Document, format: exports::Format) -> Vec<u8> {
-        let order = Order::default();
-        let written = espalier_export::in_memory(|out| exports::write(document, None, format, &order, out));
+        let options = ExportOptions::default();
+        let written = espalier_export::in_memory(|out| exports::write(document, None, format, &options, out));
         written.unwrap_or_else(|error| panic!("{error}"))
     }
 

@@ -4,6 +4,7 @@ mod announce;
 mod authority;
 mod cli;
 mod document;
+mod export_options;
 mod headless;
 mod http;
 mod import;
@@ -11,7 +12,6 @@ mod listener;
 mod live;
 mod maintenance;
 mod name;
-mod order;
 mod pool;
 mod portrait;
 mod serve;
@@ -58,7 +58,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         HeadlessError::Script(_)
         | HeadlessError::Read { .. }
         | HeadlessError::Import { .. }
-        | HeadlessError::Order(_)
+        | HeadlessError::Options(_)
         | HeadlessError::Parameters(_) => ExitCode::from(USAGE),
         _ => ExitCode::FAILURE,
     }

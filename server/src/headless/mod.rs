@@ -21,8 +21,9 @@ pub use self::species::species;
 use self::{bench::Bench, script::ScriptError};
 use crate::{
     cli::{self, Export, Grow, Replay, Results, Start},
-    document, import as imports,
-    order::{Order, OrderError},
+    document,
+    export_options::{ExportOptions, NotOfFormat},
+    import as imports,
     pool::SimulationPool,
 };
 
@@ -66,7 +67,7 @@ pub enum HeadlessError {
     },
     /// The format has no such option.
     #[error("The export cannot be done: {0}.")]
-    Order(#[from] OrderError),
+    Options(#[from] NotOfFormat),
     /// The result does not fit its format.
     #[error("The export failed: {0}.")]
     Export(#[from] ExportError),
@@ -171,8 +172,8 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
 }
 
 /// Whether the export can be done, before anything grows.
-fn check(results: &Results) -> Result<(), OrderError> {
-    results.export.as_ref().map_or(Ok(()), |export| results.order.check(export.row.options))
+fn check(results: &Results) -> Result<(), NotOfFormat> {
+    results.export.as_ref().map_or(Ok(()), |export| results.options.check(export.row.options))
 }
 
 /// A seedling as the options want it.
@@ -194,7 +195,7 @@ fn write(
     document: &mut Document,
     species: Option<&'static Species>,
     Export { path, row }: &Export,
-    order: &Order,
+    options: &ExportOptions,
 ) -> Result<(), HeadlessError> {
     let failed = |cause| HeadlessError::Write { path: path.clone(), cause };
     let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
@@ -203,7 +204,7 @@ fn write(
     file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let file = file.tempfile_in(folder).map_err(failed)?;
     let mut out = BufWriter::new(file);
-    match document::write(document, species, row.format, order, &mut out) {
+    match document::write(document, species, row.format, options, &mut out) {
         Err(ExportError::Write(kind)) => return Err(failed(kind.into())),
         written => written?,
     }
@@ -229,7 +230,7 @@ fn finish(
     let mut stats = bench.stats();
     if let Some(export) = &results.export {
         let begun = Instant::now();
-        write(bench.document_mut(), species, export, &results.order)?;
+        write(bench.document_mut(), species, export, &results.options)?;
         stats.exported(begun.elapsed());
     }
     let text = if results.stats.is_some() { stats.to_json() } else { stats.summary() };

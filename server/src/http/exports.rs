@@ -32,7 +32,7 @@ use super::{
 };
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
-    order::{Order, OrderError, option},
+    export_options::{ExportOptions, NotOfFormat},
     spool::Spool,
 };
 
@@ -106,11 +106,11 @@ pub(super) async fn progress(
 pub(super) async fn take(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-    Query(said): Query<BTreeMap<String, String>>,
+    Query(mut options): Query<ExportOptions>,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    let (ticket, order) = read(said, row)?;
-    let (progress, held) = shared.progresses.hold(ticket)?;
+    options.check(row.options).map_err(|error| not_of(row, &error))?;
+    let (progress, held) = shared.progresses.hold(options.ticket.take())?;
     let document = open(&shared, &session).await?.read().await?;
     // Whoever goes away takes this along, and with it what is being made.
     let stop = CancellationToken::new();
@@ -119,7 +119,7 @@ pub(super) async fn take(
     let (pieces, to_send) = mpsc::channel(WAITING);
     let pool = shared.pool.clone();
     tokio::task::spawn_blocking(move || {
-        let file = make(&document.bytes, row, &order, &progress, |written| Spool::new(pool, stop, written));
+        let file = make(&document.bytes, row, &options, &progress, |written| Spool::new(pool, stop, written));
         drop((document, held));
         let (file, length) = match file {
             Ok(file) => file,
@@ -151,14 +151,14 @@ pub(super) async fn take(
 fn make(
     bytes: &[u8],
     row: &FormatRow,
-    order: &Order,
+    options: &ExportOptions,
     progress: &Progress,
     spool: impl FnOnce(Arc<AtomicU64>) -> io::Result<Spool>,
 ) -> Result<(File, u64), FileError> {
     let mut stored = Stored::read(bytes)?;
-    progress.expected.store(stored.expected(row, order), Ordering::Relaxed);
+    progress.expected.store(stored.expected(row, options), Ordering::Relaxed);
     let mut out = spool(Arc::clone(&progress.written))?;
-    stored.write(row.format, order, &mut out)?;
+    stored.write(row.format, options, &mut out)?;
     Ok(out.into_file()?)
 }
 
@@ -177,32 +177,12 @@ fn send(mut file: impl Read, pieces: &mpsc::Sender<io::Result<Bytes>>) {
     }
 }
 
-fn read(mut said: BTreeMap<String, String>, row: &FormatRow) -> Result<(Option<String>, Order), Failure> {
-    let ticket = said.remove("ticket");
-    let order: Order = parsed(said)?;
-    order.check(row.options).map_err(|error| {
-        let allowed = match &error {
-            OrderError::NotOfFormat(_) => row.options.join(", "),
-            OrderError::OutOfRange(_, allowed) => allowed.clone(),
-        };
-        Problem {
-            field: Some(error.option().to_owned()),
-            allowed: Some(allowed),
-            ..Problem::new(ProblemCode::OutOfRange, format!("The export cannot be done: {error}."))
-        }
-    })?;
-    Ok((ticket, order))
-}
-
-/// Texts as an order: numbers and switches are written as in JSON.
-fn parsed(said: BTreeMap<String, String>) -> Result<Order, Failure> {
-    let value = |(name, text): (String, String)| {
-        let is_plain = option::PLAIN.contains(&name.as_str());
-        let plain = is_plain.then(|| serde_json::from_str(&text).ok()).flatten();
-        (name, plain.unwrap_or(serde_json::Value::String(text)))
-    };
-    let object: serde_json::Map<_, _> = said.into_iter().map(value).collect();
-    serde_json::from_value(object.into()).map_err(|error| {
-        Problem::new(ProblemCode::Malformed, format!("The request cannot be read: {error}.")).into()
-    })
+fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
+    let allowed = if row.options.is_empty() { "no option".to_owned() } else { row.options.join(", ") };
+    Problem {
+        field: Some(error.0.to_owned()),
+        message: format!("The export cannot be done: {error}; allowed: {allowed}."),
+        allowed: Some(allowed),
+        code: ProblemCode::OutOfRange,
+    }
 }

@@ -1,14 +1,17 @@
 //! What can be asked for about an export, on the command line and in a request alike.
 
-use std::{fmt, str::FromStr};
+use std::str::FromStr;
 
 use clap::Args;
 use espalier_export::{Detail, Model, picture::Camera};
+use espalier_proto::NotAllowed;
 use serde::Deserialize;
 
 /// The most pixels of a picture: each takes some 170 bytes while it is drawn.
 const MOST_PIXELS: usize = 4_000_000;
+/// The most pictures of a turntable.
 const MOST_FRAMES: u16 = 180;
+/// The most points of a cloud.
 const MOST_POINTS: u32 = 20_000_000;
 /// Points of a cloud: some two thousand a square metre of a grown tree.
 const POINTS: u32 = 1_000_000;
@@ -16,7 +19,7 @@ const POINTS: u32 = 1_000_000;
 /// Options of an export; each format has some of them.
 #[derive(Clone, Debug, Default, PartialEq, Args, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Order {
+pub struct ExportOptions {
     /// How finely triangles are written: 0, 1, 2, 3 (crossed cards), or `set` for all four in one file.
     #[arg(long, value_name = "LEVEL", requires = "export")]
     pub lod: Option<Lod>,
@@ -40,22 +43,25 @@ pub struct Order {
     pub size: Option<Size>,
     /// Degrees by which the eye goes around the tree, from the front to the right.
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, requires = "export")]
-    pub turn: Option<Degrees>,
+    pub turn: Option<Turn>,
     /// Degrees by which the eye stands above the horizon, 1 to 80.
     #[arg(long, value_name = "DEGREES", requires = "export")]
-    pub rise: Option<Degrees>,
+    pub rise: Option<Rise>,
     /// Pictures of a turntable, which make the PNG file an animated one.
     #[arg(long, value_name = "N", requires = "export")]
-    pub frames: Option<u16>,
+    pub frames: Option<Frames>,
     /// Points of a cloud.
     #[arg(long, value_name = "N", requires = "export")]
-    pub points: Option<u32>,
+    pub points: Option<Points>,
     /// Say who made the plants.
     #[arg(long, value_name = "NAME", requires = "export")]
     pub author: Option<String>,
     /// Say under which licence they may be used, by its SPDX name.
     #[arg(long, value_name = "LICENCE", requires = "export")]
     pub licence: Option<String>,
+    /// The name under which a client asks how far its export is (`EX3`).
+    #[arg(skip)]
+    pub ticket: Option<String>,
 }
 
 /// Names of options, as formats list them.
@@ -77,11 +83,9 @@ pub mod option {
     pub const MESHES: &[&str] = &[LOD, HULL, BY_LIMB, AUTHOR, LICENCE];
     /// Those of USD.
     pub const SCENES: &[&str] = &[LOD, INSTANCED, HULL, BY_LIMB, AUTHOR, LICENCE];
-    /// Those whose values are numbers and switches, not texts.
-    pub const PLAIN: &[&str] = &[QUANTISED, COMPRESSED, INSTANCED, HULL, BY_LIMB, FRAMES, POINTS];
 }
 
-impl Order {
+impl ExportOptions {
     /// The names of the options that are given.
     pub fn given(&self) -> Vec<&'static str> {
         let all = [
@@ -102,21 +106,10 @@ impl Order {
         all.into_iter().filter(|(_, is_given)| *is_given).map(|(name, _)| name).collect()
     }
 
-    /// Whether a format that has these options can do it, and all numbers are in range.
-    pub fn check(&self, options: &[&str]) -> Result<(), OrderError> {
-        if let Some(name) = self.given().into_iter().find(|name| !options.contains(name)) {
-            return Err(OrderError::NotOfFormat(name));
-        }
-        if self.rise.is_some_and(|rise| !(1.0..=80.0).contains(&rise.0)) {
-            return Err(OrderError::OutOfRange(option::RISE, "1 to 80".into()));
-        }
-        if self.frames.is_some_and(|frames| !(1..=MOST_FRAMES).contains(&frames)) {
-            return Err(OrderError::OutOfRange(option::FRAMES, format!("1 to {MOST_FRAMES}")));
-        }
-        if self.points.is_some_and(|points| !(1..=MOST_POINTS).contains(&points)) {
-            return Err(OrderError::OutOfRange(option::POINTS, format!("1 to {MOST_POINTS}")));
-        }
-        Ok(())
+    /// Whether a format with these options has all that are given.
+    pub fn check(&self, options: &[&str]) -> Result<(), NotOfFormat> {
+        let other = self.given().into_iter().find(|name| !options.contains(name));
+        other.map_or(Ok(()), |name| Err(NotOfFormat(name)))
     }
 
     /// What it says about triangles.
@@ -135,101 +128,77 @@ impl Order {
         }
     }
 
+    /// Pictures of a turntable.
+    pub fn frames(&self) -> u16 {
+        self.frames.map_or(1, |frames| frames.0)
+    }
+
     /// Points of a cloud.
     pub fn points(&self) -> u32 {
-        self.points.unwrap_or(POINTS)
+        self.points.map_or(POINTS, |points| points.0)
     }
 }
 
-/// An order that cannot be done.
+/// An option that the format does not have.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-pub enum OrderError {
-    /// The format does not have this option.
-    #[error("this format has no option `{0}`")]
-    NotOfFormat(&'static str),
-    /// A number is too small or too large.
-    #[error("{0} is out of range; allowed: {1}")]
-    OutOfRange(&'static str, String),
-}
+#[error("this format has no option `{0}`")]
+pub struct NotOfFormat(pub &'static str);
 
-impl OrderError {
-    /// The option that is wrong.
-    pub fn option(&self) -> &'static str {
-        match self {
-            Self::NotOfFormat(option) | Self::OutOfRange(option, _) => option,
-        }
-    }
-}
+/// Declares what an option can be: a text becomes a value, or is none of what is allowed.
+macro_rules! values {
+    ($($(#[doc = $doc:literal])+ $name:ident($($type:ty),+): $allowed:expr, $read:expr;)+) => {$(
+        $(#[doc = $doc])+
+        #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+        #[serde(try_from = "String")]
+        pub struct $name($(pub $type),+);
 
-/// A level of detail, or all.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-pub struct Lod(pub Detail);
-
-impl FromStr for Lod {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "set" {
-            return Ok(Self(Detail::Set));
-        }
-        let level = text.parse().ok().filter(|level| *level <= Detail::BILLBOARD);
-        level
-            .map(|level| Self(Detail::Level(level)))
-            .ok_or_else(|| "lod must be 0, 1, 2, 3 or set".to_owned())
-    }
-}
-
-/// Pixels across and down.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(try_from = "String")]
-pub struct Size(pub usize, pub usize);
-
-impl FromStr for Size {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let sides = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
-        let fits = |&(w, h): &(usize, usize)| w >= 16 && h >= 16 && w.saturating_mul(h) <= MOST_PIXELS;
-        let (width, height) = sides.filter(fits).ok_or_else(|| {
-            format!("size must be WIDTHxHEIGHT, 16 or more each and {MOST_PIXELS} pixels at most")
-        })?;
-        Ok(Self(width, height))
-    }
-}
-
-/// A finite angle.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(try_from = "String")]
-pub struct Degrees(pub f32);
-
-impl FromStr for Degrees {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let angle = text.parse().ok().filter(|angle: &f32| angle.abs() <= 3600.0);
-        angle.map(Self).ok_or_else(|| "it must be an angle in degrees".to_owned())
-    }
-}
-
-macro_rules! from_text {
-    ($($name:ty),*) => {$(
         impl TryFrom<String> for $name {
-            type Error = String;
+            type Error = NotAllowed;
 
-            fn try_from(text: String) -> Result<Self, String> {
-                text.parse()
+            fn try_from(text: String) -> Result<Self, NotAllowed> {
+                let read: fn(&str) -> Option<Self> = $read;
+                read(&text).ok_or_else(|| NotAllowed::new(text, $allowed))
             }
         }
-    )*};
+
+        impl FromStr for $name {
+            type Err = String;
+
+            fn from_str(text: &str) -> Result<Self, String> {
+                Self::try_from(text.to_owned()).map_err(|error| format!("allowed: {}", error.allowed))
+            }
+        }
+    )+};
 }
 
-from_text!(Lod, Size, Degrees);
+values! {
+    /// A level of detail, or all.
+    Lod(Detail): "0, 1, 2, 3 or set", |text| match text {
+        "set" => Some(Self(Detail::Set)),
+        level => {
+            let level = level.parse().ok().filter(|level| *level <= Detail::BILLBOARD);
+            level.map(|level| Self(Detail::Level(level)))
+        }
+    };
+    /// Pixels across and down.
+    Size(usize, usize): format!("WIDTHxHEIGHT, 16 or more each and {MOST_PIXELS} pixels at most"), |text| {
+        let (width, height) = text.split_once('x')?;
+        let (width, height): (usize, usize) = (width.parse().ok()?, height.parse().ok()?);
+        let fits = width >= 16 && height >= 16 && width.saturating_mul(height) <= MOST_PIXELS;
+        fits.then_some(Self(width, height))
+    };
+    /// Degrees to the right.
+    Turn(f32): "-3600 to 3600", |text| number(text, -3600.0, 3600.0).map(Self);
+    /// Degrees above the horizon.
+    Rise(f32): "1 to 80", |text| number(text, 1.0, 80.0).map(Self);
+    /// Pictures of a turntable.
+    Frames(u16): format!("1 to {MOST_FRAMES}"), |text| number(text, 1, MOST_FRAMES).map(Self);
+    /// Points of a cloud.
+    Points(u32): format!("1 to {MOST_POINTS}"), |text| number(text, 1, MOST_POINTS).map(Self);
+}
 
-impl fmt::Display for Size {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}x{}", self.0, self.1)
-    }
+fn number<T: FromStr + PartialOrd>(text: &str, least: T, most: T) -> Option<T> {
+    text.parse().ok().filter(|number| (least..=most).contains(number))
 }
 
 #[cfg(test)]
@@ -241,21 +210,24 @@ mod tests {
         assert_eq!("set".parse(), Ok(Lod(Detail::Set)));
         assert_eq!("2".parse(), Ok(Lod(Detail::Level(2))));
         assert_eq!("640x480".parse(), Ok(Size(640, 480)));
+        assert_eq!("-30".parse(), Ok(Turn(-30.0)));
         for bad in ["", "4", "-1", "all"] {
-            assert!(bad.parse::<Lod>().is_err(), "{bad}");
+            assert_eq!(bad.parse::<Lod>(), Err("allowed: 0, 1, 2, 3 or set".into()), "{bad}");
         }
         for bad in ["640", "0x9", "9999999999x9999999999", "4000x4000", "axb"] {
             assert!(bad.parse::<Size>().is_err(), "{bad}");
         }
-        assert!("NaN".parse::<Degrees>().is_err() && "-30".parse::<Degrees>().is_ok());
+        assert!("NaN".parse::<Turn>().is_err() && "81".parse::<Rise>().is_err());
+        for bad in ["0", "181", "70000", "1.5", ""] {
+            assert!(bad.parse::<Frames>().is_err_and(|error| error == "allowed: 1 to 180"), "{bad}");
+        }
+        assert!("20000001".parse::<Points>().is_err());
     }
 
     #[test]
     fn a_format_refuses_what_it_has_not() {
-        let order = Order { hull: true, ..Order::default() };
-        assert_eq!(order.check(&[option::LOD]), Err(OrderError::NotOfFormat("hull")));
-        assert_eq!(order.check(&[option::HULL]), Ok(()));
-        let order = Order { frames: Some(0), ..Order::default() };
-        assert_eq!(order.check(&[option::FRAMES]).unwrap_err().option(), "frames");
+        let options = ExportOptions { hull: true, ..ExportOptions::default() };
+        assert_eq!(options.check(&[option::LOD]), Err(NotOfFormat("hull")));
+        assert_eq!(options.check(&[option::HULL]), Ok(()));
     }
 }
