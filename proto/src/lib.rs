@@ -23,6 +23,7 @@ pub mod protocol_tables;
 pub mod reading;
 pub mod schematic;
 pub mod species;
+pub mod thumbnail;
 pub mod timeline;
 pub mod typescript;
 pub mod varint;

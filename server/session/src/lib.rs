@@ -8,6 +8,7 @@ mod appearance;
 mod author;
 mod cause;
 mod clients;
+mod command_script;
 mod document;
 mod form;
 mod io;
@@ -27,6 +28,7 @@ mod to_proto;
 mod window;
 mod work;
 
+pub use command_script::{ScriptError, read_commands};
 pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError};
 pub use form::read_command;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadDocument, ReadId};

@@ -1,7 +1,6 @@
 //! Growing without a server: `espalier replay` and `espalier grow`.
 
 mod bench;
-mod script;
 mod species;
 mod stats;
 
@@ -15,10 +14,10 @@ use std::{
 use espalier_export::ExportError;
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Species};
 use espalier_proto::{Action, Command, Problem, Steps};
-use espalier_session::Document;
+use espalier_session::{Document, ScriptError, read_commands};
 
+use self::bench::Bench;
 pub use self::species::species;
-use self::{bench::Bench, script::ScriptError};
 use crate::{
     cli::{self, Export, Grow, Replay, Results, Start},
     document,
@@ -94,7 +93,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         read(&options.script).map_err(|cause| HeadlessError::Read { path: options.script.clone(), cause })?;
     let name = options.script.display().to_string();
     // All lines are read before the first is done: a typo at the end should not cost the time of the rest.
-    let script = script::parse(&name, &bytes)?;
+    let script = read_commands(&name, &bytes)?;
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         let mut bench =
             bench(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?, &options.results);

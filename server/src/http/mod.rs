@@ -12,7 +12,6 @@ mod schematic;
 mod sessions;
 mod species;
 mod text;
-mod thumbnail;
 mod trees;
 mod versions;
 

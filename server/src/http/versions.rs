@@ -9,6 +9,7 @@ use axum::{
 use espalier_proto::{
     Problem,
     library::{ChangeVersion, RestoreVersion, SaveVersion, TreeVersion},
+    thumbnail,
 };
 use espalier_session::Principal;
 use serde::Deserialize;
@@ -17,7 +18,7 @@ use super::{
     Shared,
     failure::{Body, Failure, Query},
     revision::{self, Expected},
-    sessions, text, thumbnail,
+    sessions, text,
     trees::{self, limit_of, now},
 };
 use crate::{
@@ -67,7 +68,8 @@ pub(super) async fn read(
     saving: Saving,
 ) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
-    let thumbnail = thumbnail.as_deref().map(thumbnail::parse).transpose()?;
+    let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose();
+    let thumbnail = thumbnail.map_err(Failure::of_thumbnail)?;
     let said = Said::parse(author.as_deref(), note.as_deref())?;
     shared.ask(principal, Action::TakeTree, Object::Session(&session))?;
     let read = sessions::open(shared, &session).await?.read().await?;

@@ -1,5 +1,7 @@
 //! The library: trees, each with the versions that were saved of it.
 
+pub use espalier_proto::thumbnail::Picture;
+
 use super::{StoreError, TreeQuery};
 
 /// Keeps trees. What a call that writes has returned from is durable. A change of a tree may name the revision that it
@@ -50,15 +52,6 @@ pub trait Library {
 
     /// Gives up for good so many trees at most that were deleted before a time; says how many.
     async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError>;
-}
-
-/// A picture as it was handed in.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Picture {
-    /// `image/png`, `image/jpeg` or `image/webp`.
-    pub media_type: String,
-    /// The file.
-    pub bytes: Vec<u8>,
 }
 
 /// A document that was saved.

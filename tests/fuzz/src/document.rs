@@ -1,5 +1,7 @@
 //! Documents, as saved trees and snapshots hold them.
 
+use std::{fs, path::Path};
+
 use espalier_proto::{Action, Command};
 use espalier_session::{Document, Session, read_command};
 
@@ -25,8 +27,26 @@ pub fn read(bytes: &[u8]) -> bool {
     true
 }
 
-/// A tree with a history and a future, as it is saved, and as the first snapshot of a session.
+/// What each release wrote; a tree with a history and a future, as it is saved, and as the first snapshot of a session.
 pub fn seeds() -> Vec<Vec<u8>> {
+    kept().into_iter().chain(own()).collect()
+}
+
+/// The documents and snapshots in `tests/kept`.
+fn kept() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../kept");
+    let releases = fs::read_dir(folder).into_iter().flatten().flatten().map(|release| release.path());
+    let mut files: Vec<_> = releases
+        .flat_map(|release| ["tree.document", "session.snapshot"].map(|name| release.join(name)))
+        .filter_map(|file| fs::read(file).ok())
+        .collect();
+    // Folders come in any order.
+    files.sort();
+    files
+}
+
+/// A tree with a history and a future, as it is saved, and as the first snapshot of a session.
+fn own() -> Vec<Vec<u8>> {
     let mut document = Document::new(SEED);
     document.set_metamer_budget(METAMERS);
     for line in command::lines() {

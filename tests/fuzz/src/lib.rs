@@ -14,7 +14,10 @@ pub mod mesh;
 pub mod message;
 pub mod mtg;
 pub mod qsm;
+pub mod script;
+pub mod section;
 pub mod skeleton;
+pub mod thumbnail;
 mod wood;
 
 /// A reader.
@@ -29,7 +32,7 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 13] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
@@ -39,7 +42,10 @@ pub const TARGETS: [Target; 10] = [
     Target { name: "message", read: message::read, seeds: message::seeds },
     Target { name: "mtg", read: mtg::read, seeds: mtg::seeds },
     Target { name: "qsm", read: qsm::read, seeds: qsm::seeds },
+    Target { name: "script", read: script::read, seeds: script::seeds },
+    Target { name: "section", read: section::read, seeds: section::seeds },
     Target { name: "skeleton", read: skeleton::read, seeds: skeleton::seeds },
+    Target { name: "thumbnail", read: thumbnail::read, seeds: thumbnail::seeds },
 ];
 
 /// A session's document may hold so many metamers, so that growth takes no time.

@@ -153,6 +153,21 @@ fn documents_survive_damage() {
 }
 
 #[test]
+fn sections_survive_damage() {
+    check("section", 1000);
+}
+
+#[test]
+fn scripts_survive_damage() {
+    check("script", 5000);
+}
+
+#[test]
+fn thumbnails_survive_damage() {
+    check("thumbnail", 10000);
+}
+
+#[test]
 fn frames_survive_damage() {
     check("frame", 10000);
 }

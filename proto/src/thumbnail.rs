@@ -1,16 +1,27 @@
-//! Pictures that come as data URLs.
+//! Pictures of saved trees, which come as data URLs.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
-use espalier_proto::{Problem, ProblemCode};
 
-use super::failure::Failure;
-use crate::store::Picture;
+use crate::problem::{Problem, ProblemCode};
 
 const MAX_BYTES: usize = 192 * 1024;
 const ALLOWED: &str = "a PNG, JPEG or WebP picture as a base64 data URL";
 
+/// A picture that a browser shows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    /// `image/png`, `image/jpeg` or `image/webp`.
+    pub media_type: String,
+    /// The file.
+    pub bytes: Vec<u8>,
+}
+
 /// Reads a data URL. What it claims to be must be what its first bytes say, since browsers will trust the claim.
-pub(super) fn parse(url: &str) -> Result<Picture, Failure> {
+///
+/// # Errors
+///
+/// It is no such picture, or too large a one (`TooMany`).
+pub fn from_data_url(url: &str) -> Result<Picture, Problem> {
     let (media_type, encoded) =
         url.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")).ok_or_else(refused)?;
     if encoded.len() > MAX_BYTES.div_ceil(3) * 4 {
@@ -29,19 +40,23 @@ pub(super) fn parse(url: &str) -> Result<Picture, Failure> {
     if is_what_it_claims { Ok(Picture { media_type: media_type.into(), bytes }) } else { Err(refused()) }
 }
 
-fn refused() -> Failure {
-    let problem = Problem {
+fn refused() -> Problem {
+    Problem {
         code: ProblemCode::Malformed,
         field: Some("thumbnail".into()),
         allowed: Some(ALLOWED.into()),
         message: format!("thumbnail is not a picture; allowed: {ALLOWED}"),
-    };
-    problem.into()
+    }
 }
 
-fn too_large() -> Failure {
+fn too_large() -> Problem {
     let allowed = format!("at most {} KiB", MAX_BYTES / 1024);
-    Failure::too_large(Some("thumbnail"), &allowed, format!("thumbnail is too large; allowed: {allowed}"))
+    Problem {
+        code: ProblemCode::TooMany,
+        field: Some("thumbnail".into()),
+        message: format!("thumbnail is too large; allowed: {allowed}"),
+        allowed: Some(allowed),
+    }
 }
 
 #[cfg(test)]
@@ -59,7 +74,7 @@ mod tests {
             ("image/jpeg", b"\xff\xd8\xff\xe0..."),
             ("image/webp", b"RIFF\x04\0\0\0WEBPVP8 "),
         ] {
-            let picture = parse(&url(media_type, bytes)).unwrap();
+            let picture = from_data_url(&url(media_type, bytes)).expect("it is a picture");
             assert_eq!((picture.media_type.as_str(), picture.bytes.as_slice()), (media_type, bytes));
         }
     }
@@ -78,7 +93,7 @@ mod tests {
             &disguised,
             &parameters,
         ] {
-            assert_eq!(parse(bad), Err(refused()), "{bad}");
+            assert_eq!(from_data_url(bad), Err(refused()), "{bad}");
         }
     }
 
@@ -86,10 +101,10 @@ mod tests {
     fn the_size_is_limited_to_the_byte() {
         let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
         bytes.resize(MAX_BYTES, 0);
-        assert!(parse(&url("image/png", &bytes)).is_ok());
+        assert!(from_data_url(&url("image/png", &bytes)).is_ok());
         bytes.push(0);
-        assert_eq!(parse(&url("image/png", &bytes)), Err(too_large()));
+        assert_eq!(from_data_url(&url("image/png", &bytes)), Err(too_large()));
         bytes.resize(2 * MAX_BYTES, 0);
-        assert_eq!(parse(&url("image/png", &bytes)), Err(too_large()));
+        assert_eq!(from_data_url(&url("image/png", &bytes)), Err(too_large()));
     }
 }

@@ -1,7 +1,8 @@
 //! Scripts: one command in JSON on each line.
 
 use espalier_proto::{Command, Problem, ProblemCode};
-use espalier_session::read_command;
+
+use crate::form::read_command;
 
 /// A line that cannot be read or done.
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,7 +17,11 @@ pub struct ScriptError {
 }
 
 /// The commands of a script, each with its line; empty lines are none.
-pub fn parse(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Command)>, ScriptError> {
+///
+/// # Errors
+///
+/// A line is no command.
+pub fn read_commands(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Command)>, ScriptError> {
     let numbered = (1..).zip(bytes.split(|&byte| byte == b'\n'));
     numbered
         .filter(|(_, line)| !line.trim_ascii().is_empty())
@@ -40,10 +45,11 @@ mod tests {
 
     #[test]
     fn empty_lines_count_but_do_nothing() {
-        let script = parse("s", b"\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").unwrap();
+        let script =
+            read_commands("s", b"\n{\"kind\":\"undo\"}\r\n  \n{\"kind\":\"redo\"}").expect("a script");
         assert_eq!(script, [(2, Action::Undo {}.into()), (4, Action::Redo {}.into())]);
-        assert_eq!(parse("s", b""), Ok(vec![]));
-        assert_eq!(parse("s", b"{\"kind\":\"undo\"}\n\xff").unwrap_err().line, 2);
+        assert_eq!(read_commands("s", b""), Ok(vec![]));
+        assert_eq!(read_commands("s", b"{\"kind\":\"undo\"}\n\xff").expect_err("no script").line, 2);
     }
 
     #[test]
@@ -53,7 +59,7 @@ mod tests {
         let text = format!(
             "{{\"kind\":\"stroke_begin\",\"stroke\":1}}\n{{\"kind\":\"stroke_move\",\"stroke\":1,\"samples\":[{samples}]}}"
         );
-        let error = parse("script.jsonl", text.as_bytes()).unwrap_err();
+        let error = read_commands("script.jsonl", text.as_bytes()).expect_err("no script");
         assert_eq!(error.to_string(), "script.jsonl line 2: samples[3].radius is 99; allowed: 0 to 40");
     }
 
@@ -67,7 +73,7 @@ mod tests {
             "{\"kind\":\"grow\",\"steps\":-1}",
             "{\"kind\":\"undo\"} x",
         ] {
-            let error = parse("s", bad.as_bytes()).unwrap_err();
+            let error = read_commands("s", bad.as_bytes()).expect_err("no script");
             assert!(error.to_string().starts_with("s line 1: "), "{error}");
         }
     }
