@@ -73,12 +73,7 @@ impl Progresses {
         if !TICKET.contains(&ticket.len()) || self.lock().contains_key(&ticket) {
             let allowed =
                 format!("{} to {} characters that no other export has", TICKET.start(), TICKET.end());
-            return Err(Problem {
-                field: Some("ticket".into()),
-                allowed: Some(allowed),
-                ..Problem::new(ProblemCode::OutOfRange, "ticket is of no use for an export")
-            }
-            .into());
+            return Err(Problem::out_of_range("ticket", "of no use", allowed).into());
         }
         self.lock().insert(ticket.clone(), Arc::clone(&progress));
         Ok((progress, Some(Held(self.clone(), ticket))))

@@ -211,6 +211,8 @@ pub fn router(shared: Shared) -> Router {
 
 #[cfg(test)]
 mod tests {
+    mod refusals;
+
     use std::collections::BTreeSet;
 
     use axum::{

@@ -1,0 +1,188 @@
+//! Every refusal names the field and what is allowed there, at every address that reads a body or a query.
+
+use axum::http::header;
+use espalier_settings::ParameterValues;
+use serde_json::{Value, json};
+
+use super::*;
+
+/// Each address that reads a body as JSON: the fields that may not be left out, and a body with all fields.
+fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
+    let said = json!({ "note": "Pruned", "author": "Ada" });
+    let with = |more: Value| {
+        let mut all = said.clone();
+        all.as_object_mut().unwrap().append(&mut more.as_object().unwrap().clone());
+        all
+    };
+    let parameters = json!(ParameterValues::default());
+    let every = parameters.as_object().unwrap().keys().cloned().collect();
+    let names = |names: &[&str]| names.iter().copied().map(str::to_owned).collect();
+    let saved = json!({ "session": "oak", "name": "Oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" });
+    vec![
+        ("POST /api/sessions", vec![], json!({ "seed": 1, "tree": "ash", "version": 1, "template": true })),
+        ("POST /api/schematic", every, parameters),
+        ("POST /api/trees", names(&["session", "name"]), with(saved)),
+        (
+            "PATCH /api/trees/{tree}",
+            vec![],
+            json!({ "name": "Oak", "note": "Old", "template": true, "tags": ["old"], "collection": "" }),
+        ),
+        ("POST /api/collections", names(&["name"]), json!({ "name": "Woods", "parent": "park" })),
+        ("PATCH /api/collections/{id}", vec![], json!({ "name": "Woods", "parent": "" })),
+        ("POST /api/trees/{tree}/copies", names(&["name"]), with(json!({ "name": "Oak", "version": 1 }))),
+        (
+            "POST /api/trees/{tree}/versions",
+            names(&["session"]),
+            with(json!({ "session": "oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" })),
+        ),
+        ("PATCH /api/trees/{tree}/versions/{number}", names(&["note"]), json!({ "note": "Old" })),
+        ("POST /api/trees/{tree}/versions/{number}/restore", vec![], said),
+    ]
+}
+
+/// Addresses that take a file, or nothing.
+const WITHOUT: [&str; 4] = [
+    "POST /api/sessions/{session}/obstacles",
+    "POST /api/trees/import",
+    "POST /api/trees/{tree}/undelete",
+    "PUT /api/trees/{tree}/favourite",
+];
+
+/// Queries with one field that is wrong, and its name.
+fn queries() -> Vec<(String, &'static str, &'static str)> {
+    let list = "GET /api/trees";
+    let versions = "GET /api/trees/{tree}/versions";
+    let import = "POST /api/trees/import";
+    let fixed = [
+        (list, "limit=x", "limit"),
+        (list, "limit=0", "limit"),
+        (list, "limit=5&limit=5", "limit"),
+        (list, "after=x", "after"),
+        (list, "deleted=maybe", "deleted"),
+        (list, "template=5", "template"),
+        (list, "favourite=5", "favourite"),
+        (list, "mine=maybe", "mine"),
+        (list, "min_metamers=x", "min_metamers"),
+        (list, "max_metamers=-1", "max_metamers"),
+        (list, "q=1+2+3+4+5+6+7+8+9", "q"),
+        (list, "tags=1,2,3,4,5,6,7,8,9", "tags"),
+        (list, "sort=height", "sort"),
+        (versions, "limit=201", "limit"),
+        (versions, "before=-1", "before"),
+        (import, "format=csv", "name"),
+        (import, "name=Oak", "format"),
+        (import, "name=%07&format=csv", "name"),
+        (import, "name=Oak&format=exe", "format"),
+        (import, "name=Oak&format=csv&unit=x", "unit"),
+        (import, "name=Oak&format=csv&unit=0", "unit"),
+        (import, "name=Oak&format=csv&internode_length=x", "internode_length"),
+    ];
+    let mut all: Vec<_> = fixed.map(|(address, query, field)| (address.to_owned(), query, field)).into();
+    for row in FORMATS {
+        let address = format!("GET /api/sessions/{{session}}/tree.{}", row.ending);
+        // Each value is none that its option can have; a format that has no such option says so.
+        for (query, field) in [
+            ("lod=9", "lod"),
+            ("quantised=maybe", "quantised"),
+            ("compressed=2", "compressed"),
+            ("instanced=maybe", "instanced"),
+            ("hull=", "hull"),
+            ("by_limb=maybe", "by_limb"),
+            ("size=1x1", "size"),
+            ("turn=left", "turn"),
+            ("rise=90", "rise"),
+            ("frames=70000", "frames"),
+            ("points=0", "points"),
+            ("ticket=short", "ticket"),
+        ] {
+            all.push((address.clone(), query, field));
+        }
+        for (query, field) in
+            [("lod=1", "lod"), ("hull=true", "hull"), ("size=64x64", "size"), ("author=Ada", "author")]
+        {
+            if !row.options.contains(&field) {
+                all.push((address.clone(), query, field));
+            }
+        }
+    }
+    all
+}
+
+async fn answer(server: &Router, address: &str, query: &str, body: &Value) -> (StatusCode, Value) {
+    let (method, path) = (method_of(address), filled(path_of(address)));
+    let body = if body.is_null() { String::new() } else { body.to_string() };
+    let request = Request::builder().method(method).uri(format!("{path}?{query}"));
+    let request = request.header(header::CONTENT_TYPE, "application/json").body(Body::from(body)).unwrap();
+    let answer = server.clone().oneshot(request).await.unwrap();
+    let status = answer.status();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    (status, serde_json::from_slice(&bytes).unwrap_or_default())
+}
+
+/// A refusal of a field says which, and what is allowed.
+fn assert_names(field: &str, (status, problem): &(StatusCode, Value), asked: &str) {
+    assert_eq!(*status, StatusCode::BAD_REQUEST, "{asked}: {problem}");
+    // An entry of a list is named by its place.
+    let named = problem["field"].as_str().unwrap_or_default().split('[').next();
+    assert_eq!(named, Some(field), "{asked}: {problem}");
+    let message = problem["message"].as_str().unwrap();
+    let allowed = problem["allowed"].as_str().unwrap_or_else(|| panic!("{asked} names no range: {problem}"));
+    assert!(
+        !allowed.is_empty() && message.contains(field) && message.contains(allowed),
+        "{asked}: {problem}"
+    );
+}
+
+#[tokio::test]
+async fn every_refused_body_names_the_field_and_what_is_allowed() {
+    let server = server(authority::may).await;
+    for (address, required, body) in bodies() {
+        let asked = |what: &str| format!("{address} with {what}");
+        let fields: Vec<String> = body.as_object().unwrap().keys().cloned().collect();
+        for field in &fields {
+            for wrong in [json!({}), json!([5]), json!(-1), json!("\u{7}")] {
+                let mut other = body.clone();
+                other[field] = wrong.clone();
+                let answer = answer(&server, address, "", &other).await;
+                // No field is an object or a list of numbers; numbers and texts are allowed in some.
+                if wrong.is_object() || wrong.is_array() || answer.0 == StatusCode::BAD_REQUEST {
+                    assert_names(field, &answer, &asked(&format!("{field} {wrong}")));
+                }
+            }
+        }
+        for field in &required {
+            let mut less = body.clone();
+            less.as_object_mut().unwrap().remove(field);
+            let answer = answer(&server, address, "", &less).await;
+            assert_names(field, &answer, &asked(&format!("no {field}")));
+        }
+        let mut more = body.clone();
+        more["sap"] = json!(1);
+        assert_names("sap", &answer(&server, address, "", &more).await, &asked("an unknown field"));
+    }
+    let reading: BTreeSet<&str> = bodies().iter().map(|(address, ..)| *address).chain(WITHOUT).collect();
+    let all = routes();
+    let writing = all.iter().map(|route| &*route.address);
+    let writing =
+        writing.filter(|address| ["POST", "PUT", "PATCH"].iter().any(|method| address.starts_with(method)));
+    assert_eq!(reading, writing.collect(), "every address that a body is sent to is tried");
+}
+
+#[tokio::test]
+async fn every_refused_query_names_the_field_and_what_is_allowed() {
+    let server = server(authority::may).await;
+    for (address, query, field) in queries() {
+        let answer = answer(&server, &address, query, &Value::Null).await;
+        assert_names(field, &answer, &format!("{address}?{query}"));
+    }
+    let tried: BTreeSet<String> = queries().into_iter().map(|(address, ..)| address).collect();
+    let mut reading = BTreeSet::new();
+    for Route { address, .. } in routes().into_iter().chain(downloads()) {
+        let answer = answer(&server, &address, "sap=1", &Value::Null).await;
+        if answer.1["field"] == "sap" {
+            assert_names("sap", &answer, &address);
+            reading.insert(address.into_owned());
+        }
+    }
+    assert_eq!(tried, reading, "every address that reads a query is tried");
+}
