@@ -1,10 +1,10 @@
-//! Those who ever did something here, known by their client keys across connections (`CM1`, `CM5`).
+//! Authors: clients that have sent commands, known by their keys across connections (`CM1`, `CM5`).
 
 use std::{collections::BTreeMap, sync::Arc};
 
 use crate::io::ClientId;
 
-/// More keys than this are not remembered; the one that was quiet longest goes first.
+/// At most so many keys are remembered; the one unused longest is forgotten first.
 pub(crate) const MAX_AUTHORS: usize = 4096;
 
 /// What is remembered of a client key.
@@ -70,7 +70,7 @@ impl Authors {
         self.by_key.iter_mut()
     }
 
-    /// The connection with this key is gone; forgets who never did anything, and the quietest beyond the limit.
+    /// The connection with this key is closed. Forgets keys without commands, and beyond the limit those unused longest.
     pub(crate) fn leave(&mut self, key: &str) {
         let Some(author) = self.by_key.get_mut(key) else { return };
         author.client = None;

@@ -297,7 +297,7 @@ impl Document {
         Ok(())
     }
 
-    /// Ends all strokes where they are and gives bends up: whoever made them is not there any more.
+    /// Ends all strokes where they are and cancels bends, whose authors are not connected any more.
     pub fn end_gestures(&mut self) {
         self.strokes.close_all();
         self.bends.close_all();

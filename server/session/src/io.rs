@@ -82,7 +82,7 @@ pub enum Output {
         /// The session as bytes, for [`crate::Session::restore`].
         bytes: Vec<u8>,
     },
-    /// Somebody has had the notices of [`crate::Session::notify`]: they need not be kept any longer.
+    /// Somebody has received the notices of [`crate::Session::notify`]: they need not be kept any longer.
     Notified,
     /// The document's bytes for a `Read`.
     Document {

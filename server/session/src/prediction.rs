@@ -20,7 +20,7 @@ use crate::{
 /// Steps of one slice, so that other work has its turn.
 const SLICE_STEPS: u32 = 4;
 
-/// Tells a prediction that nobody waits for it any more.
+/// Set when a prediction is cancelled.
 pub(crate) type Cancelled = Arc<AtomicBool>;
 
 /// What is predicted.

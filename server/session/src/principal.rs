@@ -9,7 +9,7 @@ const VISITOR: &str = "outside";
 
 /// Who does something, in every request, socket and journal entry.
 ///
-/// Nobody has to say who they are: a page is known by the client key it made up (`HS1`), a request without one
+/// Nobody has to log in: a page is known by the client key it made up (`HS1`), a request without one
 /// comes from a visitor.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Principal(Arc<str>);

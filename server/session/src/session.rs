@@ -168,7 +168,7 @@ impl Session {
     pub fn first_snapshot(document: &[u8], metamer_budget: u32) -> Result<Vec<u8>, RestoreError> {
         let mut document = Document::from_bytes(document)?;
         document.set_metamer_budget(metamer_budget);
-        // Whoever was drawing or bending when the tree was saved does so elsewhere.
+        // Strokes and bends in progress go on in the session that the tree was saved from.
         document.end_gestures();
         Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document))
     }

@@ -119,7 +119,7 @@ pub struct Work {
     pub(crate) busy: bool,
     /// Whose command was taken on last, and its number.
     doing: Option<(Arc<str>, u32)>,
-    /// The frame with all rows, kept while it is current: people often come in groups.
+    /// The frame with all rows, kept while it is current: clients often join at the same time.
     complete: Option<(u32, Arc<[u8]>)>,
     /// The poses that were reported last.
     poses: BTreeMap<u32, Vec<RowMotion>>,
@@ -136,7 +136,7 @@ impl Work {
         applied: u64,
         last_commands: BTreeMap<Arc<str>, LastCommand>,
     ) -> Self {
-        // Whoever drew what was replayed has long lifted the finger.
+        // Hints of replayed entries are for clients that are gone.
         document.take_drawn_in_vain();
         let busy = document.pending_steps() > 0;
         let style = Style::new(to_proto::style_options(&document.parameters()));
@@ -239,7 +239,7 @@ impl Work {
         }
     }
 
-    /// All that is hinted at comes of the command that is being done.
+    /// All hints belong to the command that is being done.
     fn report_hints(&mut self) {
         let Some((author, id)) = &self.doing else { return };
         for DrawnInVain { stroke, reason, place } in self.document.take_drawn_in_vain() {

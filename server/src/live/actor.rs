@@ -29,7 +29,7 @@ use crate::{
 
 /// Requests waiting for a session; beyond that, sockets stop reading.
 const MAILBOX: usize = 256;
-/// A session in which nobody has been for so long leaves the memory.
+/// A session without clients for so long is unloaded.
 const IDLE: Duration = Duration::from_secs(60);
 /// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
@@ -156,7 +156,7 @@ pub(super) struct Actor {
     wake_at: Option<Instant>,
     /// When somebody was here last.
     empty_since: Instant,
-    /// Errands that have not come back.
+    /// Tasks that are still running.
     under_way: usize,
 }
 
@@ -200,7 +200,7 @@ impl Actor {
         (actor, handle)
     }
 
-    /// Lives until nobody needs the session, the server stops, or the session fails.
+    /// Runs until no client needs the session, the server stops, or the session fails.
     pub(super) async fn run(mut self) {
         let end = match self.live().await {
             Ok(end) => end,
@@ -280,7 +280,7 @@ impl Actor {
         Some(match request {
             Request::Join(outbox, answer) => {
                 let client = ClientId(self.next_client);
-                // Without anybody to take it, this number would never leave again.
+                // Where nobody takes the number, nobody would disconnect it.
                 answer.send(client).ok()?;
                 self.next_client += 1;
                 self.clients.insert(client, outbox);

@@ -37,7 +37,7 @@ pub(super) struct Closing {
     decided: CancellationToken,
 }
 
-/// The last thing a client hears.
+/// The last message to a client, as the reason of the close.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Farewell {
     pub(super) code: CloseCode,

@@ -141,7 +141,7 @@ impl Sessions {
     /// Drops an empty slot unless somebody else is about to fill it.
     fn forget(&self, name: &str, slot: Arc<Slot>) {
         let mut slots = self.0.slots();
-        // Slots are handed out under this lock only, so two holders are the map and us.
+        // Slots are handed out under this lock only, so a count of two means the map and this function.
         if Arc::strong_count(&slot) == 2 && !slot.initialized() {
             slots.remove(name);
         }

@@ -92,17 +92,17 @@ pub(super) async fn restored_by(
         restored => return restored.map(Some),
     };
     tracing::error!(session = name, %error, "the newest snapshot is of no use; trying the one before");
-    // The first error is the one that tells.
+    // The error of the newest snapshot is the one to report.
     let Ok(Some(mut older)) = services.store.load_session(name, Some(through)).await else {
         return Err(error);
     };
-    // Its row is what was written, but nothing can be made of it.
+    // The checksum of its row is right, but no session can be made of it.
     older.damage.push(Damage::Snapshot(through));
     older.damage.extend(passed_over.into_iter().filter(|damage| matches!(damage, Damage::Snapshot(_))));
     restore(make, services, name, lease, older).await.map(Some).map_err(|_| error)
 }
 
-/// Makes a session of what was read of it, and puts aside what was damaged; nothing of that is done in silence.
+/// Makes a session of what was read of it, sets aside what was damaged, and logs that.
 async fn restore(
     make: Make,
     services: &Services,

@@ -21,7 +21,7 @@ use self::library::{
 };
 use super::{Damage, Finding, Lease, Library, NewSession, NewSnapshot, Store, StoreError, StoredSession};
 
-/// A store whose parts can be damaged behind its back.
+/// A store whose rows a test can damage.
 pub trait Breakable: Store + Library + Finding {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
@@ -205,7 +205,7 @@ async fn leases_end_when_another_begins(store: &impl Store) {
     let late = NewSnapshot { through: 1, simulation_version: 3, bytes: vec![1] };
     fenced(store.keep_snapshot(&first, late).await);
     fenced(store.set_aside(&first, &[Damage::Journal(1)], &[]).await);
-    // Giving back what one has no longer takes nothing from who has it now.
+    // Releasing a lost lease does not release that of the present holder.
     store.release(first).await;
     store.append(&second, 3, &entries(2..=2)).await.unwrap();
     let stored = load(store).await;

@@ -64,7 +64,7 @@ pub trait Store {
     async fn set_aside(&self, lease: &Lease, damage: &[Damage], notices: &[Notice])
     -> Result<(), StoreError>;
 
-    /// Forgets the notices of a session: somebody has had them.
+    /// Deletes the notices of a session, which somebody has received.
     async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError>;
 
     /// Writes entries that follow the last one, made under a version of the simulation.
@@ -88,7 +88,7 @@ pub enum StoreError {
     /// The medium failed.
     #[error("{cause}")]
     Failed {
-        /// Half a sentence for people, without anything about our insides.
+        /// Half a sentence for users, without internal details.
         words: &'static str,
         /// What the medium said.
         cause: Box<dyn Error + Send + Sync>,
@@ -99,7 +99,7 @@ pub enum StoreError {
     /// A newer program wrote it, in a form that this one does not know.
     #[error("{0}")]
     Later(String),
-    /// Somebody else writes to this session now.
+    /// Another holder has acquired the right to write to this session.
     #[error("the session has been taken over")]
     Fenced,
     /// An entry that does not follow the last one.

@@ -24,7 +24,7 @@ pub(super) struct SessionRow {
     pub(super) last_entry: u64,
     /// The last entry of the newest snapshot there was.
     pub(super) last_snapshot: Option<u64>,
-    /// A JSON array of notices that nobody has had yet.
+    /// A JSON array of notices that nobody has received yet.
     pub(super) notices: Option<String>,
     pub(super) written_by: Option<String>,
     /// None for rows of the first release.
@@ -74,7 +74,7 @@ impl SessionRow {
         self
     }
 
-    /// Notices that are kept until somebody has had them.
+    /// Notices that are kept until somebody has received them.
     pub(super) fn keep_notices(&mut self, notices: &[Notice]) {
         let mut all = self.notices();
         for notice in notices {
@@ -86,7 +86,7 @@ impl SessionRow {
     }
 
     fn notices(&self) -> Vec<Notice> {
-        // A newer program may keep notices that this one has no words for.
+        // A newer program may keep notices that this one does not know.
         self.notices.as_deref().and_then(|text| serde_json::from_str(text).ok()).unwrap_or_default()
     }
 

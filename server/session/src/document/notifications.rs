@@ -71,7 +71,7 @@ impl Document {
     }
 }
 
-/// Keys are secrets of those who hold them, so people are numbered.
+/// Client keys are secret, so people are sent as numbers.
 #[derive(Default)]
 struct People<'a>(BTreeMap<&'a str, u32>);
 

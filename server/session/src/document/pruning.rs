@@ -38,7 +38,7 @@ impl Document {
     }
 }
 
-/// Cuts branches off a simulation that is nobody's document.
+/// Cuts branches off a copy of the simulation, for a prediction.
 pub(crate) fn prune(simulation: &mut Simulation<Generators>, rows: &[u32]) -> Result<(), Problem> {
     let cuts = cuts(simulation.plant(), rows)?;
     if !cuts.is_empty() {

@@ -1,4 +1,4 @@
-//! Who comes and who goes (`HS`, `RS1`).
+//! Clients that connect, resume and leave (`HS`, `RS1`).
 
 use std::sync::Arc;
 

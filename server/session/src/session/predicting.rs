@@ -16,7 +16,7 @@ use crate::{
 const MAX_FORESEEING: usize = 2;
 
 impl PredictionView {
-    /// Nobody wants the prediction any more that was asked for last.
+    /// Cancels the prediction that was asked for last.
     pub(crate) fn cancel(&self) {
         if let Some(running) = &self.running {
             running.store(true, Ordering::Relaxed);

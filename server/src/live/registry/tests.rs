@@ -217,7 +217,7 @@ async fn a_damaged_snapshot_falls_back_to_the_one_before() {
     house.begin("elm", SIMULATION_VERSION, Some(start)).await;
     let lease = house.store.acquire("elm").await.unwrap();
     house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
-    // Its checksum is right, and still it is no snapshot.
+    // Its checksum is right, but it is no snapshot.
     let (simulation_version, bytes) = (SIMULATION_VERSION, b"damaged".to_vec());
     let damaged = NewSnapshot { through: 1, simulation_version, bytes };
     house.store.keep_snapshot(&lease, damaged).await.unwrap();
@@ -335,7 +335,7 @@ async fn cm2_nothing_is_acknowledged_that_was_not_written() {
         let Outgoing::Text(text) = outgoing else { continue };
         assert!(!text.contains("\"type\":\"acknowledged\""), "{text}");
     }
-    // Whoever comes now meets the session as it is on disk.
+    // Who joins now gets the session as it is on disk.
     let mut visitor = house.visit().await;
     let (epoch_after, acknowledged, metamers) = visitor.welcome().await;
     assert_ne!(epoch_after, epoch);

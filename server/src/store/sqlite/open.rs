@@ -208,7 +208,7 @@ pub(super) mod tests {
     }
 
     impl SqliteStore {
-        /// Does something behind the store's back.
+        /// Runs SQL without the store.
         pub(in super::super) async fn sql(&self, sql: String) {
             self.writer.write(Write::Raw(sql)).await.unwrap();
         }

@@ -120,7 +120,7 @@ async fn newest_snapshot(
 }
 
 fn journal_row(row: &SqliteRow) -> Result<JournalRow, sqlx::Error> {
-    // What is no text any more is no row of ours either.
+    // As bytes: entries that are no text any more are damage, which the checksum reports.
     let entries = row.try_get_unchecked::<Vec<u8>, _>("entries")?;
     Ok(JournalRow {
         first: row.try_get::<i64, _>("first")?.cast_unsigned(),

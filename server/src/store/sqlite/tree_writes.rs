@@ -79,7 +79,7 @@ impl Tree {
         if row.deleted_at.is_none() { Ok(row) } else { Err(StoreError::NotFound) }
     }
 
-    /// The checksum under another name and head: a tree that is whole stays so, one that is not does not become it.
+    /// The checksum for another name and head. A row that was damaged stays damaged.
     fn checksum_as(&self, name: &str, head: u32) -> Option<u32> {
         let is_whole = self.checksum == Some(tree_sum(&self.key, &self.name, self.head));
         if is_whole { Some(tree_sum(&self.key, name, head)) } else { self.checksum }

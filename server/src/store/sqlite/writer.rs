@@ -17,7 +17,7 @@ use super::{
     tree_writes::TreeWrite,
 };
 
-/// How long a write waits for company. What arrives during a commit makes up the next group anyway.
+/// How long a write waits for others to be committed with it. What arrives during a commit is in the next group.
 const GROUP_WINDOW: Duration = Duration::from_millis(5);
 /// The most writes in one commit.
 const MAX_GROUP: usize = 256;

@@ -212,7 +212,7 @@ impl<'a> Reader<'a> {
         mut read: impl FnMut(&mut Self) -> Result<T, DocumentError>,
     ) -> Result<Vec<T>, DocumentError> {
         let len = self.u32()? as usize;
-        // Every item takes a byte at least, so a length beyond the rest is a lie not worth allocating for.
+        // Every item takes a byte at least, so a length beyond the rest is damage; no memory is allocated for it.
         if len > self.rest.len() {
             return Err(damaged("a list is longer than what is left"));
         }
