@@ -83,5 +83,5 @@ function named(element: HTMLElement): NamedControl {
   // A title ends with the key, of which a tablet has none.
   const title = element.title.replace(/\s*\([^()]*\)$/, "");
   const rest = title.startsWith(`${name}: `) ? title.slice(name.length + 2) : title;
-  return { name, purpose: rest === name ? "" : rest, place: element.getBoundingClientRect() };
+  return { name, purpose: name.startsWith(rest) ? "" : rest, place: element.getBoundingClientRect() };
 }
