@@ -1,6 +1,6 @@
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, test } from "vitest";
 import { screenshots } from "./browser";
 import { changed } from "./picture";
 import { LANDSCAPE, loop, PHONE, type Point, SMALL, type Tablet, way } from "./tablet";
@@ -90,6 +90,29 @@ describe("symmetry", () => {
     await tablet.tap("Undo");
     await tablet.until("all are undone at once", (facts) => facts.metamers === metamers);
   });
+});
+
+test.each([
+  ["a tablet", { width: 834, height: 1194, detail: 0.2 }],
+  ["a phone", { ...PHONE, detail: 0.2 }],
+])("what is said of a stroke in vain stands clear of the bars: %s, upright", async (_, screen) => {
+  const { tablet } = await workshop.fresh(screen);
+  const { page } = tablet;
+  // The sentence goes by itself; a slow machine would not see it.
+  await page.evaluate(() => {
+    const later = window.setTimeout.bind(window);
+    const patient = (done: () => void, after?: number) => ((after ?? 0) > 4000 ? 0 : later(done, after));
+    Object.assign(window, { setTimeout: patient });
+  });
+  const right = screen.width - 30;
+  await tablet.swipe([way({ x: right, y: 20 + 64 }, { x: right - 50, y: 20 + 74 })]);
+  const said = page.locator(".vain > span");
+  await said.waitFor();
+  const gap = async () => {
+    const [sentence, bar] = [await said.boundingBox(), await page.locator(".tool-bar").boundingBox()];
+    return sentence!.y - (bar!.y + bar!.height);
+  };
+  await expect.poll(gap).toBeGreaterThan(0);
 });
 
 describe("the brush and the picture", () => {

@@ -4,8 +4,10 @@ import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
 
-/** The sentence stays so far from the edges of the workspace, in pixels: half its width, and its height. */
+/** The sentence stays so far from the sides and the foot of the workspace, in pixels. */
 const ROOM = { x: 130, y: 96 };
+/** It stands so far above the place, as its style has it, and so far below what lies over it. */
+const [ABOVE, GAP] = [36, 8];
 
 const REASONS = {
   out_of_reach: "problems.out-of-reach",
@@ -24,7 +26,11 @@ export function VainMark({ studio }: { studio: Studio }) {
       return;
     }
     const { clientWidth, clientHeight } = element.parentElement;
-    const [x, y] = [inside(at[0], ROOM.x, clientWidth), inside(at[1], ROOM.y, clientHeight)];
+    // The bars at the top, and what is in progress below them, would hide it.
+    const chips = element.parentElement.querySelector<HTMLElement>(".chips");
+    const covered = chips ? chips.offsetTop + chips.offsetHeight : 0;
+    const top = covered + GAP + (element.firstElementChild?.clientHeight ?? 0) + ABOVE;
+    const [x, y] = [inside(at[0], ROOM.x, clientWidth), inside(at[1], ROOM.y, clientHeight, top)];
     element.style.translate = `${x}px ${y}px`;
   });
   return (
@@ -34,7 +40,7 @@ export function VainMark({ studio }: { studio: Studio }) {
   );
 }
 
-/** The nearest place to `at` that keeps so far from both ends; the middle where there is no such place. */
-function inside(at: number, room: number, length: number): number {
-  return length < 2 * room ? length / 2 : Math.min(Math.max(at, room), length - room);
+/** The nearest place to `at` that keeps so far from the ends; the middle where there is no such place. */
+function inside(at: number, room: number, length: number, first = room): number {
+  return length < first + room ? length / 2 : Math.min(Math.max(at, first), length - room);
 }
