@@ -1,4 +1,4 @@
-//! What is done to the database from time to time: what nobody can want any more goes, in small steps.
+//! What is done beside the work: what nobody can want any more goes, in small steps, and a database that is gone is noticed.
 
 use std::{
     sync::Arc,
@@ -8,10 +8,15 @@ use std::{
 use tokio::time::{interval, sleep};
 use tokio_util::sync::CancellationToken;
 
-use crate::store::{AnyStore, Library, StoreError};
+use crate::{
+    live::Sessions,
+    store::{AnyStore, Library, Store, StoreError},
+};
 
 /// How often.
 const PERIOD: Duration = Duration::from_hours(1);
+/// How often the file is looked for.
+const WATCH_PERIOD: Duration = Duration::from_secs(2);
 /// A tree that was deleted can be taken back for so long.
 const UNDELETABLE: Duration = Duration::from_hours(30 * 24);
 /// Trees that go in one step, so that people's work has its turns between.
@@ -27,6 +32,29 @@ pub async fn run(store: Arc<AnyStore>, stop: CancellationToken) {
             if let Err(error) = once(&store, SystemTime::now()).await {
                 tracing::warn!(%error, "the database could not be looked after; it is tried again later");
             }
+        }
+    };
+    stop.run_until_cancelled(work).await;
+}
+
+/// Looks whether the database is still there, until the server stops. Where it is not, everybody in a session is told, for
+/// not all of them are about to draw.
+pub async fn watch(store: Arc<AnyStore>, sessions: Sessions, stop: CancellationToken) {
+    let mut ticks = interval(WATCH_PERIOD);
+    let mut was_there = true;
+    let work = async {
+        loop {
+            ticks.tick().await;
+            let found = store.check_place().await;
+            match &found {
+                Ok(()) if !was_there => tracing::info!("the database is there again"),
+                Err(error) if was_there => {
+                    tracing::error!(%error, "nothing can be kept until it is back or the server is started anew");
+                    sessions.fail(error.in_words()).await;
+                }
+                _ => {}
+            }
+            was_there = found.is_ok();
         }
     };
     stop.run_until_cancelled(work).await;

@@ -91,6 +91,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         opening: Arc::default(),
     };
     let caring = tokio::spawn(maintenance::run(Arc::clone(&store), stop.clone()));
+    let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
     let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
 
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
@@ -102,7 +103,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     stop.cancel();
     let ended = async {
         sessions.ended().await;
-        serving.await.and(caring.await)
+        serving.await.and(caring.await).and(watching.await)
     };
     match timeout(LAST_WORK, ended).await {
         Ok(Ok(())) => {}

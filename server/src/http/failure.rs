@@ -89,6 +89,12 @@ impl From<StoreError> for Failure {
                 return Problem::new(ProblemCode::Stale, sentence).into();
             }
             StoreError::Cycle => return Self::conflict("A collection cannot lie in itself."),
+            StoreError::Gone(_) => {
+                tracing::error!(%error, "the store failed");
+                return Self::unavailable(
+                    "The server's database file has been moved, deleted or replaced; nothing was changed.",
+                );
+            }
             _ => {}
         }
         tracing::error!(%error, "the store failed");

@@ -36,7 +36,7 @@ use crate::{
     live::Sessions,
     pool::SimulationPool,
     portrait::Portraits,
-    store::AnyStore,
+    store::{AnyStore, Store},
 };
 
 /// A request for a session is tiny.
@@ -192,7 +192,7 @@ pub fn router(shared: Shared) -> Router {
     };
     let requests = api(routes())
         .route("/api/{*unknown}", get(failure::unknown_route))
-        .route("/health", get("ok"))
+        .route("/health", get(health))
         .layer(DefaultBodyLimit::max(MAX_SMALL_BODY))
         .layer(from_fn(guard::time_limit));
     Router::new()
@@ -207,6 +207,12 @@ pub fn router(shared: Shared) -> Router {
         .fallback(client::file)
         .layer(ServiceBuilder::new().layer(map_response(guard::headers)).layer(from_fn(guard::same_origin)))
         .with_state(shared)
+}
+
+/// Whether the server can serve: what is drawn gets where it is kept.
+async fn health(State(shared): State<Shared>) -> Result<&'static str, Failure> {
+    shared.store.check_place().await?;
+    Ok("ok")
 }
 
 #[cfg(test)]

@@ -146,7 +146,9 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
             if error.is_final() {
                 return live::turn_away(socket, CloseCode::CannotOpen, &error.to_string()).await;
             }
-            (CloseCode::InternalError, "The session cannot be opened now.")
+            let reason = if let OpenError::Store(error) = &error { error.in_words() } else { "try again" };
+            let sentence = format!("The session cannot be opened now: {reason}.");
+            return live::turn_away(socket, CloseCode::InternalError, &sentence).await;
         }
     };
     live::turn_away(socket, code, sentence).await;

@@ -47,6 +47,8 @@ pub(super) enum Request {
     Parameters(oneshot::Sender<ParameterValues>),
     Mesh(u32, oneshot::Sender<Option<Arc<Mesh>>>),
     People(oneshot::Sender<Vec<Principal>>),
+    /// Nothing can be kept any more, for this reason.
+    StoreFailed(String),
 }
 
 /// What became of a command from outside: the obstacle it placed, if it placed one.
@@ -111,6 +113,11 @@ impl SessionHandle {
         let (answer, answered) = oneshot::channel();
         self.send(Request::People(answer)).await?;
         answered.await.map_err(|_| Ended)
+    }
+
+    /// Ends the session: what is done in it can no longer be kept.
+    pub(super) async fn fail(&self, reason: &str) -> Result<(), Ended> {
+        self.send(Request::StoreFailed(reason.to_owned())).await
     }
 
     /// The parameters in force.
@@ -314,6 +321,7 @@ impl Actor {
                 let _ = answer.send(self.session.mesh(obstacle));
                 return None;
             }
+            Request::StoreFailed(reason) => Input::JournalFailed(reason),
             Request::People(answer) => {
                 let _ = answer.send(self.session.people().cloned().collect());
                 return None;

@@ -95,6 +95,15 @@ impl Sessions {
         }
     }
 
+    /// Ends every session in memory, for nothing of them can be kept any more.
+    pub async fn fail(&self, reason: &str) {
+        let slots: Vec<_> = self.0.slots().values().cloned().collect();
+        for session in slots.iter().filter_map(|slot| slot.get()) {
+            // One that has ended already has nothing to lose.
+            let _ = session.fail(reason).await;
+        }
+    }
+
     /// A place for one more socket, if there is any left.
     pub fn place(&self) -> Option<OwnedSemaphorePermit> {
         Arc::clone(&self.0.places).try_acquire_owned().ok()

@@ -219,6 +219,10 @@ impl Store for MemoryStore {
         })
     }
 
+    async fn check_place(&self) -> Result<(), StoreError> {
+        self.writing().map(drop)
+    }
+
     async fn close(&self) {
         self.kept().closed = true;
     }

@@ -78,6 +78,9 @@ pub trait Store {
     /// Keeps a snapshot, and drops the entries that no kept snapshot needs for its replay.
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError>;
 
+    /// Whether what is written still gets where it was; else every write fails, and no session opens.
+    async fn check_place(&self) -> Result<(), StoreError>;
+
     /// Finishes what is being written; every later write fails.
     async fn close(&self);
 }
@@ -119,6 +122,9 @@ pub enum StoreError {
     /// A collection was to lie in itself.
     #[error("a collection cannot lie in itself")]
     Cycle,
+    /// What is written would be lost: where it went is not there any more.
+    #[error("the database file has been moved, deleted or replaced ({0})")]
+    Gone(String),
     /// The store has been closed; the server is stopping.
     #[error("the store is closed")]
     Closed,
@@ -135,6 +141,7 @@ impl StoreError {
             Self::NotFound => "it is not there",
             Self::Stale => "it has changed meanwhile",
             Self::Cycle => "a collection cannot lie in itself",
+            Self::Gone(_) => "its database file has been moved, deleted or replaced",
             Self::Closed => "it is stopping",
         }
     }
@@ -278,6 +285,10 @@ impl Store for AnyStore {
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
         delegate!(self.keep_snapshot(lease, snapshot))
+    }
+
+    async fn check_place(&self) -> Result<(), StoreError> {
+        delegate!(self.check_place())
     }
 
     async fn close(&self) {

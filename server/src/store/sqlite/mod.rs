@@ -3,6 +3,7 @@
 mod finding;
 mod identity;
 mod open;
+mod place;
 mod sessions;
 mod tree_writes;
 mod trees;
@@ -34,6 +35,7 @@ impl Store for SqliteStore {
     }
 
     async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
+        self.place.check()?;
         // The lock on the file keeps other processes away.
         Ok(self.writer.leases().acquire(session))
     }
@@ -81,6 +83,10 @@ impl Store for SqliteStore {
         let NewSnapshot { through, simulation_version, bytes } = snapshot;
         let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes);
         self.writer.write(Write::Session(SessionWrite::Snapshot(lease.clone(), row))).await.map(drop)
+    }
+
+    async fn check_place(&self) -> Result<(), StoreError> {
+        self.place.check()
     }
 
     async fn close(&self) {

@@ -1,9 +1,9 @@
 //! Opening the file, bringing its schema up to date, and every way that can fail.
 
 use std::{
-    fs::{self, File, TryLockError},
-    io,
+    fs, io,
     path::{Path, PathBuf},
+    sync::Arc,
     time::Duration,
 };
 
@@ -11,11 +11,12 @@ use sqlx::{
     ConnectOptions, SqlSafeStr, SqlitePool,
     migrate::{MigrateError, Migration, MigrationType, Migrator},
     sqlite::{
-        SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqlitePoolOptions, SqliteSynchronous,
+        SqliteConnectOptions, SqliteConnection, SqliteExecutor, SqliteJournalMode, SqlitePoolOptions,
+        SqliteSynchronous,
     },
 };
 
-use super::{finding, identity, in_words, writer::Writer};
+use super::{finding, identity, in_words, place::Place, writer::Writer};
 
 /// The schema: one file of `migrations/` for each change, in order.
 const MIGRATIONS: [(&str, &str); 5] = [
@@ -29,7 +30,7 @@ const MIGRATIONS: [(&str, &str); 5] = [
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.
 const OLDEST_SAFE_SQLITE: [u32; 3] = [3, 51, 3];
 
-/// Larger files are not read through at the start, which would take seconds; damage then shows where it is met.
+/// Larger files are read through while the server already serves, for that takes seconds.
 const MAX_CHECKED_BYTES: u64 = 256 * 1024 * 1024;
 
 const READERS: u32 = 4;
@@ -43,19 +44,26 @@ pub struct OpenError {
     reason: String,
 }
 
+impl OpenError {
+    /// `reason` is half a sentence.
+    pub(super) fn new(path: &Path, reason: String) -> Self {
+        Self { path: path.to_owned(), reason }
+    }
+}
+
 /// Sessions and trees in one file.
 #[derive(Debug)]
 pub struct SqliteStore {
     pub(super) readers: SqlitePool,
     pub(super) writer: Writer,
-    /// Two servers on one file would each think that they hold its sessions; the system frees the lock when we die.
-    lock: File,
+    /// Two servers on one file would each think that they hold its sessions.
+    pub(super) place: Arc<Place>,
 }
 
 impl SqliteStore {
     /// Opens the file, or makes it together with its folder.
     pub async fn open(path: &Path) -> Result<Self, OpenError> {
-        Self::try_open(path).await.map_err(|reason| OpenError { path: path.to_owned(), reason })
+        Self::try_open(path).await.map_err(|reason| OpenError::new(path, reason))
     }
 
     async fn try_open(path: &Path) -> Result<Self, String> {
@@ -75,7 +83,7 @@ impl SqliteStore {
         if size > 0 {
             identity::check(path).await?;
         }
-        let lock = lock(path)?;
+        let place = Arc::new(Place::lock(path)?);
 
         let mut connection = writer_options(path).connect().await.map_err(|error| sentence(&error))?;
         check_version(&mut connection).await?;
@@ -93,14 +101,18 @@ impl SqliteStore {
             .connect_with(common_options(path).read_only(true))
             .await
             .map_err(|error| sentence(&error))?;
-        Ok(Self { readers, writer: Writer::start(connection), lock })
+        if size > MAX_CHECKED_BYTES {
+            let readers = readers.clone();
+            tokio::spawn(async move { check_beside(&readers).await });
+        }
+        Ok(Self { readers, writer: Writer::start(connection, Arc::clone(&place)), place })
     }
 
     /// Commits what is under way and closes the file.
     pub(super) async fn shut(&self) {
         self.readers.close().await;
         self.writer.close().await;
-        if let Err(error) = self.lock.unlock() {
+        if let Err(error) = self.place.unlock() {
             tracing::warn!(%error, "the database's lock stays until the end of the process");
         }
     }
@@ -127,18 +139,6 @@ pub(super) fn migrator() -> Migrator {
     Migrator::with_migrations((1..).zip(MIGRATIONS).map(migration).collect())
 }
 
-fn lock(path: &Path) -> Result<File, String> {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".lock");
-    let file = File::create(&name)
-        .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
-    match file.try_lock() {
-        Ok(()) => Ok(file),
-        Err(TryLockError::WouldBlock) => Err("another Espalier server is using it".into()),
-        Err(TryLockError::Error(error)) => Err(format!("it cannot be locked ({error})")),
-    }
-}
-
 async fn check_version(connection: &mut SqliteConnection) -> Result<(), String> {
     let version: String = sqlx::query_scalar("SELECT sqlite_version()")
         .fetch_one(connection)
@@ -158,12 +158,25 @@ fn is_safe(version: &str) -> bool {
     parts.as_slice() >= OLDEST_SAFE_SQLITE.as_slice()
 }
 
-async fn check_integrity(connection: &mut SqliteConnection) -> Result<(), String> {
+async fn check_integrity(connection: impl SqliteExecutor<'_>) -> Result<(), String> {
     let found: String = sqlx::query_scalar("PRAGMA quick_check(1)")
         .fetch_one(connection)
         .await
         .map_err(|error| sentence(&error))?;
     if found == "ok" { Ok(()) } else { Err(format!("it is damaged ({})", found.replace('\n', " "))) }
+}
+
+/// Reads the file through beside the work, until the server stops.
+async fn check_beside(readers: &SqlitePool) {
+    match check_integrity(readers).await {
+        Ok(()) => tracing::info!("the database has been read through and is whole"),
+        Err(_) if readers.is_closed() => {}
+        Err(reason) => {
+            tracing::error!(
+                "the database was read through: {reason}"
+            );
+        }
+    }
 }
 
 pub(super) fn sentence(error: &sqlx::Error) -> String {

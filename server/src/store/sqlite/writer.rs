@@ -13,6 +13,7 @@ use tokio_util::sync::CancellationToken;
 use super::{
     super::{StoreError, lease::Leases},
     finding::FindingWrite,
+    place::Place,
     sessions::SessionWrite,
     tree_writes::TreeWrite,
 };
@@ -65,11 +66,11 @@ pub(super) struct Writer {
 }
 
 impl Writer {
-    pub(super) fn start(connection: SqliteConnection) -> Self {
+    pub(super) fn start(connection: SqliteConnection, place: Arc<Place>) -> Self {
         let (requests, receiver) = mpsc::channel(QUEUE);
         let closing = CancellationToken::new();
         let leases = Arc::new(Leases::default());
-        let task = tokio::spawn(run(connection, receiver, Arc::clone(&leases), closing.clone()));
+        let task = tokio::spawn(run(connection, place, receiver, Arc::clone(&leases), closing.clone()));
         Self { requests, leases, closing, task: Mutex::new(Some(task)) }
     }
 
@@ -97,6 +98,7 @@ impl Writer {
 
 async fn run(
     mut connection: SqliteConnection,
+    place: Arc<Place>,
     mut requests: mpsc::Receiver<Request>,
     leases: Arc<Leases>,
     closing: CancellationToken,
@@ -120,7 +122,14 @@ async fn run(
                 Ok(None) | Err(_) => break,
             }
         }
-        commit(&mut connection, &leases, group).await;
+        match place.missing() {
+            None => commit(&mut connection, &leases, group).await,
+            Some(cause) => {
+                for request in group {
+                    let _ = request.answer.send(Err(StoreError::Gone(cause.clone())));
+                }
+            }
+        }
     }
     if let Err(error) = connection.close().await {
         tracing::error!(%error, "closing the database failed");

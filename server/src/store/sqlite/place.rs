@@ -1,0 +1,142 @@
+//! The file that is open: kept from other servers, whatever name they know it by, and missed when it is gone.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io,
+    path::{Path, PathBuf},
+};
+
+use super::super::StoreError;
+
+/// The file of a database, locked until this is dropped; the system frees the locks when the process dies.
+///
+/// SQLite has locks of its own, which POSIX drops as soon as the process closes any handle of the file: this one closes
+/// after the connections.
+#[derive(Debug)]
+pub(super) struct Place {
+    path: PathBuf,
+    /// Known by the file's name, as it is to servers of earlier releases and on every system.
+    by_name: File,
+    /// Known by the file itself: a hard link is the same one.
+    #[cfg(unix)]
+    file: File,
+    #[cfg(unix)]
+    identity: Identity,
+}
+
+/// Device and number of a file.
+#[cfg(unix)]
+type Identity = (u64, u64);
+
+impl Place {
+    /// Locks the file, which is made where there is none. An error is half a sentence.
+    pub(super) fn lock(path: &Path) -> Result<Self, String> {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".lock");
+        let by_name = File::create(&name)
+            .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
+        try_lock(&by_name)?;
+        #[cfg(unix)]
+        let file = {
+            let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
+            opened.map_err(|error| format!("it cannot be opened ({error})"))?
+        };
+        #[cfg(unix)]
+        try_lock(&file)?;
+        Ok(Self {
+            path: path.to_owned(),
+            by_name,
+            #[cfg(unix)]
+            identity: identity(&file.metadata().map_err(|error| error.to_string())?),
+            #[cfg(unix)]
+            file,
+        })
+    }
+
+    /// Why what is written would be lost: the file is no longer the one under its name.
+    pub(super) fn missing(&self) -> Option<String> {
+        match fs::metadata(&self.path) {
+            #[cfg(unix)]
+            Ok(metadata) if identity(&metadata) != self.identity => {
+                Some("there is another file in its place".into())
+            }
+            Ok(_) => None,
+            Err(error) => Some(error.to_string()),
+        }
+    }
+
+    /// [`Place::missing`] as an error.
+    pub(super) fn check(&self) -> Result<(), StoreError> {
+        self.missing().map_or(Ok(()), |cause| Err(StoreError::Gone(cause)))
+    }
+
+    /// Lets other servers have it.
+    pub(super) fn unlock(&self) -> io::Result<()> {
+        #[cfg(unix)]
+        self.file.unlock()?;
+        self.by_name.unlock()
+    }
+}
+
+fn try_lock(file: &File) -> Result<(), String> {
+    match file.try_lock() {
+        Ok(()) => Ok(()),
+        Err(TryLockError::WouldBlock) => Err("another Espalier server is using it".into()),
+        Err(TryLockError::Error(error)) => Err(format!("it cannot be locked ({error})")),
+    }
+}
+
+#[cfg(unix)]
+fn identity(metadata: &fs::Metadata) -> Identity {
+    use std::os::unix::fs::MetadataExt;
+    (metadata.dev(), metadata.ino())
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::{
+        super::{Folder, SqliteStore},
+        *,
+    };
+    use crate::store::{NewSession, Store};
+
+    fn oak() -> NewSession {
+        NewSession { name: "oak".into(), seed: 1, simulation_version: 1, ..NewSession::default() }
+    }
+
+    #[tokio::test]
+    async fn a_hard_link_is_the_same_file() {
+        let folder = Folder::new();
+        let store = SqliteStore::open(&folder.database()).await.unwrap();
+        let link = folder.database().with_file_name("link.db");
+        fs::hard_link(folder.database(), &link).unwrap();
+        let refusal = SqliteStore::open(&link).await.unwrap_err().to_string();
+        assert!(refusal.contains("another Espalier server is using it"), "{refusal}");
+        store.close().await;
+        SqliteStore::open(&link).await.unwrap().close().await;
+    }
+
+    #[tokio::test]
+    async fn nothing_is_written_to_a_file_that_is_gone() {
+        let folder = Folder::new();
+        let (path, elsewhere) = (folder.database(), folder.database().with_file_name("elsewhere.db"));
+        let store = SqliteStore::open(&path).await.unwrap();
+        fs::rename(&path, &elsewhere).unwrap();
+        for replaced in [false, true] {
+            if replaced {
+                fs::copy(&elsewhere, &path).unwrap();
+            }
+            for refused in [
+                store.create_session(oak()).await.unwrap_err(),
+                store.acquire("oak").await.unwrap_err(),
+                store.check_place().await.unwrap_err(),
+            ] {
+                assert!(refused.in_words().contains("moved, deleted or replaced"), "{refused}");
+            }
+        }
+        fs::rename(&elsewhere, &path).unwrap();
+        store.check_place().await.unwrap();
+        store.create_session(oak()).await.unwrap();
+        store.close().await;
+    }
+}
