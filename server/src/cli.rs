@@ -21,6 +21,7 @@ Examples:
   espalier grow --species scots-pine --export pine.png
   espalier import scan.csv --grow 3 --export scan.glb
   espalier replay strokes.jsonl --export tree.json --stats json
+  espalier backup trees-2026-05-01.db       while a server is running
 
 Without a command, espalier serves. Every option of `serve` can be set by the environment variable named in
 `espalier serve --help`.";
@@ -67,6 +68,26 @@ pub enum Command {
     Import(Import),
     /// List the species, or draw them all on one sheet.
     Species(Species),
+    /// Copy the database to a file; a server may go on using it.
+    Backup(Backup),
+    /// Put a backup in the place of the database; what was there is kept beside it.
+    Restore(Restore),
+    /// Read all that is in the database and say what is damaged.
+    Check(Check),
+}
+
+/// Where everything is kept.
+#[derive(Clone, Debug, Args)]
+pub struct Database {
+    /// SQLite file; `serve` makes it together with its folder if it does not exist.
+    #[arg(
+        id = "database",
+        long = "database",
+        env = "ESPALIER_DATABASE",
+        default_value = "./data/espalier.db",
+        value_name = "FILE"
+    )]
+    pub path: PathBuf,
 }
 
 /// Options of `serve`.
@@ -79,9 +100,8 @@ pub struct Serve {
     /// Port to listen on; 0 takes a free one.
     #[arg(long, env = "ESPALIER_PORT", default_value_t = 7700)]
     pub port: u16,
-    /// SQLite file; made together with its folder if it does not exist.
-    #[arg(long, env = "ESPALIER_DATABASE", default_value = "./data/espalier.db", value_name = "FILE")]
-    pub database: PathBuf,
+    #[command(flatten)]
+    pub database: Database,
     /// Metamers that a session begun from now on may hold, dead ones included; growth stops there.
     #[arg(
         long,
@@ -171,6 +191,34 @@ pub struct Species {
     /// Threads; one for each core if not given.
     #[arg(long)]
     pub threads: Option<NonZeroUsize>,
+}
+
+/// Options of `backup`.
+#[derive(Debug, Args)]
+pub struct Backup {
+    /// The copy; it is written beside its place and moved there when it is whole.
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub database: Database,
+    /// Take the place of a file that is there already.
+    #[arg(long)]
+    pub replace: bool,
+}
+
+/// Options of `restore`.
+#[derive(Debug, Args)]
+pub struct Restore {
+    /// The backup; it stays as it is.
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub database: Database,
+}
+
+/// Options of `check`.
+#[derive(Debug, Args)]
+pub struct Check {
+    #[command(flatten)]
+    pub database: Database,
 }
 
 /// What a scene starts with.
@@ -293,7 +341,7 @@ mod tests {
         let cli = parse("espalier").unwrap();
         assert!(cli.command.is_none());
         assert_eq!((cli.serve.host.to_string(), cli.serve.port), ("0.0.0.0".into(), 7700));
-        assert_eq!(cli.serve.database, PathBuf::from("./data/espalier.db"));
+        assert_eq!(cli.serve.database.path, PathBuf::from("./data/espalier.db"));
         assert_eq!(parse("espalier --port 0").unwrap().serve.port, 0);
         assert!(
             matches!(parse("espalier serve --port 1").unwrap().command, Some(Command::Serve(serve)) if serve.port == 1)

@@ -2,6 +2,7 @@
 
 mod announce;
 mod authority;
+mod care;
 mod cli;
 mod document;
 mod export_options;
@@ -23,6 +24,7 @@ use std::process::ExitCode;
 use clap::Parser;
 
 use crate::{
+    care::CareError,
     cli::{Cli, Command},
     headless::HeadlessError,
     serve::ServeError,
@@ -42,10 +44,19 @@ fn main() -> ExitCode {
         Some(Command::Grow(options)) => done(headless::grow(&options)),
         Some(Command::Import(options)) => done(headless::import(&options)),
         Some(Command::Species(options)) => done(headless::species(&options)),
+        Some(Command::Backup(options)) => cared(care::backup(&options)),
+        Some(Command::Restore(options)) => cared(care::restore(&options)),
+        Some(Command::Check(options)) => cared(care::check(&options)),
     }
 }
 
 fn served(result: Result<(), ServeError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("{error}");
+    ExitCode::FAILURE
+}
+
+fn cared(result: Result<(), CareError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("{error}");
     ExitCode::FAILURE

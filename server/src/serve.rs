@@ -76,7 +76,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         _ => ServeError::Listen { address, cause },
     })?;
     let bound = listener.local_addr().map_err(|cause| ServeError::Listen { address, cause })?;
-    let store = Arc::new(AnyStore::Sqlite(SqliteStore::open(&options.database).await?));
+    let store = Arc::new(AnyStore::Sqlite(SqliteStore::open(&options.database.path).await?));
 
     let stop = CancellationToken::new();
     let sessions = Sessions::new(Arc::clone(&store), pool.clone(), authority::may, stop.clone());

@@ -31,7 +31,7 @@ pub use self::{
         Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
         StoredVersion, TreeChange, TreeDocument,
     },
-    sqlite::{OpenError, SqliteStore},
+    sqlite::{CareError, OpenError, Report, SqliteStore, backup, check, restore},
 };
 
 /// Snapshots kept of each session: the last one, and one before it should the last be damaged.

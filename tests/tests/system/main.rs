@@ -2,6 +2,7 @@
 
 mod appearance;
 mod bad_input;
+mod care;
 mod command_line;
 mod commands;
 mod crashes;

@@ -9,18 +9,22 @@ use super::open::{common_options, migrator, sentence};
 /// Of the header of every file of ours, set by the second migration.
 const APPLICATION_ID: i64 = 0x4553_504c;
 
+/// Why a file of somebody else is refused.
+pub(super) const FOREIGN: &str = "it belongs to another program; nothing in it was changed";
+
 /// Refuses a file that another program keeps its data in.
 pub(super) async fn check(path: &Path) -> Result<(), String> {
-    let options = common_options(path).read_only(true);
-    let mut connection = options.connect().await.map_err(|error| sentence(&error))?;
-    if is_ours(&mut connection).await.map_err(|error| sentence(&error))? {
-        Ok(())
-    } else {
-        Err("it belongs to another program; nothing in it was changed".into())
-    }
+    if is_ours(path).await? { Ok(()) } else { Err(FOREIGN.into()) }
 }
 
-async fn is_ours(connection: &mut SqliteConnection) -> Result<bool, sqlx::Error> {
+/// Whether a file is one of ours or empty; an error where it cannot be read.
+pub(super) async fn is_ours(path: &Path) -> Result<bool, String> {
+    let options = common_options(path).read_only(true);
+    let mut connection = options.connect().await.map_err(|error| sentence(&error))?;
+    has_our_marks(&mut connection).await.map_err(|error| sentence(&error))
+}
+
+async fn has_our_marks(connection: &mut SqliteConnection) -> Result<bool, sqlx::Error> {
     let id: i64 = sqlx::query_scalar("PRAGMA application_id").fetch_one(&mut *connection).await?;
     if id != 0 {
         return Ok(id == APPLICATION_ID);

@@ -1,5 +1,6 @@
 //! A store in one SQLite file: one writer that commits in groups, and readers beside it.
 
+mod care;
 mod finding;
 mod identity;
 mod open;
@@ -16,7 +17,10 @@ use espalier_session::JournalEntry;
 
 #[cfg(test)]
 use self::open::tests::Folder;
-pub use self::open::{OpenError, SqliteStore};
+pub use self::{
+    care::{CareError, Report, backup, check, restore},
+    open::{OpenError, SqliteStore},
+};
 use self::{finding::FindingWrite, sessions::SessionWrite, tree_writes::TreeWrite, writer::Write};
 use super::{
     Collection, CollectionChange, Damage, Finding, Lease, Library, NewSession, NewSnapshot, NewTree,

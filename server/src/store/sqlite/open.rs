@@ -158,7 +158,21 @@ fn is_safe(version: &str) -> bool {
     parts.as_slice() >= OLDEST_SAFE_SQLITE.as_slice()
 }
 
-async fn check_integrity(connection: impl SqliteExecutor<'_>) -> Result<(), String> {
+/// Whether a file has the schema of this program; an error where it has a later one.
+pub(super) async fn is_current(connection: &mut SqliteConnection) -> Result<bool, String> {
+    let found: Option<i64> = sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations")
+        .fetch_one(connection)
+        .await
+        .map_err(|error| sentence(&error))?;
+    let (found, known) = (found.unwrap_or(0), MIGRATIONS.len() as i64);
+    if found > known {
+        Err(migration_sentence(&MigrateError::VersionMissing(found)))
+    } else {
+        Ok(found == known)
+    }
+}
+
+pub(super) async fn check_integrity(connection: impl SqliteExecutor<'_>) -> Result<(), String> {
     let found: String = sqlx::query_scalar("PRAGMA quick_check(1)")
         .fetch_one(connection)
         .await
@@ -173,7 +187,7 @@ async fn check_beside(readers: &SqlitePool) {
         Err(_) if readers.is_closed() => {}
         Err(reason) => {
             tracing::error!(
-                "the database was read through: {reason}"
+                "the database was read through: {reason}; `espalier check` says what is still whole"
             );
         }
     }
