@@ -1,6 +1,6 @@
 //! Scripts: one command in JSON on each line.
 
-use espalier_proto::{Command, Problem, ProblemCode};
+use espalier_proto::{Command, Problem};
 
 use crate::form::read_command;
 
@@ -25,16 +25,11 @@ pub fn read_commands(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Command)>, 
     let numbered = (1..).zip(bytes.split(|&byte| byte == b'\n'));
     numbered
         .filter(|(_, line)| !line.trim_ascii().is_empty())
-        .map(|(line, bytes)| match read(bytes) {
+        .map(|(line, bytes)| match read_command(&String::from_utf8_lossy(bytes)) {
             Ok(command) => Ok((line, command)),
             Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem }),
         })
         .collect()
-}
-
-fn read(line: &[u8]) -> Result<Command, Problem> {
-    let not_text = |_| Problem::new(ProblemCode::Malformed, "the line is not UTF-8 text");
-    read_command(std::str::from_utf8(line).map_err(not_text)?)
 }
 
 #[cfg(test)]

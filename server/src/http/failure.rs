@@ -45,14 +45,18 @@ impl Failure {
         if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
             let allowed = format!("{} MiB", most >> 20);
             let sentence = format!("The file is larger than {allowed}.");
-            return Self::too_large(&allowed, sentence);
+            return Self::too_large(None, &allowed, sentence);
         }
         Problem::new(ProblemCode::Malformed, "The file did not arrive whole.").into()
     }
 
-    fn too_large(allowed: &str, sentence: impl Into<String>) -> Self {
-        let problem = Problem::new(ProblemCode::TooMany, sentence);
-        let problem = Problem { allowed: Some(allowed.to_owned()), ..problem };
+    fn too_large(field: Option<&str>, allowed: &str, sentence: String) -> Self {
+        let problem = Problem {
+            code: ProblemCode::TooMany,
+            field: field.map(str::to_owned),
+            allowed: Some(allowed.to_owned()),
+            message: sentence,
+        };
         Self { status: StatusCode::PAYLOAD_TOO_LARGE, problem }
     }
 
@@ -152,7 +156,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
         }
         let bytes = Bytes::from_request(request, state).await.map_err(|rejection| {
             if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-                return Failure::too_large("a smaller body", "The request is too large.");
+                return Failure::too_large(None, "a smaller body", "The request is too large.".into());
             }
             Problem::new(ProblemCode::Malformed, "The request cannot be read: it did not arrive whole.")
                 .into()

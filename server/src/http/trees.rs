@@ -10,7 +10,7 @@ use axum::{
 };
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
-    Problem,
+    Problem, ProblemCode,
     library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
 };
 use espalier_session::Principal;
@@ -162,7 +162,11 @@ fn read_place(text: &str) -> Result<TreePlace, Problem> {
     let read = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
     let parts = read.as_deref().and_then(|read| read.split_once('\0'));
     let place = parts.map(|(id, value)| TreePlace { id: id.to_owned(), value: value.to_owned() });
-    place.ok_or_else(|| Problem::out_of_range("after", text, "the next of the page before"))
+    place.ok_or_else(|| Problem {
+        field: Some("after".into()),
+        allowed: Some("the next of the page before".into()),
+        ..Problem::new(ProblemCode::Malformed, "after is not the next of a page")
+    })
 }
 
 pub(super) async fn find(

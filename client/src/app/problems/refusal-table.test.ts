@@ -8,7 +8,7 @@ import { ALLOWED, REFUSALS } from "./refusal-table";
 const SERVER = join(import.meta.dirname, "../../../../server");
 
 /** Where the server makes problems, and where the errors are worded that it passes on. */
-const SOURCES = ["session/src", "src/http", "src/import.rs"];
+const SOURCES = ["session/src", "src/http", "src/import.rs", "../proto/src/thumbnail.rs"];
 const PASSED_ON = ["growth/src/edit_error.rs", "src/live/restoring.rs", "../proto/src/mesh.rs"];
 /** What the types of `proto` allow that a person can get wrong. */
 const OF_TYPES = ["1 to 1000", "0.01 to 100", "box, sphere or plane"];
