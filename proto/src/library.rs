@@ -342,6 +342,19 @@ pub struct TreeTag {
     pub trees: u32,
 }
 
+/// Who saved a tree last, as they wanted to be called; `GET /api/authors` lists all of them.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeAuthor {
+    /// The name.
+    pub author: String,
+    /// How many trees they saved last.
+    pub trees: u32,
+}
+
+/// How the names of files end that `POST /api/trees/import` makes trees of.
+pub const IMPORT_ENDINGS: [&str; 4] = ["espalier", "mtg", "csv", "json"];
+
 /// `PATCH /api/trees/ID/versions/N`: what is said of a version.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
 #[serde(deny_unknown_fields)]

@@ -41,6 +41,9 @@ pub fn declarations() -> String {
     constant("MAX_MESH_VERTICES", version::MAX_MESH_VERTICES.to_string());
     constant("MAX_MESH_TRIANGLES", version::MAX_MESH_TRIANGLES.to_string());
     constant("MAX_GLB_BYTES", version::MAX_GLB_BYTES.to_string());
+    constant("MAX_WOOD_BYTES", version::MAX_WOOD_BYTES.to_string());
+    constant("MAX_TAGS", version::MAX_TAGS.to_string());
+    constant("IMPORT_ENDINGS", format!("{:?} as const", library::IMPORT_ENDINGS));
     constant("CHUNK_ROWS", frame::CHUNK_ROWS.to_string());
     constant("POSITION_STEPS", frame::POSITION_STEPS.to_string());
     constant("MIN_RADIUS", frame::MIN_RADIUS.to_string());
@@ -143,6 +146,7 @@ pub fn declarations() -> String {
         library::NewCollection::decl(&config),
         library::ChangeCollection::decl(&config),
         library::TreeTag::decl(&config),
+        library::TreeAuthor::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

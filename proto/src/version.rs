@@ -66,6 +66,9 @@ pub const MAX_GLB_BYTES: usize = 16 * 1024 * 1024;
 /// The largest file that can be posted to become a tree, in bytes (`LM14`).
 pub const MAX_WOOD_BYTES: usize = 64 * 1024 * 1024;
 
+/// The most tags of a tree (`LB7`).
+pub const MAX_TAGS: usize = 32;
+
 /// Why the server closes a socket. Standard codes below 4000 keep their meaning.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u16)]

@@ -115,7 +115,7 @@ impl From<&ImportError> for Problem {
 
 #[cfg(test)]
 mod tests {
-    use espalier_proto::{Action, Steps};
+    use espalier_proto::{Action, Steps, library::IMPORT_ENDINGS};
     use serde_json::json;
 
     use super::*;
@@ -188,6 +188,15 @@ mod tests {
         let file = exported(&mut before, exports::Format::Document);
         let same = document(&file, &import(Format::Document, &[]));
         assert!(same.is_ok_and(|same| same.plant().hash() == before.plant().hash()));
+    }
+
+    #[test]
+    fn clients_know_the_formats() {
+        let mut ours: Vec<_> = FORMATS.iter().map(|(_, ending, _)| *ending).collect();
+        let mut theirs = IMPORT_ENDINGS.to_vec();
+        ours.sort_unstable();
+        theirs.sort_unstable();
+        assert_eq!(ours, theirs);
     }
 
     #[test]

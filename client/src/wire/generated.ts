@@ -23,6 +23,9 @@ export const MAX_OBSTACLES = 64;
 export const MAX_MESH_VERTICES = 65536;
 export const MAX_MESH_TRIANGLES = 131072;
 export const MAX_GLB_BYTES = 16777216;
+export const MAX_WOOD_BYTES = 67108864;
+export const MAX_TAGS = 32;
+export const IMPORT_ENDINGS = ["espalier", "mtg", "csv", "json"] as const;
 export const CHUNK_ROWS = 256;
 export const POSITION_STEPS = 256;
 export const MIN_RADIUS = 0.001;
@@ -2026,5 +2029,15 @@ export type TreeTag = {
 tag: string, 
 /**
  * How many trees have it.
+ */
+trees: number, };
+
+export type TreeAuthor = { 
+/**
+ * The name.
+ */
+author: string, 
+/**
+ * How many trees they saved last.
  */
 trees: number, };

@@ -1,4 +1,4 @@
-//! The library: collections, tags and favourites.
+//! The library: collections, tags, favourites, and who saved trees.
 
 use axum::{
     Extension, Json,
@@ -6,7 +6,7 @@ use axum::{
     http::StatusCode,
     response::IntoResponse,
 };
-use espalier_proto::library::{ChangeCollection, NewCollection, TreeCollection, TreeTag};
+use espalier_proto::library::{ChangeCollection, NewCollection, TreeAuthor, TreeCollection, TreeTag};
 use espalier_session::Principal;
 
 use super::{
@@ -59,6 +59,11 @@ pub(super) async fn delete(
 pub(super) async fn tags(State(shared): State<Shared>) -> Result<Json<Vec<TreeTag>>, Failure> {
     let tags = shared.store.tags().await?;
     Ok(Json(tags.into_iter().map(|(tag, trees)| TreeTag { tag, trees }).collect()))
+}
+
+pub(super) async fn authors(State(shared): State<Shared>) -> Result<Json<Vec<TreeAuthor>>, Failure> {
+    let authors = shared.store.authors().await?;
+    Ok(Json(authors.into_iter().map(|(author, trees)| TreeAuthor { author, trees }).collect()))
 }
 
 pub(super) async fn like(

@@ -150,6 +150,7 @@ fn routes() -> Vec<Route> {
         route("PUT /api/trees/{tree}/favourite", Action::SeeTree, put(collections::like)),
         route("DELETE /api/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike)),
         route("GET /api/tags", Action::ListTrees, get(collections::tags)),
+        route("GET /api/authors", Action::ListTrees, get(collections::authors)),
         route("GET /api/collections", Action::ListTrees, get(collections::list)),
         route("POST /api/collections", Action::ChangeCollections, post(collections::add)),
         route("PATCH /api/collections/{id}", Action::ChangeCollections, patch(collections::change)),

@@ -12,6 +12,7 @@ use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, ProblemCode,
     library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
+    version::MAX_TAGS,
 };
 use espalier_session::Principal;
 use serde::Deserialize;
@@ -36,8 +37,6 @@ use crate::{
 const MAX_TREES: u32 = 500;
 /// Words, or tags, that are searched at once.
 const MAX_WORDS: usize = 8;
-/// Tags of a tree.
-const MAX_TAGS: usize = 32;
 
 /// Which trees of the library to list (`LB7`).
 #[derive(Debug, Deserialize)]

@@ -21,6 +21,9 @@ pub trait Finding {
     /// All tags that trees have, with how many have them.
     async fn tags(&self) -> Result<Vec<(String, u32)>, StoreError>;
 
+    /// All who saved a tree last and said their name, with how many trees they did.
+    async fn authors(&self) -> Result<Vec<(String, u32)>, StoreError>;
+
     /// The trees that somebody likes best.
     async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError>;
 

@@ -374,6 +374,10 @@ impl Finding for AnyStore {
         delegate!(self.tags())
     }
 
+    async fn authors(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        delegate!(self.authors())
+    }
+
     async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {
         delegate!(self.favourites(principal))
     }

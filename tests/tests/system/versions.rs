@@ -270,6 +270,9 @@ async fn lb7_trees_are_found_by_what_is_said_of_them() {
         library.get("/api/tags"),
         json!([{ "tag": "Red maple", "trees": 1 }, { "tag": "old", "trees": 1 }])
     );
+    let ours = json!([{ "author": "Ada", "trees": 1 }]);
+    library.post(&format!("{apple}/copies"), json!({ "name": "Apple", "author": "Ada" }), 201);
+    assert_eq!(library.get("/api/authors"), ours);
     let under_itself = json!({ "parent": copse["id"] });
     let at = |collection: &Value| format!("/api/collections/{}", collection["id"].as_str().expect("an id"));
     assert_eq!(library.ask("PATCH", &at(&wood), Some(under_itself)).status, 409);

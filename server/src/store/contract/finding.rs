@@ -195,6 +195,7 @@ pub(super) async fn filters_hold_at_once(store: &(impl Library + Finding)) {
         (new.version.author, new.version.principal) = (Some(author.into()), format!("{author}-browser"));
         store.add_tree(new).await.unwrap();
     }
+    assert_eq!(store.authors().await.unwrap(), [("Ada".into(), 2), ("Bo".into(), 1)]);
     let any = TreeQuery::default;
     let birch = || Some("silver-birch".to_owned());
     for (query, expected) in [

@@ -1,10 +1,10 @@
 //! Finding trees in the model.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     super::{
-        Collection, CollectionChange, Finding, StoreError, StoredTree, TreeQuery,
+        Collection, CollectionChange, Finding, Library, StoreError, StoredTree, TreeQuery,
         folding::{folded, searched},
     },
     MemoryStore,
@@ -33,6 +33,13 @@ pub(super) fn is_wanted(
         && query.metamers.contains(&tree.head.metamers)
         && query.saved_from.as_ref().is_none_or(|from| tree.head.saved_at >= *from)
         && query.saved_before.as_ref().is_none_or(|before| tree.head.saved_at < *before)
+}
+
+/// Each text once, with how often it came.
+fn counted(texts: impl Iterator<Item = String>) -> Vec<(String, u32)> {
+    let mut counts = BTreeMap::new();
+    texts.for_each(|text| *counts.entry(text).or_insert(0) += 1);
+    counts.into_iter().collect()
 }
 
 impl Finding for MemoryStore {
@@ -90,11 +97,12 @@ impl Finding for MemoryStore {
     async fn tags(&self) -> Result<Vec<(String, u32)>, StoreError> {
         let kept = self.kept();
         let trees = kept.trees.values().filter(|tree| tree.deleted_at.is_none());
-        let mut counts = std::collections::BTreeMap::new();
-        for tag in trees.flat_map(|tree| &tree.tags) {
-            *counts.entry(tag.clone()).or_insert(0) += 1;
-        }
-        Ok(counts.into_iter().collect())
+        Ok(counted(trees.flat_map(|tree| tree.tags.clone())))
+    }
+
+    async fn authors(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        let all = self.trees(&TreeQuery::default()).await?;
+        Ok(counted(all.into_iter().filter_map(|tree| tree.head.author)))
     }
 
     async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {

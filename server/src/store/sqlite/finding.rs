@@ -131,6 +131,14 @@ pub(super) async fn tags(readers: &SqlitePool) -> Result<Vec<(String, u32)>, Sto
     .await?)
 }
 
+pub(super) async fn authors(readers: &SqlitePool) -> Result<Vec<(String, u32)>, StoreError> {
+    Ok(sqlx::query_as(
+        "SELECT author, count(*) FROM trees WHERE deleted_at IS NULL AND author IS NOT NULL GROUP BY author ORDER BY author",
+    )
+    .fetch_all(readers)
+    .await?)
+}
+
 pub(super) async fn favourites(
     readers: &SqlitePool,
     principal: &str,

@@ -179,6 +179,10 @@ impl Finding for SqliteStore {
         finding::tags(&self.readers).await
     }
 
+    async fn authors(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        finding::authors(&self.readers).await
+    }
+
     async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {
         finding::favourites(&self.readers, principal).await
     }
