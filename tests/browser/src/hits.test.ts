@@ -43,6 +43,20 @@ async function lookIntoLibrary(tablet: Tablet, look: (where: string, within: str
   await menu.getByRole("button", { name: "Rename" }).click();
   await look("Rename in the library", ".card-form");
   await page.keyboard.press("Escape");
+  for (const deed of ["Edit tags", "Move to…"]) {
+    await unfold();
+    await menu.getByRole("button", { name: deed }).click();
+    await look(`${deed} in the library`, ".card-form");
+    await page.keyboard.press("Escape");
+  }
+  await page.getByRole("button", { name: "New collection", exact: true }).click();
+  await look("a new collection", ".collections");
+  await page.keyboard.press("Escape");
+  await page.getByRole("searchbox").fill("that was");
+  await page.getByRole("button", { name: /^No longer/ }).waitFor();
+  await page.getByRole("button", { name: "Filters", exact: true }).click();
+  await look("what is searched", ".library-sections");
+  await page.getByRole("button", { name: "Clear filters" }).click();
   await page.getByRole("button", { name: "Select", exact: true }).click();
   await page.getByRole("button", { name: "Select A tree that was saved" }).first().click();
   await look("chosen trees", ".selection-bar");

@@ -1,24 +1,30 @@
 import type {
+  ChangeCollection,
   ChangeTree,
   ChangeVersion,
   CopyTree,
+  NewCollection,
   RestoreVersion,
   SavedTree,
   SaveTree,
   SaveVersion,
+  TreeAuthor,
+  TreeCollection,
   TreePage,
+  TreeTag,
   TreeVersion,
 } from "../../wire/generated";
 import { ask } from "../requests/request";
 import type { Page } from "./pages";
+import type { asked } from "./wanted";
 
-/** Which trees are listed: all that are not deleted, if nothing is said. */
-export interface Which {
+/** Which trees are listed: all that are not deleted, if nothing is said (`LB7`). */
+export interface Which extends Partial<ReturnType<typeof asked>> {
   readonly template?: boolean;
   readonly deleted?: boolean;
 }
 
-/** So many saved trees, newest first; those behind another page, if its `next` is given. */
+/** So many saved trees, newest first if no order is asked for; those behind another page, if its `next` is given. */
 export async function listTrees(limit: number, after?: string, which: Which = {}): Promise<Page<SavedTree>> {
   const { trees, next } = await ask<TreePage>("GET", `/api/trees?${query({ limit, after, ...which })}`);
   return next === undefined ? { items: trees } : { items: trees, next };
@@ -70,6 +76,38 @@ export function changeVersion(id: string, number: number, change: ChangeVersion)
 /** Saves what a version holds as the newest one. */
 export function restoreVersion(id: string, number: number, request: RestoreVersion): Promise<TreeVersion> {
   return ask<TreeVersion>("POST", `${pathOf(id)}/versions/${number}/restore`, request);
+}
+
+/** Whether a tree is a favourite of this device's. */
+export async function setFavourite(id: string, favourite: boolean): Promise<void> {
+  await ask<undefined>(favourite ? "PUT" : "DELETE", `${pathOf(id)}/favourite`);
+}
+
+/** All tags that trees have. */
+export function listTags(): Promise<readonly TreeTag[]> {
+  return ask<TreeTag[]>("GET", "/api/tags");
+}
+
+/** All who saved a tree last and said their name. */
+export function listAuthors(): Promise<readonly TreeAuthor[]> {
+  return ask<TreeAuthor[]>("GET", "/api/authors");
+}
+
+/** All collections, by name. */
+export function listCollections(): Promise<readonly TreeCollection[]> {
+  return ask<TreeCollection[]>("GET", "/api/collections");
+}
+
+export function addCollection(collection: NewCollection): Promise<TreeCollection> {
+  return ask<TreeCollection>("POST", "/api/collections", collection);
+}
+
+export function changeCollection(id: string, change: ChangeCollection): Promise<TreeCollection> {
+  return ask<TreeCollection>("PATCH", `/api/collections/${encodeURIComponent(id)}`, change);
+}
+
+export async function deleteCollection(id: string): Promise<void> {
+  await ask<undefined>("DELETE", `/api/collections/${encodeURIComponent(id)}`);
 }
 
 function pathOf(id: string): string {

@@ -3,9 +3,10 @@ import { savedTree } from "../../../test/saved-tree";
 import type { SectionName } from "../page/layout";
 import type { ToastAction } from "../page/toasts";
 import { LibrarySection } from "./library-section";
+import { ANYTHING, type Wanted } from "./wanted";
 
 /** A section of three trees, what it asks of the server, and what it says. */
-async function section(name: SectionName = "trees") {
+async function section(name: SectionName = "trees", wanted: Wanted = ANYTHING) {
   const all = ["a", "b", "c"].map((id) => savedTree({ id, name: id.toUpperCase() }));
   const asked: string[] = [];
   const said: { readonly text: string; readonly action: ToastAction | undefined }[] = [];
@@ -24,7 +25,9 @@ async function section(name: SectionName = "trees") {
       copyTree: async (id, { name }) => ({ ...answer("copy", id), id: `${id}2`, name }),
       deleteTree: async (id) => void answer("delete", id),
       undeleteTree: async (id) => answer("undelete", id),
+      setFavourite: async (id, favourite) => void answer(favourite ? "star" : "unstar", id),
     },
+    wanted: () => wanted,
     said: () => ({ author: "Ann" }),
     show: (text, action) => void said.push({ text, action }),
   });
@@ -91,6 +94,33 @@ describe("a section", () => {
     const long = "x".repeat(79);
     await here.duplicate([all[1]!, { ...all[0]!, name: long }]);
     expect(here.pages.items.value?.slice(0, 2).map(({ name }) => name)).toEqual([long, "B (copy)"]);
+  });
+
+  it("a tree becomes a favourite, and is none again", async () => {
+    const { section: here, asked } = await section();
+    const first = () => here.pages.items.value![0]!;
+    await here.star(first());
+    expect(first().favourite).toBe(true);
+    await here.star(first());
+    expect([first().favourite, asked]).toEqual([false, ["star a", "unstar a"]]);
+  });
+
+  it("trees are moved to a collection, but for those that lie there, and back", async () => {
+    const { section: here, all, asked, said, ids } = await section("trees", { ...ANYTHING, collection: "" });
+    const wood = { id: "wood", name: "Wood" };
+    await here.move([all[0]!, { ...all[1]!, collection: "wood" }], wood);
+    expect([ids(), said[0]?.text, asked]).toEqual([["b", "c"], "“A” lies in “Wood” now", ["change a"]]);
+    said[0]?.action?.act();
+    await expect.poll(ids).toEqual(["a", "b", "c"]);
+    await here.move(all, null);
+    expect([said[1]?.text, asked.length]).toEqual(["That lies in no collection.", 2]);
+  });
+
+  it("trees that are moved stay where all are listed", async () => {
+    const { section: here, all, said, ids } = await section();
+    await here.move(all.slice(0, 2), { id: "wood", name: "Wood" });
+    expect([ids(), said[0]?.text]).toEqual([["a", "b", "c"], "2 trees lie in “Wood” now"]);
+    expect(here.pages.items.value?.[0]?.collection).toBe("wood");
   });
 
   it("what is taken back leaves the section of deleted trees", async () => {

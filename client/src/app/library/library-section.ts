@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { MAX_NAME_CHARACTERS, type SavedTree } from "../../wire/generated";
+import { type ChangeTree, MAX_NAME_CHARACTERS, type SavedTree } from "../../wire/generated";
 import type { SectionName } from "../page/layout";
 import type { ToastAction } from "../page/toasts";
 import { sentence } from "../problems/plain-words";
@@ -8,6 +8,7 @@ import { say } from "../words/say";
 import type * as api from "./library-api";
 import { Pages } from "./pages";
 import type { Said } from "./save-tree";
+import { asked, type Wanted } from "./wanted";
 
 /** What each section lists. */
 const LISTED = {
@@ -18,7 +19,11 @@ const LISTED = {
 
 export interface SectionOptions {
   readonly name: SectionName;
-  readonly api: Pick<typeof api, "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree">;
+  readonly api: Pick<
+    typeof api,
+    "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree" | "setFavourite"
+  >;
+  readonly wanted: () => Wanted;
   readonly said: () => Said;
   readonly show: (text: string, action?: ToastAction) => void;
 }
@@ -37,7 +42,7 @@ export class LibrarySection {
     this.name = options.name;
     this.#options = options;
     this.pages = new Pages(
-      (limit, after) => options.api.listTrees(limit, after, LISTED[options.name]),
+      (limit, after) => options.api.listTrees(limit, after, { ...asked(options.wanted()), ...LISTED[options.name] }),
       ({ id }) => id,
     );
   }
@@ -56,9 +61,35 @@ export class LibrarySection {
     this.chosen.value = chosen;
   }
 
-  /** Changes a tree's name or note. */
-  async change(tree: SavedTree, change: { readonly name?: string; readonly note?: string }): Promise<void> {
+  /** Changes a tree's name, note or tags. */
+  async change(tree: SavedTree, change: Pick<ChangeTree, "name" | "note" | "tags">): Promise<void> {
     await this.#each([tree], async ({ id }) => this.pages.replace(id, await this.#options.api.changeTree(id, change)));
+  }
+
+  /** Makes a tree a favourite, or no longer; it stays where it is until the list is asked for anew. */
+  async star(tree: SavedTree): Promise<void> {
+    const favourite = !tree.favourite;
+    await this.#each([tree], async ({ id }) => {
+      await this.#options.api.setFavourite(id, favourite);
+      this.pages.replace(id, { ...tree, favourite });
+    });
+  }
+
+  /** Has trees lie in a collection, or in none. */
+  async move(trees: readonly SavedTree[], to: { readonly id: string; readonly name: string } | null): Promise<void> {
+    const { show } = this.#options;
+    const moved = trees.filter(({ collection }) => (collection ?? "") !== (to?.id ?? ""));
+    if (moved.length === 0) {
+      show(say(to === null ? "library.move.lies-in-none" : "library.move.lies-there", { collection: to?.name ?? "" }));
+      return;
+    }
+    const done = await this.#each(moved, (tree) => this.#lay(tree, to?.id));
+    if (done.length > 0) {
+      show(
+        to === null ? told("moved-out", done) : told("moved", done, { collection: to.name }),
+        undo(async () => void (await this.#each(done, (tree) => this.#lay(tree, tree.collection)))),
+      );
+    }
   }
 
   async mark(trees: readonly SavedTree[], template: boolean): Promise<void> {
@@ -112,6 +143,18 @@ export class LibrarySection {
     }
   }
 
+  async #lay({ id }: SavedTree, collection = ""): Promise<void> {
+    const tree = await this.#options.api.changeTree(id, { collection });
+    const listed = this.#options.wanted().collection;
+    if (listed !== null && listed !== collection) {
+      this.pages.replace(id, null);
+    } else if (this.pages.items.peek()?.some((other) => other.id === id)) {
+      this.pages.replace(id, tree);
+    } else {
+      this.pages.begin(tree);
+    }
+  }
+
   async #unmark(trees: readonly SavedTree[], template: boolean): Promise<void> {
     await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.changeTree(id, { template })));
   }
@@ -153,11 +196,12 @@ export class LibrarySection {
 const undo = (act: () => Promise<void>): ToastAction => ({ label: say("library.undo"), act: () => void act() });
 
 function told(
-  what: "template" | "no-template" | "duplicated" | "deleted" | "back",
+  what: "template" | "no-template" | "duplicated" | "deleted" | "back" | "moved" | "moved-out",
   trees: readonly SavedTree[],
+  values: Readonly<Record<string, string>> = {},
 ): string {
   const [only] = trees;
   return trees.length === 1 && only
-    ? say(`library.${what}.one`, { name: only.name })
-    : say(`library.${what}.some`, { count: trees.length });
+    ? say(`library.${what}.one`, { ...values, name: only.name })
+    : say(`library.${what}.some`, { ...values, count: trees.length });
 }

@@ -64,4 +64,22 @@ describe("pages", () => {
     await pages.next();
     expect([pages.items.value?.length, pages.failure.value, pages.more.value]).toEqual([1, null, false]);
   });
+
+  it("begins anew without what was there, and without late answers about it", async () => {
+    const answers: ((page: { items: readonly SavedTree[] }) => void)[] = [];
+    const pages = new Pages<SavedTree>(() => new Promise((answer) => answers.push(answer)), idOf);
+    const first = pages.next();
+    const second = pages.anew();
+    expect([answers.length, pages.asking.value]).toEqual([2, true]);
+    answers[0]?.({ items: [tree(1)] });
+    await first;
+    expect([pages.items.value, pages.asking.value], "nobody wants that any more").toEqual([null, true]);
+    answers[1]?.({ items: [tree(2)] });
+    await second;
+    const third = pages.anew();
+    expect(pages.items.value?.map(idOf), "it stays until another list is there").toEqual(["t2"]);
+    answers[2]?.({ items: [] });
+    await third;
+    expect([pages.items.value, pages.asking.value, pages.more.value]).toEqual([[], false, false]);
+  });
 });

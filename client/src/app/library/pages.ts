@@ -17,11 +17,16 @@ export class Pages<Item> {
   readonly failure = signal<unknown>(null);
   /** Whether there are more. */
   readonly more = signal(true);
+  /** Whether some are on their way. */
+  readonly asking = signal(false);
   #list: (limit: number, after?: string) => Promise<Page<Item>>;
   #keyOf: (item: Item) => unknown;
-  #asking = false;
   /** Where the next page begins. */
   #after: string | undefined;
+  /** Counts the lists: answers about one that is no longer asked for are not minded. */
+  #turn = 0;
+  /** Whether what is here is of the list before. */
+  #isOld = false;
 
   constructor(list: (limit: number, after?: string) => Promise<Page<Item>>, keyOf: (item: Item) => unknown) {
     this.#list = list;
@@ -30,24 +35,34 @@ export class Pages<Item> {
 
   /** Brings the next items, unless they are on their way or there are none. */
   async next(): Promise<void> {
-    if (this.#asking || !this.more.peek()) {
+    if (this.asking.peek() || !this.more.peek()) {
       return;
     }
-    this.#asking = true;
+    const turn = this.#turn;
+    this.asking.value = true;
     try {
       const page = await this.#list(PAGE, this.#after);
-      // What was changed or removed meanwhile stays so.
-      const now = this.items.peek() ?? [];
-      const known = new Set(now.map(this.#keyOf));
-      this.items.value = [...now, ...page.items.filter((item) => !known.has(this.#keyOf(item)))];
-      this.#after = page.next;
-      this.more.value = page.next !== undefined;
-      this.failure.value = null;
+      if (turn === this.#turn) {
+        this.#take(page);
+      }
     } catch (error) {
-      this.failure.value = error;
-    } finally {
-      this.#asking = false;
+      if (turn === this.#turn) {
+        this.failure.value = error;
+      }
     }
+    if (turn === this.#turn) {
+      this.asking.value = false;
+    }
+  }
+
+  /** Begins anew, for something else is listed now; what is here stays until that comes. */
+  async anew(): Promise<void> {
+    this.#turn += 1;
+    this.#isOld = true;
+    this.#after = undefined;
+    this.more.value = true;
+    this.asking.value = false;
+    await this.next();
   }
 
   /** An item has changed, or is gone. */
@@ -59,6 +74,18 @@ export class Pages<Item> {
 
   /** A new one stands before all others. */
   begin(item: Item): void {
-    this.items.value = [item, ...(this.items.peek() ?? [])];
+    const others = (this.items.peek() ?? []).filter((other) => this.#keyOf(other) !== this.#keyOf(item));
+    this.items.value = [item, ...others];
+  }
+
+  #take(page: Page<Item>): void {
+    // What was changed or removed meanwhile stays so.
+    const now = this.#isOld ? [] : (this.items.peek() ?? []);
+    this.#isOld = false;
+    const known = new Set(now.map(this.#keyOf));
+    this.items.value = [...now, ...page.items.filter((item) => !known.has(this.#keyOf(item)))];
+    this.#after = page.next;
+    this.more.value = page.next !== undefined;
+    this.failure.value = null;
   }
 }

@@ -96,7 +96,13 @@ function isNames(value: unknown): boolean {
   return typeof value === "object" && value !== null && Object.values(value).every((name) => typeof name === "string");
 }
 
-function kept<Value>(store: Storage, name: string, fallback: Value, valid: (value: unknown) => boolean): Signal<Value> {
+/** A value that is kept in a store under a name; what else stands there is not taken. */
+export function kept<Value>(
+  store: Storage,
+  name: string,
+  fallback: Value,
+  valid: (value: unknown) => boolean,
+): Signal<Value> {
   const key = `espalier.${name}`;
   let initial = fallback;
   try {

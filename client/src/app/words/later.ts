@@ -6,6 +6,7 @@ import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
 import { CONTROLS } from "./controls";
 import { EXPORTS } from "./exports";
+import { FINDING } from "./finding";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
 import { LIBRARY } from "./library";
@@ -34,6 +35,7 @@ export const LATER = {
   ...SCENE,
   ...SHEETS,
   ...EXPORTS,
+  ...FINDING,
   ...LIBRARY,
   ...SUN,
   ...SHAPING,

@@ -11,6 +11,8 @@ import "./sun.css";
 import "./branch.css";
 import "./sheet-contents.css";
 import "./library.css";
+import "./finding.css";
+import "./collections.css";
 import "./help.css";
 import "./recent.css";
 import "./vain.css";

@@ -1,37 +1,32 @@
-import { useEffect, useMemo, useRef } from "preact/hooks";
-import * as api from "../../../library/library-api";
-import { LibrarySection } from "../../../library/library-section";
-import { said } from "../../../library/save-tree";
+import { useEffect, useMemo } from "preact/hooks";
+import { conditions } from "../../../library/wanted";
 import { SECTION_NAMES } from "../../../page/layout";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { UnsavedSection } from "../unsaved-section";
-import { DeletedCard } from "./deleted-card";
-import { neighbour } from "./grid-keys";
+import { Collections } from "./collections";
+import { FinderBar } from "./finder-bar";
+import { FoundBy, NothingFound } from "./found-by";
+import { type LibraryDesk, openDesk } from "./library-desk";
 import { More } from "./more";
 import { SelectionBar } from "./selection-bar";
 import { SpeciesTemplates } from "./species-templates";
-import { TreeCard } from "./tree-card";
+import { DragGhost } from "./tree-drag";
+import { TreeGrid } from "./tree-grid";
 
-/** The library: its trees, templates, and what was deleted; a tap opens a tree. */
+/** The library: its trees, templates, and what was deleted, and ways to find them; a tap opens a tree. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
   const { section: shown, sheet } = studio.layout;
   const name = shown.value;
-  const section = useMemo(
-    () =>
-      new LibrarySection({
-        name,
-        api,
-        said: () => said(studio),
-        show: (text, action) => studio.toasts.show(text, action),
-      }),
-    [studio, name],
-  );
+  const desk = useMemo(() => openDesk(studio, name), [studio, name]);
+  const { section, catalogue, wanted } = desk;
+  const want = wanted.value;
+  useEffect(() => void section.pages.anew(), [section, want]);
   useEffect(() => {
-    void section.pages.next();
+    void catalogue.refresh();
     // Nobody sees any more how far the work is.
     return () => section.work.cancel();
-  }, [section]);
+  }, [section, catalogue]);
   useEffect(
     () => () => {
       // Whoever comes back from the versions of a tree finds the section as it was.
@@ -41,27 +36,52 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
     },
     [sheet, shown],
   );
-  const trees = section.pages.items.value;
-  const choosing = section.chosen.value !== null;
+  const isNarrowed = want.collection !== null || conditions({ ...want, words: "" }, String).length > 0;
+  const isFound = section.pages.items.value?.length !== 0;
   return (
     <div class="library-sections">
-      <div class="library-bar">
-        <fieldset class="segments" aria-label={say("library.sections")}>
-          {SECTION_NAMES.map((one) => (
-            <label key={one}>
-              <input
-                type="radio"
-                name="section"
-                checked={one === name}
-                onChange={() => {
-                  shown.value = one;
-                }}
-              />
-              <span>{say(`library.section.${one}`)}</span>
-            </label>
-          ))}
-        </fieldset>
-        {trees !== null && trees.length > 0 && (
+      <SectionBar desk={desk} />
+      <FinderBar desk={desk} />
+      {isFound && <FoundBy desk={desk} />}
+      <div class="library-body">
+        <Collections desk={desk} />
+        <div class="library-main">
+          {name === "trees" && !isNarrowed && want.words === "" && <UnsavedSection studio={studio} />}
+          {!isFound && <NothingFound desk={desk} />}
+          <TreeGrid desk={desk} />
+          <More pages={section.pages} />
+          {name === "templates" && !isNarrowed && <SpeciesTemplates studio={studio} words={want.words} />}
+        </div>
+      </div>
+      <SelectionBar desk={desk} />
+      <DragGhost drag={desk.drag} />
+    </div>
+  );
+}
+
+/** Which part of the library is shown; files for it; and whether trees are being chosen. */
+function SectionBar({ desk }: { readonly desk: LibraryDesk }) {
+  const { section, studio } = desk;
+  const choosing = section.chosen.value !== null;
+  return (
+    <div class="library-bar">
+      <fieldset class="segments" aria-label={say("library.sections")}>
+        {SECTION_NAMES.map((one) => (
+          <label key={one}>
+            <input
+              type="radio"
+              name="section"
+              checked={one === section.name}
+              onChange={() => {
+                studio.layout.section.value = one;
+              }}
+            />
+            <span>{say(`library.section.${one}`)}</span>
+          </label>
+        ))}
+      </fieldset>
+      <div class="library-deeds">
+        {(section.pages.items.value?.length ?? 0) > 0 && (
           <button
             type="button"
             class="small"
@@ -74,46 +94,6 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
           </button>
         )}
       </div>
-      {name === "trees" && <UnsavedSection studio={studio} />}
-      {trees?.length === 0 && <p class="quiet empty">{say(`library.empty.${name}`)}</p>}
-      <Grid studio={studio} section={section} />
-      <More pages={section.pages} />
-      {name === "templates" && <SpeciesTemplates studio={studio} />}
-      <SelectionBar section={section} />
     </div>
-  );
-}
-
-/** The trees in pictures; arrows lead from one to the next, Delete deletes. */
-function Grid({ studio, section }: { readonly studio: Studio; readonly section: LibrarySection }) {
-  const list = useRef<HTMLUListElement>(null);
-  const trees = section.pages.items.value ?? [];
-  const onKeyDown = (event: KeyboardEvent) => {
-    const buttons = [...(list.current?.querySelectorAll<HTMLElement>("button.card-open") ?? [])];
-    const at = buttons.indexOf(event.target as HTMLElement);
-    const tree = trees[at];
-    if (tree === undefined) {
-      return;
-    }
-    const next = neighbour(buttons, at, event.key);
-    if (next !== null) {
-      event.preventDefault();
-      next.focus();
-    } else if (event.key === "Delete" && section.name !== "deleted") {
-      // The one that takes its place is at hand next.
-      (buttons[at + 1] ?? buttons[at - 1])?.focus();
-      void section.remove(section.chosenTrees.length > 0 ? section.chosenTrees : [tree]);
-    }
-  };
-  return (
-    <ul class="library" ref={list} onKeyDown={onKeyDown}>
-      {trees.map((tree) =>
-        section.name === "deleted" && section.chosen.value === null ? (
-          <DeletedCard key={tree.id} section={section} tree={tree} />
-        ) : (
-          <TreeCard key={tree.id} studio={studio} section={section} tree={tree} />
-        ),
-      )}
-    </ul>
   );
 }

@@ -14,13 +14,14 @@ export function More<Item>({ pages }: { readonly pages: Pages<Item> }) {
           {sentence(failure)}
         </p>
       )}
-      {(failure !== null || (items !== null && pages.more.value)) && <End key={items?.length} pages={pages} />}
+      {(failure !== null || (items !== null && pages.more.value)) && <End pages={pages} />}
     </>
   );
 }
 
 function End<Item>({ pages }: { readonly pages: Pages<Item> }) {
   const end = useRef<HTMLButtonElement>(null);
+  const [items, asking] = [pages.items.value, pages.asking.value];
   useEffect(() => {
     // After a failure only who asks is answered, or a server that is away would be asked all the time.
     if (!end.current || pages.failure.peek() !== null) {
@@ -36,10 +37,10 @@ function End<Item>({ pages }: { readonly pages: Pages<Item> }) {
     );
     watcher.observe(end.current);
     return () => watcher.disconnect();
-  }, [pages]);
+  }, [pages, items]);
   return (
-    <button type="button" class="small library-more" ref={end} onClick={() => void pages.next()}>
-      {say(pages.failure.value === null ? "sheets.library.more" : "sheets.library.again")}
+    <button type="button" class="small library-more" ref={end} disabled={asking} onClick={() => void pages.next()}>
+      {say(asking ? "notices.looking" : pages.failure.value === null ? "sheets.library.more" : "sheets.library.again")}
     </button>
   );
 }

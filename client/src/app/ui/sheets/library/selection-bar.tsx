@@ -1,8 +1,12 @@
-import type { LibrarySection } from "../../../library/library-section";
 import { say } from "../../../words/say";
+import type { LibraryDesk } from "./library-desk";
+import { placesIn } from "./move-form";
+
+/** What the choice of a collection says before one is chosen; no collection has such an id. */
+const UNMOVED = " ";
 
 /** What is done with the chosen trees; while it is done, how far it is. */
-export function SelectionBar({ section }: { readonly section: LibrarySection }) {
+export function SelectionBar({ desk: { section, catalogue } }: { readonly desk: LibraryDesk }) {
   const progress = section.work.progress.value;
   const chosen = section.chosen.value;
   if (progress !== null && progress.total !== null && progress.total > 1) {
@@ -36,6 +40,26 @@ export function SelectionBar({ section }: { readonly section: LibrarySection }) 
           <button type="button" class="small" disabled={none} onClick={() => void section.duplicate(trees)}>
             {say("library.duplicate")}
           </button>
+          <select
+            class="pick"
+            aria-label={say("finding.move.chosen")}
+            disabled={none}
+            value={UNMOVED}
+            onChange={({ currentTarget }) => {
+              const to = catalogue.folder(currentTarget.value) ?? null;
+              currentTarget.value = UNMOVED;
+              void section.move(trees, to);
+            }}
+          >
+            <option value={UNMOVED} disabled>
+              {say("finding.move")}
+            </option>
+            {placesIn(catalogue.folders.value ?? []).map(([id, name]) => (
+              <option value={id} key={id}>
+                {name}
+              </option>
+            ))}
+          </select>
           <button
             type="button"
             class="small"

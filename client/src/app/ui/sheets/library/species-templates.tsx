@@ -1,14 +1,14 @@
 import type { Species } from "../../../../wire/generated";
 import { pictureOf } from "../../../document/species/species-api";
-import { speciesName, speciesSentence } from "../../../document/species/species-choice";
+import { foundSpecies, speciesName, speciesSentence } from "../../../document/species/species-choice";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { pick, useSpecies } from "../../panels/architecture/species-list";
 
-/** The species, each of which a new tree can be begun as. */
-export function SpeciesTemplates({ studio }: { studio: Studio }) {
-  const species = useSpecies(studio);
-  if (species === null || species.length === 0) {
+/** The species whose names have all the words, each of which a new tree can be begun as. */
+export function SpeciesTemplates({ studio, words }: { readonly studio: Studio; readonly words: string }) {
+  const species = foundSpecies(useSpecies(studio) ?? [], words);
+  if (species.length === 0) {
     return null;
   }
   return (

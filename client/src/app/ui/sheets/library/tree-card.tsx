@@ -1,38 +1,55 @@
 import { useState } from "preact/hooks";
 import type { SavedTree } from "../../../../wire/generated";
-import type { LibrarySection } from "../../../library/library-section";
-import type { Studio } from "../../../studio";
+import { pieces } from "../../../library/found-text";
 import { dateText } from "../../../words/date-text";
 import { language, say } from "../../../words/say";
 import { TreePicture } from "../tree-picture";
 import { CardForm } from "./card-form";
 import { CardMenu, type Deed } from "./card-menu";
-import { useHold } from "./use-hold";
+import { FoundText } from "./found-text";
+import { StarIcon } from "./icons";
+import type { LibraryDesk } from "./library-desk";
+import { MoveForm } from "./move-form";
+import { TagForm } from "./tag-form";
+import { usePress } from "./use-press";
+
+/** What of a tree is changed in a row of its card. */
+type Edited = "name" | "note" | "tags" | "collection";
 
 interface TreeCardProps {
-  readonly studio: Studio;
-  readonly section: LibrarySection;
+  readonly desk: LibraryDesk;
   readonly tree: SavedTree;
 }
 
-/** A tree of the library: a tap opens it, a finger held on it chooses it, and the rest is in its menu. */
-export function TreeCard({ studio, section, tree }: TreeCardProps) {
-  const [edited, setEdited] = useState<"name" | "note" | null>(null);
-  const { name } = tree;
+/**
+ * A tree of the library: a tap opens it, a finger held on it chooses it, dragged it is moved to a collection, and the
+ * rest is in its menu.
+ */
+export function TreeCard({ desk, tree }: TreeCardProps) {
+  const { studio, section } = desk;
+  const [edited, setEdited] = useState<Edited | null>(null);
+  const { name, species } = tree;
   const chosen = section.chosen.value;
   const begin = () => void studio.trees.leave({ tree, template: true });
   const open = () => void studio.trees.leave({ tree });
   const isTemplate = section.name === "templates";
   const isChosen = chosen?.has(tree.id) ?? false;
-  const press = useHold(
-    () => section.toggle(tree.id),
-    () => (chosen === null ? (isTemplate ? begin() : open()) : section.toggle(tree.id)),
-  );
+  const { words } = desk.wanted.value;
+  const press = usePress({
+    tapped: () => (chosen === null ? (isTemplate ? begin() : open()) : section.toggle(tree.id)),
+    held: () => isChosen || section.toggle(tree.id),
+    dragged:
+      section.name === "deleted"
+        ? undefined
+        : (at) => desk.drag.begin(section.chosen.peek()?.has(tree.id) ? section.chosenTrees : [tree], at),
+  });
   const deeds: readonly Deed[] = [
     { label: say("library.open"), act: open },
     { label: say("library.begin"), act: begin },
     { label: say("library.rename"), act: () => setEdited("name") },
     { label: say("library.note"), act: () => setEdited("note") },
+    { label: say("finding.edit-tags"), act: () => setEdited("tags") },
+    { label: say("finding.move"), act: () => setEdited("collection") },
     {
       label: say("library.versions", { count: tree.version }),
       act: () => {
@@ -60,17 +77,24 @@ export function TreeCard({ studio, section, tree }: TreeCardProps) {
         <TreePicture url={tree.thumbnail} />
         {chosen !== null && <i class="card-tick" aria-hidden="true" />}
       </button>
+      {chosen === null && edited === null && (
+        <button
+          type="button"
+          class="tool card-star"
+          aria-label={say("finding.star", { name })}
+          aria-pressed={tree.favourite}
+          onClick={() => void section.star(tree)}
+        >
+          <StarIcon />
+        </button>
+      )}
       {edited !== null ? (
-        <CardForm
-          kind={edited}
-          label={say(edited === "name" ? "library.new-name" : "library.note-of", { name })}
-          value={tree[edited]}
-          onSave={(value) => void section.change(tree, { [edited]: value })}
-          onEnd={() => setEdited(null)}
-        />
+        <CardEditor desk={desk} tree={tree} edited={edited} onEnd={() => setEdited(null)} />
       ) : (
         <div class="card-foot">
-          <strong class="card-name">{name}</strong>
+          <strong class="card-name">
+            <FoundText text={name} words={words} />
+          </strong>
           <span class="quiet card-facts">
             {say("notices.metamers", { count: tree.metamers.toLocaleString(language.value) })}
             <br />
@@ -78,9 +102,70 @@ export function TreeCard({ studio, section, tree }: TreeCardProps) {
           </span>
           {chosen === null && <CardMenu label={say("library.more-of", { name })} deeds={deeds} />}
           {tree.people > 0 && <span class="card-people">{say("library.people", { count: tree.people })}</span>}
-          {tree.note !== "" && <p class="quiet card-note">{tree.note}</p>}
+          {tree.tags.length > 0 && (
+            <p class="quiet card-tags">
+              {tree.tags.map((tag) => (
+                <span key={tag}>
+                  <FoundText text={tag} words={words} />
+                </span>
+              ))}
+            </p>
+          )}
+          {tree.note !== "" && (
+            <p class="quiet card-note">
+              <FoundText text={tree.note} words={words} />
+            </p>
+          )}
+          {species !== undefined && pieces(species, words).some(({ found }) => found) && (
+            <p class="quiet card-note">
+              {say("finding.species")}: <FoundText text={species} words={words} />
+            </p>
+          )}
         </div>
       )}
     </li>
   );
+}
+
+interface CardEditorProps extends TreeCardProps {
+  readonly edited: Edited;
+  readonly onEnd: () => void;
+}
+
+/** The row in which something of a tree is changed. */
+function CardEditor({ desk: { section, catalogue }, tree, edited, onEnd }: CardEditorProps) {
+  const { name } = tree;
+  switch (edited) {
+    case "name":
+    case "note":
+      return (
+        <CardForm
+          kind={edited}
+          label={say(edited === "name" ? "library.new-name" : "library.note-of", { name })}
+          value={tree[edited]}
+          onSave={(value) => void section.change(tree, { [edited]: value })}
+          onEnd={onEnd}
+        />
+      );
+    case "tags":
+      return (
+        <TagForm
+          label={say("finding.tags-of", { name })}
+          tags={tree.tags}
+          known={catalogue.tags.value}
+          onSave={(tags) => void section.change(tree, { tags }).then(() => catalogue.refresh())}
+          onEnd={onEnd}
+        />
+      );
+    case "collection":
+      return (
+        <MoveForm
+          label={say("finding.move.which", { name })}
+          folders={catalogue.folders.value ?? []}
+          value={tree.collection ?? ""}
+          onMove={(to) => void section.move([tree], catalogue.folder(to) ?? null)}
+          onEnd={onEnd}
+        />
+      );
+  }
 }

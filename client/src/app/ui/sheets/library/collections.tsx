@@ -1,0 +1,183 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { type Folder, placesFor } from "../../../library/catalogue";
+import { say } from "../../../words/say";
+import { CardForm } from "./card-form";
+import { CardMenu } from "./card-menu";
+import { AddIcon, FolderIcon } from "./icons";
+import type { LibraryDesk } from "./library-desk";
+import { MoveForm } from "./move-form";
+
+/** What is done with a collection; a new one may lie in it. */
+type Deed = "rename" | "new" | "move" | "delete";
+
+/** The collections, beside the trees where there is room, else above them; trees are dragged onto them. */
+export function Collections({ desk }: { readonly desk: LibraryDesk }) {
+  const { catalogue, wanted, studio } = desk;
+  const [making, setMaking] = useState(false);
+  const folders = catalogue.folders.value;
+  const here = wanted.value.collection;
+  useEffect(() => {
+    // Somebody else may have deleted the one that was looked into last.
+    if (folders !== null && here && !folders.some(({ id }) => id === here)) {
+      wanted.value = { ...wanted.value, collection: null };
+    }
+  }, [folders, here, wanted]);
+  const add = async (name: string, parent?: string) => {
+    if (await catalogue.add(name, parent)) {
+      studio.toasts.show(say("finding.new.done", { name }));
+    }
+  };
+  return (
+    <nav aria-label={say("finding.collections")}>
+      <ul class="collections">
+        <Place desk={desk} to={null}>
+          {say("finding.all")}
+        </Place>
+        {folders !== null && folders.length > 0 && (
+          <Place desk={desk} to="">
+            {say("finding.nowhere")}
+          </Place>
+        )}
+        {folders?.map((folder) => (
+          <Entry key={folder.id} desk={desk} folder={folder} add={add} />
+        ))}
+        <li class="collection-row">
+          {making ? (
+            <CardForm
+              kind="name"
+              label={say("finding.new.name")}
+              value=""
+              onSave={(name) => void add(name)}
+              onEnd={() => setMaking(false)}
+            />
+          ) : (
+            <button type="button" class="collection collection-new" onClick={() => setMaking(true)}>
+              <AddIcon />
+              {say("finding.new")}
+            </button>
+          )}
+        </li>
+      </ul>
+    </nav>
+  );
+}
+
+interface EntryProps {
+  readonly desk: LibraryDesk;
+  readonly folder: Folder;
+  readonly add: (name: string, parent: string) => Promise<void>;
+}
+
+function Entry({ desk, folder, add }: EntryProps) {
+  const { catalogue, wanted, studio } = desk;
+  const { id, name, parent = "", depth, above } = folder;
+  const [deed, setDeed] = useState<Deed | null>(null);
+  const end = () => setDeed(null);
+  const remove = async () => {
+    if (await catalogue.remove(id)) {
+      if (wanted.peek().collection === id) {
+        wanted.value = { ...wanted.peek(), collection: parent === "" ? null : parent };
+      }
+      studio.toasts.show(say("finding.gone", { name }));
+    }
+  };
+  const deeds = (["rename", "new", "move", "delete"] as const).map((one) => ({
+    label: say(
+      ({ rename: "library.rename", new: "finding.new-in", move: "finding.move", delete: "finding.delete" } as const)[
+        one
+      ],
+    ),
+    act: () => setDeed(one),
+  }));
+  const menu = wanted.value.collection === id && deed === null && (
+    <CardMenu label={say("finding.more-of", { name })} deeds={deeds} />
+  );
+  return (
+    <Place desk={desk} to={id} depth={depth} beside={menu} below={doing()}>
+      {above.length > 0 && <span class="collection-above">{above.join(" › ")} › </span>}
+      {name}
+    </Place>
+  );
+
+  function doing() {
+    switch (deed) {
+      case null:
+        return null;
+      case "rename":
+      case "new":
+        return (
+          <CardForm
+            kind="name"
+            label={deed === "new" ? say("finding.new.name") : say("finding.new-name", { name })}
+            value={deed === "new" ? "" : name}
+            onSave={(typed) => void (deed === "new" ? add(typed, id) : catalogue.rename(id, typed))}
+            onEnd={end}
+          />
+        );
+      case "move":
+        return (
+          <MoveForm
+            label={say("finding.move.which", { name })}
+            folders={placesFor(catalogue.folders.value ?? [], id)}
+            value={parent}
+            onMove={(to) => void catalogue.move(id, to)}
+            onEnd={end}
+          />
+        );
+      case "delete":
+        return (
+          <div class="card-confirm">
+            <span>{say("finding.delete.sure", { name })}</span>
+            <button type="button" class="small danger" onClick={() => void remove()}>
+              {say("finding.delete")}
+            </button>
+            <button type="button" class="small" onClick={end}>
+              {say("finding.keep")}
+            </button>
+          </div>
+        );
+    }
+  }
+}
+
+interface PlaceProps {
+  readonly desk: LibraryDesk;
+  /** The collection; empty for none, null for all trees. */
+  readonly to: string | null;
+  readonly depth?: number;
+  readonly children: ComponentChildren;
+  readonly beside?: ComponentChildren;
+  readonly below?: ComponentChildren;
+}
+
+/** Where trees lie: a press lists them, trees are dropped on it. */
+function Place({ desk: { wanted, drag }, to, depth = 0, children, beside, below }: PlaceProps) {
+  const row = useRef<HTMLLIElement>(null);
+  const isHere = wanted.value.collection === to;
+  const isAsking = Boolean(below);
+  useEffect(() => {
+    if (isHere || isAsking) {
+      row.current?.scrollIntoView({ block: "nearest", inline: "nearest" });
+    }
+  }, [isHere, isAsking]);
+  return (
+    <li class="collection-row" ref={row} style={{ "--depth": depth }} data-here={isHere}>
+      <button
+        type="button"
+        class="collection"
+        aria-current={isHere ? "true" : undefined}
+        data-drop={to ?? undefined}
+        data-over={to !== null && drag.held.value?.over === to}
+        onClick={() => {
+          wanted.value = { ...wanted.value, collection: to };
+        }}
+      >
+        <FolderIcon />
+        <span class="collection-name">{children}</span>
+      </button>
+      {beside}
+      {below}
+    </li>
+  );
+}

@@ -1,0 +1,231 @@
+import { expect, test } from "vitest";
+import { misses } from "./hits";
+import { until } from "./server";
+import { LANDSCAPE, middle, PHONE, type Point, type Screen, type Tablet, way } from "./tablet";
+import { Workshop } from "./workshop";
+
+const workshop = Workshop.withItsOwnServer();
+
+const DETAIL = 0.5;
+const SCREENS = {
+  landscape: { ...LANDSCAPE, detail: DETAIL },
+  upright: { width: 834, height: 1194, detail: DETAIL },
+  phone: { ...PHONE, detail: DETAIL },
+} as const satisfies Record<string, Screen>;
+
+/** A finger is held this long at least before it drags, by the page's own clock. */
+const HELD = "1 selected";
+
+/** A tablet with the library open, in which trees of these names lie and no others, the last one saved last. */
+async function library(screen: Screen, names: readonly string[]): Promise<Tablet> {
+  const { tablet, address } = await workshop.fresh(screen);
+  await workshop.act(address, [{ kind: "grow", steps: 4 }]);
+  await tablet.until("it has grown", ({ metamers }) => metamers > 0);
+  await tablet.untilQuiet();
+  await tablet.page.evaluate(async (names) => {
+    const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
+    for (const { id } of (await (await fetch("/api/trees")).json()).trees) {
+      await fetch(`/api/trees/${id}`, { method: "DELETE" });
+    }
+    for (const name of names) {
+      const body = JSON.stringify({ session, name, author: "Ann" });
+      await fetch("/api/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
+    }
+  }, names);
+  await open(tablet);
+  return tablet;
+}
+
+async function open(tablet: Tablet): Promise<void> {
+  const button = tablet.page.locator(".tool-bar").getByRole("button", { name: "Library", exact: true });
+  if ((await button.count()) === 0) await tablet.page.getByRole("button", { name: "More", exact: true }).click();
+  await button.click();
+  await tablet.page.getByRole("dialog").waitFor();
+  await tablet.untilSettled();
+}
+
+/** Waits until exactly these trees are listed, in this order. */
+async function listed(tablet: Tablet, what: string, names: readonly string[]): Promise<void> {
+  const cards = tablet.page.locator(".library-main > .library .card-name");
+  let found: string[] = [];
+  await until(`${what}: ${names.join(", ")}`, async () => {
+    found = await cards.allTextContents();
+    return found.join() === names.join();
+  }).catch((error) => {
+    throw new Error(`${error}; listed are ${found.join(", ")}`);
+  });
+}
+
+/** Chooses from the menu of a tree or a collection. */
+async function choose(tablet: Tablet, of: string, deed: string): Promise<void> {
+  await tablet.page.getByRole("button", { name: `More for ${of}`, exact: true }).tap();
+  await tablet.page.locator(".card-menu").getByRole("button", { name: deed, exact: true }).tap();
+}
+
+async function makeCollection(tablet: Tablet, name: string): Promise<void> {
+  await tablet.page.getByRole("button", { name: "New collection", exact: true }).tap();
+  await tablet.page.getByLabel("Name of the new collection").fill(name);
+  await tablet.page.keyboard.press("Enter");
+  await tablet.page.getByText(`“${name}” is there.`).waitFor();
+  await place(tablet, name).waitFor();
+}
+
+const place = (tablet: Tablet, name: string) =>
+  tablet.page.locator(".collection", { has: tablet.page.getByText(name, { exact: true }) });
+
+/** The middle of a part of the page, once it is in sight. */
+async function middleOf(tablet: Tablet, found: ReturnType<Tablet["page"]["locator"]>): Promise<Point> {
+  // Away from what lies over the edges of the sheet.
+  await found.evaluate((element) => element.scrollIntoView({ block: "center", inline: "center" }));
+  return middle(await tablet.boxOf(found));
+}
+
+/** Holds a finger on a tree until it is chosen, and drags it to a collection. */
+async function drag(tablet: Tablet, name: string, collection: string, chosen = HELD): Promise<void> {
+  const { page } = tablet;
+  const from = await middleOf(tablet, page.getByRole("button", { name: new RegExp(`^(Open|Select) ${name}$`) }));
+  await tablet.touch("touchStart", [from]);
+  await page.getByText(chosen).waitFor();
+  const to = middle((await place(tablet, collection).boundingBox())!);
+  for (const point of way(from, to, 8).slice(1)) await tablet.touch("touchMove", [point]);
+  await page.locator(".drag-ghost[data-over=true]").waitFor();
+  await tablet.showNow(`library-drag-${collection}`);
+  await tablet.touch("touchEnd", []);
+  await page.locator(".drag-ghost").waitFor({ state: "detached" });
+}
+
+test.each(Object.entries(SCREENS))("trees are searched, filtered, starred and tagged: %s", async (name, screen) => {
+  const tablet = await library(screen, ["Érable", "Pear", "Apple"]);
+  const { page } = tablet;
+  const all = ["Apple", "Pear", "Érable"];
+  await listed(tablet, "all of them", all);
+  expect(await misses(tablet, "the library", "dialog")).toEqual([]);
+  await choose(tablet, "Érable", "Edit tags");
+  await page.getByLabel("New tag").fill("old, Red maple");
+  await page.getByRole("button", { name: "Remove the tag Red maple" }).waitFor();
+  expect(await misses(tablet, "the tags of a tree", ".card-form")).toEqual([]);
+  await page.locator(".card-form").getByRole("button", { name: "Save" }).tap();
+  await page.locator(".card-tags", { hasText: "Red maple" }).waitFor();
+  await choose(tablet, "Pear", "Edit note");
+  await page.getByLabel("Note on Pear").fill("By the lake");
+  await page.locator(".card-form").getByRole("button", { name: "Save" }).tap();
+  await page.getByText("By the lake").waitFor();
+
+  await page.keyboard.press("/");
+  await page.keyboard.type("LAK");
+  await listed(tablet, "found in the note", ["Pear"]);
+  expect(await page.locator(".card mark").allTextContents(), "it is shown what was found").toEqual(["lak"]);
+  await tablet.show(`library-search-${name}`);
+  await page.getByRole("button", { name: "Clear the search" }).tap();
+  await listed(tablet, "all again", all);
+  await page.getByRole("searchbox").fill("erab maple");
+  await listed(tablet, "found in the name and a tag", ["Érable"]);
+  await page.getByRole("button", { name: "No longer: “erab maple”" }).tap();
+  await listed(tablet, "all again", all);
+  expect(await page.getByRole("searchbox").inputValue()).toBe("");
+
+  const star = page.getByRole("button", { name: "Favourite: Apple" });
+  await star.tap();
+  await page.locator(".card-star[aria-pressed=true]").waitFor();
+  await page.getByRole("button", { name: "Favourites", exact: true }).tap();
+  await listed(tablet, "favourites", ["Apple"]);
+  await page.getByRole("button", { name: /^Filters/ }).tap();
+  await page.locator(".filter-tags").getByRole("button", { name: /^old/ }).tap();
+  await page.getByText("Nothing fits all of this: Tag: old, Favourites.").waitFor();
+  await tablet.show(`library-filters-${name}`);
+  expect(await misses(tablet, "filters", ".library-sections")).toEqual([]);
+  await page.getByRole("button", { name: "Clear filters" }).tap();
+  await listed(tablet, "all again", all);
+  await page.getByLabel("Saved by").selectOption("Ann");
+  await page.getByLabel("Size").selectOption("Under 1,000 metamers");
+  await page.getByLabel("Order").selectOption("By name");
+  await listed(tablet, "in another order", ["Apple", "Érable", "Pear"]);
+  await page.getByLabel("Saved until").fill("2020-01-01");
+  await page.getByText(/^Nothing fits all of this: By Ann, .*, Until 2020-01-01/).waitFor();
+  await page.getByRole("button", { name: /^No longer: Until/ }).waitFor({ state: "detached" });
+  await page.reload();
+  await tablet.untilReady();
+  await open(tablet);
+  await page.getByText(/^Nothing fits all of this: By Ann/).waitFor();
+});
+
+test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", async (name, screen) => {
+  const tablet = await library(
+    screen,
+    ["Elm", "Ash", "Oak"].map((tree) => `${tree} ${name}`),
+  );
+  const { page } = tablet;
+  const [elm, ash, oak] = ["Elm", "Ash", "Oak"].map((tree) => `${tree} ${name}`) as [string, string, string];
+  const [wood, copse] = [`Wood ${name}`, `Copse ${name}`];
+  await page.getByRole("searchbox").fill(name);
+  await listed(tablet, "the trees of this test", [oak, ash, elm]);
+  await makeCollection(tablet, wood);
+  await drag(tablet, oak, wood);
+  await page.getByText(`“${oak}” lies in “${wood}” now`).waitFor();
+  await page.getByRole("button", { name: `Open ${elm}` }).waitFor();
+  // Several at a time.
+  await page.getByRole("button", { name: "Select", exact: true }).tap();
+  await page.getByRole("button", { name: `Select ${ash}` }).tap();
+  await drag(tablet, elm, wood, "2 selected");
+  await page.getByText(`2 trees lie in “${wood}” now`).waitFor();
+  await place(tablet, wood).tap();
+  await listed(tablet, "in the collection", [oak, ash, elm]);
+  await tablet.show(`library-collection-${name}`);
+  expect(await misses(tablet, "collections", ".collections")).toEqual([]);
+
+  await choose(tablet, `the collection ${wood}`, "New collection inside");
+  await page.getByLabel("Name of the new collection").fill(copse);
+  await page.keyboard.press("Enter");
+  await page.getByText(`“${copse}” is there.`).waitFor();
+  await choose(tablet, ash, "Move to…");
+  await page.getByLabel(`Collection for ${ash}`).selectOption(`${wood} › ${copse}`);
+  await page.getByRole("button", { name: "Move", exact: true }).tap();
+  await listed(tablet, "no longer there", [oak, elm]);
+  await page
+    .locator(".toast-row", { hasText: `“${ash}” lies` })
+    .getByRole("button", { name: "Undo" })
+    .tap();
+  await listed(tablet, "there again", [ash, oak, elm]);
+  // Beside every collection it stays where it is.
+  const from = await middleOf(tablet, page.getByRole("button", { name: `Open ${oak}` }));
+  await tablet.touch("touchStart", [from]);
+  await page.getByText(HELD).waitFor();
+  for (const point of way(from, { x: from.x + 40, y: from.y + 30 }, 4)) await tablet.touch("touchMove", [point]);
+  await page.locator(".drag-ghost[data-over=false]").waitFor();
+  await tablet.touch("touchEnd", []);
+  await page.getByText("Drop trees on a collection to move them.").waitFor();
+  await page.getByRole("button", { name: "Done", exact: true }).tap();
+
+  await choose(tablet, `the collection ${wood}`, "Rename");
+  await page.getByLabel(`New name of the collection ${wood}`).fill(`Forest ${name}`);
+  await page.keyboard.press("Enter");
+  await choose(tablet, `the collection Forest ${name}`, "Delete");
+  await page.locator(".collections").getByRole("button", { name: "Delete", exact: true }).tap();
+  await page.getByText(`“Forest ${name}” is deleted; its trees are still here`).waitFor();
+  await listed(tablet, "they lie in none", [oak, ash, elm]);
+});
+
+test("a mouse drags a tree without holding it, and Escape leaves it where it is", async () => {
+  const tablet = await library({ ...SCREENS.landscape, mouse: true }, ["Mouse oak"]);
+  const { page } = tablet;
+  await page.getByRole("button", { name: "New collection", exact: true }).click();
+  await page.getByLabel("Name of the new collection").fill("Mouse wood");
+  await page.keyboard.press("Enter");
+  await place(tablet, "Mouse wood").waitFor();
+  const from = await middleOf(tablet, page.getByRole("button", { name: "Open Mouse oak" }));
+  const to = await middleOf(tablet, place(tablet, "Mouse wood"));
+  const take = async () => {
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(to.x, to.y, { steps: 6 });
+    await page.locator(".drag-ghost[data-over=true]").waitFor();
+  };
+  await take();
+  await page.keyboard.press("Escape");
+  await page.locator(".drag-ghost").waitFor({ state: "detached" });
+  await page.mouse.up();
+  expect(await page.getByRole("dialog").count(), "the sheet stays").toBe(1);
+  await take();
+  await page.mouse.up();
+  await page.getByText("“Mouse oak” lies in “Mouse wood” now").waitFor();
+});
