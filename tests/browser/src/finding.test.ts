@@ -1,3 +1,5 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { expect, test } from "vitest";
 import { misses } from "./hits";
 import { until } from "./server";
@@ -228,4 +230,45 @@ test("a mouse drags a tree without holding it, and Escape leaves it where it is"
   await take();
   await page.mouse.up();
   await page.getByText("“Mouse oak” lies in “Mouse wood” now").waitFor();
+});
+
+const SEEDS = join(import.meta.dirname, "../../fuzz/seeds");
+const fileOf = (name: string, as = name) => ({
+  name: as,
+  mimeType: "application/octet-stream",
+  buffer: readFileSync(join(SEEDS, name)),
+});
+
+test.each(Object.entries(SCREENS))("files become trees of the library: %s", async (name, screen) => {
+  const tablet = await library(screen, []);
+  const { page } = tablet;
+  const field = page.locator(".library-deeds input[type=file]");
+  await field.setInputFiles([fileOf("rtwig.csv", `Scan ${name}.csv`), { ...fileOf("rtwig.csv"), name: "bad.mtg" }]);
+  await page.getByText(`“Scan ${name}” is in the library now`).waitFor();
+  await page.getByText(/^bad\.mtg: It cannot become a tree: /).waitFor();
+  await page.getByRole("button", { name: `Open Scan ${name}` }).waitFor();
+  await tablet.show(`library-files-${name}`);
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "detached" });
+  // What is dropped on the page opens the library.
+  const document = await page.evaluate(async () => {
+    const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
+    return (await fetch(`/api/sessions/${session}/tree.mtg`)).text();
+  });
+  await page.evaluate(
+    ({ document, as }) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([document], as));
+      for (const kind of ["dragover", "drop"]) {
+        window.dispatchEvent(new DragEvent(kind, { dataTransfer, bubbles: true, cancelable: true }));
+      }
+    },
+    { document, as: `Graph ${name}.mtg` },
+  );
+  await page
+    .locator(".toast-row", { hasText: `“Graph ${name}” is` })
+    .getByRole("button", { name: "Open" })
+    .tap();
+  await tablet.until("it is open", ({ metamers, rows }) => metamers > 0 && rows > 0);
+  await page.getByRole("dialog").waitFor({ state: "detached" });
 });

@@ -21,6 +21,7 @@ import type { Part } from "./part";
 import { PartView } from "./part-view";
 import {
   CHIPS,
+  FILE_DROP,
   loadPartsWhenIdle,
   NAMES,
   PANELS,
@@ -43,6 +44,7 @@ export function App({ studio }: { studio: Studio }) {
   const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.layout.bare.value;
+  const FileDrop = usePart(studio, FILE_DROP, true);
   const panel = bare ? null : studio.layout.panel.value;
   return (
     <div
@@ -61,6 +63,7 @@ export function App({ studio }: { studio: Studio }) {
       )}
       {shown === null && <ToastList studio={studio} />}
       <HeldName studio={studio} />
+      {FileDrop && <FileDrop studio={studio} />}
       {shown !== null && (
         <Sheet studio={studio} title={say(shown.title)} size={shown.size} key={sheet}>
           <PartView studio={studio} part={shown.part} height={shown.height} />

@@ -103,6 +103,9 @@ export const TOUR = new Part(async () => (await import("./notices/tour-card")).T
 /** The name of the button that a finger is held on. */
 export const NAMES = new Part(async () => (await import("./notices/button-label")).ButtonLabel);
 
+/** Files that are dropped on the page. */
+export const FILE_DROP = new Part(async () => (await import("./notices/file-drop")).FileDrop);
+
 export const RECENT = new Part(async () => (await import("./notices/recent-trees")).RecentTrees);
 
 /** All of them, those first that are needed first. */

@@ -214,8 +214,8 @@ export const HELP = {
   "help.topic.save.words": ["keep store backup", "sichern ablegen behalten Sicherung"],
   "help.topic.library": ["Library", "Bibliothek"],
   "help.topic.library.text": [
-    "Saved trees with all their versions, templates for new ones, and what was deleted in the last 30 days. Words, filters and / find them. A finger held on trees selects several and drags them into collections; the menu of one has the rest",
-    "Gespeicherte Bäume mit allen Versionen, Vorlagen für neue, und was in den letzten 30 Tagen gelöscht wurde. Wörter, Filter und / finden sie. Ein Finger, der auf Bäumen ruht, wählt mehrere aus und zieht sie in Sammlungen; das Menü eines Baums hat den Rest",
+    "Saved trees with all their versions, templates for new ones, and what was deleted in the last 30 days. Words, filters and / find them, and files open as trees. A finger held on trees selects several and drags them into collections; the menu of one has the rest",
+    "Gespeicherte Bäume mit allen Versionen, Vorlagen für neue, und was in den letzten 30 Tagen gelöscht wurde. Wörter, Filter und / finden sie, und Dateien öffnen sich als Bäume. Ein Finger, der auf Bäumen ruht, wählt mehrere aus und zieht sie in Sammlungen; das Menü eines Baums hat den Rest",
   ],
   "help.topic.library.words": [
     "open load saved unsaved gallery files recent my trees version history compare restore branch template duplicate undelete note search find filter sort tag favourite star collection folder move import scan mtg qsm",

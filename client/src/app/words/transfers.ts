@@ -18,5 +18,12 @@ export const TRANSFERS = {
     "Das Modell wird gesendet, {done} von {megabytes} MB",
   ],
   "transfers.import.read": ["The server reads the model…", "Der Server liest das Modell…"],
+  "transfers.tree": ["Sending the file…", "Die Datei wird gesendet…"],
+  "transfers.tree.moving": ["Sending the file, {megabytes} MB", "Die Datei wird gesendet, {megabytes} MB"],
+  "transfers.tree.part": [
+    "Sending the file, {done} of {megabytes} MB",
+    "Die Datei wird gesendet, {done} von {megabytes} MB",
+  ],
+  "transfers.tree.read": ["The server makes a tree of it…", "Der Server macht daraus einen Baum…"],
   "transfers.cancel": ["Cancel", "Abbrechen"],
 } as const;

@@ -1,18 +1,15 @@
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { GrowthShare } from "../../document/growth/growth-share";
 import { isGrowing, stopGrowth } from "../../document/growth/under-way";
-import type { Transfer } from "../../requests/transfer";
+import { treeFiles } from "../../library/tree-files";
 import type { Studio } from "../../studio";
 import { symmetryNow } from "../../tools/symmetry/stroke-copies";
 import { symmetryText } from "../../tools/symmetry/symmetry-text";
 import { descriptorOf } from "../../tools/tools";
-import { language, say } from "../../words/say";
+import { say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
-
-/** What is done sooner is not worth a word. */
-const WORTH_A_WORD = 200;
-/** A word stays so long after its cause, which may be about to come back: strokes grow in many short spurts. */
-const STAYS = 300;
+import { TransferChip } from "./transfer-chip";
+import { useLasting } from "./use-lasting";
 
 /** What is in progress and can be ended: growth, the choice of one branch, a branch on its way to another limb. */
 export function Chips({ studio }: { studio: Studio }) {
@@ -24,6 +21,7 @@ export function Chips({ studio }: { studio: Studio }) {
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
       <TransferChip transfer={studio.obstacles.transfer} name="import" />
+      <TransferChip transfer={treeFiles.transfer} name="tree" />
       {placing !== null && (
         <p class="chip">
           {say(placing === "copy" ? "tools.placing.copy" : "tools.placing.move")}
@@ -139,56 +137,4 @@ function GrowthChip({ studio }: { studio: Studio }) {
       </button>
     </p>
   );
-}
-
-/** A file on its way, how far it has come, and a way to give it up. */
-function TransferChip({ transfer, name }: { transfer: Transfer; name: "export" | "import" | "picture" }) {
-  const progress = transfer.progress.value;
-  const shown = useLasting(progress !== null);
-  if (!shown || progress === null) {
-    return null;
-  }
-  const { bytes, total, isMaking = false } = progress;
-  const percent = total === null || total === 0 ? null : Math.min(100, Math.round((100 * bytes) / total));
-  const figures = new Intl.NumberFormat(language.value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
-  const megabytes = (count: number) => figures.format(count / 1e6);
-  const text =
-    bytes === 0
-      ? say(`transfers.${name}`)
-      : isMaking && name === "export"
-        ? say("transfers.export.making", { percent: percent ?? 0 })
-        : percent === 100
-          ? say(`transfers.${name}.read`)
-          : total === null && name !== "picture"
-            ? say(`transfers.${name}.moving`, { megabytes: megabytes(bytes) })
-            : say(`transfers.${name}.part`, {
-                done: megabytes(bytes),
-                megabytes: megabytes(total ?? 0),
-                percent: percent ?? 0,
-              });
-  return (
-    <p class="chip">
-      {/* Where the duration is not known, the bar only moves. */}
-      {percent === null ? (
-        <progress aria-label={text} key="some" />
-      ) : (
-        <progress {...{ max: 100, value: percent }} aria-label={text} key="part" />
-      )}
-      {text}
-      <button type="button" class="chip-stop" onClick={() => transfer.cancel()}>
-        <StopIcon />
-        {say("transfers.cancel")}
-      </button>
-    </p>
-  );
-}
-
-/** Whether something has been so for a while, or was until just now. */
-function useLasting(now: boolean): boolean {
-  const [lasting, setLasting] = useState(false);
-  useEffect(() => {
-    const timer = setTimeout(() => setLasting(now), now ? WORTH_A_WORD : STAYS);
-    return () => clearTimeout(timer);
-  }, [now]);
-  return lasting;
 }

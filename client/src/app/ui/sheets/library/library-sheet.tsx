@@ -9,6 +9,7 @@ import { FinderBar } from "./finder-bar";
 import { FoundBy, NothingFound } from "./found-by";
 import { type LibraryDesk, openDesk } from "./library-desk";
 import { More } from "./more";
+import { OpenFile } from "./open-file";
 import { SelectionBar } from "./selection-bar";
 import { SpeciesTemplates } from "./species-templates";
 import { DragGhost } from "./tree-drag";
@@ -81,6 +82,7 @@ function SectionBar({ desk }: { readonly desk: LibraryDesk }) {
         ))}
       </fieldset>
       <div class="library-deeds">
+        {section.name === "trees" && <OpenFile desk={desk} />}
         {(section.pages.items.value?.length ?? 0) > 0 && (
           <button
             type="button"

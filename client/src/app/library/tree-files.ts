@@ -1,0 +1,83 @@
+import { signal } from "@preact/signals";
+import { IMPORT_ENDINGS, MAX_NAME_CHARACTERS, MAX_WOOD_BYTES, type SavedTree } from "../../wire/generated";
+import type { ToastAction } from "../page/toasts";
+import { sentence } from "../problems/plain-words";
+import { type Progress, send, Transfer } from "../requests/transfer";
+import { say } from "../words/say";
+
+const MEGABYTE = 1024 * 1024;
+
+/** What a file of the device is, of which no more is read before it is sent. */
+export type TreeFile = Pick<File, "name" | "size" | "arrayBuffer">;
+
+export interface Taking {
+  readonly show: (text: string, action?: ToastAction) => void;
+  readonly open: (tree: SavedTree) => void;
+}
+
+/** Posts a file and gives what became of it. */
+export type Post = typeof send;
+
+/** Files of this device that become trees of the library, one after another. */
+export class TreeFiles {
+  readonly transfer = new Transfer();
+  /** The last tree that came of one. */
+  readonly added = signal<SavedTree | null>(null);
+  #post: Post;
+
+  constructor(post: Post = send) {
+    this.#post = post;
+  }
+
+  /** Sends files to the library; what of them is no tree is told, and the others go on. */
+  async take(files: readonly TreeFile[], { show, open }: Taking): Promise<void> {
+    if (this.transfer.progress.peek() !== null) {
+      show(say("library.busy-file"));
+      return;
+    }
+    await this.transfer.run(async (stop, tell) => {
+      for (const file of files) {
+        stop.throwIfAborted();
+        try {
+          const tree = await this.#send(file, stop, tell);
+          this.added.value = tree;
+          show(say("library.added", { name: tree.name }), { label: say("library.open"), act: () => open(tree) });
+        } catch (error) {
+          stop.throwIfAborted();
+          show(say("library.not-added", { file: file.name, reason: sentence(error) }));
+        }
+      }
+    });
+  }
+
+  async #send(file: TreeFile, stop: AbortSignal, tell: (progress: Progress) => void): Promise<SavedTree> {
+    const format = endingOf(file.name);
+    if (!IMPORT_ENDINGS.some((ending) => ending === format)) {
+      throw new Error(say("library.file.kind", { endings: accepted().replaceAll(",", ", ") }));
+    }
+    if (file.size > MAX_WOOD_BYTES) {
+      throw new Error(say("library.file.too-large", { limit: MAX_WOOD_BYTES / MEGABYTE }));
+    }
+    const path = `/api/trees/import?${new URLSearchParams({ name: nameOf(file.name), format })}`;
+    const body = new Uint8Array(await file.arrayBuffer());
+    return (await this.#post(path, { type: "application/octet-stream", body }, stop, tell)) as SavedTree;
+  }
+}
+
+/** The files of this page. */
+export const treeFiles = new TreeFiles();
+
+/** How the names of files end that become trees, as a field for files takes it. */
+export function accepted(): string {
+  return IMPORT_ENDINGS.map((ending) => `.${ending}`).join(",");
+}
+
+function endingOf(name: string): string {
+  return name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+}
+
+/** What a tree of a file is called. */
+function nameOf(file: string): string {
+  const plain = file.slice(0, Math.max(0, file.lastIndexOf("."))).trim();
+  return [...(plain || file)].slice(0, MAX_NAME_CHARACTERS).join("");
+}
