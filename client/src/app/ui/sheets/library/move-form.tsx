@@ -1,4 +1,4 @@
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { type Folder, pathOf } from "../../../library/catalogue";
 import { say } from "../../../words/say";
 import { Pick } from "./pick";
@@ -15,9 +15,12 @@ interface MoveFormProps {
 /** A row in which it is chosen where something shall lie. */
 export function MoveForm({ label, folders, value, onMove, onEnd }: MoveFormProps) {
   const [to, setTo] = useState(value);
+  const form = useRef<HTMLFormElement>(null);
+  useEffect(() => form.current?.querySelector("select")?.focus(), []);
   return (
     <form
       class="card-form"
+      ref={form}
       onSubmit={(event) => {
         event.preventDefault();
         if (to !== value) {
