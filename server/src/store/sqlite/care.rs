@@ -97,12 +97,14 @@ pub async fn restore(
     // One of an earlier schema is brought up to date by the server that is started on it.
     open::is_current(&mut connection).await.map_err(refused)?;
     open::check_integrity(&mut connection).await.map_err(refused)?;
+    let in_use = |reason| OpenError::new(database, reason);
     let is_there = fs::metadata(database).is_ok_and(|metadata| metadata.len() > 0);
+    let mut place = Place::lock(database).map_err(in_use)?;
     // One that cannot be read at all may be ours, and is kept in any case.
     if is_there && identity::is_ours(database).await.is_ok_and(|is_ours| !is_ours) {
-        return Err(OpenError::new(database, identity::FOREIGN.into()).into());
+        return Err(in_use(identity::FOREIGN.into()).into());
     }
-    let place = Place::lock(database).map_err(|reason| OpenError::new(database, reason))?;
+    place.lock_name().map_err(in_use)?;
     let temporary = beside(database, ".part");
     let mut told = told;
     if let Err(error) = copy(&mut connection, copy_of_it, &temporary, &mut told).await {

@@ -80,10 +80,12 @@ impl SqliteStore {
             Err(error) if error.kind() == io::ErrorKind::NotFound => 0,
             Err(error) => return Err(error.to_string()),
         };
+        let mut place = Place::lock(path)?;
         if size > 0 {
             identity::check(path).await?;
         }
-        let place = Arc::new(Place::lock(path)?);
+        place.lock_name()?;
+        let place = Arc::new(place);
 
         let mut connection = writer_options(path).connect().await.map_err(|error| sentence(&error))?;
         check_version(&mut connection).await?;

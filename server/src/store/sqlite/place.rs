@@ -15,11 +15,11 @@ use super::super::StoreError;
 #[derive(Debug)]
 pub(super) struct Place {
     path: PathBuf,
-    /// Known by the file's name, as it is to servers of earlier releases and on every system.
-    by_name: File,
     /// Known by the file itself: a hard link is the same one.
     #[cfg(unix)]
     file: File,
+    /// Known by the file's name, as it is to servers of earlier releases and on every system.
+    by_name: Option<File>,
     #[cfg(unix)]
     identity: Identity,
 }
@@ -29,13 +29,10 @@ pub(super) struct Place {
 type Identity = (u64, u64);
 
 impl Place {
-    /// Locks the file, which is made where there is none. An error is half a sentence.
+    /// Locks the file, which is made where there is none, and nothing beside it: it may turn out to be another
+    /// program's. Comes before SQLite opens it, which under a second name would take it for a database of its own. An error
+    /// is half a sentence.
     pub(super) fn lock(path: &Path) -> Result<Self, String> {
-        let mut name = path.as_os_str().to_owned();
-        name.push(".lock");
-        let by_name = File::create(&name)
-            .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
-        try_lock(&by_name)?;
         #[cfg(unix)]
         let file = {
             let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
@@ -45,12 +42,23 @@ impl Place {
         try_lock(&file)?;
         Ok(Self {
             path: path.to_owned(),
-            by_name,
+            by_name: None,
             #[cfg(unix)]
             identity: identity(&file.metadata().map_err(|error| error.to_string())?),
             #[cfg(unix)]
             file,
         })
+    }
+
+    /// Locks the file's name as well, in a file beside it.
+    pub(super) fn lock_name(&mut self) -> Result<(), String> {
+        let mut name = self.path.as_os_str().to_owned();
+        name.push(".lock");
+        let file = File::create(&name)
+            .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
+        try_lock(&file)?;
+        self.by_name = Some(file);
+        Ok(())
     }
 
     /// Why what is written would be lost: the file is no longer the one under its name.
@@ -74,7 +82,7 @@ impl Place {
     pub(super) fn unlock(&self) -> io::Result<()> {
         #[cfg(unix)]
         self.file.unlock()?;
-        self.by_name.unlock()
+        self.by_name.as_ref().map_or(Ok(()), File::unlock)
     }
 }
 
