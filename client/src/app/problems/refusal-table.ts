@@ -70,6 +70,7 @@ export const REFUSALS: readonly (readonly [RegExp, Key])[] = [
   [/^The request is too large/, "problems.too-large"],
 
   // The server itself.
+  [/database file has been moved/, "problems.database-gone"],
   [/cannot use its database|could not write to its disk/, "problems.disk"],
   [/^The server is stopping/, "problems.stopping"],
   [/^The server failed to compute/, "problems.failed"],

@@ -185,6 +185,10 @@ export const PROBLEMS = {
     "That is more than the server takes at once.",
     "Das ist mehr, als der Server auf einmal annimmt.",
   ],
+  "problems.database-gone": [
+    "The server's database file has been moved or deleted. Nothing is kept until it is back; tell whoever runs the server.",
+    "Die Datenbankdatei des Servers wurde verschoben oder gelöscht. Bis sie zurück ist, wird nichts gespeichert; sag es dem, der den Server betreibt.",
+  ],
   "problems.disk": [
     "The server cannot write to its disk; nothing was changed. Is the disk full?",
     "Der Server kann nicht auf seine Platte schreiben; nichts wurde verändert. Ist sie voll?",
