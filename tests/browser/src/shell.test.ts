@@ -124,7 +124,7 @@ describe("the strip that turns", () => {
 
   it("turns by a finger, and by keys", async () => {
     const { tablet } = await workshop.fresh();
-    await tablet.untilSettled();
+    await tablet.untilStill();
     const strip = await tablet.boxOf(labelled(tablet, "Turn the tree"));
     const { x, y } = middle(strip);
     await tablet.swipe([way({ x, y }, { x: x + strip.width / 4, y })]);
@@ -141,7 +141,7 @@ describe("the strip that turns", () => {
     const sent = overheard(tablet);
     await tablet.page.reload();
     await tablet.untilReady();
-    await tablet.untilSettled();
+    await tablet.untilStill();
     const strip = await tablet.boxOf(labelled(tablet, "Turn the tree"));
     const [left, y] = [strip.x + 12, strip.y + strip.height / 2];
     const seed = await seedling(tablet);
