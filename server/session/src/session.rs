@@ -149,7 +149,8 @@ impl Session {
         for (number, principal, id, command) in orders {
             stops.forget_through(number);
             document.stop_at(stops.end_of(number));
-            // What the document refuses now it refused the first time as well.
+            // Under the same simulation, what the document refuses now it refused the first time as well; under a
+            // later one a row may be gone, and the notice of a replayed tail says so (OP2).
             let _refused_again = document.apply(principal.name(), &command);
             note_last(&mut last_commands, principal.name(), LastCommand { id, entry: number });
         }

@@ -25,8 +25,8 @@ const ALL = { leaves: Number.POSITIVE_INFINITY, sprigs: Number.POSITIVE_INFINITY
 
 /**
  * From the picture at rest to the quickest one. Given up in this order: shadows that follow at once, round limbs, soft
- * shadows, single leaves; pixels only then, and edges last, for blocks and steps are what one sees most. What the quickest
- * draws is bounded, however large the tree is.
+ * shadows, most single leaves; then pixels, edges, and last the rest of pixels, leaves and twigs. What the quickest draws is
+ * bounded, however large the tree is.
  */
 export const QUALITIES: readonly [Quality, Quality, ...Quality[]] = [
   { scale: 1, smooth: true, shadowEvery: 0, detailed: true, merging: 1, ...ALL, cost: 1 },
