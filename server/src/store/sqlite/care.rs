@@ -22,8 +22,8 @@ use super::{
     sessions, trees,
 };
 
-/// How often the progress of a copy is told.
-const TOLD_EVERY: Duration = Duration::from_millis(200);
+/// How often the progress of a copy is reported.
+const REPORT_PERIOD: Duration = Duration::from_millis(200);
 /// What SQLite keeps beside a database: its write-ahead log and the memory shared by those who use it.
 const COMPANIONS: [&str; 3] = ["", "-wal", "-shm"];
 
@@ -60,19 +60,19 @@ pub struct Report {
 }
 
 /// Copies a database to a file, which others may go on writing to: the copy is what was committed when it began.
-/// `told` gets the bytes written and about how many there will be. Gives the bytes of the copy.
+/// `progress` gets the bytes written and about how many there will be. Gives the bytes of the copy.
 pub async fn backup(
     database: &Path,
     to: &Path,
     is_replacing: bool,
-    mut told: impl FnMut(u64, u64),
+    mut progress: impl FnMut(u64, u64),
 ) -> Result<u64, CareError> {
     if to.exists() && !is_replacing {
         return Err(CareError::Exists(to.to_owned()));
     }
     let mut connection = reading(database).await?;
     let temporary = beside(to, ".part");
-    let copied = copy(&mut connection, database, &temporary, &mut told).await;
+    let copied = copy(&mut connection, database, &temporary, &mut progress).await;
     let moved = copied.and_then(|bytes| {
         fs::rename(&temporary, to).map(|()| bytes).map_err(|error| cannot_write(to, &error))
     });
@@ -87,7 +87,7 @@ pub async fn backup(
 pub async fn restore(
     copy_of_it: &Path,
     database: &Path,
-    told: impl FnMut(u64, u64),
+    mut progress: impl FnMut(u64, u64),
 ) -> Result<Option<PathBuf>, CareError> {
     let refused = |reason| OpenError::new(copy_of_it, reason);
     if !copy_of_it.is_file() {
@@ -106,8 +106,7 @@ pub async fn restore(
     }
     place.lock_name().map_err(in_use)?;
     let temporary = beside(database, ".part");
-    let mut told = told;
-    if let Err(error) = copy(&mut connection, copy_of_it, &temporary, &mut told).await {
+    if let Err(error) = copy(&mut connection, copy_of_it, &temporary, &mut progress).await {
         let _ = fs::remove_file(&temporary);
         return Err(error);
     }
@@ -124,9 +123,9 @@ pub async fn restore(
     Ok(is_there.then_some(kept))
 }
 
-/// Reads everything in a database, in use or not, and says what is damaged. `told` gets how many sessions and versions
+/// Reads everything in a database, in use or not, and says what is damaged. `progress` gets how many sessions and versions
 /// were read, and how many there are.
-pub async fn check(database: &Path, mut told: impl FnMut(u64, u64)) -> Result<Report, CareError> {
+pub async fn check(database: &Path, mut progress: impl FnMut(u64, u64)) -> Result<Report, CareError> {
     let mut connection = reading(database).await?;
     let mut report = Report::default();
     let found: Vec<String> = sqlx::query_scalar("PRAGMA integrity_check(20)")
@@ -168,13 +167,13 @@ pub async fn check(database: &Path, mut told: impl FnMut(u64, u64)) -> Result<Re
             Ok(found) => report.damage.extend(found),
             Err(error) => report.damage.push(format!("session {name}: {}", words(&error))),
         }
-        told(done, all);
+        progress(done, all);
     }
     for (done, (key, number)) in (report.sessions + 1..).zip(&versions) {
         if let Err(error) = trees::document(&readers, key, *number).await {
             report.damage.push(format!("version {number} of the tree {key}: {}", words(&error)));
         }
-        told(done, all);
+        progress(done, all);
     }
     readers.close().await;
     Ok(report)
@@ -231,7 +230,7 @@ async fn copy(
     connection: &mut SqliteConnection,
     from: &Path,
     to: &Path,
-    told: &mut impl FnMut(u64, u64),
+    progress: &mut impl FnMut(u64, u64),
 ) -> Result<u64, CareError> {
     // One that was left by a copy that was cut short.
     match fs::remove_file(to) {
@@ -243,7 +242,7 @@ async fn copy(
     };
     let size = |path: &Path| fs::metadata(path).map_or(0, |metadata| metadata.len());
     let all = size(from);
-    let mut ticks = interval(TOLD_EVERY);
+    let mut ticks = interval(REPORT_PERIOD);
     let copying = sqlx::query("VACUUM INTO ?").bind(name).execute(connection);
     tokio::pin!(copying);
     loop {
@@ -252,7 +251,7 @@ async fn copy(
                 copied.map_err(|error| CareError::Write { path: to.to_owned(), reason: sentence(&error) })?;
                 break;
             }
-            _ = ticks.tick() => told(size(to).min(all), all),
+            _ = ticks.tick() => progress(size(to).min(all), all),
         }
     }
     let file = fs::File::open(to).map_err(|error| cannot_write(to, &error))?;
