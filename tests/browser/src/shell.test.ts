@@ -136,6 +136,21 @@ describe("the strip that turns", () => {
     await until("an arrow is five degrees", async () => (await turned(tablet)) === -5);
   });
 
+  it("says where the view came to rest, however slow the frames are", async () => {
+    const { tablet } = await workshop.fresh();
+    await tablet.untilStill();
+    await tablet.page.evaluate(() => {
+      const soon = window.requestAnimationFrame.bind(window);
+      window.requestAnimationFrame = (draw) => Number(setTimeout(() => soon(draw), 1000));
+      window.cancelAnimationFrame = (handle) => clearTimeout(handle);
+    });
+    await labelled(tablet, "Turn the tree").focus();
+    await tablet.page.keyboard.press("PageUp");
+    await until("a page key turns by an eighth", async () => (await turned(tablet)) === 45);
+    await tablet.page.keyboard.press("Home");
+    await until("home is the front", async () => (await turned(tablet)) === 0);
+  });
+
   it("lets a stroke wind around the tree", async () => {
     const { tablet } = await workshop.fresh();
     const sent = overheard(tablet);

@@ -183,6 +183,11 @@ export class Stage {
     this.#view?.camera.face();
   }
 
+  /** Whether the camera has come where it goes. */
+  get arrived(): boolean {
+    return this.#view?.camera.arrived ?? true;
+  }
+
   /** How far the tree is turned, in radians from −π to π; 0 as a page opens. */
   get turned(): number {
     const [right] = this.screenAxes() ?? [[1, 0, 0]];

@@ -177,13 +177,19 @@ export class CameraRig {
     pose.distance = by.distance.step(pose.distance, goal.distance, seconds, range);
     // Each part of the way lies above the ground only if their sum is looked at.
     pose.pitch = Math.max(pose.pitch, lowestPitch(pose));
-    const arrived =
+    if (this.arrived) this.easing = false;
+    return !this.arrived;
+  }
+
+  /** Whether the pose is the goal. */
+  get arrived(): boolean {
+    const { pose, goal } = this;
+    return (
       pose.yaw === goal.yaw &&
       pose.pitch === goal.pitch &&
       pose.distance === goal.distance &&
-      pose.target.every((value, axis) => value === goal.target[axis]);
-    if (arrived) this.easing = false;
-    return !arrived;
+      pose.target.every((value, axis) => value === goal.target[axis])
+    );
   }
 
   /** The user takes hold of the camera. */

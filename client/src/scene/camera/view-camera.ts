@@ -68,6 +68,11 @@ export class ViewCamera {
     this.options.stirred();
   }
 
+  /** Whether it has come where it goes. */
+  get arrived(): boolean {
+    return this.rig.arrived;
+  }
+
   /** How often the user has moved it. */
   get moves(): number {
     return this.rig.moves;

@@ -1,5 +1,6 @@
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Studio } from "../../studio";
+import type { Stage } from "../../view/stage";
 import { say } from "../../words/say";
 import { useAnimationFrames } from "../use-animation-frames";
 
@@ -17,14 +18,15 @@ export function RotationStrip({ studio }: { studio: Studio }) {
   const pointer = useRef<{ readonly id: number; x: number } | null>(null);
   const letGo = useRef(() => {});
   const [held, setHeld] = useState(false);
-  const [followed, follow] = useFollowing();
   const [degrees, setDegrees] = useState(0);
-
-  useAnimationFrames(held || followed, () => {
+  const show = () => {
     const { turned } = studio.stage;
     setDegrees(Math.round(turned / DEGREE));
     strip.current?.style.setProperty("--turns", String(turned / (2 * Math.PI)));
-  });
+  };
+  const [followed, follow] = useFollowing(studio.stage, show);
+
+  useAnimationFrames(held || followed, show);
   // A strip that is hidden while it is dragged lets go of the tree.
   useEffect(() => () => letGo.current(), []);
   const turn = (by: number) => {
@@ -97,14 +99,24 @@ export function RotationStrip({ studio }: { studio: Studio }) {
   );
 }
 
-/** Whether the view may be turning: for a while after the user touched the page, and when asked to. */
-function useFollowing(): readonly [boolean, () => void] {
+/**
+ * Whether the view may be turning: for a while after the user touched the page, and when asked to; as long as it
+ * takes where frames are slow. `show` shows once more where the view has come to rest.
+ */
+function useFollowing(stage: Stage, show: () => void): readonly [boolean, () => void] {
   const [followed, setFollowed] = useState(true);
   const timer = useRef(0);
   const follow = () => {
     setFollowed(true);
     clearTimeout(timer.current);
-    timer.current = window.setTimeout(() => setFollowed(false), FOLLOWS);
+    timer.current = window.setTimeout(() => {
+      if (stage.arrived) {
+        setFollowed(false);
+        show();
+      } else {
+        follow();
+      }
+    }, FOLLOWS);
   };
   useEffect(() => {
     follow();
