@@ -13,6 +13,7 @@ use crate::{
     claims::{Claimed, Room},
     growth::Growth,
     newcomers::Newcomers,
+    obstacles::Obstacles,
     scene::Scene,
     selection::Selection,
     shoot::{Aim, Draft},
@@ -114,7 +115,7 @@ impl Growth {
 
     fn aim(&self, scene: &Scene, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
         let Claimed { space, room } = self.claims.of(axis)?;
-        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, room, is_connecting: false })
+        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, room })
     }
 
     /// Lets leaders grow along the paths of their strokes. Returns those that did.
@@ -138,8 +139,8 @@ impl Growth {
             while let Some(leader) = guide.leader.filter(|&leader| selection.includes(leader)) {
                 let space = self.claims.of(leader).map(|claimed| claimed.space);
                 let longest = self.parameters.of(leader).max_shoot_length;
-                let aim = Aim { space, stroke, room: Room::Sweep, is_connecting: guide.is_connecting };
-                let next = |tip, is_blocked: &dyn Fn(Vec3) -> bool| guide.next_node(tip, is_blocked);
+                let aim = Aim { space, stroke, room: Room::Sweep };
+                let next = |tip, obstacles: &Obstacles| guide.next_node(tip, obstacles);
                 if self.grow_guided(scene, leader, longest, aim, next) > 0 {
                     led.insert(leader);
                     break;

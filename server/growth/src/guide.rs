@@ -15,7 +15,13 @@ use std::collections::{BTreeSet, VecDeque};
 use espalier_plant::{AxisId, MetamerId};
 use glam::Vec3;
 
-use crate::{brush::BrushSample, obstacles::Obstacles, shoot::GROUND_CLEARANCE, space::Space, sweep::Sweep};
+use crate::{
+    brush::BrushSample,
+    obstacles::{CLEARANCE, Obstacles},
+    shoot::GROUND_CLEARANCE,
+    space::Space,
+    sweep::Sweep,
+};
 
 /// A point of the path still ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +95,7 @@ impl Guide {
         let position = above_ground(position);
         let apart = self.path.back().is_none_or(|last| last.position.distance(position) > LEAST_SPACING);
         if apart {
-            if self.path.len() == MAX_WAYPOINTS {
+            if self.path.len() >= MAX_WAYPOINTS {
                 self.path.pop_front();
             }
             self.path.push_back(Waypoint { position, weight: Self::weight(radius, occupancy_radius) });
@@ -207,14 +213,16 @@ impl Guide {
     /// The next node of a leader whose tip is at `tip`: the point one internode away on the path ahead, or on
     /// the way to it. None once the path is followed. Points passed are forgotten, and those that no wood can
     /// reach while there are others beyond.
-    pub(crate) fn next_node(&mut self, tip: Vec3, is_blocked: impl Fn(Vec3) -> bool) -> Option<Waypoint> {
+    pub(crate) fn next_node(&mut self, tip: Vec3, obstacles: &Obstacles) -> Option<Waypoint> {
         // The path leaves the unit sphere around the tip for good behind the last point inside.
         while self.path.len() >= 2 && self.path[1].position.distance(tip) < 1.0 {
             self.path.pop_front();
         }
+        let is_blocked = |place| obstacles.blocks(place, place, CLEARANCE);
         while self.path.len() >= 2 && is_blocked(self.path[0].position) {
             self.path.pop_front();
         }
+        self.go_around(tip, obstacles);
         let front = *self.path.front()?;
         if front.position.distance(tip) >= 1.0 {
             return Some(front);
@@ -234,6 +242,25 @@ impl Guide {
                 Some(front)
             }
             None => None,
+        }
+    }
+
+    /// Puts a way around in front of the point ahead that an obstacle hides from the tip; where there is none, in front of
+    /// the end of the path. Where no way leads there either, the path is given up.
+    fn go_around(&mut self, tip: Vec3, obstacles: &Obstacles) {
+        let is_passing = self.path.front().is_some_and(|front| front.position.distance(tip) < 1.0);
+        let next = usize::from(is_passing);
+        let is_hidden = |point: &Waypoint| obstacles.hides(tip, point.position);
+        if !self.path.get(next).is_some_and(is_hidden) {
+            return;
+        }
+        let end = self.path.len() - 1;
+        let way = |to: usize| Some((to, obstacles.detour(tip, self.path[to].position)?));
+        let found = way(next).or_else(|| if end > next { way(end) } else { None });
+        let (passed, way) = found.unwrap_or_else(|| (self.path.len(), Vec::new()));
+        self.path.drain(..passed);
+        for position in way.into_iter().rev() {
+            self.path.push_front(Waypoint { position, weight: 1.0 });
         }
     }
 }
@@ -269,7 +296,7 @@ mod tests {
     /// Nodes of a leader that starts at `tip` and obeys fully.
     fn nodes(mut guide: Guide, mut tip: Vec3) -> Vec<Vec3> {
         let mut nodes = Vec::new();
-        while let Some(target) = guide.next_node(tip, |_| false) {
+        while let Some(target) = guide.next_node(tip, &Obstacles::default()) {
             tip += (target.position - tip).normalize();
             nodes.push(tip);
             assert!(nodes.len() < 1000, "the path has an end");

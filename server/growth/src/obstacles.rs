@@ -5,6 +5,7 @@
 
 mod body;
 mod checks;
+mod detour;
 mod mesh;
 mod shape;
 mod sky;

@@ -64,7 +64,7 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
     for (length, axis, Claimed { space, room }) in shoots {
         let lit = plain.lit_side(&scene, axis, space);
-        let aim = Aim { space: Some(lit), stroke, room, is_connecting: false };
+        let aim = Aim { space: Some(lit), stroke, room };
         plain.grow_shoot(&mut scene, axis, length, aim);
     }
     scene.plant.end_step();

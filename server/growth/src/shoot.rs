@@ -10,7 +10,7 @@ use crate::{
     direction::{Tropism, across, azimuth, next_heading, transport, turn},
     growth::Growth,
     guide::Waypoint,
-    obstacles::CLEARANCE,
+    obstacles::Obstacles,
     parameters::{MAX_LATERALS, Parameters},
     random::{Draw, Purpose},
     scene::Scene,
@@ -31,8 +31,6 @@ pub(crate) struct Aim {
     pub stroke: Option<Vec3>,
     /// Where it may grow.
     pub room: Room,
-    /// Whether it is on its way to where a stroke begins.
-    pub is_connecting: bool,
 }
 
 /// Weights of heading, tropism and space where a person says what is to be filled: that form was asked for, so the
@@ -58,9 +56,6 @@ fn along_ground(base: Vec3, heading: Vec3, aside: impl Fn() -> Vec3) -> Vec3 {
     let level = heading.with_y(0.0).try_normalize().unwrap_or_else(aside);
     level * (1.0 - rise * rise).sqrt() + Vec3::Y * rise
 }
-
-/// A limb on its way to a stroke goes around obstacles while its beginning is no farther away than this, in internodes.
-const GOES_AROUND: f32 = 40.0;
 
 /// An internode that would grow if nobody took its place.
 #[derive(Clone, Copy, Debug)]
@@ -160,12 +155,11 @@ impl Growth {
         axis: AxisId,
         count: u32,
         aim: Aim,
-        mut next: impl FnMut(Vec3, &dyn Fn(Vec3) -> bool) -> Option<Waypoint>,
+        mut next: impl FnMut(Vec3, &Obstacles) -> Option<Waypoint>,
     ) -> u32 {
         let mut grown = 0;
         while grown < count {
-            let is_blocked = |place| scene.obstacles.blocks(place, place, CLEARANCE);
-            let Some(waypoint) = next(scene.plant.bud_position(axis), &is_blocked) else { break };
+            let Some(waypoint) = next(scene.plant.bud_position(axis), &scene.obstacles) else { break };
             if scene.is_full() {
                 break;
             }
@@ -216,13 +210,14 @@ impl Growth {
         if aim.room == Room::Sweep && base.y + heading.y < GROUND_CLEARANCE {
             heading = along_ground(base, heading, || azimuth(self.chance(axis), parameters));
         }
-        let heading = match waypoint.map(|waypoint| waypoint.position.distance(base)) {
-            Some(left) => {
-                let is_far = aim.is_connecting && left < GOES_AROUND;
-                self.leader_way_around(scene, axis, base, [before, heading], is_far)?
-            }
-            None => self.way_around(scene, axis, base, heading)?,
-        };
+        let turned = self.way_around(scene, axis, base, heading)?;
+        // A leader goes neither straight past its path nor back along the surface it came by, or it would wander there
+        // for ever.
+        let wanders = turned != heading && (turned.dot(heading) <= 0.05 || turned.dot(before) <= -0.2);
+        if waypoint.is_some() && wanders {
+            return None;
+        }
+        let heading = turned;
         let end = base + heading;
         let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
         let zone = match aim.room {
@@ -237,28 +232,6 @@ impl Growth {
     fn way_around(&self, scene: &Scene, axis: AxisId, base: Vec3, heading: Vec3) -> Option<Vec3> {
         let aside = || azimuth(self.chance(axis), self.parameters.of(axis));
         scene.obstacles.way_around(base, heading, aside)
-    }
-
-    /// The same for a leader that comes from one direction and would go another. It goes neither straight past its path
-    /// nor back along the surface it came by, or it would wander there for ever; a limb that is still on its way may
-    /// go on around.
-    fn leader_way_around(
-        &self,
-        scene: &Scene,
-        axis: AxisId,
-        base: Vec3,
-        [before, heading]: [Vec3; 2],
-        is_on_its_way: bool,
-    ) -> Option<Vec3> {
-        let turned = self.way_around(scene, axis, base, heading);
-        let least = if is_on_its_way { -0.05 } else { 0.05 };
-        let follows =
-            |turned: &Vec3| *turned == heading || (turned.dot(heading) > least && turned.dot(before) > -0.2);
-        let goes_on = || {
-            let on = is_on_its_way.then(|| self.way_around(scene, axis, base, before))?;
-            on.filter(|on| on.dot(before) > 0.5)
-        };
-        turned.filter(follows).or_else(goes_on)
     }
 
     /// Where a bud points before forces act: its axis' heading, turned away from the lateral bud just passed.

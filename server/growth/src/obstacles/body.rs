@@ -214,7 +214,7 @@ fn extent(world_from_box: &Mat3, half: Vec3) -> Vec3 {
 
 fn contact_within(place: Vec3, point: Vec3, clearance: f32) -> Option<Contact> {
     let gap = place.distance(point);
-    let normal = (place - point).try_normalize()?;
+    let normal = (place - point).try_normalize().unwrap_or(Vec3::Y);
     (gap < clearance).then_some(Contact { point, normal })
 }
 

@@ -193,24 +193,6 @@ fn tropism_from_the_stroke_turns_shoots_its_way() {
     }
 }
 
-/// A trunk of ten internodes.
-fn trunk(seed: u32, change: impl FnOnce(&mut ParameterValues)) -> Simulation {
-    let mut values = ParameterValues::default();
-    change(&mut values);
-    let mut simulation = Simulation::new(seed, Parameters::new(values).expect("in range"));
-    brush(&mut simulation, 1, &[(Vec3::ZERO, 0.0), (Vec3::Y * 10.0, 0.0)]);
-    simulation
-}
-
-/// How near wood comes to a place.
-fn nearness(simulation: &Simulation, place: Vec3) -> f32 {
-    nodes(simulation).iter().map(|node| node.distance(place)).fold(f32::INFINITY, f32::min)
-}
-
-fn stroke(points: &[Vec3], radius: f32) -> Vec<(Vec3, f32)> {
-    points.iter().map(|&point| (point, radius)).collect()
-}
-
 #[test]
 fn strokes_down_back_and_level_reach_their_ends() {
     let top = Vec3::Y * 10.0;
@@ -269,20 +251,6 @@ fn a_stroke_begun_away_from_all_buds_is_reached_by_a_limb() {
         brush(&mut simulation, 2, &stroke(&[from, Vec3::new(30.0, 24.0, 0.0)], radius));
         assert!(nearness(&simulation, Vec3::new(30.0, 24.0, 0.0)) <= 2.0, "radius {radius}");
     }
-}
-
-#[test]
-fn a_connecting_limb_goes_around_what_stands_in_between() {
-    let mut simulation = trunk(3, |_| {});
-    let wall = espalier_growth::Shape::Box {
-        centre: Vec3::new(8.0, 8.0, 0.0),
-        half_extents: Vec3::new(1.0, 8.0, 6.0),
-        rotation: glam::Quat::IDENTITY,
-    };
-    simulation.set_obstacles(vec![espalier_growth::Obstacle::new(wall).expect("a wall")]);
-    let path = [Vec3::new(15.0, 10.0, 0.0), Vec3::new(24.0, 12.0, 0.0)];
-    brush(&mut simulation, 2, &stroke(&path, 0.0));
-    assert!(followed(&simulation, &path) >= 0.9, "{} is followed", followed(&simulation, &path));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The simulation from outside: what a modeler does, and what must come of it.
 
 mod brushing;
+mod detours;
 mod enclosing;
 mod fidelity;
 mod golden;
@@ -66,4 +67,22 @@ fn nodes(simulation: &Simulation) -> Vec<Vec3> {
     let plant = simulation.plant();
     let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
     living.map(|id| plant.metamers().end(id)).collect()
+}
+
+/// A trunk of ten internodes.
+fn trunk(seed: u32, change: impl FnOnce(&mut ParameterValues)) -> Simulation {
+    let mut values = ParameterValues::default();
+    change(&mut values);
+    let mut simulation = Simulation::new(seed, Parameters::new(values).expect("in range"));
+    brush(&mut simulation, 1, &[(Vec3::ZERO, 0.0), (Vec3::Y * 10.0, 0.0)]);
+    simulation
+}
+
+/// How near wood comes to a place.
+fn nearness(simulation: &Simulation, place: Vec3) -> f32 {
+    nodes(simulation).iter().map(|node| node.distance(place)).fold(f32::INFINITY, f32::min)
+}
+
+fn stroke(points: &[Vec3], radius: f32) -> Vec<(Vec3, f32)> {
+    points.iter().map(|&point| (point, radius)).collect()
 }

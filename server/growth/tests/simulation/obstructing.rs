@@ -13,7 +13,7 @@ fn obstacle(shape: Shape) -> Obstacle {
     Obstacle::new(shape).expect("a valid obstacle")
 }
 
-fn cuboid(low: Vec3, high: Vec3) -> Obstacle {
+pub(super) fn cuboid(low: Vec3, high: Vec3) -> Obstacle {
     let (centre, half_extents) = (0.5 * (low + high), 0.5 * (high - low));
     obstacle(Shape::Box { centre, half_extents, rotation: Quat::IDENTITY })
 }
@@ -39,7 +39,7 @@ fn grown_among(seed: u32, obstacles: Vec<Obstacle>, steps: u32) -> Simulation {
 }
 
 /// How many living metamers meet an obstacle or end within it.
-fn violations(simulation: &Simulation) -> usize {
+pub(super) fn violations(simulation: &Simulation) -> usize {
     let obstacles = Obstacles::new(simulation.scene().obstacles().to_vec());
     let plant = simulation.plant();
     let living = (0..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
@@ -216,7 +216,7 @@ fn wood_inside_an_obstacle_stays_but_does_not_grow() {
     assert!(simulation.plant().living_count() > before);
 }
 
-fn any_obstacle() -> impl Strategy<Value = Obstacle> {
+pub(super) fn any_obstacle() -> impl Strategy<Value = Obstacle> {
     let place = || (-12f32..12.0, 0f32..25.0, -12f32..12.0).prop_map(Vec3::from);
     let far_from_seed = |p: &Vec3| p.length() > 5.0;
     prop_oneof![
