@@ -187,7 +187,7 @@ pub enum HintReason {
     OutOfReach,
     /// Buds are near, and none could grow there: the space is taken, or something stands in the way.
     NothingGrew,
-    /// Something grew, but no wood is within 2 internodes of the end of the stroke.
+    /// Something grew, but no wood is within 2 internodes of the end of the stroke, or none of it in the lasso.
     DidNotReach,
 }
 

@@ -10,8 +10,8 @@ export const PROBLEMS = {
     "Hier konnte nichts wachsen: Der Platz ist besetzt, oder etwas ist im Weg.",
   ],
   "problems.did-not-reach": [
-    "Growth did not reach the end of this stroke: something is in the way.",
-    "Das Wachstum kam nicht bis ans Ende dieses Strichs: Etwas ist im Weg.",
+    "Growth did not get there: something is in the way.",
+    "Das Wachstum kam nicht bis dorthin: Etwas ist im Weg.",
   ],
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],

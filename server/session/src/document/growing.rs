@@ -7,7 +7,7 @@ use espalier_proto::{
 };
 use glam::{Vec2, Vec3};
 
-use super::{Document, generators::Step, hints::DrawnInVain, history::Kind, refused, strokes::OpenStroke};
+use super::{Document, generators::Step, hints::OpenLasso, history::Kind, refused, strokes::OpenStroke};
 use crate::cause::Cause;
 
 /// A stroke that still grows so many steps after its end is left as it is.
@@ -20,8 +20,8 @@ pub(super) enum Pending {
     Brush(StepInput),
     /// So many steps alike, without guidance by hand; whether any of them has changed anything so far.
     Steps { left: u32, has_grown: bool, step: Step },
-    /// At most so many steps, while the markers of a lasso make anything grow; what is to be said if nothing does.
-    Lasso { left: u32, chosen: Option<MetamerId>, in_vain: Option<DrawnInVain> },
+    /// At most so many steps, while the markers of a lasso make anything grow.
+    Lasso { left: u32, chosen: Option<MetamerId>, lasso: OpenLasso },
     /// At most so many steps for a lifted brush, while anything grows into what it left.
     Settle { stroke: OpenStroke, left: u32 },
 }
@@ -55,17 +55,17 @@ impl Document {
                     }
                 }
             }
-            Pending::Lasso { left, chosen, in_vain } => {
+            Pending::Lasso { left, chosen, lasso } => {
                 let mut grows = false;
                 if left > 0 && !self.is_stopped() {
                     let step = Step::Growth(StepInput { chosen, ..StepInput::default() });
                     grows = self.step(&step, observer).metamers_grown > 0;
                 }
                 if grows && !self.simulation.is_out_of_budget() {
-                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen, in_vain: None });
+                    self.pending.push_front(Pending::Lasso { left: left - 1, chosen, lasso });
                 } else {
                     self.simulation.drop_envelopes();
-                    self.hints.say(in_vain.filter(|_| !grows && !self.is_stopped()));
+                    self.hint_empty(lasso);
                 }
             }
             Pending::Settle { stroke, left } => {
@@ -200,8 +200,8 @@ impl Document {
         }
         self.simulation.enclose(&envelope);
         let places: Vec<Vec3> = outline.iter().map(|at| plane.origin + right * at.x + up * at.y).collect();
-        let in_vain = self.lasso_in_vain(&envelope, &places);
-        self.pending.push_back(Pending::Lasso { left: MAX_OUTLINE_STEPS, chosen, in_vain });
+        let lasso = self.opened_lasso(envelope, &places);
+        self.pending.push_back(Pending::Lasso { left: MAX_OUTLINE_STEPS, chosen, lasso });
         Ok(())
     }
 

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use espalier_growth::{Envelope, REACH, StrokeId};
-use espalier_plant::AxisId;
+use espalier_plant::{AxisId, MetamerId};
 use espalier_proto::HintReason;
 use glam::Vec3;
 
@@ -25,6 +25,17 @@ pub(crate) struct DrawnInVain {
     pub place: Vec3,
 }
 
+/// A lasso that is grown into, as far as it may turn out to be drawn in vain.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct OpenLasso {
+    envelope: Envelope,
+    is_in_reach: bool,
+    /// Its last corner.
+    end: Vec3,
+    /// Metamers from this row on were born after it had begun.
+    first_born: usize,
+}
+
 /// What is still to be said, and of which strokes something has been said.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hints {
@@ -33,8 +44,8 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    pub fn say(&mut self, in_vain: impl IntoIterator<Item = DrawnInVain>) {
-        self.drawn.extend(in_vain);
+    pub fn say(&mut self, in_vain: DrawnInVain) {
+        self.drawn.push(in_vain);
     }
 }
 
@@ -71,12 +82,12 @@ impl Document {
     fn hint(&mut self, stroke: &OpenStroke, reason: HintReason) {
         let Some(last) = stroke.last else { return };
         if self.hints.strokes.insert(stroke.id) {
-            self.hints.say([DrawnInVain { stroke: Some(stroke.number), reason, place: last.position }]);
+            self.hints.say(DrawnInVain { stroke: Some(stroke.number), reason, place: last.position });
         }
     }
 
-    /// What to say of a lasso in which nothing grows: it ends at the last corner of its outline.
-    pub(super) fn lasso_in_vain(&self, envelope: &Envelope, outline: &[Vec3]) -> Option<DrawnInVain> {
+    /// A lasso that is about to be grown into; it ends at the last corner of its outline.
+    pub(super) fn opened_lasso(&self, envelope: Envelope, outline: &[Vec3]) -> OpenLasso {
         let plant = self.plant();
         let buds = (0..plant.axis_count()).map(AxisId::new).filter(|&axis| plant.is_axis_alive(axis));
         let mut buds = buds.map(|axis| plant.bud_position(axis));
@@ -84,8 +95,23 @@ impl Document {
         let is_near = |bud: Vec3| {
             envelope.contains(bud) || edges().any(|(&from, &to)| distance_to_edge(bud, from, to) <= REACH)
         };
-        let reason = if buds.any(is_near) { HintReason::NothingGrew } else { HintReason::OutOfReach };
-        outline.last().map(|&place| DrawnInVain { stroke: None, reason, place })
+        let end = outline.last().copied().unwrap_or_default();
+        OpenLasso { is_in_reach: buds.any(is_near), envelope, end, first_born: plant.metamer_count() }
+    }
+
+    /// A lasso at which nothing grows any more may hold nothing of what grew for it.
+    pub(super) fn hint_empty(&mut self, lasso: OpenLasso) {
+        let plant = self.plant();
+        let mut born = (lasso.first_born..plant.metamer_count()).map(MetamerId::new);
+        let reason = match lasso {
+            OpenLasso { is_in_reach: false, .. } => HintReason::OutOfReach,
+            OpenLasso { first_born, .. } if first_born == plant.metamer_count() => HintReason::NothingGrew,
+            _ => HintReason::DidNotReach,
+        };
+        let is_empty = !born.any(|id| lasso.envelope.contains(plant.metamers().end(id)));
+        if is_empty && !self.is_stopped() && self.require_room().is_ok() {
+            self.hints.say(DrawnInVain { stroke: None, reason, place: lasso.end });
+        }
     }
 }
 

@@ -137,3 +137,71 @@ fn sg2_what_another_grows_hides_no_hint() {
     assert_eq!(reasons, [(Some(1), HintReason::DidNotReach)]);
     assert_eq!(hints(&world, maple), []);
 }
+
+/// A wall far wider and higher than the plant, between it and x = 8.
+fn barrier() -> Value {
+    place(json!({ "kind": "box", "size": [1.0, 300.0, 300.0] }), at(7.5, 0.0, 0.0))
+}
+
+#[test]
+fn sg2_a_stroke_or_lasso_that_no_way_leads_to_is_hinted_at() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, barrier());
+    world.command(client, 2, grow(6));
+    world.settle();
+    let before = world.document().metamers();
+    let next = stroke(&mut world, client, 3, [[4.0, 5.0, 0.0], [20.0, 8.0, 0.0]]);
+    let next = stroke(&mut world, client, next, [[15.0, 5.0, 0.0], [24.0, 8.0, 0.0]]);
+    world.command(client, next, square(12.0, 2.0, 10.0));
+    world.settle();
+    let reasons: Vec<_> = hints(&world, client).iter().map(|hint| (hint.stroke, hint.reason)).collect();
+    let stuck = |stroke| (stroke, HintReason::DidNotReach);
+    assert_eq!(
+        reasons,
+        [stuck(Some(5)), (Some(5), HintReason::NothingGrew), (None, HintReason::NothingGrew)]
+    );
+    let grown = world.document().metamers() - before;
+    assert!(grown < 40, "no limb goes to and fro: {grown}");
+}
+
+#[test]
+fn sg2_a_lasso_that_growth_only_comes_near_to_was_not_reached() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    // A slit that is seen through, too narrow for wood.
+    for (id, z) in [(1, -150.15), (2, 150.15)] {
+        let half = json!({ "kind": "box", "size": [1.0, 300.0, 300.0] });
+        world.command(client, id, place(half, at(7.5, 0.0, z)));
+    }
+    world.settle();
+    world.command(client, 3, square(12.0, 2.0, 10.0));
+    world.settle();
+    assert!((1..40).contains(&world.document().metamers()), "{}", world.document().metamers());
+    let reasons: Vec<_> = hints(&world, client).iter().map(|hint| hint.reason).collect();
+    assert_eq!(reasons, [HintReason::DidNotReach]);
+}
+
+#[test]
+fn sg2_a_lasso_behind_a_wall_is_reached_around_it() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    world.command(client, 1, place(json!({ "kind": "box", "size": [2.0, 16.0, 12.0] }), at(8.0, 8.0, 0.0)));
+    world.command(client, 2, grow(4));
+    world.settle();
+    world.command(client, 3, square(12.0, 2.0, 10.0));
+    world.settle();
+    assert_eq!(hints(&world, client), []);
+    assert!(world.document().metamers() > 100, "{}", world.document().metamers());
+}
+
+#[test]
+fn sg2_a_speck_of_an_outline_is_reached() {
+    let mut world = World::new();
+    let client = world.join("birch-01");
+    for (id, side) in [(1, 0.05), (2, 0.5), (3, 1.0)] {
+        world.command(client, id, square(f32::from(id as u8) * 4.0 - 8.0, 9.0, side));
+        world.settle();
+    }
+    assert_eq!(hints(&world, client), []);
+}
