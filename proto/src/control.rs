@@ -137,8 +137,8 @@ pub struct DocumentState {
     pub can_undo: bool,
     /// Whether there is something to redo.
     pub can_redo: bool,
-    /// Simulation steps still to be run for commands already accepted; a lasso, whose steps nobody knows
-    /// before, counts as one until it is done.
+    /// Simulation steps still to be run for commands already accepted; a lasso and a stroke
+    /// that has ended, whose steps nobody knows before, count as one each until they are done.
     pub pending_steps: u32,
     /// Clients connected, this one included.
     pub people: u32,

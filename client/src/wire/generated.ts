@@ -1511,8 +1511,8 @@ can_undo: boolean,
  */
 can_redo: boolean, 
 /**
- * Simulation steps still to be run for commands already accepted; a lasso, whose steps nobody knows
- * before, counts as one until it is done.
+ * Simulation steps still to be run for commands already accepted; a lasso and a stroke
+ * that has ended, whose steps nobody knows before, count as one each until they are done.
  */
 pending_steps: number, 
 /**

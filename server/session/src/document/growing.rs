@@ -113,12 +113,11 @@ impl Document {
         self.record(Kind::Stroke, Cause::from(&*author));
     }
 
-    /// Steps still to be run; a lasso counts as one, for nobody knows.
+    /// Steps still to be run; a lasso and a stroke that settles count as one each, for nobody knows.
     pub fn pending_steps(&self) -> u32 {
         let steps = |pending: &Pending| match pending {
-            Pending::Brush(_) | Pending::Lasso { .. } => 1,
+            Pending::Brush(_) | Pending::Lasso { .. } | Pending::Settle { .. } => 1,
             Pending::Steps { left, .. } => *left,
-            Pending::Settle { .. } => 0,
         };
         self.pending.iter().map(steps).sum()
     }

@@ -48,3 +48,27 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn st1_a_stroke_that_settles_is_pending_until_it_is_done_or_stopped() {
+    let settle = |stopped: bool| {
+        let mut document = tree();
+        apply(&mut document, &plain(Action::StrokeBegin { stroke: 1, bud: None }));
+        draw(&mut document, 1, &(0.0, 8.0, 8.0));
+        let drawn = document.metamers();
+        document.begin("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("it was begun");
+        let mut pending = vec![document.pending_steps()];
+        document.stop_at(stopped.then(|| document.steps_begun() + 1));
+        while document.advance() {
+            pending.push(document.pending_steps());
+        }
+        (drawn, document.metamers(), pending)
+    };
+    let (drawn, whole, pending) = settle(false);
+    let (_, stopped, briefly) = settle(true);
+    assert!(drawn < stopped && stopped < whole, "{drawn} drawn, {stopped} when stopped, {whole} in all");
+    for (pending, least) in [(pending, 3), (briefly, 2)] {
+        let (last, before) = pending.split_last().expect("it was begun");
+        assert!(*last == 0 && before.len() >= least && before.iter().all(|&steps| steps == 1), "{pending:?}");
+    }
+}
