@@ -9,7 +9,7 @@ export interface Scale {
 }
 
 /** The share of the travel that such a part gets; what lies below and above it divide the rest by their lengths. */
-const SHARE = 0.6;
+const SHARE = 0.9;
 
 /** Corners of the line from values to places: the values, and where each stands between 0 and 1. */
 function cornersOf({ least, most, travel }: Scale): readonly (readonly [number, number])[] {
