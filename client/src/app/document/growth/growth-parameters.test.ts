@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { afterEach, describe, expect, it, vi } from "vitest";
 import { PARAMETERS, type Parameters } from "../../../wire/generated";
 import { language } from "../../words/say";
 import {
@@ -12,7 +12,6 @@ import {
   patchFor,
   patchFrom,
   SECTIONS,
-  SWITCHES,
   shownValue,
   WIDGETS,
 } from "./growth-parameters";
@@ -21,12 +20,36 @@ import {
 const all = [
   ...SECTIONS.flatMap(({ parameters }) => parameters),
   ...Object.values(WIDGETS).flat(),
-  ...SWITCHES,
   ...OF_THE_BRUSH,
   ...OF_THE_LEAVES,
 ];
 
+/** The table with a number, a switch and a choice more in each group. */
+function withEachKindInEachGroup(generated: typeof import("../../../wire/generated")) {
+  const added = [...new Set(Object.values(generated.PARAMETERS).map(({ group }) => group))].flatMap((group) => [
+    [`${group}_number`, { kind: "number", least: 0, most: 1, step: 0.1, group }],
+    [`${group}_switch`, { kind: "switch", group }],
+    [`${group}_choice`, { kind: "choice", choices: ["one", "other"], group }],
+  ]);
+  return { ...generated, PARAMETERS: { ...generated.PARAMETERS, ...Object.fromEntries(added) } };
+}
+
 describe("growth parameters", () => {
+  afterEach(() => {
+    vi.doUnmock("../../../wire/generated");
+    vi.resetModules();
+  });
+
+  it("of each kind have a place in a panel, whatever their group", async () => {
+    const table = withEachKindInEachGroup(await vi.importActual("../../../wire/generated"));
+    vi.resetModules();
+    vi.doMock("../../../wire/generated", () => table);
+    const { SECTIONS, WIDGETS, OF_THE_BRUSH, OF_THE_LEAVES } = await import("./growth-parameters");
+    const sections = SECTIONS.flatMap(({ parameters }) => parameters);
+    const placed = [...sections, ...Object.values(WIDGETS).flat(), ...OF_THE_BRUSH, ...OF_THE_LEAVES];
+    expect(placed.map(({ name }) => name).sort()).toEqual(Object.keys(table.PARAMETERS).sort());
+  });
+
   it("are those of the table, each to be set in some panel", () => {
     const shown = new Set(all.map(({ name }) => name));
     expect([...shown].sort()).toEqual(Object.keys(PARAMETERS).sort());

@@ -54,7 +54,8 @@ const ALL = Object.entries(PARAMETERS).map(([name, row]) => {
   return { ...row, name, ...(applies ? { applies } : {}) };
 }) as readonly GrowthParameter[];
 
-const isNumber = (parameter: GrowthParameter): parameter is NumberParameter => parameter.kind === "number";
+/** Whether a parameter is a number. */
+export const isNumber = (parameter: GrowthParameter): parameter is NumberParameter => parameter.kind === "number";
 
 /** All numbers among the parameters of growth. */
 export const NUMBERS = Object.fromEntries(ALL.filter(isNumber).map((one) => [one.name, one])) as {
@@ -73,14 +74,14 @@ function group(wanted: Group, ...first: readonly ParameterName[]): readonly Grow
   return [...named, ...all.filter((one) => !named.includes(one))];
 }
 
-/** Groups with a widget of their own to be pulled at; the rest are sliders. */
+/** Groups with a widget of their own to be pulled at. */
 export const WIDGETS = {
-  tropism: group("tropism").filter(isNumber),
-  sides: group("sides").filter(isNumber),
-  fork: group("fork").filter(isNumber),
-  weights: group("weights").filter(isNumber),
-  perception: group("perception").filter(isNumber),
-} as const satisfies { readonly [Name in Group]?: readonly NumberParameter[] };
+  tropism: group("tropism"),
+  sides: group("sides"),
+  fork: group("fork"),
+  weights: group("weights"),
+  perception: group("perception"),
+} as const satisfies { readonly [Name in Group]?: readonly GrowthParameter[] };
 
 /** Sliders that go together; the first stand in the open, as in the paper's own panel. */
 export const SECTIONS: readonly { readonly title: Key; readonly parameters: readonly GrowthParameter[] }[] = [
@@ -105,10 +106,7 @@ export const SECTIONS: readonly { readonly title: Key; readonly parameters: read
 export const OF_THE_BRUSH = group("brush", "marker_density", "marker_max_age");
 
 /** Parameters that foliage is made of; they stand in the panel of leaves. */
-export const OF_THE_LEAVES = group("leaves").filter(isNumber);
-
-/** What turns tropism on and off, by growth or by the brush. */
-export const SWITCHES = [...group("tropism"), ...OF_THE_BRUSH].filter(({ kind }) => kind === "switch");
+export const OF_THE_LEAVES = group("leaves");
 
 /** A parameter's name in the present language. */
 export function nameOf({ name }: GrowthParameter): string {

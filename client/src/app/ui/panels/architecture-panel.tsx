@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
-import { SECTIONS, SWITCHES, WIDGETS } from "../../document/growth/growth-parameters";
+import { parameterOf, SECTIONS, WIDGETS } from "../../document/growth/growth-parameters";
 import { speciesName } from "../../document/species/species-choice";
 import type { Studio } from "../../studio";
 import { type Key, say } from "../../words/say";
@@ -100,9 +100,7 @@ function Form({ studio }: { studio: Studio }) {
         title={say("architecture.tropism")}
         help={say("architecture.tropism.help")}
         parameters={WIDGETS.tropism}
-        more={SWITCHES.map((parameter) => (
-          <ParameterControl studio={studio} parameter={parameter} key={parameter.name} />
-        ))}
+        more={<ParameterControl studio={studio} parameter={parameterOf("tropism_from_stroke")} />}
       />
       <ForkWidget studio={studio} />
       <WeightsWidget studio={studio} />

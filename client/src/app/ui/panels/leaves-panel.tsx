@@ -15,7 +15,7 @@ import { ResetAll } from "./looks/reset-all";
 import { SeasonButtons, seasonName } from "./looks/season-pictures";
 import { SWATCHES } from "./looks/swatches";
 import { UnlitNote } from "./looks/unlit-note";
-import { ParameterSlider } from "./parameter-slider";
+import { ParameterControl } from "./parameter-control";
 
 /** What leaves, flowers and fruits look like, and how many leaves there are. */
 export function LeavesPanel({ studio }: { studio: Studio }) {
@@ -70,7 +70,7 @@ export function LeavesPanel({ studio }: { studio: Studio }) {
           onCommit={(tint) => studio.looks.commit(withTint(tint))}
         />
         {OF_THE_LEAVES.map((parameter) => (
-          <ParameterSlider key={parameter.name} studio={studio} parameter={parameter} />
+          <ParameterControl key={parameter.name} studio={studio} parameter={parameter} />
         ))}
         <LookSlider studio={studio} name="leaves.vigor_shift" />
         <LookSlider

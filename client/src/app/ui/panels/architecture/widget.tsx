@@ -3,7 +3,9 @@ import { useId, useState } from "preact/hooks";
 import type { Parameters, ParametersPatch } from "../../../../wire/generated";
 import { alike } from "../../../document/draft";
 import {
+  type GrowthParameter,
   helpOf,
+  isNumber,
   type NumberParameter,
   nameOf,
   patchFor,
@@ -14,6 +16,7 @@ import type { Studio } from "../../../studio";
 import { softly } from "../../../words/joints";
 import { ResetButton } from "../../controls/field";
 import { TypedNumber } from "../../controls/typed-number";
+import { ParameterControl } from "../parameter-control";
 import { standardOf } from "./species-list";
 
 /** What each widget of the panel is given. */
@@ -25,8 +28,8 @@ interface FrameProps {
   readonly studio: Studio;
   readonly title: string;
   readonly help: string;
-  /** What the widget sets; each can be typed as well. */
-  readonly parameters: readonly NumberParameter[];
+  /** What belongs to the widget: each number can be typed as well, all else has a control under it. */
+  readonly parameters: readonly GrowthParameter[];
   /** What its values mean, in words. */
   readonly note?: string;
   /** The diagram. */
@@ -45,7 +48,7 @@ export function WidgetFrame({ studio, title, help, parameters, note, children, m
   if (now === null) {
     return null;
   }
-  const differs = ({ name }: NumberParameter) => !alike(now[name], standard[name]);
+  const differs = ({ name }: GrowthParameter) => !alike(now[name], standard[name]);
   const set = (patch: ParametersPatch) => studio.growing.commit(patch);
   return (
     <section class="widget" aria-label={title}>
@@ -58,7 +61,7 @@ export function WidgetFrame({ studio, title, help, parameters, note, children, m
       <div class="widget-body" data-bare={children === undefined}>
         {children}
         <div class="widget-values">
-          {parameters.map((parameter) => (
+          {parameters.filter(isNumber).map((parameter) => (
             <Value
               key={parameter.name}
               parameter={parameter}
@@ -81,6 +84,11 @@ export function WidgetFrame({ studio, title, help, parameters, note, children, m
       </p>
       {note !== undefined && <p class="widget-note">{note}</p>}
       <p class="widget-help">{help}</p>
+      {parameters
+        .filter((parameter) => !isNumber(parameter))
+        .map((parameter) => (
+          <ParameterControl key={parameter.name} studio={studio} parameter={parameter} />
+        ))}
       {more}
     </section>
   );
