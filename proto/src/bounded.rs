@@ -111,7 +111,7 @@ macro_rules! bounded {
             /// The most that is allowed.
             pub const MOST: Self = Self($most);
 
-            const RANGE: Between<$type> = Between($least, $most);
+            pub(crate) const RANGE: Between<$type> = Between($least, $most);
 
             /// The allowed value nearest to this one; the least for what is no number.
             pub fn nearest(value: $type) -> Self {
@@ -166,6 +166,8 @@ bounded! {
     Diameter: f32 from MIN_DIAMETER, to MAX_DIAMETER, read deserialize_f32;
     /// The radius of a sphere, in internode lengths (`LM6`).
     SphereRadius: f32 from 0.1, to 500.0, read deserialize_f32;
+    /// Width, height or depth of a box, in internode lengths (`LM6`).
+    BoxSide: f32 from 0.1, to 1000.0, read deserialize_f32;
     /// What the coordinates of a mesh are multiplied by (`LM6`).
     Scale: f32 from 0.001, to 1000.0, read deserialize_f32;
 }

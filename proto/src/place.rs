@@ -10,7 +10,7 @@ use serde::{
 use ts_rs::TS;
 
 use crate::{
-    bounded::{Between, Bounded, written_as},
+    bounded::{Between, Bounded, BoxSide, written_as},
     reading::NotAllowed,
 };
 
@@ -56,7 +56,6 @@ impl<'de, const N: usize> Visitor<'de> for Numbers<N> {
 const ANY: Between<f32> = Between(f32::NEG_INFINITY, f32::INFINITY);
 const ACROSS: Between<f32> = Between(-FARTHEST, FARTHEST);
 const UPWARDS: Between<f32> = Between(DEEPEST, FARTHEST);
-const SIDE: Between<f32> = Between(0.1, 1000.0);
 
 /// Declares numbers that stand together.
 macro_rules! several {
@@ -115,7 +114,7 @@ several! {
     /// A place on a plane, in internode lengths (`LM5`).
     PlanePoint: Vec2 = [f32; 2], [ACROSS; 2], format!("two numbers, {ACROSS}");
     /// Width, height and depth of a box, in internode lengths (`LM6`).
-    BoxSize: Vec3 = [f32; 3], [SIDE; 3], format!("three numbers, {SIDE}");
+    BoxSize: Vec3 = [f32; 3], [BoxSide::RANGE; 3], format!("three numbers, {}", BoxSide::RANGE);
 }
 
 impl Position {

@@ -42,6 +42,7 @@ export const BOUNDS = {
   Share: { least: 0, most: 1 },
   Diameter: { least: 0.01, most: 100 },
   SphereRadius: { least: 0.1, most: 500 },
+  BoxSide: { least: 0.1, most: 1000 },
   Scale: { least: 0.001, most: 1000 },
 } as const;
 

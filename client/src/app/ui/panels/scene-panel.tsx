@@ -204,8 +204,7 @@ function Measures({ studio, obstacle }: { studio: Studio; obstacle: PlacedObstac
             name={name}
             value={shape.size[axis] ?? 1}
             first={(first.shape.kind === "box" ? first.shape : shape).size[axis] ?? 1}
-            least={0.1}
-            most={1000}
+            {...BOUNDS.BoxSide}
             onCommit={(value) => {
               const size = shape.size.map((side, i) => (i === axis ? value : side)) as typeof shape.size;
               reshape({ kind: "box", size });
