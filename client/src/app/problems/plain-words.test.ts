@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { RequestFailed } from "../requests/request";
 import { language } from "../words/say";
-import { plainly, sentence } from "./plain-words";
+import { noticed, plainly, sentence } from "./plain-words";
 
 describe("plain words", () => {
   it("say that a branch is gone", () => {
@@ -43,5 +43,14 @@ describe("plain words", () => {
 
   it("leave sentences as they are", () => {
     expect(plainly({ code: "refused", message: "There is nothing to undo." })).toBe("There is nothing to undo.");
+  });
+
+  it("OP4: a notice of damage names the entry from which on the record is missing", () => {
+    for (const spoken of ["en", "de"] as const) {
+      language.value = spoken;
+      expect(noticed({ kind: "damaged", entry: 152 })).toMatch(/152/);
+      expect(noticed({ kind: "regrown", from: 3, to: 4 })).not.toMatch(/[{}]/);
+    }
+    language.value = "en";
   });
 });

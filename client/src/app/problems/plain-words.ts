@@ -46,6 +46,6 @@ export function sentence(error: unknown): string {
 }
 
 /** The sentence that a user reads about how the session was opened. */
-export function noticed({ kind }: Notice): string {
-  return say(`problems.${kind}`);
+export function noticed(notice: Notice): string {
+  return notice.kind === "damaged" ? say("problems.damaged", { entry: notice.entry }) : say("problems.regrown");
 }

@@ -157,8 +157,8 @@ export const PROBLEMS = {
     "An diesem Baum hat eine andere Version von Espalier gearbeitet. Die letzten Striche sind nach den Regeln von dieser neu gewachsen.",
   ],
   "problems.damaged": [
-    "The last part of this tree’s record was damaged. You see the tree as it was before; the rest is kept on the server.",
-    "Der letzte Teil der Aufzeichnung dieses Baums war beschädigt. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
+    "The last part of this tree’s record is damaged, from entry {entry} on. You see the tree as it was before; the rest is kept on the server.",
+    "Der letzte Teil der Aufzeichnung dieses Baums ist beschädigt, ab Eintrag {entry}. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
   ],
   "problems.forbidden": ["You may not do this here.", "Das darfst du hier nicht."],
   "problems.thumbnail": [
