@@ -81,7 +81,7 @@ export class ConnectionCore {
   #epoch = 0;
   #sequence: number | null = null;
   #resumable = true;
-  /** How often of late frames could not be read, and when they last could not. */
+  /** How many frames could not be read, each soon after the one before; and when the last of them came. */
   #garbled = 0;
   #garbledAt = 0;
   #effects: Effect[] = [];
@@ -105,7 +105,7 @@ export class ConnectionCore {
     return this.#attempts;
   }
 
-  /** How often of late the connection was given up since frames could not be read. */
+  /** How many times in a row the connection was closed because a frame could not be read. */
   get garbled(): number {
     return this.#garbled;
   }

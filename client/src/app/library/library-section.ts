@@ -86,7 +86,7 @@ export class LibrarySection {
     const done = await this.#each(moved, (tree) => this.#lay(tree, to?.id));
     if (done.length > 0) {
       show(
-        to === null ? told("moved-out", done) : told("moved", done, { collection: to.name }),
+        to === null ? outcome("moved-out", done) : outcome("moved", done, { collection: to.name }),
         undo(async () => void (await this.#each(done, (tree) => this.#lay(tree, tree.collection)))),
       );
     }
@@ -100,7 +100,7 @@ export class LibrarySection {
     });
     if (done.length > 0) {
       show(
-        told(template ? "template" : "no-template", done),
+        outcome(template ? "template" : "no-template", done),
         undo(() => this.#unmark(done, !template)),
       );
     }
@@ -116,7 +116,7 @@ export class LibrarySection {
       }
     });
     if (done.length > 0) {
-      show(told("duplicated", done));
+      show(outcome("duplicated", done));
     }
   }
 
@@ -129,7 +129,7 @@ export class LibrarySection {
     });
     if (done.length > 0) {
       show(
-        told("deleted", done),
+        outcome("deleted", done),
         undo(() => this.takeBack(done)),
       );
     }
@@ -139,7 +139,7 @@ export class LibrarySection {
   async takeBack(trees: readonly SavedTree[]): Promise<void> {
     const done = await this.#each(trees, async ({ id }) => this.#returned(await this.#options.api.undeleteTree(id)));
     if (done.length > 0) {
-      this.#options.show(told("back", done));
+      this.#options.show(outcome("back", done));
     }
   }
 
@@ -195,7 +195,7 @@ export class LibrarySection {
 
 const undo = (act: () => Promise<void>): ToastAction => ({ label: say("library.undo"), act: () => void act() });
 
-function told(
+function outcome(
   what: "template" | "no-template" | "duplicated" | "deleted" | "back" | "moved" | "moved-out",
   trees: readonly SavedTree[],
   values: Readonly<Record<string, string>> = {},

@@ -103,7 +103,7 @@ export class ObstacleList {
     this.#draft.settle(settled);
   }
 
-  /** What was sent goes by other numbers now. */
+  /** The commands that were sent have new numbers: the server's answers to the old ones do not come any more. */
   letGo(): void {
     this.#draft.letGo();
   }

@@ -42,7 +42,7 @@ interface Setting {
   readonly gesture: number;
   /** How thick the limb was when it was taken, and how far the fingers were then apart or from its middle, in pixels. */
   readonly from: { readonly diameter: number; readonly spread: number };
-  /** A limb is never slimmer than what it bears is held to be. */
+  /** The least diameter that may be set: no less than that of any limb above it whose width is set. */
   readonly least: number;
   /** The width that was set there before. */
   readonly before: number | null;

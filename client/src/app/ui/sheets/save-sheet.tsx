@@ -19,7 +19,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
   const trimmed = name.trim();
   const of = anew ? null : belonging.of;
 
-  const attempt = async (work: (session: string) => Promise<{ readonly told: string } | null>) => {
+  const attempt = async (work: (session: string) => Promise<string | null>) => {
     const session = studio.link.session.peek();
     if (session === null || saving) {
       return;
@@ -28,7 +28,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
     try {
       const done = await work(session);
       if (done !== null) {
-        studio.toasts.show(done.told);
+        studio.toasts.show(done);
         // The user may have closed the sheet meanwhile and opened another one.
         if (studio.layout.sheet.peek() === "save") {
           studio.layout.sheet.value = null;
@@ -44,12 +44,12 @@ export function SaveSheet({ studio }: { studio: Studio }) {
     if (of) {
       await attempt(async (session) => {
         const done = await saveAsNext(studio, session, isOvertaken(of) ? regardless(of) : of, note);
-        return tell(of, done, belonging.set);
+        return savedNote(of, done, belonging.set);
       });
     } else if (trimmed !== "") {
       await attempt(async (session) => {
         await saveAsNew(studio, session, trimmed, note);
-        return { told: say("sheets.save.done", { name: trimmed }) };
+        return say("sheets.save.done", { name: trimmed });
       });
     }
   };
@@ -81,13 +81,13 @@ export function SaveSheet({ studio }: { studio: Studio }) {
   );
 }
 
-/** What came of saving the next version; null where the user has to choose anew. */
-function tell(of: Belonging, saving: Saving, set: (of: Belonging) => void): { readonly told: string } | null {
+/** The note about the next version being saved; null where the user has to choose anew. */
+function savedNote(of: Belonging, saving: Saving, set: (of: Belonging) => void): string | null {
   if ("overtaken" in saving) {
     set(saving.overtaken);
     return null;
   }
-  return { told: say("sheets.save.done.next", { name: of.tree.name, number: saving.version.number }) };
+  return say("sheets.save.done.next", { name: of.tree.name, number: saving.version.number });
 }
 
 /** Which tree the one on the page is, and how it stands to what is saved of it. */
