@@ -4,13 +4,18 @@ import { join } from "node:path";
 import { program } from "./server";
 import { middle, type Tablet, way } from "./tablet";
 
-/** Picks a species in the page of a seedling, and pulls the lever of growth until the tree is grown up. */
-export async function growByHand(tablet: Tablet, slug: string): Promise<void> {
+/** Picks a species in the page. */
+export async function pickSpecies(tablet: Tablet, slug: string): Promise<void> {
   await tablet.tap("Architecture");
   await tablet.turnTo("Species");
   await tablet.page.locator(`[data-species="${slug}"]`).tap();
   await tablet.untilQuiet();
   await tablet.tap("Architecture");
+}
+
+/** Picks a species in the page of a seedling, and pulls the lever of growth until the tree is grown up. */
+export async function growByHand(tablet: Tablet, slug: string): Promise<void> {
+  await pickSpecies(tablet, slug);
   const lever = await tablet.boxOf(tablet.page.getByLabel("Grow", { exact: true }));
   await tablet.lead([way(middle(lever), { x: middle(lever).x, y: lever.y + 4 }, 4)]);
   await tablet.page.getByText("Grown up, as its species has it").waitFor();

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { pickSpecies } from "./by-hand";
 import { middle, SMALL, type Tablet, way } from "./tablet";
 import { seedling } from "./visits";
 import { Workshop } from "./workshop";
@@ -86,4 +87,44 @@ test("a stroke that is stopped is over, though the finger goes on", async () => 
   await tablet.frames();
   expect((await tablet.untilQuiet()).sent).toBe(sent);
   await tablet.touch("touchEnd", []);
+});
+
+/** Draws by one move of a brush, so that the tree is young still. */
+const brushAt = (stroke: number) => [
+  { kind: "stroke_begin", stroke },
+  { kind: "stroke_move", stroke, samples: [{ position: [0, 8, 0], radius: 6 }] },
+  { kind: "stroke_end", stroke },
+];
+
+test("who draws on a young pine is told that it sheds, once", async () => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  await pickSpecies(tablet, "scots-pine");
+  const sentence = tablet.page.locator("[data-shedding]");
+  expect(await sentence.count(), "nothing is drawn yet").toBe(0);
+  await workshop.act(address, brushAt(1));
+  await sentence.waitFor();
+  const drawn = await tablet.untilQuiet();
+  expect(await sentence.textContent()).toMatch(/sheds most of what you drew with its next step, until age 10/);
+  await workshop.act(address, [{ kind: "grow", steps: 1 }]);
+  await sentence.waitFor({ state: "detached" });
+  const { metamers, step } = await tablet.untilQuiet();
+  expect(metamers, "what it says is so").toBeLessThan(drawn.metamers / 2);
+  await workshop.act(address, brushAt(2));
+  await tablet.until("it was drawn on", (facts) => facts.step > step);
+  await tablet.untilQuiet();
+  expect(await sentence.count(), "it was there to be read").toBe(0);
+});
+
+test("a young pine can keep its branches", async () => {
+  const { tablet, address } = await workshop.fresh(SMALL);
+  await pickSpecies(tablet, "scots-pine");
+  await workshop.act(address, brushAt(1));
+  const keep = tablet.page.getByRole("button", { name: "Keep branches", exact: true });
+  await keep.waitFor();
+  const { metamers, step } = await tablet.untilQuiet();
+  await keep.tap();
+  await keep.waitFor({ state: "detached" });
+  await workshop.act(address, [{ kind: "grow", steps: 1 }]);
+  await tablet.until("it grows on", (facts) => facts.step > step);
+  expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(0.9 * metamers);
 });

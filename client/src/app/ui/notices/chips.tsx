@@ -8,6 +8,7 @@ import { symmetryText } from "../../tools/symmetry/symmetry-text";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
+import { SheddingChip } from "./shedding-chip";
 import { TransferChip } from "./transfer-chip";
 import { useLasting } from "./use-lasting";
 
@@ -17,6 +18,7 @@ export function Chips({ studio }: { studio: Studio }) {
   return (
     <>
       <GrowthChip studio={studio} />
+      <SheddingChip studio={studio} />
       <SlownessChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
