@@ -1,7 +1,8 @@
 //! Numbers and lists with bounds: whoever holds one need not check it.
 
-use std::{fmt, marker::PhantomData, ops::Deref};
+use std::{borrow::Cow, fmt, marker::PhantomData, ops::Deref};
 
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{
     Deserialize, Deserializer, Serialize,
     de::{DeserializeSeed, Error, IgnoredAny, SeqAccess, Unexpected, Visitor},
@@ -10,6 +11,7 @@ use ts_rs::{Config, TS};
 
 use crate::{
     reading::NotAllowed,
+    schema::{between, list, schemas},
     version::{
         MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER,
     },
@@ -140,6 +142,7 @@ macro_rules! bounded {
         }
 
         written_as! { $name as $type; }
+        schemas! { $name = |_| between(&Self::RANGE); }
     )+
 
         /// The names of these numbers, each with its least and its most as they are written.
@@ -276,6 +279,20 @@ impl<T: TS, const LEAST: usize, const MOST: usize> TS for List<T, LEAST, MOST> {
     }
 }
 
+impl<T: JsonSchema, const LEAST: usize, const MOST: usize> JsonSchema for List<T, LEAST, MOST> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("{}To{LEAST}To{MOST}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        list::<T>(generator, LEAST, MOST)
+    }
+}
+
 /// The rows that a bend has hold of, each once (`LM7`).
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "List<u32, 1, MAX_BEND_TOUCHES>")]
@@ -312,3 +329,10 @@ impl TryFrom<Vec<u32>> for Touches {
 }
 
 written_as! { Touches as Vec<u32>; }
+schemas! {
+    Touches = |generator| {
+        let mut schema = list::<u32>(generator, 1, MAX_BEND_TOUCHES);
+        schema.insert("uniqueItems".into(), true.into());
+        schema
+    };
+}

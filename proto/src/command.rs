@@ -1,6 +1,9 @@
 //! Commands: everything that can be done to a document, on the wire, in the journal and in a replay script alike.
 
+use std::borrow::Cow;
+
 use espalier_settings::{AppearancePatch, ParametersPatch};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize};
 use serde_json::Value;
 use ts_rs::TS;
@@ -49,6 +52,27 @@ impl From<Action> for Command {
     }
 }
 
+impl JsonSchema for Command {
+    fn schema_name() -> Cow<'static, str> {
+        "Command".into()
+    }
+
+    /// Each action, with a gesture among its fields.
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let mut schema = Action::json_schema(generator);
+        let gesture = json_schema!({
+            "type": ["integer", "null"],
+            "minimum": 0,
+            "maximum": u32::MAX,
+            "description": "Commands of one client with the same gesture can be one operation for undo.",
+        });
+        for action in schema.get_mut("oneOf").and_then(Value::as_array_mut).into_iter().flatten() {
+            action["properties"]["gesture"] = gesture.clone().to_value();
+        }
+        schema
+    }
+}
+
 impl<'de> Deserialize<'de> for Command {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut fields = reading::object(deserializer, "an object with kind")?;
@@ -59,7 +83,7 @@ impl<'de> Deserialize<'de> for Command {
 }
 
 /// One place of the brush.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with position and radius")]
 pub struct StrokeSample {
     /// The centre of the brush, in internode lengths.
@@ -137,6 +161,7 @@ tagged_enum! {
             /// Written by the server into its journal: no step beyond this one is run for what came before.
             /// What a client says here counts for nothing.
             #[serde(default, skip_serializing_if = "Option::is_none")]
+            #[schemars(skip)]
             #[ts(skip)]
             tick: Option<u32>,
         },

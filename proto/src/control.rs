@@ -1,6 +1,7 @@
 //! Control messages: JSON text in both directions over a session's WebSocket.
 
 use espalier_settings::{Appearance, ParameterValues};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use ts_rs::TS;
@@ -19,7 +20,7 @@ use crate::{
 };
 
 /// What a returning client still has (`RS1`).
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with epoch, generations and rows")]
 pub struct Resume {
     /// The epoch of the frames it holds.
@@ -116,7 +117,7 @@ impl ClientMessage {
 }
 
 /// Figures of the document as a whole, sent after each change.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct DocumentState {
     /// The simulation step reached.
@@ -145,7 +146,7 @@ pub struct DocumentState {
 }
 
 /// What everybody in a session is notified of once: how it was opened (`OP`).
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Notice {
     /// The last commands were done again by other rules of growth, and may have grown otherwise (`OP2`).
@@ -164,7 +165,7 @@ pub enum Notice {
 }
 
 /// What somebody drew where nothing can grow, or growth did not reach (`SG2`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Hint {
     /// The command with which it became known: the lasso, or the last one of the stroke.
@@ -180,7 +181,7 @@ pub struct Hint {
 }
 
 /// Why what somebody drew is not there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum HintReason {
     /// No bud is within 25 internodes.
@@ -192,7 +193,7 @@ pub enum HintReason {
 }
 
 /// From the server.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(tag = "type", rename_all = "snake_case", deny_unknown_fields)]
 pub enum ServerMessage {
     /// The answer to a hello (`HS2`).

@@ -14,7 +14,10 @@ use std::{
 use flate2::{Compress, Compression, FlushCompress, read::DeflateDecoder};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use crate::bounded::{Between, Bounded};
+use crate::{
+    bounded::{Between, Bounded},
+    schema::{between, schemas},
+};
 
 /// Bytes before the body.
 pub const HEADER_BYTES: usize = 16;
@@ -55,14 +58,20 @@ impl Serialize for FrameKind {
 
 impl<'de> Deserialize<'de> for FrameKind {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let codes = Between(u32::from(Self::MeshDelta.code()), u32::from(Self::Ghost.code()));
+        let codes = Self::CODES;
         let code = deserializer.deserialize_u32(Bounded(codes, &codes.to_string()))?;
         let kind = u8::try_from(code).ok().and_then(Self::from_code);
         kind.ok_or_else(|| D::Error::custom(format_args!("invalid value: {code}, expected {codes}")))
     }
 }
 
+schemas! {
+    FrameKind = |_| between(&FrameKind::CODES);
+}
+
 impl FrameKind {
+    const CODES: Between<u32> = Between(Self::MeshDelta as u32, Self::Ghost as u32);
+
     /// Its number in the header.
     pub fn code(self) -> u8 {
         self as u8

@@ -21,6 +21,7 @@ pub mod problem;
 pub mod programme;
 pub mod protocol_tables;
 pub mod reading;
+pub mod schema;
 pub mod schematic;
 pub mod species;
 pub mod thumbnail;

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 /// `POST /api/sessions`: start a session, or come into the one of a tree.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct NewSession {
     /// The seed of all randomness; drawn by the server if absent.
@@ -28,7 +29,7 @@ pub struct NewSession {
 }
 
 /// A session's name, whose link is `/s/NAME`, and the tree it belongs to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SessionCreated {
     /// The session's name.
@@ -40,7 +41,7 @@ pub struct SessionCreated {
 }
 
 /// The tree that a session belongs to.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SessionTree {
     /// The tree's identifier.
@@ -52,7 +53,7 @@ pub struct SessionTree {
 }
 
 /// `POST /api/trees`: save a session's plants as a new tree.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveTree {
     /// The session; it belongs to the tree from then on.
@@ -74,7 +75,7 @@ pub struct SaveTree {
 }
 
 /// `POST /api/trees/ID/versions`: save a session's plants as the newest version of a tree.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveVersion {
     /// The session; it belongs to the tree from then on.
@@ -94,7 +95,7 @@ pub struct SaveVersion {
 }
 
 /// `POST /api/trees/ID/versions/N/restore`: what was saved then becomes the newest version.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct RestoreVersion {
     /// As in `SaveTree`.
@@ -108,7 +109,7 @@ pub struct RestoreVersion {
 }
 
 /// `POST /api/trees/ID/copies`: a new tree that begins with a version of this one.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct CopyTree {
     /// The new tree's name: 1 to 80 characters.
@@ -128,7 +129,7 @@ pub struct CopyTree {
 }
 
 /// `GET /api/trees`: some trees of the library, in the order that was asked for.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreePage {
     /// The trees.
@@ -140,7 +141,7 @@ pub struct TreePage {
 }
 
 /// One tree of the library.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SavedTree {
     /// Its identifier.
@@ -195,7 +196,7 @@ pub struct SavedTree {
 }
 
 /// One format of `GET /api/formats`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ExportFormat {
     /// How the names of its files end.
@@ -211,7 +212,7 @@ pub struct ExportFormat {
 }
 
 /// `GET /api/sessions/NAME/exports/TICKET`: how far a file is that is being made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ExportProgress {
     /// Bytes so far.
@@ -223,7 +224,7 @@ pub struct ExportProgress {
 }
 
 /// A version of a tree.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
     /// The tree's identifier; it may be gone by now.
@@ -233,7 +234,7 @@ pub struct Origin {
 }
 
 /// What was saved of a tree at one time; `GET /api/trees/ID/versions` lists them, newest first.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeVersion {
     /// 1, 2, 3 … within the tree.
@@ -265,7 +266,7 @@ pub struct TreeVersion {
 }
 
 /// `PATCH /api/trees/ID`: what is left out stays as it is.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeTree {
     /// Its name: 1 to 80 characters.
@@ -291,7 +292,7 @@ pub struct ChangeTree {
 }
 
 /// A folder of trees and other collections; `GET /api/collections` lists all of them by name.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeCollection {
     /// Its identifier.
@@ -307,7 +308,7 @@ pub struct TreeCollection {
 }
 
 /// `POST /api/collections`: make a collection.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct NewCollection {
     /// 1 to 80 characters.
@@ -319,7 +320,7 @@ pub struct NewCollection {
 }
 
 /// `PATCH /api/collections/ID`: what is left out stays as it is.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeCollection {
     /// 1 to 80 characters.
@@ -333,7 +334,7 @@ pub struct ChangeCollection {
 }
 
 /// A tag that trees have; `GET /api/tags` lists all of them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeTag {
     /// The tag.
@@ -343,7 +344,7 @@ pub struct TreeTag {
 }
 
 /// Who saved a tree last, as they wanted to be called; `GET /api/authors` lists all of them.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeAuthor {
     /// The name.
@@ -356,7 +357,7 @@ pub struct TreeAuthor {
 pub const IMPORT_ENDINGS: [&str; 4] = ["espalier", "mtg", "csv", "json"];
 
 /// `PATCH /api/trees/ID/versions/N`: what is said of a version.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeVersion {
     /// Up to 2000 characters.

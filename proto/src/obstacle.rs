@@ -1,5 +1,6 @@
 //! Obstacles: what stands in the way of growth and light.
 
+use schemars::{JsonSchema, json_schema};
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
@@ -8,6 +9,7 @@ use crate::{
     mesh::Mesh,
     place::{BoxSize, Position, UnitRotation},
     reading::{NotAllowed, tagged_enum},
+    schema::schemas,
 };
 
 /// No rotation.
@@ -21,7 +23,7 @@ fn full_size() -> Scale {
 }
 
 /// Where something stands, and how it is turned.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with position and rotation")]
 pub struct Pose {
     /// Where its own origin lies, in internode lengths.
@@ -52,6 +54,7 @@ tagged_enum! {
         /// A triangle mesh.
         Mesh {
             /// The mesh in base64 (`OB4`).
+            #[schemars(with = "String")]
             #[ts(as = "String")]
             mesh: Mesh,
             /// 0.001 to 1000: coordinates are multiplied by this.
@@ -88,9 +91,16 @@ impl TryFrom<Shape> for SimpleShape {
 }
 
 written_as! { SimpleShape as Shape; }
+schemas! {
+    SimpleShape = |generator| {
+        let shape = generator.subschema_for::<Shape>();
+        let mesh = json_schema!({ "properties": { "kind": { "const": "mesh" } } });
+        json_schema!({ "allOf": [shape], "not": mesh })
+    };
+}
 
 /// An obstacle as it is placed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with shape and pose")]
 pub struct Obstacle {
     /// What it is.
@@ -100,7 +110,7 @@ pub struct Obstacle {
 }
 
 /// The shape of an obstacle that is in the scene; a mesh is fetched apart (`OB5`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum PlacedShape {
     /// A box around the origin.
@@ -127,7 +137,7 @@ pub enum PlacedShape {
 }
 
 /// An obstacle in the scene.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct PlacedObstacle {
     /// Names it; never used again for another one of the same session.

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use glam::{Quat, Vec2, Vec3};
+use schemars::JsonSchema;
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{Error, IgnoredAny, SeqAccess, Unexpected, Visitor},
@@ -12,6 +13,7 @@ use ts_rs::TS;
 use crate::{
     bounded::{Between, Bounded, BoxSide, written_as},
     reading::NotAllowed,
+    schema::{numbers, schemas},
 };
 
 /// The farthest a place may lie from the origin on any axis, in internode lengths (`LM2`).
@@ -102,6 +104,7 @@ macro_rules! several {
         }
 
         written_as! { $name as [f32; $count]; }
+        schemas! { $name = |_| numbers(&Self::RANGES); }
     )+ };
 }
 
@@ -162,6 +165,7 @@ macro_rules! unit {
         }
 
         written_as! { $name as [f32; $count]; }
+        schemas! { $name = |_| numbers(&[ANY; $count]); }
     )+ };
 }
 
@@ -188,8 +192,9 @@ impl UnitRotation {
 }
 
 /// A plane in space that an outline is drawn on.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(try_from = "Axes")]
+#[schemars(!try_from, deny_unknown_fields)]
 pub struct DrawingPlane {
     /// The point that is (0, 0) on the plane, in internode lengths.
     origin: Position,

@@ -1,11 +1,12 @@
 //! What went wrong, in words a person can act on.
 
 use espalier_settings::OutOfRange;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 /// What kind of refusal this is; programs branch on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum ProblemCode {
     /// The message is not JSON of a known shape.
@@ -25,7 +26,7 @@ pub enum ProblemCode {
 }
 
 /// One error, as it is sent to a client and printed by the command line.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Problem {
     /// The kind of refusal.

@@ -1,6 +1,7 @@
 //! Programmes: which parameters trees grow by at which age, and what guides them then (`PG1`).
 
 use espalier_settings::{ParameterValues, ParametersPatch};
+use schemars::{JsonSchema, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, de::Error};
 use ts_rs::TS;
 
@@ -9,11 +10,12 @@ use crate::{
     command::StrokeSample,
     place::Position,
     reading::{NotAllowed, tagged_enum},
+    schema::schemas,
     version::{MAX_STAGES, MAX_STROKE_SAMPLES},
 };
 
 /// What trees grow by over their age, stage by stage.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields, expecting = "an object with parameters, stages and age")]
 pub struct Programme {
     /// The species it is of, by its short name; for whoever shows it.
@@ -130,4 +132,8 @@ impl TryFrom<String> for ParameterName {
 written_as! {
     Slug as String;
     ParameterName as String;
+}
+schemas! {
+    Slug = |_| json_schema!({ "type": "string", "pattern": format!("^[a-z0-9-]{{1,{LONGEST_SLUG}}}$") });
+    ParameterName = |_| json_schema!({ "type": "string", "enum": ParameterValues::NAMES });
 }

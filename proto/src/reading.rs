@@ -170,23 +170,26 @@ macro_rules! tagged_enum {
             $variant:ident { $(
                 $(#[doc = $about:expr])+
                 $(#[serde($($serde:tt)+)])?
+                $(#[schemars($($schemars:tt)+)])?
                 $(#[ts($($ts:tt)+)])?
                 $field:ident: $type:ty,
             )* },
         )+ }
     ) => {
         $(#[doc = $outer])+
-        #[derive(Clone, Debug, PartialEq, serde::Serialize, ts_rs::TS)]
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema, ts_rs::TS)]
         #[allow(
             clippy::large_enum_variant,
             reason = "the large variants are rare, and a box in every message would be in everyone's way"
         )]
         #[serde(tag = $tag, rename_all = "snake_case")]
+        #[schemars(deny_unknown_fields)]
         pub enum $name { $(
             $(#[doc = $doc])+
             $variant { $(
                 $(#[doc = $about])+
                 $(#[serde($($serde)+)])?
+                $(#[schemars($($schemars)+)])?
                 $(#[ts($($ts)+)])?
                 $field: $type,
             )* },

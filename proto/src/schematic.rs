@@ -1,12 +1,13 @@
 //! A small flat tree that shows what parameters do.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 /// The answer to `POST /api/schematic`: a tree that grew in a plane, metamer by metamer in birth order (`SC1`).
 ///
 /// All lists but `segments` have one entry for each metamer.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Schematic {
     /// Four numbers for each metamer, in internode lengths: x and y of where it begins, x and y of where it ends.

@@ -1,13 +1,14 @@
 //! Species as a picker offers them.
 
 use espalier_settings::Appearance;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 use crate::programme::Programme;
 
 /// A programme and an appearance with a name, from `GET /api/species`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Species {
     /// Its short name, as the command line takes it.

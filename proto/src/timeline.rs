@@ -1,10 +1,11 @@
 //! What was done to a document, as a strip shows it, and the width constraints in force.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
 /// What an operation was.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum OperationKind {
     /// One or more strokes that overlapped in time.
@@ -34,7 +35,7 @@ pub enum OperationKind {
 }
 
 /// One operation on a line of time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TimelineOperation {
     /// What it was.
@@ -48,7 +49,7 @@ pub struct TimelineOperation {
 }
 
 /// Another line of time, as far as it differs from the present one.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TimelineFuture {
     /// Its number, for `take_future`.
@@ -66,7 +67,7 @@ pub struct TimelineFuture {
 }
 
 /// The present line of time and all others (`TT1`).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, TS)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Timeline {
     /// The number of the present line: it is a future's once another line is taken.
@@ -84,7 +85,7 @@ pub struct Timeline {
 }
 
 /// A metamer whose width somebody has set.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, TS)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct WidthConstraint {
     /// Its row.

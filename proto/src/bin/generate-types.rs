@@ -1,9 +1,9 @@
-//! Writes `client/src/wire/generated.ts` and the tables of `PROTOCOL.md`; with `--check` only says whether they are
-//! current.
+//! Writes `client/src/wire/generated.ts`, the tables of `PROTOCOL.md` and `protocol.schema.json`; with `--check` only
+//! says whether they are current.
 
 use std::{fs, path::Path, process::ExitCode};
 
-use espalier_proto::{protocol_tables, typescript};
+use espalier_proto::{protocol_tables, schema, typescript};
 
 fn main() -> ExitCode {
     let is_check = std::env::args().nth(1).as_deref() == Some("--check");
@@ -20,7 +20,8 @@ fn bring_up_to_date(home: &Path, is_check: bool) -> Result<(), String> {
     let (types, document) = (home.join("../client/src/wire/generated.ts"), home.join("PROTOCOL.md"));
     let read = |path: &Path| fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()));
     let with_tables = protocol_tables::with_tables(&read(&document)?).map_err(|error| error.to_string())?;
-    for (path, wanted) in [(types, typescript::declarations()), (document, with_tables)] {
+    let schema = (home.join("protocol.schema.json"), schema::document());
+    for (path, wanted) in [(types, typescript::declarations()), (document, with_tables), schema] {
         if read(&path).is_ok_and(|found| found == wanted) {
             continue;
         }

@@ -1,5 +1,6 @@
 //! How a tree and its surroundings look, as a whole.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use ts_rs::TS;
 
@@ -8,6 +9,7 @@ use crate::{
         Background, BackgroundPatch, BarkKind, BarkLook, BarkPatch, FlowerLook, FlowerPatch, FruitLook,
         FruitPatch, LeafKind, LeafLook, LeafPatch,
     },
+    schema::without_null,
     setting::{OutOfRange, Setting},
     value::Tint,
 };
@@ -16,15 +18,16 @@ use crate::{
 macro_rules! sections {
     ($($(#[doc = $doc:literal])+ $section:ident: $look:ident / $patch:ident,)+) => {
         /// How a tree and its surroundings look. Part of the document; it changes nothing of what grows.
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
         #[serde(deny_unknown_fields)]
         pub struct Appearance {
             $($(#[doc = $doc])+ pub $section: $look,)+
         }
 
         /// Some fields of some sections of an appearance: those to change.
-        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, TS)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
         #[serde(deny_unknown_fields)]
+        #[schemars(transform = without_null)]
         pub struct AppearancePatch {
             $(
                 $(#[doc = $doc])+

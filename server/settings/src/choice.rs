@@ -46,7 +46,7 @@ fn names<C: Choice>() -> String {
 macro_rules! choices {
     ($($(#[$about:meta])+ $choice:ident { $($(#[$of:meta])+ $variant:ident = $name:literal,)+ })+) => { $(
         $(#[$about])+
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, ts_rs::TS)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, schemars::JsonSchema, ts_rs::TS)]
         pub enum $choice {
             $($(#[$of])+ #[serde(rename = $name)] $variant,)+
         }

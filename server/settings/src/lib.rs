@@ -12,6 +12,7 @@ mod leaf_nature;
 pub mod looks;
 mod ornament_nature;
 pub mod parameters;
+mod schema;
 mod setting;
 mod table;
 mod value;

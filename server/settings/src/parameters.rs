@@ -20,6 +20,7 @@ choices! {
 
 settings! {
     /// All parameters of growth, in range or not.
+    #[schemars(rename = "Parameters")]
     #[ts(rename = "Parameters")]
     ParameterValues / ParametersPatch {
         /// Length of one internode, the simulation's unit of length, for exports.

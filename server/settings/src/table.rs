@@ -100,14 +100,16 @@ macro_rules! settings {
             $($(#[doc = $sentence:literal])+ $name:ident: $type:ty = $default:expr $(, $known:ident($($as:expr),+))*;)+
         }
     )+) => { $(
-        #[derive(Clone, Debug, PartialEq, serde::Serialize, ts_rs::TS)]
+        #[derive(Clone, Debug, PartialEq, serde::Serialize, schemars::JsonSchema, ts_rs::TS)]
+        #[schemars(deny_unknown_fields, transform = $crate::schema::Rows($values::ROWS))]
         $(#[$about])+
         pub struct $values {
             $($(#[doc = $sentence])+ pub $name: $type,)+
         }
 
         #[doc = concat!("Some fields of [`", stringify!($values), "`]: those to change.")]
-        #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, ts_rs::TS)]
+        #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, schemars::JsonSchema, ts_rs::TS)]
+        #[schemars(deny_unknown_fields, transform = $crate::schema::Rows($values::ROWS))]
         $(#[$about_patch])*
         pub struct $patch {
             $(

@@ -21,6 +21,7 @@ mod obstacles;
 mod refusals;
 mod rights;
 mod rows;
+mod schema;
 mod shaping;
 mod stopping;
 mod world;

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use crate::obstacles::tetrahedron;
 
 /// One command of each kind, with all its fields.
-fn commands() -> Vec<Value> {
+pub(crate) fn commands() -> Vec<Value> {
     let pose = json!({ "position": [1, 2, 3], "rotation": [0, 0, 0, 1] });
     let looks = Value::from_iter([("appearance", json!(espalier_settings::Appearance::default()))]);
     let mut set_appearance = looks;
@@ -60,7 +60,7 @@ fn commands() -> Vec<Value> {
 }
 
 /// One message of each type but commands.
-fn messages() -> Vec<Value> {
+pub(crate) fn messages() -> Vec<Value> {
     let resume = json!({ "epoch": 1, "generations": [1, 2], "rows": 3 });
     vec![
         json!({ "type": "hello", "protocol": 1, "client": "birch-01", "resume": resume }),
@@ -101,7 +101,7 @@ fn ways(value: &Value, at: &Way, found: &mut Vec<Way>) {
 }
 
 /// A text with something wrong in it, and the field that its refusal should name, or one inside it.
-fn mistakes(sample: &Value) -> Vec<(String, String)> {
+pub(crate) fn mistakes(sample: &Value) -> Vec<(String, String)> {
     let mut all = Vec::new();
     ways(sample, &Way { name: String::new(), pointer: String::new() }, &mut all);
     let mut mistakes = Vec::new();

@@ -1,0 +1,85 @@
+//! The JSON Schema of messages says what the readers take (`CM10`).
+
+use espalier_proto::{ClientMessage, ServerMessage, schema};
+use espalier_session::read_command;
+use jsonschema::Validator;
+use serde_json::{Value, json};
+
+use crate::refusals::{commands, messages, mistakes};
+
+/// What a schema cannot say, or a reader does not ask: fields at whose mistakes they may differ.
+const BEYOND_SCHEMAS: [&str; 9] = [
+    "mesh",       // base64
+    "client",     // letters and digits
+    "rotation",   // of length 1
+    "right",      // of length 1
+    "up",         // perpendicular to it
+    "tick",       // written by the server alone, so in no schema
+    "stages",     // in order of their ages
+    "parameters", // ranges of settings are checked after reading
+    "appearance", // the same
+];
+
+fn validator(of: &str) -> Validator {
+    let mut document: Value = serde_json::from_str(&schema::document()).expect("it is JSON");
+    document["anyOf"] = json!([{ "$ref": format!("#/$defs/{of}") }]);
+    jsonschema::validator_for(&document).expect("it is a schema")
+}
+
+fn agree(of: &str, samples: &[Value], reads: impl Fn(&Value) -> bool) -> usize {
+    let validator = validator(of);
+    let (mut tried, mut differences) = (0, Vec::new());
+    for sample in samples {
+        let mut plain = sample.clone();
+        if let Some(fields) = plain.as_object_mut() {
+            fields.remove("tick");
+        }
+        let faults: Vec<_> = validator.iter_errors(&plain).map(|error| error.to_string()).collect();
+        assert!(faults.is_empty(), "{plain}: {faults:?}");
+        for (text, at) in mistakes(&plain) {
+            let Ok(value) = serde_json::from_str::<Value>(&text) else { continue };
+            // 1000000.0 is a whole number to a schema, and not to the reader.
+            if text.contains("000000.0") {
+                continue;
+            }
+            let (schema, reader) = (validator.is_valid(&value), reads(&value));
+            let is_beyond = BEYOND_SCHEMAS.iter().any(|field| at.contains(field));
+            if schema != reader && !is_beyond {
+                differences.push(format!("schema {schema}, reader {reader}: {at} in {text:.200}"));
+            }
+            tried += 1;
+        }
+    }
+    assert!(differences.is_empty(), "{differences:#?}");
+    tried
+}
+
+#[test]
+fn cm10_the_schema_of_commands_takes_what_the_reader_takes() {
+    let tried = agree("Command", &commands(), |value| read_command(&value.to_string()).is_ok());
+    assert!(tried > 2000, "{tried}");
+}
+
+#[test]
+fn cm10_the_schema_of_messages_takes_what_the_reader_takes() {
+    let reads = |value: &Value| ClientMessage::from_json(&value.to_string()).is_ok();
+    let tried = agree("ClientMessage", &messages(), reads);
+    assert!(tried > 100, "{tried}");
+}
+
+#[test]
+fn cm10_what_the_server_says_keeps_to_the_schema() {
+    let validator = validator("ServerMessage");
+    for message in [
+        json!({ "type": "acknowledged", "id": 3 }),
+        json!({ "type": "refused", "id": 3, "problem": { "code": "refused", "message": "no" } }),
+        json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default() }),
+        json!({ "type": "parameters", "parameters": espalier_settings::ParameterValues::default() }),
+        json!({ "type": "timeline", "line": 0, "step": 0, "last_step": 0, "done": 0, "operations": [], "futures": [] }),
+    ] {
+        let read: ServerMessage = serde_json::from_value(message).expect("it is one");
+        let written = serde_json::to_value(read).expect("plain values");
+        let faults: Vec<_> = validator.iter_errors(&written).map(|error| error.to_string()).collect();
+        assert!(faults.is_empty(), "{written}: {faults:?}");
+    }
+}
