@@ -1,10 +1,11 @@
 //! What can be asked for about an export, on the command line and in a request alike.
 
-use std::str::FromStr;
+use std::{borrow::Cow, str::FromStr};
 
 use clap::Args;
 use espalier_export::{Detail, Model, picture::Camera};
 use espalier_proto::NotAllowed;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 /// The most pixels of a picture: each takes some 170 bytes while it is drawn.
@@ -17,8 +18,9 @@ const MOST_POINTS: u32 = 20_000_000;
 const POINTS: u32 = 1_000_000;
 
 /// Options of an export; each format has some of them.
-#[derive(Clone, Debug, Default, PartialEq, Args, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Args, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
+#[schemars(inline)]
 pub struct ExportOptions {
     /// How finely triangles are written: 0, 1, 2, 3 (crossed cards), or `set` for all four in one file.
     #[arg(long, value_name = "LEVEL", requires = "export")]
@@ -158,6 +160,20 @@ macro_rules! values {
             fn try_from(text: String) -> Result<Self, NotAllowed> {
                 let read: fn(&str) -> Option<Self> = $read;
                 read(&text).ok_or_else(|| NotAllowed::new(text, $allowed))
+            }
+        }
+
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!({ "type": "string", "description": format!("Allowed: {}.", $allowed) })
             }
         }
 

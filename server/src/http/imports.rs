@@ -10,6 +10,7 @@ use axum::{
 use espalier_proto::{Problem, version::MAX_WOOD_BYTES};
 use espalier_session::Principal;
 use espalier_settings::ParametersPatch;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
@@ -25,8 +26,9 @@ use crate::{
 };
 
 /// What the address says of the file.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(inline)]
 pub(super) struct Upload {
     /// The name of the tree.
     name: String,

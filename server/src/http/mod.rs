@@ -1,7 +1,9 @@
 //! The routes of `PROTOCOL.md`, and the client itself.
 
+mod addresses;
 mod client;
 mod collections;
+mod description;
 mod exports;
 mod failure;
 mod guard;
@@ -15,24 +17,26 @@ mod text;
 mod trees;
 mod versions;
 
-use std::{borrow::Cow, sync::Arc};
+use std::sync::Arc;
 
 use axum::{
     Router,
-    extract::{DefaultBodyLimit, Path, State},
+    extract::{DefaultBodyLimit, State},
     middleware::{from_fn, from_fn_with_state, map_response},
-    routing::{MethodRouter, delete, get, patch, post, put},
+    routing::get,
 };
-use espalier_proto::version::{MAX_GLB_BYTES, MAX_WOOD_BYTES};
 use espalier_session::Principal;
 use tokio::sync::Mutex;
-use tower::{ServiceBuilder, limit::GlobalConcurrencyLimitLayer};
+use tower::ServiceBuilder;
 
 pub use self::exports::Progresses;
-use self::{failure::Failure, guard::Asked};
+use self::{
+    addresses::{Route, SOCKET, downloads, path_of, routes},
+    failure::Failure,
+    guard::Asked,
+};
 use crate::{
     authority::{Action, Authority, Object},
-    document::{FORMATS, FormatRow},
     live::Sessions,
     pool::SimulationPool,
     portrait::Portraits,
@@ -41,19 +45,6 @@ use crate::{
 
 /// A request for a session is tiny.
 const MAX_SMALL_BODY: usize = 4 * 1024;
-/// A note of 2000 characters, with room for the rest of the request.
-const MAX_SAID_BODY: usize = 32 * 1024;
-/// A thumbnail of 192 KiB as base64, with room for the rest of the request.
-const MAX_TREE_BODY: usize = 264 * 1024;
-/// Uploads at once: each holds a file and its triangles.
-const MAX_UPLOADS: usize = 2;
-/// Exports made at once: each holds a scene of its own.
-const MAX_EXPORTS: usize = 1;
-
-/// Pictures of species made at once: sessions grow on the same threads.
-const MAX_PICTURES: usize = 1;
-/// Schematics grown at once; each takes some milliseconds.
-const MAX_SCHEMATICS: usize = 4;
 
 /// What the handlers work with.
 #[derive(Clone, Debug)]
@@ -83,111 +74,12 @@ impl Shared {
     }
 }
 
-/// An address of the API, what is asked for there, and how it is answered.
-struct Route {
-    /// Method and path, in which `{session}` and `{tree}` name what is asked for.
-    address: Cow<'static, str>,
-    action: Action,
-    answer: MethodRouter<Shared>,
-}
-
-/// Files of any format, each of which takes as long as it takes.
-fn downloads() -> Vec<Route> {
-    let exports = GlobalConcurrencyLimitLayer::new(MAX_EXPORTS);
-    let take = |row: &'static FormatRow| {
-        let answer = get(move |state: State<Shared>, path: Path<String>, query| {
-            exports::take(state, path, query, row)
-        });
-        let address = format!("GET /api/sessions/{{session}}/tree.{}", row.ending).into();
-        Route { address, action: Action::TakeTree, answer: answer.layer(exports.clone()) }
-    };
-    FORMATS.iter().map(take).collect()
-}
-
-/// The rest of the API, but for the socket.
-fn routes() -> Vec<Route> {
-    let route = |address: &'static str, action, answer| Route { address: address.into(), action, answer };
-    let at_once = GlobalConcurrencyLimitLayer::new;
-    let body = DefaultBodyLimit::max;
-    vec![
-        route("GET /api/formats", Action::SeeSpecies, get(exports::formats)),
-        route("GET /api/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress)),
-        route("POST /api/sessions", Action::BeginSession, post(sessions::create)),
-        route("GET /api/sessions/{session}", Action::SeeSession, get(sessions::find)),
-        route(
-            "POST /api/sessions/{session}/obstacles",
-            Action::EditSession,
-            post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))),
-        ),
-        route("GET /api/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh)),
-        route("GET /api/species", Action::SeeSpecies, get(species::list)),
-        route(
-            "GET /api/species/{slug}/picture",
-            Action::SeeSpecies,
-            get(species::picture).layer(at_once(MAX_PICTURES)),
-        ),
-        route(
-            "POST /api/schematic",
-            Action::DrawSchematic,
-            post(schematic::draw).layer(at_once(MAX_SCHEMATICS)),
-        ),
-        route("GET /api/trees", Action::ListTrees, get(trees::list)),
-        route("POST /api/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY))),
-        route(
-            "POST /api/trees/import",
-            Action::SaveTree,
-            post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))),
-        ),
-        route("GET /api/trees/{tree}", Action::SeeTree, get(trees::find)),
-        route("PATCH /api/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY))),
-        route("DELETE /api/trees/{tree}", Action::DeleteTree, delete(trees::delete)),
-        route("POST /api/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete)),
-        route(
-            "POST /api/trees/{tree}/copies",
-            Action::OpenTree,
-            post(trees::copy).layer(body(MAX_SAID_BODY)),
-        ),
-        route("PUT /api/trees/{tree}/favourite", Action::SeeTree, put(collections::like)),
-        route("DELETE /api/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike)),
-        route("GET /api/tags", Action::ListTrees, get(collections::tags)),
-        route("GET /api/authors", Action::ListTrees, get(collections::authors)),
-        route("GET /api/collections", Action::ListTrees, get(collections::list)),
-        route("POST /api/collections", Action::ChangeCollections, post(collections::add)),
-        route("PATCH /api/collections/{id}", Action::ChangeCollections, patch(collections::change)),
-        route("DELETE /api/collections/{id}", Action::ChangeCollections, delete(collections::delete)),
-        route("GET /api/trees/{tree}/versions", Action::SeeTree, get(versions::list)),
-        route(
-            "POST /api/trees/{tree}/versions",
-            Action::ChangeTree,
-            post(versions::save).layer(body(MAX_TREE_BODY)),
-        ),
-        route(
-            "PATCH /api/trees/{tree}/versions/{number}",
-            Action::ChangeTree,
-            patch(versions::change).layer(body(MAX_SAID_BODY)),
-        ),
-        route(
-            "POST /api/trees/{tree}/versions/{number}/restore",
-            Action::ChangeTree,
-            post(versions::restore),
-        ),
-        route("GET /api/trees/{tree}/versions/{number}/document", Action::OpenTree, get(versions::document)),
-        route("GET /api/trees/{tree}/versions/{number}/thumbnail", Action::SeeTree, get(versions::thumbnail)),
-    ]
-}
-
-const SOCKET: &str = "GET /api/sessions/{session}/socket";
-
-fn path_of(address: &str) -> &str {
-    address.split_once(' ').map_or(address, |(_, path)| path)
-}
-
 /// Everything the server answers.
 pub fn router(shared: Shared) -> Router {
     let authority = shared.authority;
     let asks = |action| from_fn_with_state(Asked { authority, action }, guard::ask);
     let api = |routes: Vec<Route>| {
-        routes.into_iter().fold(Router::new(), |router, Route { address, action, answer }| {
+        routes.into_iter().fold(Router::new(), |router, Route { address, action, answer, .. }| {
             router.route(path_of(&address), answer.layer(asks(action)))
         })
     };
@@ -322,25 +214,5 @@ mod tests {
             let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
             assert_eq!(answer.status(), expected, "{key:?}");
         }
-    }
-
-    #[test]
-    fn the_protocol_lists_every_address() {
-        let protocol = include_str!("../../../proto/PROTOCOL.md");
-        let (_, table) = protocol.split_once("\n## HTTP\n").unwrap();
-        let rows = table.split("\n## ").next().unwrap().lines().filter_map(|line| line.strip_prefix("| `"));
-        let listed: BTreeSet<String> = rows
-            .filter_map(|row| row.split('`').next())
-            .filter(|row| row.contains("/api/"))
-            .map(str::to_owned)
-            .collect();
-        let named = |address: &str| {
-            let address = address.replace("{session}", "NAME").replace("{slug}", "SLUG");
-            let address = address.replace("{tree}", "ID").replace("{id}", "ID").replace("{number}", "N");
-            address.replace("{ticket}", "TICKET")
-        };
-        let all = routes().into_iter().chain(downloads()).map(|route| route.address);
-        let answered = all.chain([SOCKET.into()]);
-        assert_eq!(listed, answered.map(|address| named(&address)).collect());
     }
 }

@@ -15,6 +15,7 @@ use espalier_proto::{
     version::MAX_TAGS,
 };
 use espalier_session::Principal;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
@@ -39,41 +40,53 @@ const MAX_TREES: u32 = 500;
 const MAX_WORDS: usize = 8;
 
 /// Which trees of the library to list (`LB7`).
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(inline)]
 pub(super) struct Page {
-    /// How many at most.
+    /// How many at most, 1 to 500.
     limit: Option<u32>,
     /// The `next` of the page before.
     after: Option<String>,
+    /// Those that were deleted, the last first.
     #[serde(default)]
     deleted: bool,
+    /// Those that new trees are begun with, or the others.
     template: Option<bool>,
-    /// Words to search.
+    /// Up to 8 words, each found anywhere in the name, a tag, the note or the species.
     #[serde(default)]
     q: String,
-    /// Tags, with commas between.
+    /// Up to 8 tags with commas between; a tree has all of them.
     #[serde(default)]
     tags: String,
     /// A collection; an empty text for none.
     collection: Option<String>,
+    /// Only favourites of whoever asks.
     #[serde(default)]
     favourite: bool,
+    /// The short name of a species.
     species: Option<String>,
+    /// Who saved it last.
     author: Option<String>,
     /// Only those that whoever asks saved last.
     #[serde(default)]
     mine: bool,
+    /// The fewest metamers.
     min_metamers: Option<u32>,
+    /// The most metamers.
     max_metamers: Option<u32>,
+    /// Saved at this time or later: RFC 3339, UTC.
     saved_from: Option<String>,
+    /// Saved before this time.
     saved_before: Option<String>,
+    /// The order.
     #[serde(default)]
     sort: Order,
 }
 
-#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
+#[schemars(inline)]
 enum Order {
     #[default]
     Newest,

@@ -12,6 +12,7 @@ use espalier_proto::{
     thumbnail,
 };
 use espalier_session::Principal;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{
@@ -33,10 +34,11 @@ const MAX_VERSIONS: u32 = 200;
 const FOR_GOOD: (HeaderName, &str) = (header::CACHE_CONTROL, "private, max-age=31536000, immutable");
 
 /// Which versions to list.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(inline)]
 pub(super) struct Page {
-    /// How many at most.
+    /// How many at most, 1 to 200.
     limit: Option<u32>,
     /// Those before this number.
     before: Option<u32>,

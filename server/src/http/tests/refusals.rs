@@ -5,6 +5,7 @@ use espalier_settings::ParameterValues;
 use serde_json::{Value, json};
 
 use super::*;
+use crate::document::FORMATS;
 
 /// Each address that reads a body as JSON: the fields that may not be left out, and a body with all fields.
 fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {

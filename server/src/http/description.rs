@@ -1,0 +1,318 @@
+//! The description of the API: OpenAPI 3.1, made from the list of its addresses.
+
+use std::{borrow::Cow, sync::LazyLock};
+
+use axum::{http::header, response::IntoResponse};
+use espalier_proto::Problem;
+use schemars::{JsonSchema, SchemaGenerator, generate::SchemaSettings};
+use serde_json::{Map, Value, json};
+
+use super::addresses::{SOCKET, about_socket, downloads, routes};
+use crate::http::guard::CLIENT;
+
+/// Writes a type's schema into a generator.
+type SchemaOf = fn(&mut SchemaGenerator) -> Value;
+
+/// The name of a type in the protocol's table.
+type NameOf = fn() -> String;
+
+/// What is taken or given.
+#[derive(Clone, Copy)]
+enum Content {
+    Json(SchemaOf, NameOf),
+    File(&'static str),
+    Nothing,
+}
+
+/// What the description says of an address.
+pub(super) struct About {
+    does: Cow<'static, str>,
+    asks: Option<SchemaOf>,
+    /// Those of the options that there are.
+    among: Option<&'static [&'static str]>,
+    takes: Option<Content>,
+    gives: Vec<(u16, Content)>,
+    is_revised: bool,
+}
+
+fn schema_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Value {
+    generator.subschema_for::<T>().to_value()
+}
+
+fn name_of<T: JsonSchema>() -> String {
+    let name = T::schema_name();
+    name.strip_prefix("Array_of_").map_or_else(|| name.to_string(), |entry| format!("{entry}[]"))
+}
+
+impl About {
+    /// Says in a sentence what is done there.
+    pub fn new(does: impl Into<Cow<'static, str>>) -> Self {
+        Self { does: does.into(), asks: None, among: None, takes: None, gives: Vec::new(), is_revised: false }
+    }
+
+    /// What may stand behind the question mark.
+    pub fn asks<T: JsonSchema>(self) -> Self {
+        Self { asks: Some(schema_of::<T>), ..self }
+    }
+
+    /// Only these of the options.
+    pub fn among(self, options: &'static [&'static str]) -> Self {
+        Self { among: Some(options), ..self }
+    }
+
+    /// The body of the request.
+    pub fn takes<T: JsonSchema>(self) -> Self {
+        Self { takes: Some(Content::Json(schema_of::<T>, name_of::<T>)), ..self }
+    }
+
+    /// The body of the request is a file.
+    pub fn takes_file(self, media_type: &'static str) -> Self {
+        Self { takes: Some(Content::File(media_type)), ..self }
+    }
+
+    /// The body of an answer with this status.
+    pub fn gives<T: JsonSchema>(self, status: u16) -> Self {
+        self.answers(status, Content::Json(schema_of::<T>, name_of::<T>))
+    }
+
+    /// The answer is a file.
+    pub fn gives_file(self, media_type: &'static str) -> Self {
+        self.answers(200, Content::File(media_type))
+    }
+
+    /// The answer has no body.
+    pub fn gives_nothing(self) -> Self {
+        self.answers(204, Content::Nothing)
+    }
+
+    /// The connection becomes a WebSocket.
+    pub fn switches(self) -> Self {
+        self.answers(101, Content::Nothing)
+    }
+
+    /// It may be asked for with `If-Match` (`LB2`).
+    pub fn revised(self) -> Self {
+        Self { is_revised: true, ..self }
+    }
+
+    fn answers(mut self, status: u16, content: Content) -> Self {
+        self.gives.push((status, content));
+        self
+    }
+
+    /// The options that may stand behind the question mark, each with its schema and whether it must be there.
+    fn options(&self, generator: &mut SchemaGenerator) -> Vec<(String, Value, bool)> {
+        let Some(asks) = self.asks else { return Vec::new() };
+        let schema = asks(generator);
+        let required = schema["required"].as_array().cloned().unwrap_or_default();
+        let options = schema["properties"].as_object().into_iter().flatten();
+        let options =
+            options.filter(|(name, _)| self.among.is_none_or(|among| among.contains(&name.as_str())));
+        options
+            .map(|(name, schema)| (name.clone(), without_null(schema), required.contains(&json!(name))))
+            .collect()
+    }
+
+    /// What it does, takes and gives, as cells of a table.
+    fn cells(&self, generator: &mut SchemaGenerator) -> String {
+        let named = |content: &Content| match content {
+            Content::Json(_, name) => format!("`{}`", name()),
+            Content::File(media_type) => (*media_type).to_owned(),
+            Content::Nothing => String::new(),
+        };
+        let given = self.gives.iter().map(|(status, content)| match content {
+            Content::Nothing => status.to_string(),
+            content if *status == 200 => named(content),
+            content => format!("{} ({status})", named(content)),
+        });
+        let given = given.collect::<Vec<_>>().join(" or ");
+        let options = self.options(generator).into_iter().map(|(name, ..)| format!("`{name}`"));
+        let options = options.collect::<Vec<_>>().join(", ");
+        let taken = self.takes.iter().map(named).chain(Some(options).filter(|all| !all.is_empty()));
+        format!("{} | {} | {given}", self.does, taken.collect::<Vec<_>>().join("; "))
+    }
+}
+
+/// All addresses in the order of the list, each with what is said of it.
+fn all() -> Vec<(String, About)> {
+    let listed =
+        routes().into_iter().chain(downloads()).map(|route| (route.address.into_owned(), route.about));
+    listed.chain([(SOCKET.to_owned(), about_socket())]).collect()
+}
+
+/// The table of `PROTOCOL.md`.
+fn table() -> String {
+    let mut generator = SchemaGenerator::default();
+    let mut row =
+        |(address, about): (String, About)| format!("| `{address}` | {} |\n", about.cells(&mut generator));
+    let rows: String = all().into_iter().map(&mut row).collect();
+    format!("| address | does | body; query | answer |\n|---|---|---|---|\n{rows}")
+}
+
+/// The description's text.
+fn document() -> String {
+    let mut settings = SchemaSettings::draft2020_12();
+    settings.definitions_path = "/components/schemas".into();
+    let mut generator = settings.into_generator();
+    let problem = schema_of::<Problem>(&mut generator);
+    let mut paths = Map::new();
+    for (address, about) in all() {
+        let (method, path) = address.split_once(' ').unwrap_or(("GET", &address));
+        let operation = operation(method, path, &about, &mut generator);
+        let at = paths.entry(path).or_insert_with(|| json!({}));
+        at[method.to_lowercase()] = operation;
+    }
+    let description = "Everything the page does without a socket. PROTOCOL.md has the rules that the descriptions \
+                       name (LB3, EX1).";
+    let document = json!({
+        "openapi": "3.1.0",
+        "info": { "title": "Espalier", "version": env!("CARGO_PKG_VERSION"), "description": description },
+        "servers": [{ "url": "/" }],
+        "security": [{}, { "client": [] }],
+        "paths": paths,
+        "components": {
+            "schemas": generator.take_definitions(true),
+            "responses": { "Problem": {
+                "description": "What is wrong: code, field, what is allowed there, and a sentence.",
+                "content": { "application/json": { "schema": problem } },
+            } },
+            "securitySchemes": { "client": {
+                "type": "apiKey",
+                "in": "header",
+                "name": CLIENT.as_str(),
+                "description": "The key of a client (AU1).",
+            } },
+        },
+    });
+    // Plain values always have a JSON form.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGenerator) -> Value {
+    let parts = path.split(['/', '.', '{', '}']).filter(|part| !part.is_empty() && *part != "api");
+    let name = parts.clone().fold(method.to_lowercase(), |name, part| format!("{name}_{part}"));
+    let mut content = |content: Content| match content {
+        Content::Json(schema, _) => json!({ "application/json": { "schema": schema(generator) } }),
+        Content::File(media_type) => json!({ media_type: {} }),
+        Content::Nothing => json!({}),
+    };
+    let mut responses = Map::new();
+    responses.insert("default".into(), json!({ "$ref": "#/components/responses/Problem" }));
+    for &(status, given) in &about.gives {
+        let mut response = json!({ "description": about.does, "content": content(given) });
+        if about.is_revised && status != 204 {
+            let schema = json!({ "type": "string" });
+            response["headers"]["ETag"] =
+                json!({ "description": "The tree's revision (LB2).", "schema": schema });
+        }
+        responses.insert(status.to_string(), response);
+    }
+    let taken = about.takes.map(|taken| json!({ "required": true, "content": content(taken) }));
+    let mut parameters: Vec<Value> = path
+        .split(['{', '}'])
+        .skip(1)
+        .step_by(2)
+        .map(|name| {
+            let kind = if name == "number" || name == "id" && path.contains("obstacles") {
+                "integer"
+            } else {
+                "string"
+            };
+            json!({ "name": name, "in": "path", "required": true, "schema": { "type": kind } })
+        })
+        .collect();
+    if about.is_revised {
+        let description = "The revision that is changed; another one is refused with 412 (LB2).";
+        let schema = json!({ "type": "string" });
+        parameters.push(
+            json!({ "name": "If-Match", "in": "header", "description": description, "schema": schema }),
+        );
+    }
+    for (name, mut schema, is_required) in about.options(generator) {
+        let description = schema.as_object_mut().and_then(|schema| schema.remove("description"));
+        parameters.push(json!({
+            "name": name,
+            "in": "query",
+            "required": is_required,
+            "description": description.unwrap_or_else(|| name.clone().into()),
+            "schema": schema,
+        }));
+    }
+    let tag = parts.clone().next().unwrap_or_default();
+    let mut operation = json!({
+        "operationId": name,
+        "tags": [tag],
+        "summary": about.does,
+        "parameters": parameters,
+        "responses": responses,
+    });
+    if let Some(taken) = taken {
+        operation["requestBody"] = taken;
+    }
+    operation
+}
+
+/// What is not asked for is left out, and never null.
+fn without_null(schema: &Value) -> Value {
+    let mut schema = schema.clone();
+    if schema["default"].is_null() {
+        schema.as_object_mut().map(|schema| schema.remove("default"));
+    }
+    if let Some(of_value) = schema["type"].as_array().and_then(|types| types.first()).cloned() {
+        schema["type"] = of_value;
+    }
+    match schema.get_mut("anyOf").and_then(Value::as_array_mut) {
+        Some(either) if !either.is_empty() => either.swap_remove(0),
+        _ => schema,
+    }
+}
+
+/// `GET /api/openapi.json`.
+pub(super) async fn show() -> impl IntoResponse {
+    static DOCUMENT: LazyLock<String> = LazyLock::new(document);
+    ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{fs, path::Path};
+
+    use super::*;
+
+    const BEGIN: &str = "<!-- addresses -->\n";
+    const END: &str = "<!-- /addresses -->\n";
+
+    /// After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier description`.
+    #[test]
+    fn the_description_is_kept_beside_the_protocol() {
+        let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../proto");
+        let protocol = fs::read_to_string(home.join("PROTOCOL.md")).unwrap();
+        let (before, rest) = protocol.split_once(BEGIN).unwrap();
+        let (_, after) = rest.split_once(END).unwrap();
+        for (name, wanted) in
+            [("openapi.json", document()), ("PROTOCOL.md", format!("{before}{BEGIN}{}{END}{after}", table()))]
+        {
+            if std::env::var_os("UPDATE_GOLDEN").is_some() {
+                fs::write(home.join(name), &wanted).unwrap();
+            }
+            let found = fs::read_to_string(home.join(name)).unwrap_or_default();
+            assert!(found == wanted, "{name} is out of date: run this test with UPDATE_GOLDEN=1");
+        }
+    }
+
+    #[test]
+    fn every_reference_leads_somewhere() {
+        let document: Value = serde_json::from_str(&document()).unwrap();
+        let text = document.to_string();
+        for part in text.split("\"$ref\":\"#").skip(1) {
+            let pointer = part.split('"').next().unwrap();
+            assert!(document.pointer(pointer).is_some(), "{pointer}");
+        }
+        let mut names: Vec<&str> =
+            text.split("\"operationId\":\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
+        let count = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), count, "each operation has a name of its own");
+    }
+}
