@@ -13,6 +13,7 @@ mod imports;
 mod later_programs;
 mod library;
 mod obstacles;
+mod python;
 mod shaping;
 mod shared_tree;
 mod slow_clients;

@@ -1,0 +1,99 @@
+#!/usr/bin/env python3
+"""A small client of an Espalier server: draws a stroke, saves the tree, exports it.
+
+    pip install -r docs/client/requirements.txt
+    python docs/client/draw.py http://127.0.0.1:7700
+
+The rules are in proto/PROTOCOL.md, every message in proto/protocol.schema.json, every address in proto/openapi.json.
+"""
+import json
+import struct
+import sys
+import urllib.request
+from uuid import uuid4
+
+from websockets.sync.client import connect
+
+
+def request(method, address, body=None):
+    """Asks the HTTP API; gives the answer's body."""
+    data = None if body is None else json.dumps(body).encode()
+    headers = {"Content-Type": "application/json"}
+    with urllib.request.urlopen(urllib.request.Request(address, data, headers, method=method)) as answer:
+        return answer.read()
+
+
+class Session:
+    """A socket to a session: sends commands, and listens until they are durable and all growth has ended."""
+
+    def __init__(self, server, name):
+        self.socket = connect(f"{server.replace('http', 'ws', 1)}/api/sessions/{name}/socket", max_size=None)
+        self.commands = 0
+        self.acknowledged = 0
+        self.frame_bytes = 0
+        self.refused = {}
+        self.is_welcome = False
+        # A key of this client's own: with the same one it could come back after a lost connection.
+        self.send({"type": "hello", "protocol": 1, "client": uuid4().hex})
+        while not self.is_welcome:
+            self.listen()
+
+    def send(self, message):
+        self.socket.send(json.dumps(message))
+
+    def command(self, **command):
+        self.commands += 1
+        self.send({"type": "command", "id": self.commands, "command": command})
+
+    def listen(self):
+        message = self.socket.recv(timeout=60)
+        if isinstance(message, bytes):
+            # A frame's header: version, kind, codec, flags, epoch, sequence, length of the body. The server sends no
+            # more than fits into its window until what has come is answered (FL1).
+            _, kind, _, _, _, sequence, _ = struct.unpack_from("<4B3I", message)
+            self.frame_bytes += len(message)
+            self.send({"type": "received", "kind": kind, "sequence": sequence})
+            return
+        message = json.loads(message)
+        if message["type"] == "welcome":
+            self.is_welcome = True
+        elif message["type"] == "acknowledged":
+            self.acknowledged = message["id"]
+        elif message["type"] == "refused":
+            self.refused[message["id"]] = message["problem"]["message"]
+        elif message["type"] == "problem":
+            raise SystemExit(message["problem"]["message"])
+
+    def settle(self):
+        """Waits until every command is done and durable."""
+        # Commands have one order (CM4), so one that is refused when its turn comes tells that all before it are done.
+        self.command(kind="stroke_end", stroke=2**32 - 1)
+        marker = self.commands
+        while marker not in self.refused or self.acknowledged < marker:
+            self.listen()
+        del self.refused[marker]
+        for fault in self.refused.values():
+            raise SystemExit(fault)
+
+
+def main(server):
+    name = json.loads(request("POST", f"{server}/api/sessions", {"seed": 7}))["session"]
+    session = Session(server, name)
+    session.command(kind="stroke_begin", stroke=1)
+    for height in range(2, 14, 2):
+        # Places and radii are in internodes; a radius of 0 would be a pencil.
+        sample = {"position": [0, height, 0], "radius": 3}
+        session.command(kind="stroke_move", stroke=1, samples=[sample])
+    session.command(kind="stroke_end", stroke=1)
+    session.settle()
+    print(f"{session.frame_bytes} bytes of frames so far")
+
+    tree = json.loads(request("POST", f"{server}/api/trees", {"session": name, "name": "From a script"}))
+    print(f"saved as {tree['id']}, version {tree['version']}")
+    glb = request("GET", f"{server}/api/sessions/{name}/tree.glb?quantised=true")
+    skeleton = json.loads(request("GET", f"{server}/api/sessions/{name}/tree.json"))
+    print(f"{len(glb)} bytes of glTF, {len(skeleton['metamers'])} metamers in the skeleton")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1].rstrip("/"))
