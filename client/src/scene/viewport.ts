@@ -90,7 +90,7 @@ export class Viewport {
     this.world = new World(table, seen, () => this.loop.invalidate());
     this.loop = new RenderLoop(
       this.draw,
-      () => this.loop.control.quality !== QUALITIES[0] || this.world.shadow.stale || this.world.tree.ripe,
+      () => this.loop.control.quality !== QUALITIES[0] || this.world.shadow.isDue || this.world.tree.ripe,
       // Tests and scripts that take pictures of the page can read when this one is finished.
       (still) => canvas.toggleAttribute("data-still", still && this.complete),
       new FrameFence(gl),
@@ -352,11 +352,13 @@ export class Viewport {
     this.unsettled = this.refine(this.screen.size.y, this.screen.samples, quality);
     if (this.empty)
       this.rehearsal.play(() => {
-        this.world.drawShadow(this.renderer);
+        this.world.drawShadow(this.renderer, quality.shadows);
         this.screen.rehearse(this.world.scene, camera);
       });
-    if (this.world.shadow.take(began, quality.shadowEvery, growing, quality.detailed ? this.world.tree.merged : null))
-      this.world.drawShadow(this.renderer);
+    const { shadowEvery, shadows } = quality;
+    const merged = quality.detailed ? this.world.tree.merged : null;
+    if (this.world.shadow.take(began, shadowEvery, growing, merged, shadows))
+      this.world.drawShadow(this.renderer, shadows);
     this.screen.draw(this.world.scene, camera, over);
     this.drawn = quality;
     return growing || moving || over || this.unsettled;

@@ -108,8 +108,9 @@ export class World {
     return ghost ? union(box, ghost) : box;
   }
 
-  drawShadow(renderer: WebGLRenderer): void {
-    this.sun.render(renderer, this.extent(), this.environment.towardsLight);
+  /** Draws the shadow map, with a share of its texels along each side. */
+  drawShadow(renderer: WebGLRenderer, share = 1): void {
+    this.sun.render(renderer, this.extent(), this.environment.towardsLight, share);
   }
 
   /** A restored context has lost every texture and buffer. */

@@ -46,4 +46,14 @@ describe("the map of shadows", () => {
     expect(due.take(10_000, 0, false, 0.15), "nor at rest, where they are as before").toBe(false);
     expect(due.take(11_000, 0, false, 0.9)).toBe(true);
   });
+
+  it("is drawn coarser only when it is drawn anyway, and finer as soon as a finer one is wanted", () => {
+    const due = drawn();
+    expect([due.take(16, 0, false, 0, 0.5), due.isDue], "a fine one serves").toEqual([false, false]);
+    due.stale = true;
+    expect([due.take(32, 0, false, 0, 0.5), due.isDue, due.stale]).toEqual([true, true, false]);
+    expect(due.take(48, 0, false, 0, 0.25)).toBe(false);
+    expect(due.take(64, 100, false, 0, 1), "not before its time").toBe(false);
+    expect([due.take(132, 100, false, 0, 1), due.isDue]).toEqual([true, false]);
+  });
 });

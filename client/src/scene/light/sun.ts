@@ -45,6 +45,8 @@ export class Sun {
   private readonly groundDepth = new Vector4();
   private readonly scale = new Vector2(1, 1);
   private readonly far = { value: 1 };
+  /** Texels along each side at rest, and now. */
+  private finest: number = MAP_SIZES[1];
   private size: number = MAP_SIZES[1];
 
   constructor(private readonly uniforms: Uniforms) {
@@ -96,19 +98,17 @@ export class Sun {
     return [this.whole];
   }
 
-  /** Makes the map as fine as a picture of so many pixels along its longer side can show; says whether it is another. */
+  /** From now on the map is as fine as a picture of so many pixels along its longer side can show; says whether that is new. */
   fit(pixels: number): boolean {
-    const size = Math.min(Math.max(2 ** Math.ceil(Math.log2(pixels)), MAP_SIZES[0]), MAP_SIZES[1]);
-    if (size === this.size) return false;
-    this.size = size;
-    this.target.setSize(size, size);
-    this.shade.setSize(size * SHADE_SHARE, size * SHADE_SHARE);
-    this.uniforms.uShadowTexel!.value = 1 / size;
-    return true;
+    const finest = Math.min(Math.max(2 ** Math.ceil(Math.log2(pixels)), MAP_SIZES[0]), MAP_SIZES[1]);
+    const isNew = finest !== this.finest;
+    this.finest = finest;
+    return isNew;
   }
 
-  /** Draws the shadows of what stands in `box`, lit from a direction. */
-  render(renderer: WebGLRenderer, box: Box, towards: Vector3): void {
+  /** Draws the shadows of what stands in `box`, lit from a direction, with a share of the texels along each side. */
+  render(renderer: WebGLRenderer, box: Box, towards: Vector3, share: number): void {
+    this.resize(Math.max(this.finest * share, MAP_SIZES[0]));
     this.aim(box, towards);
     renderer.setRenderTarget(this.target);
     renderer.clear();
@@ -124,6 +124,14 @@ export class Sun {
     this.shade.dispose();
     this.shading.dispose();
     this.whole.geometry.dispose();
+  }
+
+  private resize(size: number): void {
+    if (size === this.size) return;
+    this.size = size;
+    this.target.setSize(size, size);
+    this.shade.setSize(size * SHADE_SHARE, size * SHADE_SHARE);
+    this.uniforms.uShadowTexel!.value = 1 / size;
   }
 
   /** Fits the map to the box as closely as it can be seen from the sun. */

@@ -9,6 +9,8 @@ interface Device {
 
 const duration = ({ fixed, whole }: Device, { cost }: Quality) => Math.max(16.7, fixed + whole * cost);
 const LAST = QUALITIES.length - 1;
+/** What is given up for speed, in this order, each for itself. */
+const GIVEN_UP = ["leaves", "shadows", "scale"] as const;
 
 /** Moves for a while; gives the level of every frame. */
 function move(control: QualityControl, device: Device, milliseconds: number, from = 0): number[] {
@@ -53,15 +55,33 @@ describe("quality control", () => {
   });
 
   it("what is seen least is given up first", () => {
-    const shown = QUALITIES.map(({ scale, smooth, leaves, cost }) => [scale, smooth ? 1 : 0, leaves, cost]);
+    const shown = QUALITIES.map((one) => [one.scale, one.smooth ? 1 : 0, one.shadows, one.leaves, one.cost]);
     for (const [i, column] of shown[0]!.entries()) {
       const values = shown.map((row) => row[i]!);
       expect(values, `${column} falls`).toEqual([...values].sort((a, b) => b - a));
     }
     const first = (lost: (quality: Quality) => boolean) => QUALITIES.findIndex(lost);
     expect(first(({ shadowEvery }) => shadowEvery > 0)).toBeLessThan(first(({ scale }) => scale < 1));
+    expect(
+      QUALITIES.every(({ shadows }) => Math.log2(shadows) % 1 === 0),
+      "texels are powers of two",
+    ).toBe(true);
     expect(first(({ scale }) => scale < 1)).toBeLessThan(first(({ smooth }) => !smooth));
     expect(QUALITIES[LAST]!.scale, "no pixel is a block").toBeGreaterThanOrEqual(0.4);
+  });
+
+  it("fewer frames a second cost leaves first, then texels of shadows, then pixels", () => {
+    const lost: (typeof GIVEN_UP)[number][] = [];
+    for (let whole = 30; whole <= 900; whole *= 1.05) {
+      const control = new QualityControl();
+      move(control, { fixed: 2, whole }, 4000);
+      const { leaves, shadows, scale } = control.quality;
+      const now = { leaves, shadows, scale };
+      const more = GIVEN_UP.filter((name) => now[name] < QUALITIES[0][name] && !lost.includes(name));
+      expect(more.length, `at ${whole} ms`).toBeLessThanOrEqual(1);
+      lost.push(...more);
+    }
+    expect(lost).toEqual(GIVEN_UP);
   });
 
   it("never swings to and fro while a movement goes on", () => {

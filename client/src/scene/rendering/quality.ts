@@ -6,6 +6,8 @@ export interface Quality {
   readonly smooth: boolean;
   /** Milliseconds between two drawings of a shadow map that keeps changing. */
   readonly shadowEvery: number;
+  /** Texels along each side of the shadow map, as a share of those it has at rest. */
+  readonly shadows: number;
   /** Whether leaves have all their triangles and shadows soft edges. */
   readonly detailed: boolean;
   /** So many times as long as at rest are leaves, on the screen, that give way to sprigs. */
@@ -20,26 +22,30 @@ export interface Quality {
   readonly cost: number;
 }
 
-const LEAST = { scale: 0.4, smooth: false, shadowEvery: 8000, detailed: false, merging: 1.6 };
 const ALL = { leaves: Number.POSITIVE_INFINITY, sprigs: Number.POSITIVE_INFINITY, twigs: Number.POSITIVE_INFINITY };
+/** What a quick picture has of shadows and leaves. */
+const HASTY = { detailed: false, merging: 1.6, shadowEvery: 800, shadows: 0.5, ...ALL, leaves: 40_000 };
+const COARSE = { ...HASTY, smooth: false, shadowEvery: 2500, shadows: 0.25 };
+const LEAST = { ...COARSE, scale: 0.4, shadowEvery: 8000 };
 
 /**
  * From the picture at rest to the quickest one. Given up in this order: shadows that follow at once, round limbs, soft
- * shadows, most single leaves; then pixels, edges, and last the rest of pixels, leaves and twigs. What the quickest draws is
- * bounded, however large the tree is.
+ * shadows, leaves; then texels of shadows; then pixels of the picture, edges, and last the rest of pixels, leaves and
+ * twigs. What the quickest draws is bounded, however large the tree is.
  */
 export const QUALITIES: readonly [Quality, Quality, ...Quality[]] = [
-  { scale: 1, smooth: true, shadowEvery: 0, detailed: true, merging: 1, ...ALL, cost: 1 },
-  { scale: 1, smooth: true, shadowEvery: 800, detailed: false, merging: 1, ...ALL, leaves: 60_000, cost: 0.65 },
-  { scale: 0.7, smooth: true, shadowEvery: 800, detailed: false, merging: 1.6, ...ALL, leaves: 40_000, cost: 0.35 },
-  { scale: 0.5, smooth: false, shadowEvery: 2500, detailed: false, merging: 1.6, ...ALL, leaves: 40_000, cost: 0.18 },
+  { scale: 1, smooth: true, shadowEvery: 0, shadows: 1, detailed: true, merging: 1, ...ALL, cost: 1 },
+  { ...HASTY, scale: 1, smooth: true, shadows: 1, merging: 1, leaves: 60_000, cost: 0.65 },
+  { ...HASTY, scale: 1, smooth: true, cost: 0.5 },
+  { ...HASTY, scale: 0.7, smooth: true, cost: 0.35 },
+  { ...COARSE, scale: 0.5, cost: 0.18 },
   { ...LEAST, leaves: 20_000, sprigs: 20_000, twigs: 150_000, cost: 0.1 },
   { ...LEAST, leaves: 7_000, sprigs: 7_000, twigs: 50_000, cost: 0.06 },
 ];
 
 /** Samples of each pixel of a picture that is kept: of thumbnails and downloads. */
 export const PICTURE_SAMPLES = 4;
-const OPENING_LEVEL = 3;
+const OPENING_LEVEL = 4;
 /** What a page opens with: something is to be seen soon, and the rest of it comes over that. */
 export const OPENING: Quality = QUALITIES[OPENING_LEVEL]!;
 /** How long nothing moves before the whole quality comes back, in milliseconds. */

@@ -33,7 +33,7 @@ export async function thumbnail(sitting: Sitting, width: number, height: number)
   sync();
   camera.sight.aim(pose, camera.rig.eye(pose), width / height);
   refine(height, PICTURE_SAMPLES, QUALITIES[1], pose.distance);
-  if (world.shadow.stale) world.drawShadow(renderer);
+  if (world.shadow.isDue) world.drawShadow(renderer);
   const picture = encodePicture(renderer, width, height, () => drawScene(sitting));
   for (const object of passing) object.visible = true;
   if (mode !== "lit") world.setMode(mode);
@@ -60,7 +60,7 @@ function drawTile(sitting: Sitting, pose: CameraPose, eye: Vec3, size: PictureSi
   world.brush.mesh.visible = false;
   camera.sight.aimAtTile(pose, eye, size, tile);
   refine(size.height, PICTURE_SAMPLES, QUALITIES[0], pose.distance);
-  if (world.shadow.stale) {
+  if (world.shadow.isDue) {
     const target = renderer.getRenderTarget();
     world.drawShadow(renderer);
     renderer.setRenderTarget(target);
