@@ -1,8 +1,11 @@
 import { perform } from "../gallery/performance";
 import { launchBrowser } from "../src/browser";
+import type { Facts } from "../src/facts";
 import { Darkroom } from "../src/picture";
+import { SMALL } from "../src/screens";
 import { Server } from "../src/server";
-import { type Facts, middle, SMALL, Tablet, way } from "../src/tablet";
+import { Tablet } from "../src/tablet";
+import { middle, way } from "../src/ways";
 
 /** Steps that the tree has grown before: it has some 240 metamers then. */
 const GROWN = 5;

@@ -3,8 +3,8 @@ import { gzipSync } from "node:zlib";
 import type { Browser, Page } from "playwright-core";
 import { perform } from "../gallery/performance";
 import { launchBrowser } from "../src/browser";
+import { withClient } from "../src/client-build";
 import { inTime, Server, until } from "../src/server";
-import { withClient } from "../src/tablet";
 import { A_TREE, type FrameRecord, instrument } from "./instruments";
 import { measureLever } from "./lever";
 

@@ -5,8 +5,9 @@ import { FINAL, Player } from "../gallery/player";
 import { launchBrowser } from "../src/browser";
 import { growByHand, treeAt, treeOfTheSheet } from "../src/by-hand";
 import { Darkroom } from "../src/picture";
+import { SMALL } from "../src/screens";
 import { Server } from "../src/server";
-import { SMALL, Tablet } from "../src/tablet";
+import { Tablet } from "../src/tablet";
 import { layOut, type Pair, SIZE } from "./pairs";
 
 const PICTURE = join(import.meta.dirname, "../../../docs/species-by-hand.jpg");

@@ -2,9 +2,11 @@ import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import type { AxeResults } from "axe-core";
 import { describe, expect, it } from "vitest";
+import { COARSE, type Screen } from "./screens";
 import { inTime } from "./server";
-import { COARSE, type Screen, type Tablet, way } from "./tablet";
+import type { Tablet } from "./tablet";
 import { atWork, PANELS, pullDown, SHEETS, unfolded } from "./visits";
+import { way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
+import { LANDSCAPE, PHONE, type Screen, SMALL } from "./screens";
 import { until } from "./server";
-import { LANDSCAPE, middle, PHONE, type Point, type Screen, SMALL, type Tab, type Tablet, way } from "./tablet";
+import type { Tab, Tablet } from "./tablet";
+import { middle, type Point, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

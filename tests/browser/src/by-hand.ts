@@ -2,7 +2,8 @@ import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { program } from "./server";
-import { middle, type Tablet, way } from "./tablet";
+import type { Tablet } from "./tablet";
+import { middle, way } from "./ways";
 
 /** Picks a species in the page. */
 export async function pickSpecies(tablet: Tablet, slug: string): Promise<void> {

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
+import { SMALL } from "./screens";
 import { until } from "./server";
-import { SMALL, type Tablet } from "./tablet";
+import type { Tablet } from "./tablet";
 import { openPart, PARTS } from "./visits";
 import { Workshop } from "./workshop";
 

@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
+import type { Facts } from "./facts";
 import { type Box, becameTree, changed, colours } from "./picture";
-import { type Facts, WATCHED, way } from "./tablet";
+import { WATCHED } from "./screens";
+import { way } from "./ways";
 import { SEED as base, Workshop } from "./workshop";
 
 /** Where a stroke up from the seed goes. */

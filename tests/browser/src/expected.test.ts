@@ -3,7 +3,9 @@ import { join } from "node:path";
 import { describe, expect, it, test } from "vitest";
 import { screenshots } from "./browser";
 import { changed } from "./picture";
-import { LANDSCAPE, loop, PHONE, type Point, SMALL, type Tablet, way } from "./tablet";
+import { LANDSCAPE, PHONE, SMALL } from "./screens";
+import type { Tablet } from "./tablet";
+import { loop, type Point, way } from "./ways";
 import { SEED, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -2,8 +2,10 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { misses } from "./hits";
+import { LANDSCAPE, PHONE, type Screen } from "./screens";
 import { until } from "./server";
-import { LANDSCAPE, middle, PHONE, type Point, type Screen, type Tablet, way } from "./tablet";
+import type { Tablet } from "./tablet";
+import { middle, type Point, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -1,7 +1,9 @@
 import { expect, test } from "vitest";
 import { pickSpecies } from "./by-hand";
-import { middle, SMALL, type Tablet, way } from "./tablet";
+import { SMALL } from "./screens";
+import type { Tablet } from "./tablet";
 import { seedling } from "./visits";
+import { middle, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
 import { type Box, becameTree, changed } from "./picture";
-import { LANDSCAPE, loop, type Point, type Tablet, way } from "./tablet";
+import { LANDSCAPE } from "./screens";
+import type { Tablet } from "./tablet";
+import { loop, type Point, way } from "./ways";
 import { SEED as base, Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -1,5 +1,7 @@
 import { expect, test } from "vitest";
-import type { Point, Screen, Tablet } from "./tablet";
+import type { Screen } from "./screens";
+import type { Tablet } from "./tablet";
+import type { Point } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { middle, SMALL, type Tablet, way } from "./tablet";
+import { SMALL } from "./screens";
+import type { Tablet } from "./tablet";
 import { seedling } from "./visits";
+import { middle, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { misses } from "./hits";
-import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
+import { LANDSCAPE, type Screen } from "./screens";
+import type { Tablet } from "./tablet";
 import { atWork, openPart, PARTS, press, SHEETS } from "./visits";
 import { Workshop } from "./workshop";
 

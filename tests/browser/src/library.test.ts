@@ -1,7 +1,9 @@
 import { expect, test } from "vitest";
+import { PHONE, SMALL } from "./screens";
 import { until } from "./server";
-import { middle, PHONE, SMALL, type Tablet } from "./tablet";
+import type { Tablet } from "./tablet";
 import { press } from "./visits";
+import { middle } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -4,7 +4,8 @@ import { DRAW_MODES, type DrawMode, TRAITS } from "../../../client/src/scene/mod
 import { type Background, DEFAULT_APPEARANCE } from "../../../client/src/wire/generated";
 import { perform } from "../gallery/performance";
 import { type Box, changed, colours, type Picture, whole } from "./picture";
-import type { Screen, Tablet } from "./tablet";
+import type { Screen } from "./screens";
+import type { Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,8 +1,10 @@
 import { expect, test } from "vitest";
 import { type Box, changed, colours, type Picture } from "./picture";
+import { COARSE, type Screen } from "./screens";
 import { until } from "./server";
-import { COARSE, type Point, type Screen, type Tablet, way } from "./tablet";
+import type { Tablet } from "./tablet";
 import { pullDown } from "./visits";
+import { type Point, way } from "./ways";
 import { type Grown, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
 import { misses } from "./hits";
-import { LANDSCAPE, middle, PHONE, type Screen, SMALL, type Tablet } from "./tablet";
+import { LANDSCAPE, PHONE, type Screen, SMALL } from "./screens";
+import type { Tablet } from "./tablet";
+import { middle } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { QUALITIES } from "../../../client/src/scene/rendering/quality";
-import { WATCHED } from "./tablet";
+import { WATCHED } from "./screens";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { changed } from "./picture";
+import { SMALL } from "./screens";
 import { inTime, until } from "./server";
-import { SMALL } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

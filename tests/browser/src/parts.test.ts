@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
+import { SMALL } from "./screens";
 import { until } from "./server";
-import { SMALL, type Tablet } from "./tablet";
+import type { Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,7 +1,8 @@
 import { beforeAll, describe, expect, test } from "vitest";
 import { compare, distance, keep, TOLERANCE, within, writes } from "./reference";
+import { LANDSCAPE, type Screen } from "./screens";
 import { until } from "./server";
-import { LANDSCAPE, type Screen, type Tablet } from "./tablet";
+import type { Tablet } from "./tablet";
 import { pullDown } from "./visits";
 import { Workshop } from "./workshop";
 

@@ -1,8 +1,10 @@
 import { expect, test } from "vitest";
 import { extentOf } from "./extent";
 import { type Box, becameTree, changed } from "./picture";
+import { LANDSCAPE, WATCHED } from "./screens";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Tablet, WATCHED, way } from "./tablet";
+import type { Tablet } from "./tablet";
+import { type Point, way } from "./ways";
 import { SEED, Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

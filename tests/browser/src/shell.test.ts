@@ -1,8 +1,10 @@
 import { describe, expect, it } from "vitest";
 import type { Box } from "./picture";
+import { COARSE, PHONE, type Screen, SMALL } from "./screens";
 import { until } from "./server";
-import { COARSE, middle, PHONE, type Screen, SMALL, type Tablet, way } from "./tablet";
+import type { Tablet } from "./tablet";
 import { seedling } from "./visits";
+import { middle, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { type Tablet, WATCHED } from "./tablet";
+import { WATCHED } from "./screens";
+import type { Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,7 +1,7 @@
 import { createHash } from "node:crypto";
 import { expect, test } from "vitest";
 import { growByHand, treeAt, treeOfTheSheet } from "./by-hand";
-import { SMALL } from "./tablet";
+import { SMALL } from "./screens";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

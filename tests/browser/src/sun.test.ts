@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
 import { changed } from "./picture";
-import { COARSE, type Point, type Tablet, way } from "./tablet";
+import { COARSE } from "./screens";
+import type { Tablet } from "./tablet";
+import { type Point, way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

@@ -1,53 +1,15 @@
-import { existsSync } from "node:fs";
 import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
-import type { Browser, BrowserContext, CDPSession, Locator, Page, Route } from "playwright-core";
+import type { Browser, BrowserContext, CDPSession, Locator, Page } from "playwright-core";
+import { atMost } from "./at-most";
 import { screenshots } from "./browser";
+import { withClient } from "./client-build";
+import { type Facts, factsOf } from "./facts";
+import { Glass } from "./glass";
 import type { Box, Darkroom, Picture } from "./picture";
+import { COARSE, type Screen } from "./screens";
 import { until } from "./server";
-
-export interface Point {
-  readonly x: number;
-  readonly y: number;
-}
-
-/** What the page tells about itself on `<html>`. */
-export interface Facts {
-  readonly connection: string;
-  readonly metamers: number;
-  readonly rows: number;
-  readonly sent: number;
-  readonly acknowledged: number;
-  readonly pending: number;
-  readonly step: number;
-  /** The tool at hand, by the page's name for it. */
-  readonly tool: string;
-  /** The row of the branch that alone grows; empty if all do. */
-  readonly bud: string;
-  readonly obstacles: number;
-  /** The present step of the line of time, and its last. */
-  readonly present: number;
-  readonly lastStep: number;
-  /** What was done on it, in order, and how much of it is in force. */
-  readonly operations: string;
-  readonly done: number;
-  readonly futures: number;
-  /** The row that the branch begins with that is held; empty if none is. */
-  readonly branch: string;
-  /** How many steps the prediction beside the tree has grown; empty if there is none. */
-  readonly ghost: string;
-}
-
-export interface Screen {
-  readonly width: number;
-  readonly height: number;
-  /** Device pixels per pixel of the page. */
-  readonly detail: number;
-  /** Whether the picture is drawn all the time, and not only while one is taken of it: for tests of the drawing itself. */
-  readonly watched?: boolean;
-  /** Whether it has a mouse and no touch. */
-  readonly mouse?: boolean;
-}
+import type { Point } from "./ways";
 
 /** A tab of the panel of architecture. */
 export type Tab = "Species" | "Form" | "Growth";
@@ -64,40 +26,9 @@ const TOOLS = {
 
 export type Tool = keyof typeof TOOLS;
 
-/** A tablet on its side, as people see it, but for its pixels: the processor draws each of them. */
-export const LANDSCAPE: Screen = { width: 1194, height: 834, detail: 0.5 };
-/** That tablet for tests of the drawing itself, which goes on as it does for people. */
-export const WATCHED: Screen = { ...LANDSCAPE, watched: true };
-/** One with still coarser ones, for tests that are not about looks. */
-export const COARSE: Screen = { ...LANDSCAPE, detail: 0.4 };
-
-/** For tests in which no picture is taken. */
-export const SMALL: Screen = { width: 900, height: 640, detail: 0.2 };
-export const PHONE: Screen = { width: 390, height: 844, detail: 0.6 };
-
-/** A folder with another build of the client than the one that is part of the program; for work on the client alone. */
-const client = process.env.ESPALIER_CLIENT;
-
-/** Has the pages of a context take that build, if there is one. */
-export async function withClient(context: BrowserContext): Promise<void> {
-  if (client) await context.route("**/*", (route) => substitute(route, client));
-}
-
-/** Answers with the file of the folder that stands in for the one asked for, if there is one. */
-async function substitute(route: Route, folder: string): Promise<void> {
-  const { pathname } = new URL(route.request().url());
-  const path = join(folder, pathname.startsWith("/s/") || pathname === "/" ? "index.html" : pathname);
-  await (existsSync(path) ? route.fulfill({ path }) : route.continue());
-}
-
 /** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
 const PATIENCE = 150_000;
-/**
- * So long the browser may take to answer a touch, in milliseconds. It now and then leaves one unanswered that another
- * follows at once; what has come of it, the page tells.
- */
-const TOUCHED = 10_000;
-/** And so long two frames. */
+/** So long two frames may take, in milliseconds. */
 const FRAMES = 5000;
 /** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
 const ALBUM = process.env.ALBUM === "1";
@@ -107,23 +38,18 @@ const CANVAS = "#workspace";
 const UNSEEN = "data-unseen";
 /** The canvas once its picture is at rest. */
 const STILL = "canvas[data-still]";
-/** A finger that has gone so far, in pixels, is no longer where it came down. */
-const LEAVES = 12;
 
 /** One tablet with the page open: real touch points in, screenshots out. */
-export class Tablet {
-  readonly page: Page;
+export class Tablet extends Glass {
   /** What the page wrote to its console as an error. */
   readonly errors: string[] = [];
   readonly #context: BrowserContext;
-  readonly #touch: CDPSession;
   readonly #darkroom: Darkroom;
   readonly #screen: Screen;
 
   private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom, screen: Screen) {
+    super(page, touch);
     this.#context = context;
-    this.page = page;
-    this.#touch = touch;
     this.#darkroom = darkroom;
     this.#screen = screen;
     page.on("pageerror", (error) => this.errors.push(String(error)));
@@ -164,29 +90,7 @@ export class Tablet {
   }
 
   async facts(): Promise<Facts> {
-    return this.page.evaluate(() => {
-      const facts = document.documentElement.dataset;
-      const number = (name: string) => Number(facts[name] ?? -1);
-      return {
-        connection: facts.connection ?? "",
-        metamers: number("metamers"),
-        rows: number("rows"),
-        sent: number("sent"),
-        acknowledged: number("acknowledged"),
-        pending: number("pending"),
-        step: number("step"),
-        tool: facts.tool ?? "",
-        bud: facts.bud ?? "",
-        obstacles: number("obstacles"),
-        present: number("present"),
-        lastStep: number("lastStep"),
-        operations: facts.operations ?? "",
-        done: number("done"),
-        futures: number("futures"),
-        branch: facts.branch ?? "",
-        ghost: facts.ghost ?? "",
-      };
-    });
+    return factsOf(this.page);
   }
 
   async until(what: string, check: (facts: Facts) => boolean, limit?: number): Promise<Facts> {
@@ -223,45 +127,6 @@ export class Tablet {
     }
   }
 
-  /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
-  async swipe(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
-    await this.lead(paths, pause);
-    await this.page.waitForTimeout(pause);
-    await this.touch("touchEnd", []);
-  }
-
-  /** The same, but they stay down. */
-  async lead(paths: readonly (readonly Point[])[], pause = 16): Promise<void> {
-    const steps = Math.max(...paths.map((path) => path.length));
-    const fingers = (step: number) => paths.map((path) => path[Math.min(step, path.length - 1)]!);
-    const away = Array.from({ length: steps }, (_, step) => step).find((step) =>
-      fingers(step).some(({ x, y }, i) => Math.hypot(x - paths[i]![0]!.x, y - paths[i]![0]!.y) > LEAVES),
-    );
-    const leaving = away ?? steps - 1;
-    // A finger that the machine keeps waiting where it came down would not draw but hold what is there.
-    await this.inNoTime(async () => {
-      await this.touch("touchStart", fingers(0));
-      for (let step = 1; step <= leaving; step++) await this.touch("touchMove", fingers(step));
-    });
-    for (let step = leaving + 1; step < steps; step++) {
-      await this.page.waitForTimeout(pause);
-      await this.touch("touchMove", fingers(step));
-    }
-  }
-
-  /** One finger that taps on a place, however long the page takes to answer. */
-  async tapAt(place: Point): Promise<void> {
-    await this.inNoTime(() => this.#tapped(place));
-  }
-
-  /** One finger that taps on a place twice. */
-  async doubleTap({ x, y }: Point): Promise<void> {
-    await this.inNoTime(async () => {
-      await this.#tapped({ x, y });
-      await this.#tapped({ x: x + 3, y: y - 2 });
-    });
-  }
-
   /** One finger that is held still on a place until something has come of it. */
   async hold(place: Point, what: string, check: (facts: Facts) => boolean): Promise<Facts> {
     await this.touch("touchStart", [place]);
@@ -270,61 +135,12 @@ export class Tablet {
     return facts;
   }
 
-  async #tapped(place: Point): Promise<void> {
-    await this.touch("touchStart", [place]);
-    await this.touch("touchEnd", []);
-  }
-
-  /** Does something while the page's clock stands, which tells taps from holds: no machine is too slow for a tap then. */
-  async inNoTime(act: () => Promise<void>): Promise<void> {
-    await this.page.evaluate(() => {
-      const now = performance.now();
-      performance.now = () => now;
-    });
-    try {
-      await act();
-    } finally {
-      await this.page.evaluate(() => Reflect.deleteProperty(performance, "now"));
-    }
-  }
-
-  /** One real touch event with all fingers that are down. */
-  async touch(type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Point[]): Promise<void> {
-    const touchPoints = fingers.map(({ x, y }, id) => ({ x, y, id, radiusX: 8, radiusY: 8, force: 0.5 }));
-    const answer = this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
-    await atMost(TOUCHED, answer);
-  }
-
   /** Two frames of the page's; one that draws nothing is not waited for. */
   async frames(): Promise<void> {
     const drawn = this.page.evaluate(
       () => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))),
     );
     await atMost(FRAMES, drawn);
-  }
-
-  /** One event of a pen on the glass. */
-  async pen(type: "mousePressed" | "mouseMoved" | "mouseReleased", { x, y }: Point): Promise<void> {
-    const down = type === "mouseReleased" ? 0 : 1;
-    await this.#touch.send("Input.dispatchMouseEvent", {
-      type,
-      x,
-      y,
-      button: "left",
-      buttons: down,
-      clickCount: 1,
-      force: 0.5 * down,
-      pointerType: "pen",
-    });
-  }
-
-  /** A pen drawn along a way. */
-  async draw(path: readonly Point[], pause = 16): Promise<void> {
-    for (const [i, point] of path.entries()) {
-      await this.pen(i === 0 ? "mousePressed" : "mouseMoved", point);
-      await this.page.waitForTimeout(pause);
-    }
-    await this.pen("mouseReleased", path[path.length - 1]!);
   }
 
   async tap(label: string): Promise<void> {
@@ -472,33 +288,4 @@ function lookAway({ canvas, unseen }: { canvas: string; unseen: string }): void 
     watcher.disconnect();
   });
   watcher.observe(document, { subtree: true, childList: true });
-}
-
-/** Waits for an answer, for so many milliseconds at most. */
-async function atMost(limit: number, answer: Promise<unknown>): Promise<void> {
-  let timer: NodeJS.Timeout | undefined;
-  const enough = new Promise<void>((resolve) => {
-    timer = setTimeout(resolve, limit);
-  });
-  await Promise.race([answer, enough]).finally(() => clearTimeout(timer));
-}
-
-export function middle({ x, y, width, height }: Box): Point {
-  return { x: x + width / 2, y: y + height / 2 };
-}
-
-/** Points on a straight way, ends included. */
-export function way(from: Point, to: Point, count = 24): Point[] {
-  return Array.from({ length: count }, (_, i) => {
-    const t = i / (count - 1);
-    return { x: from.x + (to.x - from.x) * t, y: from.y + (to.y - from.y) * t };
-  });
-}
-
-/** Points on a closed way around a middle, the first not repeated. */
-export function loop(middle: Point, radii: Point, count = 40): Point[] {
-  return Array.from({ length: count }, (_, i) => {
-    const turn = (2 * Math.PI * i) / count;
-    return { x: middle.x + radii.x * Math.sin(turn), y: middle.y + radii.y * Math.cos(turn) };
-  });
 }

@@ -1,7 +1,9 @@
 import { expect, test } from "vitest";
 import { type Box, changed } from "./picture";
+import { LANDSCAPE, type Screen, WATCHED } from "./screens";
 import { until } from "./server";
-import { LANDSCAPE, type Point, type Screen, type Tablet, WATCHED, way } from "./tablet";
+import type { Tablet } from "./tablet";
+import { type Point, way } from "./ways";
 import { type Grown, SEED, Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { gridModel } from "./grid-model";
+import { PHONE, SMALL } from "./screens";
 import { until } from "./server";
-import { PHONE, SMALL, type Tablet } from "./tablet";
+import type { Tablet } from "./tablet";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { PHONE, type Screen, SMALL, type Tablet } from "./tablet";
+import { PHONE, type Screen, SMALL } from "./screens";
+import type { Tablet } from "./tablet";
 import { press } from "./visits";
 import { Workshop } from "./workshop";
 

@@ -1,6 +1,8 @@
 import { expect, test } from "vitest";
 import { becameTree } from "./picture";
-import { SMALL, type Tablet, way } from "./tablet";
+import { SMALL } from "./screens";
+import type { Tablet } from "./tablet";
+import { way } from "./ways";
 import { Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();

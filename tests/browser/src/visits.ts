@@ -1,6 +1,7 @@
 import type { Locator } from "playwright-core";
 import { until } from "./server";
-import { loop, type Point, type Tab, type Tablet, way } from "./tablet";
+import type { Tab, Tablet } from "./tablet";
+import { loop, type Point, way } from "./ways";
 import { SEED } from "./workshop";
 
 export const PANELS = ["Architecture", "Brush", "Leaves", "Branches", "Background", "Scene"];

@@ -2,9 +2,11 @@ import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { perform } from "../gallery/performance";
 import { Darkroom } from "./picture";
+import type { Screen } from "./screens";
 import { type RunningServer, Server } from "./server";
 import { theBrowser, theServer } from "./shared";
-import { type Point, type Screen, Tablet, way } from "./tablet";
+import { Tablet } from "./tablet";
+import { type Point, way } from "./ways";
 
 /** Where the first seed stands in a fresh view on a tablet on its side. */
 export const SEED: Point = { x: 597, y: 750 };
