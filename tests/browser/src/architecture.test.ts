@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { pickSpecies } from "./by-hand";
 import { LANDSCAPE, PHONE, type Screen, SMALL } from "./screens";
 import { until } from "./server";
 import type { Tab, Tablet } from "./tablet";
@@ -172,6 +173,40 @@ test("each number of a programme's stage stands beside its name", async () => {
       expect(Math.abs(middle(left).y - middle(right).y), "they stand side by side").toBeLessThan(4);
     }
   }
+});
+
+test("the curve of a programme over age is pulled by a finger and by keys, and says what hand-set values override", async () => {
+  const { tablet, address } = await workshop.fresh(LANDSCAPE);
+  const { page } = tablet;
+  await pickSpecies(tablet, "scots-pine");
+  await tablet.tap("Architecture");
+  await tablet.turnTo("Growth");
+  await page.getByLabel("Parameter whose course is shown").selectOption("Shedding");
+  const curve = page.locator(".programme .diagram");
+  const age = curve.locator("text");
+  expect(await age.textContent()).toBe("age 0");
+  expect(await age.evaluate((text) => getComputedStyle(text).fill), "it can be read").not.toBe("none");
+
+  const grip = curve.getByLabel("Shedding from age 10", { exact: true });
+  const from = middle(await tablet.boxOf(grip));
+  const { done } = await tablet.facts();
+  await tablet.swipe([way(from, { x: from.x + 40, y: from.y - 30 }, 6)]);
+  await tablet.until("the programme is another one", (facts) => facts.done === done + 1);
+  const moved = curve.getByLabel(/^Shedding from age [1-9]/);
+  const stage = Number(/\d+$/.exec((await moved.getAttribute("aria-label")) ?? "")?.[0]);
+  expect(stage).toBeGreaterThan(10);
+  await moved.focus();
+  await page.keyboard.press("ArrowRight");
+  await curve.getByLabel(`Shedding from age ${stage + 1}`, { exact: true }).waitFor();
+  await tablet.until("and another one by the key", (facts) => facts.done === done + 2);
+
+  const line = curve.locator(".programme-line");
+  expect(await line.getAttribute("data-overridden")).toBe("false");
+  await workshop.act(address, [{ kind: "set_parameters", parameters: { shedding_threshold: 0.4 } }]);
+  await page.getByText("Set by hand, and so the same at every age:").waitFor();
+  await until("the curve shows it", async () => (await line.getAttribute("data-overridden")) === "true");
+  await page.getByRole("button", { name: "Let Shedding follow the programme again" }).tap();
+  await page.getByText("All parameters follow the programme.").waitFor();
 });
 
 test("species are found by their names in any language", async () => {
