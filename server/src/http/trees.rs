@@ -149,7 +149,7 @@ pub(super) async fn list(
     let favourites = shared.store.favourites(&principal.to_string()).await?;
     let mut told = Vec::with_capacity(trees.len());
     for tree in trees {
-        told.push(to_proto(&shared, tree, &favourites).await);
+        told.push(to_proto(&shared, tree, &favourites).await?);
     }
     Ok(Json(TreePage { trees: told, next }))
 }
@@ -301,20 +301,30 @@ async fn answer(
 ) -> Result<impl IntoResponse + use<>, Failure> {
     let tree = stored(shared, id).await?;
     let favourites = shared.store.favourites(&principal.to_string()).await?;
-    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree, &favourites).await)))
+    Ok((revision::tag(tree.revision), Json(to_proto(shared, tree, &favourites).await?)))
 }
 
 pub(super) async fn stored(shared: &Shared, id: &str) -> Result<StoredTree, Failure> {
     shared.store.tree(id).await?.ok_or_else(|| Failure::not_found("tree"))
 }
 
-async fn to_proto(shared: &Shared, tree: StoredTree, favourites: &BTreeSet<String>) -> SavedTree {
-    let people = match &tree.session {
-        Some(session) => shared.sessions.people(session).await.len() as u32,
-        None => 0,
-    };
+/// How many people are working on a tree: those in the session it was saved from last, unless that has become another
+/// tree since (`LB3`).
+async fn people_on(shared: &Shared, tree: &StoredTree) -> Result<u32, Failure> {
+    let Some(session) = &tree.session else { return Ok(0) };
+    let people = shared.sessions.people(session).await.len() as u32;
+    let is_theirs = people > 0 && shared.store.tree_of(session).await?.is_some_and(|of| of.id == tree.id);
+    Ok(if is_theirs { people } else { 0 })
+}
+
+async fn to_proto(
+    shared: &Shared,
+    tree: StoredTree,
+    favourites: &BTreeSet<String>,
+) -> Result<SavedTree, Failure> {
+    let people = people_on(shared, &tree).await?;
     let head = tree.head;
-    SavedTree {
+    Ok(SavedTree {
         thumbnail: versions::thumbnail_of(&tree.id, &head),
         favourite: favourites.contains(&tree.id),
         id: tree.id,
@@ -333,5 +343,5 @@ async fn to_proto(shared: &Shared, tree: StoredTree, favourites: &BTreeSet<Strin
         deleted_at: tree.deleted_at,
         people,
         revision: tree.revision,
-    }
+    })
 }

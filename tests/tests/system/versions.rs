@@ -162,6 +162,19 @@ async fn lb3_opening_a_tree_in_work_is_joining() {
 }
 
 #[tokio::test]
+async fn lb3_people_work_on_the_tree_that_their_session_was_saved_as_last() {
+    let mut library = Library::new().await;
+    let (pear, apple) = (library.save("Pear"), library.save("Apple"));
+    let people = |tree: &Value| library.get(&path_of(tree))["people"].clone();
+    assert_eq!((people(&pear), people(&apple)), (json!(0), json!(1)));
+    let listed = library.get("/api/trees?sort=name");
+    let counts: Vec<&Value> =
+        listed["trees"].as_array().expect("a list").iter().map(|tree| &tree["people"]).collect();
+    assert_eq!(counts, [&json!(1), &json!(0)]);
+    library.client.vanish();
+}
+
+#[tokio::test]
 async fn lb4_a_template_begins_a_tree_of_its_own() {
     let mut library = Library::new().await;
     let tree = library.save("Pear");
