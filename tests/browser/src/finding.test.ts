@@ -163,6 +163,7 @@ test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", asy
   const [wood, copse] = [`Wood ${name}`, `Copse ${name}`];
   await page.getByRole("searchbox").fill(name);
   await listed(tablet, "the trees of this test", [oak, ash, elm]);
+  expect(await page.locator(".card-people").count(), "all were saved from the session at work on the last").toBe(1);
   await makeCollection(tablet, wood);
   await drag(tablet, oak, wood);
   await page.getByText(`“${oak}” lies in “${wood}” now`).waitFor();
@@ -176,6 +177,9 @@ test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", asy
   await listed(tablet, "in the collection", [oak, ash, elm]);
   await tablet.show(`library-collection-${name}`);
   expect(await misses(tablet, "collections", ".collections")).toEqual([]);
+  await page.locator(".collections").evaluate((row) => row.scrollTo(0, 0));
+  const anew = (await page.getByRole("button", { name: "New collection", exact: true }).boundingBox())!;
+  expect(anew.x + anew.width, "a new one is at hand").toBeLessThanOrEqual(screen.width);
 
   await choose(tablet, `the collection ${wood}`, "New collection inside");
   await page.getByLabel("Name of the new collection").fill(copse);
@@ -204,6 +208,7 @@ test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", asy
   await page.getByLabel(`New name of the collection ${wood}`).fill(`Forest ${name}`);
   await page.keyboard.press("Enter");
   await choose(tablet, `the collection Forest ${name}`, "Delete");
+  await page.getByText(`Delete “Forest ${name}” for good? The trees in it (3) stay, but in no collection.`).waitFor();
   await page.locator(".collections").getByRole("button", { name: "Delete", exact: true }).tap();
   await page.getByText(`“Forest ${name}” is deleted; its trees are still here`).waitFor();
   await listed(tablet, "they lie in none", [oak, ash, elm]);

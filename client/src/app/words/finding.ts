@@ -62,7 +62,18 @@ export const FINDING = {
   "finding.move.chosen": ["Collection for the selected trees", "Sammlung für die ausgewählten Bäume"],
   "finding.move.do": ["Move", "Verschieben"],
   "finding.delete": ["Delete", "Löschen"],
-  "finding.delete.sure": ["Delete “{name}”? Its trees stay.", "„{name}“ löschen? Die Bäume darin bleiben."],
+  "finding.delete.sure": [
+    "Delete “{name}” for good? The trees in it ({count}) stay, but in no collection.",
+    "„{name}“ endgültig löschen? Die Bäume darin ({count}) bleiben, aber in keiner Sammlung.",
+  ],
+  "finding.delete.sure.inside": [
+    "Delete “{name}” for good? The trees in it ({count}) will lie in “{parent}”.",
+    "„{name}“ endgültig löschen? Die Bäume darin ({count}) liegen dann in „{parent}“.",
+  ],
+  "finding.delete.sure.empty": [
+    "Delete “{name}” for good? No tree lies in it.",
+    "„{name}“ endgültig löschen? Kein Baum liegt darin.",
+  ],
   "finding.keep": ["Keep", "Behalten"],
   "finding.gone": ["“{name}” is deleted; its trees are still here", "„{name}“ ist gelöscht; die Bäume sind noch da"],
   "finding.dropped-beside": [

@@ -15,6 +15,8 @@ type Deed = "rename" | "new" | "move" | "delete";
 export function Collections({ desk }: { readonly desk: LibraryDesk }) {
   const { catalogue, wanted, studio } = desk;
   const [making, setMaking] = useState(false);
+  /** The collection that was made last. */
+  const [made, setMade] = useState<string | null>(null);
   const folders = catalogue.folders.value;
   const here = wanted.value.collection;
   useEffect(() => {
@@ -24,13 +26,15 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
     }
   }, [folders, here, wanted]);
   const add = async (name: string, parent?: string) => {
-    if (await catalogue.add(name, parent)) {
+    const collection = await catalogue.add(name, parent);
+    if (collection) {
+      setMade(collection.id);
       studio.toasts.show(say("finding.new.done", { name }));
     }
   };
   return (
     <nav aria-label={say("finding.collections")}>
-      <ul class="collections">
+      <ul class="collections" data-dragged={desk.drag.held.value !== null}>
         <Place desk={desk} to={null}>
           {say("finding.all")}
         </Place>
@@ -40,7 +44,7 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
           </Place>
         )}
         {folders?.map((folder) => (
-          <Entry key={folder.id} desk={desk} folder={folder} add={add} />
+          <Entry key={folder.id} desk={desk} folder={folder} isNew={folder.id === made} add={add} />
         ))}
         <li class="collection-row">
           {making ? (
@@ -52,9 +56,14 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
               onEnd={() => setMaking(false)}
             />
           ) : (
-            <button type="button" class="collection collection-new" onClick={() => setMaking(true)}>
+            <button
+              type="button"
+              class="collection collection-new"
+              aria-label={say("finding.new")}
+              onClick={() => setMaking(true)}
+            >
               <AddIcon />
-              {say("finding.new")}
+              <span>{say("finding.new")}</span>
             </button>
           )}
         </li>
@@ -66,10 +75,11 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
 interface EntryProps {
   readonly desk: LibraryDesk;
   readonly folder: Folder;
+  readonly isNew: boolean;
   readonly add: (name: string, parent: string) => Promise<void>;
 }
 
-function Entry({ desk, folder, add }: EntryProps) {
+function Entry({ desk, folder, isNew, add }: EntryProps) {
   const { catalogue, wanted, studio } = desk;
   const { id, name, parent = "", depth, above } = folder;
   const [deed, setDeed] = useState<Deed | null>(null);
@@ -88,13 +98,19 @@ function Entry({ desk, folder, add }: EntryProps) {
         one
       ],
     ),
-    act: () => setDeed(one),
+    act: () => {
+      if (one === "delete") {
+        // The question tells how many trees lie there now.
+        void catalogue.refresh();
+      }
+      setDeed(one);
+    },
   }));
   const menu = wanted.value.collection === id && deed === null && (
     <CardMenu label={say("finding.more-of", { name })} deeds={deeds} />
   );
   return (
-    <Place desk={desk} to={id} depth={depth} beside={menu} below={doing()}>
+    <Place desk={desk} to={id} depth={depth} isNew={isNew} beside={menu} below={doing()}>
       {above.length > 0 && <span class="collection-above">{above.join(" › ")} › </span>}
       {name}
     </Place>
@@ -128,7 +144,7 @@ function Entry({ desk, folder, add }: EntryProps) {
       case "delete":
         return (
           <div class="card-confirm">
-            <span>{say("finding.delete.sure", { name })}</span>
+            <span>{sureText(folder)}</span>
             <button type="button" class="small danger" onClick={() => void remove()}>
               {say("finding.delete")}
             </button>
@@ -141,26 +157,38 @@ function Entry({ desk, folder, add }: EntryProps) {
   }
 }
 
+/** Asks whether a collection is to be deleted, and says where its trees will lie. */
+function sureText({ name, trees, above }: Folder): string {
+  const parent = above.at(-1);
+  if (trees === 0) {
+    return say("finding.delete.sure.empty", { name });
+  }
+  return parent === undefined
+    ? say("finding.delete.sure", { name, count: trees })
+    : say("finding.delete.sure.inside", { name, count: trees, parent });
+}
+
 interface PlaceProps {
   readonly desk: LibraryDesk;
   /** The collection; empty for none, null for all trees. */
   readonly to: string | null;
   readonly depth?: number;
+  readonly isNew?: boolean;
   readonly children: ComponentChildren;
   readonly beside?: ComponentChildren;
   readonly below?: ComponentChildren;
 }
 
-/** Where trees lie: a press lists them, trees are dropped on it. */
-function Place({ desk: { wanted, drag }, to, depth = 0, children, beside, below }: PlaceProps) {
+/** Where trees lie: a press lists them, trees are dropped on it. What is new, looked into or asked about comes into sight. */
+function Place({ desk: { wanted, drag }, to, depth = 0, isNew = false, children, beside, below }: PlaceProps) {
   const row = useRef<HTMLLIElement>(null);
   const isHere = wanted.value.collection === to;
   const isAsking = Boolean(below);
   useEffect(() => {
-    if (isHere || isAsking) {
+    if (isHere || isAsking || isNew) {
       row.current?.scrollIntoView({ block: "nearest", inline: "nearest" });
     }
-  }, [isHere, isAsking]);
+  }, [isHere, isAsking, isNew]);
   return (
     <li class="collection-row" ref={row} style={{ "--depth": depth }} data-here={isHere}>
       <button

@@ -98,7 +98,8 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
           <span class="quiet card-facts">
             {say("notices.metamers", { count: tree.metamers.toLocaleString(language.value) })}
             <br />
-            {[tree.author, dateText(tree.saved_at)].filter(Boolean).join(", ")}
+            {tree.author && `${tree.author}, `}
+            <span class="card-date">{dateText(tree.saved_at)}</span>
           </span>
           {chosen === null && <CardMenu label={say("library.more-of", { name })} deeds={deeds} />}
           {tree.people > 0 && <span class="card-people">{say("library.people", { count: tree.people })}</span>}
