@@ -19,6 +19,9 @@ const OPENINGS = 5;
 /** So long the tree is turned to see how long a frame takes to be drawn, in milliseconds. */
 const TURNED = 10_000;
 
+/** So long a picture may take to come to rest, in milliseconds. */
+const REST = 150_000;
+
 /** What the browser calls all callbacks of one animation frame in its traces. */
 const ALL_CALLBACKS = "PageAnimator::serviceScriptedAnimations";
 
@@ -52,7 +55,7 @@ export async function main(words: readonly string[]): Promise<number> {
       openings.push(await openMeasured(browser, address));
     }
     const { page, first } = openings.at(-1)!;
-    const middle = (what: "rows" | "first") =>
+    const middle = (what: "rows" | "first" | "drawn") =>
       quantile(
         openings.map((opening) => opening[what]),
         0.5,
@@ -84,6 +87,7 @@ export async function main(words: readonly string[]): Promise<number> {
       },
       { what: "all that is loaded once the page is idle, gzip, bytes", value: all, print: thousands },
       { what: "its rows received, ms", value: middle("rows"), print: whole },
+      { what: "first tree drawn, ms", value: middle("drawn"), print: whole },
       { what: "picture at rest and drawn, ms", value: rested, print: whole },
       { what: "a frame while the tree is turned, as it is drawn, ms", value: shown.frame, print: whole },
       { what: "the picture behind the finger then, ms", value: shown.behind, print: whole },
@@ -148,11 +152,13 @@ async function grow(blank: Page, browser: Browser, address: string, session: str
   return tree;
 }
 
-/** A page that has just drawn its first tree, and when, in milliseconds since the navigation. */
+/** A page that has just drawn its first tree, and times in milliseconds since the navigation. */
 interface Opening {
   readonly page: Page;
   readonly rows: number;
+  /** When that tree was handed to the graphics card, and when it was drawn. */
   readonly first: number;
+  readonly drawn: number;
 }
 
 async function openMeasured(browser: Browser, address: string): Promise<Opening> {
@@ -166,7 +172,8 @@ async function openMeasured(browser: Browser, address: string): Promise<Opening>
     "a tree is drawn",
     page.evaluate(() => window.firstTree),
   );
-  return { page, first, rows: await page.evaluate(() => window.rowsAt) };
+  const drawn = await done(page);
+  return { page, first, drawn, rows: await page.evaluate(() => window.rowsAt) };
 }
 
 /** A script or style, and when the page asked for it, in milliseconds since the navigation. */
@@ -208,6 +215,7 @@ async function sizeOf(page: Page, files: readonly Loaded[]): Promise<number> {
 /** The last frame at rest, with the shadow pass that went before it. */
 async function atRest(page: Page): Promise<FrameRecord> {
   let count = -1;
+  await page.waitForSelector("canvas[data-still]", { state: "attached", timeout: REST });
   await until("the picture comes to rest", async () => {
     const before = count;
     await page.waitForTimeout(1500);
