@@ -184,7 +184,7 @@ pub struct Hint {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
 pub enum HintReason {
-    /// No bud is within 25 internodes.
+    /// No bud is in reach (`SG2`).
     OutOfReach,
     /// Buds are near, and none could grow there: the space is taken, or something stands in the way.
     NothingGrew,

@@ -18,7 +18,7 @@ pub const MIN_OUTLINE_POINTS: usize = 3;
 /// The most points of a lasso's outline (`LM5`).
 pub const MAX_OUTLINE_POINTS: usize = 4096;
 
-/// The most steps that one outline grows for (`LA1`).
+/// The most steps that one outline grows for, and a stroke after its end (`LA1`, `CM6`).
 pub const MAX_OUTLINE_STEPS: u32 = 400;
 
 /// The most characters of a tree's name (`LM4`).

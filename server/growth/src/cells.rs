@@ -17,7 +17,7 @@ pub(crate) struct CellBox {
     /// The words that it meets: the first and the last along each axis.
     first: [i32; 3],
     last: [i32; 3],
-    /// The cells of the first and of the last of them that lie in it, as far as the axis has a say.
+    /// For each axis: the cells of the first of these words, and of the last, whose coordinate along it lies in the box.
     ends: [[u64; 2]; 3],
 }
 

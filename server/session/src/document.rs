@@ -24,7 +24,7 @@ use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
-use espalier_proto::{Action, Command, Position, Problem, ProblemCode};
+use espalier_proto::{Action, Command, Position, Problem, ProblemCode, version::MAX_OUTLINE_STEPS};
 use espalier_settings::{Appearance, ParameterValues};
 
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
@@ -32,7 +32,7 @@ use self::{
     bending::OpenBends,
     bytes::Section,
     futures::Futures,
-    growing::{MAX_SETTLING_STEPS, Pending},
+    growing::Pending,
     hints::Hints,
     history::{History, Kind, Setting},
     obstacles::Obstacles,
@@ -154,7 +154,7 @@ impl Document {
             }
             Action::StrokeEnd { stroke } => {
                 let stroke = self.strokes.close(author, *stroke)?;
-                self.pending.push_back(Pending::Settle { stroke, left: MAX_SETTLING_STEPS });
+                self.pending.push_back(Pending::Settle { stroke, left: MAX_OUTLINE_STEPS });
                 Ok(())
             }
             Action::Grow { steps, until, bud } => self.begin_growth(cause, *steps, *until, *bud),

@@ -29,7 +29,7 @@ pub(crate) struct Sowing {
 }
 
 impl Sowing {
-    /// Nothing is laid yet of so many markers.
+    /// `count` markers, none of them laid yet.
     pub(crate) fn new(envelope: &Envelope, count: usize, draw: Draw) -> Self {
         let side = envelope.width.max(envelope.rows()).next_power_of_two().max(EDGE) as u32;
         let tiles = side * side / TILE;
@@ -95,12 +95,12 @@ impl Sowing {
 }
 
 impl Envelope {
-    /// How many markers the body holds if so many lie in a cubic internode where there is room all around.
+    /// How many markers the body holds at a density, in markers to the cubic internode where nodes keep a whole zone apart.
     pub(crate) fn marker_count(&self, density: f32) -> f64 {
         f64::from(density) * (0..self.height.len()).map(|pixel| self.weight(pixel)).sum::<f64>()
     }
 
-    /// The volume of a column, so many times over as nodes lie closer in it than elsewhere.
+    /// The volume of a pixel's column, times the cube of how much closer nodes lie in it than elsewhere.
     fn weight(&self, pixel: usize) -> f64 {
         let closer = f64::from(self.zone / self.zone_in(pixel));
         let column = 2.0 * f64::from(self.pixel) * f64::from(self.pixel);

@@ -10,9 +10,6 @@ use glam::{Vec2, Vec3};
 use super::{Document, generators::Step, hints::OpenLasso, history::Kind, refused, strokes::OpenStroke};
 use crate::cause::Cause;
 
-/// A stroke that still grows so many steps after its end is left as it is.
-pub(super) const MAX_SETTLING_STEPS: u32 = 400;
-
 /// Steps still to be run for an action taken on.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Pending {

@@ -1,5 +1,6 @@
 //! `SG2`: who draws in vain is told.
 
+use espalier_growth::REACH;
 use espalier_proto::{Hint, HintReason, ServerMessage};
 use serde_json::{Value, json};
 
@@ -45,6 +46,12 @@ fn sg2_a_stroke_out_of_reach_is_hinted_at_once() {
     assert_eq!((hint.id, hint.stroke, hint.reason), (3, Some(5), HintReason::OutOfReach));
     assert_eq!(json!(hint.position), json!([0.0, 70.0, 0.0]));
     assert_eq!(hints(&world, maple), [], "others did not draw it");
+}
+
+#[test]
+fn sg2_the_protocol_says_how_far_a_limb_comes() {
+    let protocol = include_str!("../../../../proto/PROTOCOL.md");
+    assert!(protocol.contains(&format!("no bud is within {REACH} internodes of where a stroke begins")));
 }
 
 #[test]
