@@ -13,6 +13,11 @@ const ARRIVED: f32 = 2.0;
 const FILLED: f32 = 2.0;
 /// Spilt is what lies this far outside the sweep.
 const SPILT: f32 = 1.0;
+/// What growth keeps to: fill at least, spill at most. Laterals of a limb that descends turn up out of a narrow sweep before
+/// they are bent back, so one form and radius spills more.
+const LEAST_FILL: f32 = 0.9;
+const MOST_SPILL: f32 = 0.05;
+const SPILLS_MORE: (&str, f32, f32) = ("down", 2.0, 0.065);
 /// Points at which the sweep is looked at.
 const PROBES: u32 = 4000;
 
@@ -62,6 +67,13 @@ fn resampled(path: &[Vec3], spacing: f32) -> Vec<Vec3> {
 }
 
 impl Followed {
+    /// Whether growth followed a stroke of this form and radius as it should.
+    pub fn is_good(&self, form: &str, radius: f32) -> bool {
+        let spills_more = (form, radius) == (SPILLS_MORE.0, SPILLS_MORE.1);
+        let most = if spills_more { SPILLS_MORE.2 } else { MOST_SPILL };
+        self.arrived && self.fill >= LEAST_FILL && self.spill <= most
+    }
+
     pub fn of(document: &Document, before: usize, path: &[Vec3], radius: f32) -> Self {
         let plant = document.plant();
         let living =

@@ -7,6 +7,7 @@
 
 mod following;
 mod lassos;
+mod overlaps;
 mod shapes;
 mod strokes;
 

@@ -12,7 +12,7 @@ use super::{
 /// Prints a table.
 pub fn measure(options: &Options) {
     println!("strokes, {} seeds each; mean and worst", options.seeds);
-    println!("stroke  radius  arrived         fill        spill   metamers");
+    println!("stroke  radius  arrived    good         fill        spill   metamers");
     for (name, path) in shapes::strokes() {
         for &radius in options.radii.iter().filter(|_| options.includes(name)) {
             let followed: Vec<Followed> = (1..=options.seeds)
@@ -24,9 +24,10 @@ pub fn measure(options: &Options) {
                 .collect();
             let column = |value: fn(&Followed) -> f32| followed.iter().map(value).collect::<Vec<_>>();
             println!(
-                "{name:6} {radius:7} {:5} of {:2} {} {} {:10.0}",
+                "{name:6} {radius:7} {:5} of {:2} {:7} {} {} {:10.0}",
                 followed.iter().filter(|followed| followed.arrived).count(),
                 options.seeds,
+                followed.iter().filter(|followed| followed.is_good(name, radius)).count(),
                 mean_and_least(&column(|followed| followed.fill)),
                 mean_and_most(&column(|followed| followed.spill)),
                 column(|followed| followed.metamers as f32).iter().sum::<f32>() / options.seeds as f32,

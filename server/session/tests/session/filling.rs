@@ -1,25 +1,22 @@
 //! A brush gets what it swept, whatever its path and the plant's habit are.
 
-#[path = "../../benches/guidance/following.rs"]
-mod following;
-#[expect(dead_code, reason = "outlines are drawn by the bench alone")]
-#[path = "../../benches/guidance/shapes.rs"]
-mod shapes;
-
 use espalier_growth::species;
 use espalier_proto::Action;
 use espalier_session::{Document, wire_species};
 use espalier_settings::ParametersPatch;
 use rayon::prelude::*;
 
-use following::{Followed, drawn};
+use crate::{
+    following::{Followed, drawn},
+    shapes,
+};
 
-/// Strokes of these radii from the tops of trunks, each by two seeds, in documents that begin with one action.
-fn check(names: &[&str], radii: &[f32], begin: Option<&Action>) {
+/// Strokes of these radii from the tops of trunks, each by so many seeds, in documents that begin with one action.
+fn check(names: &[&str], radii: &[f32], seeds: u32, begin: Option<&Action>) {
     let paths = shapes::strokes().into_iter().filter(|(name, _)| names.is_empty() || names.contains(name));
     let cases: Vec<_> = paths
         .flat_map(|(name, path)| radii.iter().map(move |&radius| (name, path.clone(), radius)))
-        .flat_map(|(name, path, radius)| [1, 2].map(|seed| (name, path.clone(), radius, seed)))
+        .flat_map(|(name, path, radius)| (1..=seeds).map(move |seed| (name, path.clone(), radius, seed)))
         .collect();
     let fails = |(name, path, radius, seed): &(&str, Vec<glam::Vec3>, f32, u32)| {
         let mut document = Document::new(*seed);
@@ -27,11 +24,9 @@ fn check(names: &[&str], radii: &[f32], begin: Option<&Action>) {
             document.apply("finger", &action.clone().into()).expect("it can be done");
         }
         let (document, before) = drawn(document, path, *radius, 2.0);
-        let Followed { arrived, fill, spill, metamers } = Followed::of(&document, before, path, *radius);
-        let is_good = arrived && fill >= 0.9 && spill <= 0.06;
-        let says =
-            || format!("{name}, radius {radius}, seed {seed}: {arrived} {fill} {spill}, {metamers} metamers");
-        (!is_good).then(says)
+        let followed = Followed::of(&document, before, path, *radius);
+        let says = || format!("{name}, radius {radius}, seed {seed}: {followed:?}");
+        (!followed.is_good(name, *radius)).then(says)
     };
     let failures: Vec<String> = cases.par_iter().filter_map(fails).collect();
     assert!(failures.is_empty(), "{failures:#?}");
@@ -39,7 +34,7 @@ fn check(names: &[&str], radii: &[f32], begin: Option<&Action>) {
 
 #[test]
 fn cm6_strokes_of_all_forms_fill_what_they_swept_and_no_more() {
-    check(&[], &[2.0, 3.0], None);
+    check(&[], &[1.0, 1.5, 2.0, 3.0, 6.0, 12.0], 16, None);
 }
 
 #[test]
@@ -50,7 +45,7 @@ fn cm6_what_a_brush_fills_is_not_shed_while_it_lasts() {
             shadow_strength: shadow,
             ..ParametersPatch::default()
         };
-        check(&["line", "level"], &[3.0, 6.0], Some(&Action::SetParameters { parameters }));
+        check(&["line", "level"], &[3.0, 6.0], 2, Some(&Action::SetParameters { parameters }));
     }
 }
 
@@ -58,6 +53,6 @@ fn cm6_what_a_brush_fills_is_not_shed_while_it_lasts() {
 fn cm6_a_brush_fills_what_it_swept_in_any_species() {
     for slug in ["stone-pine", "scots-pine"] {
         let programme = Some(wire_species(species::find(slug).expect("it exists")).programme);
-        check(&["line", "level"], &[3.0, 6.0], Some(&Action::SetProgramme { programme, keep: false }));
+        check(&["line", "level"], &[3.0, 6.0], 2, Some(&Action::SetProgramme { programme, keep: false }));
     }
 }

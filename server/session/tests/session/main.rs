@@ -4,10 +4,14 @@
 
 mod bending;
 mod commands;
+mod covering;
 mod cutting;
 mod durability;
 mod filling;
 mod flow;
+#[expect(dead_code, reason = "the bench alone prints all columns")]
+#[path = "../../benches/guidance/following.rs"]
+mod following;
 mod futures;
 mod fuzz;
 mod guiding;
@@ -18,10 +22,15 @@ mod limits;
 mod looks;
 mod mirror;
 mod obstacles;
+#[expect(dead_code, reason = "the bench alone prints all columns")]
+#[path = "../../benches/guidance/overlaps.rs"]
+mod overlaps;
 mod refusals;
 mod rights;
 mod rows;
 mod schema;
+#[path = "../../benches/guidance/shapes.rs"]
+mod shapes;
 mod shaping;
 mod stopping;
 mod world;
