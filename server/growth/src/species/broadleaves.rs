@@ -368,6 +368,7 @@ fn umbrella_acacia() -> Species {
     });
     let level = turn(&parameters, |p| {
         p.marker_density = 0.3;
+        p.marker_max_age = 4;
         p.shadow_strength = 0.2;
         p.setpoint_angle = 80.0;
     });
@@ -388,7 +389,7 @@ fn umbrella_acacia() -> Species {
         stand: Stand::Ground,
         schedule: life(
             pole(&parameters, 4),
-            [Grow(8), level, canopy(29.0, 1.0, 25.0, 4.0), cleared, Grow(1)],
+            [vec![Grow(8), level], canopy(14, [29.0, 1.0], 23.0, 4.0), vec![cleared, Grow(1)]].concat(),
         ),
         parameters,
     }

@@ -88,6 +88,7 @@ fn stone_pine() -> Species {
     });
     let dome = turn(&parameters, |p| {
         p.marker_density = 0.3;
+        p.marker_max_age = 4;
         p.shadow_strength = 0.2;
     });
     let cleared = turn(&parameters, |p| {
@@ -107,7 +108,7 @@ fn stone_pine() -> Species {
         stand: Stand::Ground,
         schedule: life(
             pole(&parameters, 15),
-            [Grow(3), dome, canopy(54.0, 7.0, 20.0, 7.0), cleared, Grow(1)],
+            [vec![Grow(3), dome], canopy(10, [54.0, 7.0], 20.0, 7.0), vec![cleared, Grow(1)]].concat(),
         ),
         parameters,
     }

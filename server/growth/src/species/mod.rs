@@ -1,8 +1,8 @@
 //! Species: sets of parameters with a name, and how a tree of that form grows up.
 //!
-//! [`Species::parameters`] is what a picker applies: ordinary parameters, good for brush and autonomous growth
-//! alike. [`Species::schedule`] is a whole life that ends in the tree of the contact sheet, for where one set of
-//! parameters from seed to age does not make the form (TreeSketch §3.4 and Figure 17, trees A3 and C1).
+//! [`Species::parameters`] are ordinary parameters, good for brush and autonomous growth alike. [`Species::schedule`] is a
+//! whole life that begins with them and ends in the tree of the contact sheet, for one set of parameters from seed to age
+//! does not make every form (TreeSketch §3.4 and Figure 17, trees A3 and C1). Who picks a species puts both into force.
 
 mod broadleaves;
 mod conifers;
@@ -28,7 +28,7 @@ pub struct Species {
     pub botanical: &'static str,
     /// What tells it from others, in one sentence.
     pub sentence: &'static str,
-    /// What it looks like; its background is nobody's.
+    /// What it looks like; its background is the default one and is not applied.
     pub appearance: Appearance,
     /// What it stands on in a picture.
     pub stand: Stand,
@@ -123,19 +123,23 @@ fn stroke(places: &[(f32, f32, f32, f32)]) -> Stage {
     Stage::Brush(places.iter().map(sample).collect())
 }
 
-/// A brush that goes around in a widening spiral: a level canopy of some reach, whose rim is lower by `droop`.
-fn canopy(height: f32, droop: f32, reach: f32, radius: f32) -> Stage {
-    const MOVES: u32 = 32;
-    const TURNS: f32 = 3.0;
-    let places = (0..=MOVES).map(|i| {
-        let gone = i as f32 / MOVES as f32;
-        // The last turn stays on the rim.
-        let out = (gone * TURNS / (TURNS - 1.0)).min(1.0);
-        let (sin, cos) = libm::sincosf(core::f32::consts::TAU * TURNS * gone);
-        let position = Vec3::new(reach * out * cos, height - droop * out * out, reach * out * sin);
-        BrushSample { position, radius }
-    });
-    Stage::Brush(places.collect())
+/// Strokes of the brush outwards, as the ribs of an umbrella go: a canopy of some height and reach, whose rim is lower by
+/// `droop`. The brush is so wide at the rim, and three quarters of it where a rib begins.
+fn canopy(ribs: u8, [height, droop]: [f32; 2], reach: f32, radius: f32) -> Vec<Stage> {
+    /// Where a rib begins, as a share of the reach, and how many places it has.
+    const BEGIN: f32 = 0.28;
+    const PLACES: u8 = 3;
+    let rib = |rib: u8| {
+        let (sin, cos) = libm::sincosf(core::f32::consts::TAU * f32::from(rib) / f32::from(ribs));
+        let places = (0..PLACES).map(|place| {
+            let gone = f32::from(place) / f32::from(PLACES - 1);
+            let out = BEGIN + (1.0 - BEGIN) * gone;
+            let position = Vec3::new(reach * out * cos, height - droop * out * out, reach * out * sin);
+            BrushSample { position, radius: radius * (0.75 + 0.25 * gone) }
+        });
+        Stage::Brush(places.collect())
+    };
+    (0..ribs).map(rib).collect()
 }
 
 /// Grows a bare pole first: laterals are given up as soon as they are judged.

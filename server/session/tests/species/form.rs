@@ -9,6 +9,8 @@ use glam::Vec3;
 pub struct Form {
     /// Node, heading, and whether it bears leaves, of each living metamer.
     metamers: Vec<(Vec3, Vec3, bool)>,
+    /// Cross-section of each.
+    sections: Vec<f32>,
     /// Each living metamer from its lower to its upper end.
     wood: Vec<(f32, f32, f32)>,
     low: Vec3,
@@ -31,11 +33,13 @@ impl Form {
             let radius = style.girth().radius(plant.metamers().tips(id));
             Some((node(plant.metamers().parent(id)?).y, node(id).y, radius))
         });
+        let radius = |id| style.girth().radius(plant.metamers().tips(id));
+        let sections = living.iter().map(|&id| radius(id) * radius(id)).collect();
         let first = living.first().map_or(0.0, |&id| style.girth().radius(plant.metamers().tips(id)));
         let (low, high) = metamers
             .iter()
             .fold((Vec3::ZERO, Vec3::ZERO), |(low, high), &(node, ..)| (low.min(node), high.max(node)));
-        Self { wood: wood.collect(), low, high, trunk_width: 2.0 * first, metamers }
+        Self { wood: wood.collect(), sections, low, high, trunk_width: 2.0 * first, metamers }
     }
 
     pub fn height(&self) -> f32 {
@@ -94,6 +98,20 @@ impl Form {
         let (low, high) =
             between.fold((0.0, 0.0), |(low, high): (f32, f32), node| (low.min(node.x), high.max(node.x)));
         high - low
+    }
+
+    /// How far wood heads away from the middle where the crown is, thick wood counting for more: 1 straight out, 0 around it.
+    pub fn outwardness(&self) -> f32 {
+        let level = |v: Vec3| v.with_y(0.0).normalize_or_zero();
+        let crown = self.metamers.iter().zip(&self.sections);
+        let (mut outwards, mut all) = (0.0, 0.0);
+        for (&(node, heading, _), section) in
+            crown.filter(|((node, ..), _)| node.with_y(0.0).length() > 0.15 * self.width())
+        {
+            outwards += section * level(heading).dot(level(node));
+            all += section;
+        }
+        outwards / all
     }
 
     /// Metamers that pass a height and are at least a third as thick as the thickest of them.

@@ -84,6 +84,14 @@ fn acacia_is_a_flat_crown_wider_than_high() {
 }
 
 #[test]
+fn parasols_stand_on_limbs_that_fan_out() {
+    for slug in ["umbrella-acacia", "stone-pine"] {
+        let outwards = form(slug).outwardness();
+        assert!(outwards > 0.42, "{slug}: {outwards}");
+    }
+}
+
+#[test]
 fn baobab_is_all_trunk() {
     let slenderness = |form: &Form| form.height() / form.trunk_width();
     let (baobab, oak) = (form("baobab"), form("oak"));
