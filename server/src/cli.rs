@@ -1,8 +1,9 @@
 //! The command line.
 
-use std::{net::IpAddr, num::NonZeroUsize, path::PathBuf};
+use std::{net::IpAddr, num::NonZeroUsize, ops::RangeInclusive, path::PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
 use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
@@ -19,6 +20,7 @@ Examples:
   espalier serve --port 8080 --database trees.db
   espalier grow --metamers 20000 --seed 3 --export tree.glb
   espalier grow --species scots-pine --export pine.png
+  espalier grow --species oak --seeds 1-50 --export 'oak-{seed}.glb'
   espalier import scan.csv --grow 3 --export scan.glb
   espalier replay strokes.jsonl --export tree.json --stats json
   espalier backup trees-2026-05-01.db       while a server is running
@@ -27,9 +29,9 @@ Without a command, espalier serves. Every option of `serve` can be set by the en
 `espalier serve --help`.";
 
 /// Budgets of metamers; ids of metamers must fit many times over.
-const BUDGETS: std::ops::RangeInclusive<i64> = 1..=100_000_000;
+const BUDGETS: RangeInclusive<i64> = 1..=100_000_000;
 /// The same of a session, whose document is kept.
-const SESSION_BUDGETS: std::ops::RangeInclusive<i64> = 1..=MAX_METAMER_BUDGET as i64;
+const SESSION_BUDGETS: RangeInclusive<i64> = 1..=MAX_METAMER_BUDGET as i64;
 
 const SERVE_NOTES: &str = "\
 The server prints its address, the address for tablets in the same network, and a QR code of it.
@@ -42,6 +44,11 @@ SCRIPT has one command in JSON on each line, the same as on the wire; empty line
   {\"kind\":\"stroke_end\",\"stroke\":1}
   {\"kind\":\"grow\",\"steps\":20}
 A line that cannot be read or done stops the replay with exit code 2, and nothing is exported.";
+
+const COMPLETIONS_NOTES: &str = "\
+For example, for bash and for fish:
+  espalier completions bash > ~/.local/share/bash-completion/completions/espalier
+  espalier completions fish > ~/.config/fish/completions/espalier.fish";
 
 /// Draw living trees: a server with its tablet client, and tools for scripts.
 #[derive(Debug, Parser)]
@@ -74,6 +81,10 @@ pub enum Command {
     Restore(Restore),
     /// Read all that is in the database and say what is damaged.
     Check(Check),
+    /// Print what makes a shell complete options and names.
+    Completions(Completions),
+    /// Write the manual's pages, one for each command.
+    Man(Man),
 }
 
 /// Where everything is kept.
@@ -143,11 +154,21 @@ pub struct Grow {
     /// Seed of all randomness.
     #[arg(long, default_value_t = 1)]
     pub seed: u32,
+    /// Grow a tree for each of these seeds, one after the other; `{seed}` in the name of the export is its seed.
+    #[arg(long, value_name = "FROM-TO", conflicts_with = "seed", value_parser = parse_seeds)]
+    pub seeds: Option<Seeds>,
     #[command(flatten)]
     pub start: Start,
     #[command(flatten)]
     pub results: Results,
 }
+
+/// Seeds one after the other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Seeds(pub RangeInclusive<u32>);
+
+/// The place of the seed in the name of an export.
+pub const SEED: &str = "{seed}";
 
 /// Options of `import`.
 #[derive(Debug, Args)]
@@ -182,6 +203,9 @@ pub struct ImportFile {
 /// Options of `species`.
 #[derive(Debug, Args)]
 pub struct Species {
+    /// Print them as JSON, each with its programme and looks, as `GET /api/species` tells them.
+    #[arg(long, conflicts_with = "sheet")]
+    pub json: bool,
     /// Grow every species to its age and draw all of them into a PNG file.
     #[arg(long, value_name = "OUT")]
     pub sheet: Option<PathBuf>,
@@ -221,6 +245,21 @@ pub struct Check {
     pub database: Database,
 }
 
+/// Options of `completions`.
+#[derive(Debug, Args)]
+#[command(after_help = COMPLETIONS_NOTES)]
+pub struct Completions {
+    /// The shell.
+    pub shell: Shell,
+}
+
+/// Options of `man`.
+#[derive(Debug, Args)]
+pub struct Man {
+    /// The folder to write them to; it is made if it does not exist.
+    pub folder: PathBuf,
+}
+
 /// What a scene starts with.
 #[derive(Debug, Args)]
 pub struct Start {
@@ -233,7 +272,7 @@ pub struct Start {
 }
 
 /// What comes out, and with how many threads.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct Results {
     /// Write the plants to a file, in the format of its ending: .glb, .obj.zip, .usda, .usdz, .json, .mtg, .csv, .ply,
     /// .png or .espalier; docs/formats.md says what is in them, and which options each has.
@@ -293,8 +332,19 @@ fn parse_unit(text: &str) -> Result<f64, String> {
     unit.ok_or_else(|| "it must be a number above 0".to_owned())
 }
 
+fn parse_seeds(text: &str) -> Result<Seeds, String> {
+    let ends = text.split_once('-').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
+    let (from, to): (u32, u32) = ends.ok_or("write them as FROM-TO, such as 1-50")?;
+    if from <= to { Ok(Seeds(from..=to)) } else { Err(format!("{from} comes after {to}")) }
+}
+
 fn parse_species(slug: &str) -> Result<&'static species::Species, String> {
-    species::find(slug).ok_or_else(|| "there is no such species; `espalier species` lists them".into())
+    species::find(slug).ok_or_else(|| {
+        match similar(slug, species::all().iter().map(|species| species.slug)) {
+            Some(known) => format!("there is no such species; a similar name is `{known}`"),
+            None => "there is no such species; `espalier species` lists them".to_owned(),
+        }
+    })
 }
 
 fn parse_parameter(text: &str) -> Result<ParametersPatch, String> {
@@ -310,14 +360,18 @@ fn parse_parameter(text: &str) -> Result<ParametersPatch, String> {
 
 /// Says that there is none of this name, and which name may have been meant.
 fn unknown_parameter(name: &str) -> String {
-    /// Names less alike than this were hardly mixed up; 1 is the same name.
-    const ALIKE: f64 = 0.8;
-    let likeness = |known: &&&str| strsim::jaro_winkler(name, known);
-    let nearest = ParameterValues::NAMES.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    match nearest.filter(|known| likeness(known) > ALIKE) {
+    match similar(name, ParameterValues::NAMES.iter().copied()) {
         Some(known) => format!("there is no parameter `{name}`; a similar name is `{known}`"),
         None => format!("there is no parameter `{name}`; there are {}", ParameterValues::NAMES.join(", ")),
     }
+}
+
+/// The name most like another one, unless they could hardly be mixed up.
+fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    /// Names less alike than this are no slip; 1 is the same name.
+    const ALIKE: f64 = 0.8;
+    let likeness = |known: &&str| strsim::jaro_winkler(name, known);
+    names.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).filter(|known| likeness(known) > ALIKE)
 }
 
 #[cfg(test)]
@@ -361,6 +415,13 @@ mod tests {
     }
 
     #[test]
+    fn a_name_that_was_mistyped_is_told_a_similar_one() {
+        assert!(parse_species("scots-pin").unwrap_err().ends_with("`scots-pine`"));
+        assert!(parse_species("triffid").unwrap_err().contains("espalier species"));
+        assert_eq!(parse_seeds("1-50"), Ok(Seeds(1..=50)));
+    }
+
+    #[test]
     fn the_extension_chooses_the_format() {
         assert_eq!(parse_export("a/tree.GLB").unwrap().row.format, Format::Glb);
         assert_eq!(parse_export("tree.json").unwrap().row.format, Format::Skeleton);
@@ -379,6 +440,11 @@ mod tests {
             ("espalier grow", ErrorKind::MissingRequiredArgument),
             ("espalier grow --metamers 0", ErrorKind::ValueValidation),
             ("espalier grow --species triffid", ErrorKind::ValueValidation),
+            ("espalier grow --species oak --seeds 3", ErrorKind::ValueValidation),
+            ("espalier grow --species oak --seeds 3-1", ErrorKind::ValueValidation),
+            ("espalier grow --species oak --seeds 1-3 --seed 2", ErrorKind::ArgumentConflict),
+            ("espalier species --json --sheet a.png", ErrorKind::ArgumentConflict),
+            ("espalier completions dos", ErrorKind::InvalidValue),
             ("espalier --metamer-budget 0", ErrorKind::ValueValidation),
             ("espalier grow --metamers 9 --budget 0", ErrorKind::ValueValidation),
             ("espalier grow --metamers 9 --parameter leaf_size", ErrorKind::ValueValidation),

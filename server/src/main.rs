@@ -12,6 +12,7 @@ mod import;
 mod listener;
 mod live;
 mod maintenance;
+mod manual;
 mod name;
 mod pool;
 mod portrait;
@@ -47,12 +48,20 @@ fn main() -> ExitCode {
         Some(Command::Backup(options)) => cared(care::backup(&options)),
         Some(Command::Restore(options)) => cared(care::restore(&options)),
         Some(Command::Check(options)) => cared(care::check(&options)),
+        Some(Command::Completions(options)) => written(manual::completions(options.shell)),
+        Some(Command::Man(options)) => written(manual::pages(&options.folder)),
     }
 }
 
 fn served(result: Result<(), ServeError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("{error}");
+    ExitCode::FAILURE
+}
+
+fn written(result: std::io::Result<()>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("It cannot be written: {error}.");
     ExitCode::FAILURE
 }
 
@@ -70,6 +79,7 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Read { .. }
         | HeadlessError::Import { .. }
         | HeadlessError::Options(_)
+        | HeadlessError::OneName
         | HeadlessError::Parameters(_) => ExitCode::from(USAGE),
         _ => ExitCode::FAILURE,
     }

@@ -19,7 +19,7 @@ use espalier_session::{Document, ScriptError, read_commands};
 use self::bench::Bench;
 pub use self::species::species;
 use crate::{
-    cli::{self, Export, Grow, Replay, Results, Start},
+    cli::{self, Export, Grow, Replay, Results, SEED, Seeds, Start},
     document,
     export_options::{ExportOptions, NotOfFormat},
     import as imports,
@@ -78,6 +78,9 @@ pub enum HeadlessError {
         /// Living metamers asked for.
         wanted: u32,
     },
+    /// Many trees would be written to one file.
+    #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
+    OneName,
     /// The tree cannot grow on.
     #[error("The tree cannot grow on: {0}.")]
     Growth(Problem),
@@ -112,16 +115,36 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
 /// `espalier grow`.
 pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
     check(&options.results)?;
-    let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
+    let pool = SimulationPool::new(options.results.threads)?;
+    let Some(Seeds(seeds)) = &options.seeds else {
+        return finish(grown(options, options.seed, &pool)?, options.species, &options.results);
+    };
+    let name = options.results.export.as_ref().map(|export| export.path.to_string_lossy().into_owned());
+    if name.as_ref().is_some_and(|name| !name.contains(SEED)) {
+        return Err(HeadlessError::OneName);
+    }
+    for seed in seeds.clone() {
+        let mut results = options.results.clone();
+        if let (Some(export), Some(name)) = (&mut results.export, &name) {
+            export.path = name.replace(SEED, &seed.to_string()).into();
+        }
+        finish(grown(options, seed, &pool)?, options.species, &results)?;
+    }
+    Ok(())
+}
+
+/// One tree.
+fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
+    pool.block_on(|| {
         // Dead metamers count as well, and how many will die is not known before.
         let mut bench = match options.species {
             Some(species) => {
                 let budget = Start { parameters: Vec::new(), budget: options.start.budget };
-                let mut bench = bench(started(options.seed, &budget, u32::MAX)?, &options.results);
+                let mut bench = bench(started(seed, &budget, u32::MAX)?, &options.results);
                 species::raise(&mut bench, species, &options.start.parameters)?;
                 bench
             }
-            None => bench(started(options.seed, &options.start, u32::MAX)?, &options.results),
+            None => bench(started(seed, &options.start, u32::MAX)?, &options.results),
         };
         let wanted = options.metamers.unwrap_or(0);
         // One operation for undo, however many steps it takes.
@@ -139,8 +162,7 @@ pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
             }
         }
         Ok(bench)
-    })?;
-    finish(bench, options.species, &options.results)
+    })
 }
 
 /// `espalier import`.

@@ -18,6 +18,13 @@ const COLUMNS: usize = 7;
 
 /// `espalier species`.
 pub fn species(options: &cli::Species) -> Result<(), HeadlessError> {
+    if options.json {
+        let all: Vec<_> = species::all().iter().map(espalier_session::wire_species).collect();
+        // Plain values always have a JSON form.
+        let text = serde_json::to_string_pretty(&all).unwrap_or_default();
+        let _ = writeln!(std::io::stdout(), "{text}");
+        return Ok(());
+    }
     match &options.sheet {
         None => {
             let mut out = std::io::stdout();

@@ -247,6 +247,50 @@ fn a_broken_line_is_named_and_nothing_is_written() {
 }
 
 #[test]
+fn many_seeds_are_many_files() {
+    let scratch = Scratch::new();
+    let name = scratch.path("tree-{seed}.json");
+    let name = name.to_str().expect("a plain name");
+    let finished =
+        program::run(&["grow", "--metamers", "50", "--seeds", "3-5", "--export", name, "--stats", "json"]);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    assert_eq!(finished.stdout.lines().count(), 3, "figures of each");
+    let files = [3, 4, 5].map(|seed| fs::read(scratch.path(&format!("tree-{seed}.json"))).expect("a file"));
+    assert!(files[0] != files[1] && files[1] != files[2]);
+    let alone = scratch.path("alone.json");
+    let alone = alone.to_str().expect("a plain name");
+    program::run(&["grow", "--metamers", "50", "--seed", "4", "--export", alone]);
+    assert!(fs::read(alone).expect("a file") == files[1], "the same tree as by its seed alone");
+}
+
+#[test]
+fn species_are_told_as_json() {
+    let finished = program::run(&["species", "--json"]);
+    let all: Vec<Value> = serde_json::from_str(&finished.stdout).expect("JSON");
+    assert_eq!(all.len(), program::run(&["species"]).stdout.lines().count());
+    assert!(all.iter().all(|species| species["programme"]["age"].as_u64() > Some(0)));
+}
+
+#[test]
+fn shells_and_the_manual_know_every_command() {
+    let scratch = Scratch::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let finished = program::run(&["completions", shell]);
+        assert!(
+            finished.code == 0
+                && finished.stdout.contains("scots-pine") | finished.stdout.contains("metamers")
+        );
+    }
+    let folder = scratch.path("man");
+    let finished = program::run(&["man", folder.to_str().expect("a plain name")]);
+    assert_eq!(finished.code, 0, "{}", finished.stderr);
+    for page in ["espalier.1", "espalier-serve.1", "espalier-grow.1", "espalier-backup.1"] {
+        let text = fs::read_to_string(folder.join(page)).unwrap_or_else(|error| panic!("{page}: {error}"));
+        assert!(text.contains(".SH NAME"), "{page}");
+    }
+}
+
+#[test]
 fn wrong_arguments_are_refused_with_a_sentence() {
     let scratch = Scratch::new();
     let script = script(&scratch, "tree.jsonl", &tree());
@@ -258,6 +302,7 @@ fn wrong_arguments_are_refused_with_a_sentence() {
         vec!["grow", "--metamers", "0"],
         vec!["grow", "--metamers", "many"],
         vec!["replay", &script, "--export", "/nowhere/tree.glb"],
+        vec!["grow", "--metamers", "50", "--seeds", "1-2", "--export", "same.glb"],
         vec!["prune"],
     ] {
         let finished = program::run(&arguments);
