@@ -5,6 +5,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::reason::Reason;
+
 /// What kind of refusal this is; programs branch on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(rename_all = "snake_case")]
@@ -31,6 +33,8 @@ pub enum ProblemCode {
 pub struct Problem {
     /// The kind of refusal.
     pub code: ProblemCode,
+    /// Why, for programs that have words of their own for it.
+    pub reason: Reason,
     /// The field at fault, as a path: `samples[3].radius`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -39,14 +43,19 @@ pub struct Problem {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub allowed: Option<String>,
+    /// What is wrong with a file, where the reason alone does not say it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub cause: Option<String>,
     /// A sentence that says what was wrong.
     pub message: String,
 }
 
 impl Problem {
     /// A problem without a field.
-    pub fn new(code: ProblemCode, message: impl Into<String>) -> Self {
-        Self { code, field: None, allowed: None, message: message.into() }
+    pub fn new(reason: Reason, message: impl Into<String>) -> Self {
+        let (code, message) = (reason.code(), message.into());
+        Self { code, reason, field: None, allowed: None, cause: None, message }
     }
 
     /// A value outside its range.
@@ -56,8 +65,19 @@ impl Problem {
         allowed: impl Into<String>,
     ) -> Self {
         let (field, allowed) = (field.into(), allowed.into());
-        let message = format!("{field} is {value}; allowed: {allowed}");
-        Self { code: ProblemCode::OutOfRange, field: Some(field), allowed: Some(allowed), message }
+        Self::new(Reason::OutOfRange, format!("{field} is {value}; allowed: {allowed}")).at(field, allowed)
+    }
+
+    /// The same problem with the field at fault and what is allowed there.
+    #[must_use]
+    pub fn at(self, field: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self { field: Some(field.into()), allowed: Some(allowed.into()), ..self }
+    }
+
+    /// The reason of a close frame: the problem's own and its sentence (`HS6`).
+    pub fn in_close(&self) -> String {
+        let reason = serde_json::to_value(self.reason).unwrap_or_default();
+        format!("{}: {}", reason.as_str().unwrap_or_default(), self.message)
     }
 
     /// The same problem with its field inside `outer`: `radius` becomes `samples[3].radius`.

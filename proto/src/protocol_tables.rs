@@ -6,6 +6,8 @@ use espalier_settings::{Appearance, Kind, ParameterValues, Setting};
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::reason::Reason;
+
 /// A table has no place in the document.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("PROTOCOL.md has no line `{0}`, or no line `{END}` after it")]
@@ -16,7 +18,8 @@ const END: &str = "<!-- end of the table -->";
 /// The document with every table between its markers written anew.
 pub fn with_tables(document: &str) -> Result<String, MissingMarker> {
     let document = with_table(document, "parameters", &parameters())?;
-    with_table(&document, "looks", &looks())
+    let document = with_table(&document, "looks", &looks())?;
+    with_table(&document, "reasons", &reasons())
 }
 
 fn with_table(document: &str, name: &str, table: &str) -> Result<String, MissingMarker> {
@@ -41,6 +44,13 @@ fn looks() -> String {
         add_rows(&mut table, &format!("{section}."), rows, &defaults[section], |_| String::new());
     }
     table
+}
+
+fn reasons() -> String {
+    let rows = Reason::ALL.iter().map(|(reason, sentence)| {
+        format!("| {} | {} | {sentence} |\n", in_words(&json(reason)), in_words(&json(&reason.code())))
+    });
+    format!("| reason | code | |\n|---|---|---|\n{}", rows.collect::<String>())
 }
 
 fn add_rows(
@@ -78,7 +88,7 @@ fn in_words(value: &Value) -> String {
     }
 }
 
-/// Settings as JSON, by their names.
+/// Plain values as JSON, by their names.
 fn json(settings: &impl Serialize) -> Value {
     // Through text: a value of its own would show the numbers as 64 bits have them.
     let text = serde_json::to_string(settings).unwrap_or_default();
@@ -94,13 +104,15 @@ mod tests {
         let marked =
             |name: &str| format!("<!-- table of {name}, written by generate-types -->\nformer rows\n{END}");
         let document = format!("before\n{}\nbetween\n{}\nafter", marked("parameters"), marked("looks"));
-        let written = with_tables(&document).expect("both have a place");
-        assert!(written.starts_with("before\n<!--") && written.ends_with("-->\nafter"));
+        let document = format!("{document}\n{}", marked("reasons"));
+        let written = with_tables(&document).expect("all have a place");
+        assert!(written.starts_with("before\n<!--") && written.contains("-->\nafter\n<!--"));
         assert!(!written.contains("former rows") && written.contains("\nbetween\n"));
         assert!(written.contains("| `apical_control` | λ | 0.52 | 0.4 to 0.7 | Share of vigor"));
         assert!(
             written.contains("| `background.backdrop` | 226, 222, 214 | three whole numbers, 0 to 255 |")
         );
+        assert!(written.contains("| `nothing-to-undo` | `refused` | There is nothing to undo. |"));
         assert_eq!(with_tables(&written), Ok(written.clone()));
     }
 

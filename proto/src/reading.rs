@@ -11,7 +11,7 @@ use serde::{
 };
 use serde_json::{Map, Value};
 
-use crate::problem::{Problem, ProblemCode};
+use crate::{problem::Problem, reason::Reason};
 
 /// Characters of what was found that a problem tells again.
 const LONGEST: usize = 120;
@@ -37,8 +37,7 @@ pub fn from_query<T: DeserializeOwned>(query: &str) -> Result<T, Problem> {
         if fields.insert(name.clone().into_owned(), value.into_owned().into()).is_some() {
             let field = shortened(&name);
             let message = format!("{field} stands twice; allowed: once");
-            let allowed = Some("once".into());
-            return Err(Problem { code: ProblemCode::Malformed, field: Some(field), allowed, message });
+            return Err(Problem::new(Reason::Malformed, message).at(field, "once"));
         }
     }
     // A text that a field does not take may be the text of a number. Each field changes once at most.
@@ -69,7 +68,7 @@ pub fn parse(text: &str) -> Result<Value, Problem> {
     serde_json::from_str(text).or_else(|error| {
         serde_json::from_str(&with_quoted_numbers(text)).map_err(|_| {
             let message = format!("the message is not JSON: {error}");
-            Problem { allowed: Some("JSON".into()), ..Problem::new(ProblemCode::Malformed, message) }
+            Problem { allowed: Some("JSON".into()), ..Problem::new(Reason::Malformed, message) }
         })
     })
 }
@@ -91,7 +90,7 @@ pub fn from_value<T: DeserializeOwned>(mut value: Value) -> Result<T, Problem> {
     let allowed = read::<T>(&value).err().filter(|nothing| nothing.path == field);
     let allowed = allowed.and_then(|nothing| nothing.problem().allowed);
     let message = format!("{field} is missing{}", and_allowed(allowed.as_deref()));
-    Err(Problem { code: ProblemCode::Malformed, field: Some(field), allowed, message })
+    Err(Problem { field: Some(field), allowed, ..Problem::new(Reason::Malformed, message) })
 }
 
 /// A value that a type does not take.
@@ -242,12 +241,7 @@ impl Fault {
             let allowed =
                 text.rsplit_once(", expected ").map_or_else(|| "no field".into(), |(_, e)| plain(e));
             let message = format!("{field} is no known field; allowed: {allowed}");
-            return Problem {
-                code: ProblemCode::Malformed,
-                field: Some(field),
-                allowed: Some(allowed),
-                message,
-            };
+            return Problem::new(Reason::Malformed, message).at(field, allowed);
         }
         let (said, allowed) = match text.rsplit_once(", expected ") {
             Some((said, expected)) => (said, Some(plain(expected))),
@@ -255,23 +249,24 @@ impl Fault {
         };
         let said = &*shortened(said);
         let named = if field.is_empty() { "the message" } else { &field };
-        let (code, sentence) = if let Some(found) = said.strip_prefix("invalid value: ") {
+        let (reason, sentence) = if let Some(found) = said.strip_prefix("invalid value: ") {
             let number = ["integer `", "floating point `"].into_iter().find_map(|kind| quoted(found, kind));
             let found = number.unwrap_or(found);
-            (ProblemCode::OutOfRange, format!("{named} is {found}"))
+            (Reason::OutOfRange, format!("{named} is {found}"))
         } else if let Some(count) = said.strip_prefix("too few: ") {
-            (ProblemCode::OutOfRange, format!("{named} has {count}"))
+            (Reason::TooFew, format!("{named} has {count}"))
         } else if let Some(count) = said.strip_prefix("too many: ") {
-            (ProblemCode::TooMany, format!("{named} has {count}"))
+            (Reason::TooMany, format!("{named} has {count}"))
         } else if let Some(variant) =
             quoted(said, "unknown variant `").or_else(|| quoted(said, "unknown name `"))
         {
-            (ProblemCode::Malformed, format!("{named} is {variant}"))
+            (Reason::Malformed, format!("{named} is {variant}"))
         } else {
-            (ProblemCode::Malformed, format!("{named} cannot be read: {said}"))
+            (Reason::Malformed, format!("{named} cannot be read: {said}"))
         };
         let message = format!("{sentence}{}", and_allowed(allowed.as_deref()));
-        Problem { code, field: Some(field).filter(|field| !field.is_empty()), allowed, message }
+        let field = Some(field).filter(|field| !field.is_empty());
+        Problem { field, allowed, ..Problem::new(reason, message) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use base64::{Engine, engine::general_purpose::STANDARD};
 
-use crate::problem::{Problem, ProblemCode};
+use crate::{problem::Problem, reason::Reason};
 
 const MAX_BYTES: usize = 192 * 1024;
 const ALLOWED: &str = "a PNG, JPEG or WebP picture as a base64 data URL";
@@ -41,22 +41,14 @@ pub fn from_data_url(url: &str) -> Result<Picture, Problem> {
 }
 
 fn refused() -> Problem {
-    Problem {
-        code: ProblemCode::Malformed,
-        field: Some("thumbnail".into()),
-        allowed: Some(ALLOWED.into()),
-        message: format!("thumbnail is not a picture; allowed: {ALLOWED}"),
-    }
+    let message = format!("thumbnail is not a picture; allowed: {ALLOWED}");
+    Problem::new(Reason::ThumbnailKind, message).at("thumbnail", ALLOWED)
 }
 
 fn too_large() -> Problem {
     let allowed = format!("at most {} KiB", MAX_BYTES / 1024);
-    Problem {
-        code: ProblemCode::TooMany,
-        field: Some("thumbnail".into()),
-        message: format!("thumbnail is too large; allowed: {allowed}"),
-        allowed: Some(allowed),
-    }
+    let message = format!("thumbnail is too large; allowed: {allowed}");
+    Problem::new(Reason::LargeThumbnail, message).at("thumbnail", allowed)
 }
 
 #[cfg(test)]

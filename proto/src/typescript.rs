@@ -7,8 +7,8 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, schematic,
-    species, timeline, version,
+    bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, reason,
+    schematic, species, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -114,6 +114,7 @@ pub fn declarations() -> String {
         schematic::Schematic::decl(&config),
         species::Species::decl(&config),
         problem::ProblemCode::decl(&config),
+        reason::Reason::decl(&config),
         problem::Problem::decl(&config),
         timeline::OperationKind::decl(&config),
         timeline::TimelineOperation::decl(&config),

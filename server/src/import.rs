@@ -2,7 +2,7 @@
 
 use espalier_growth::{WORLD_EXTENT, species};
 use espalier_import::{Fault, FaultKind, WoodFormat, WoodOptions, read_wood};
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, ProblemCode, Reason};
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
 
@@ -105,11 +105,11 @@ impl From<&ImportError> for Problem {
                 (ProblemCode::OutOfRange, Some(format!("parameters.{}", error.field)))
             }
             ImportError::Document(DocumentError::Later(what)) => {
-                return Self::new(ProblemCode::Refused, OpenError::Later(what.clone()).to_string());
+                return OpenError::Later(what.clone()).problem();
             }
             ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None),
         };
-        Self { field, ..Self::new(code, message) }
+        Self { code, field, cause: Some(error.to_string()), ..Self::new(Reason::NotATreeFile, message) }
     }
 }
 

@@ -1360,11 +1360,17 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
+export type Reason = "malformed" | "file-cut-off" | "not-a-tree-file" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-session" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "not-drawn";
+
 export type Problem = { 
 /**
  * The kind of refusal.
  */
 code: ProblemCode, 
+/**
+ * Why, for programs that have words of their own for it.
+ */
+reason: Reason, 
 /**
  * The field at fault, as a path: `samples[3].radius`.
  */
@@ -1373,6 +1379,10 @@ field?: string,
  * What is allowed there: `0 to 40`.
  */
 allowed?: string, 
+/**
+ * What is wrong with a file, where the reason alone does not say it.
+ */
+cause?: string, 
 /**
  * A sentence that says what was wrong.
  */

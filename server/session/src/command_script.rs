@@ -13,7 +13,7 @@ pub struct ScriptError {
     /// Which line, from 1.
     pub line: usize,
     /// Why.
-    pub problem: Problem,
+    pub problem: Box<Problem>,
 }
 
 /// The commands of a script, each with its line; empty lines are none.
@@ -27,7 +27,7 @@ pub fn read_commands(name: &str, bytes: &[u8]) -> Result<Vec<(usize, Command)>, 
         .filter(|(_, line)| !line.trim_ascii().is_empty())
         .map(|(line, bytes)| match read_command(&String::from_utf8_lossy(bytes)) {
             Ok(command) => Ok((line, command)),
-            Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem }),
+            Err(problem) => Err(ScriptError { name: name.to_owned(), line, problem: Box::new(problem) }),
         })
         .collect()
 }

@@ -24,7 +24,7 @@ use std::{collections::VecDeque, sync::Arc};
 
 use espalier_growth::{Parameters, Simulation};
 use espalier_plant::{MetamerId, Plant, hash::StableHash};
-use espalier_proto::{Action, Command, Position, Problem, ProblemCode, version::MAX_OUTLINE_STEPS};
+use espalier_proto::{Action, Command, Position, Problem, Reason, version::MAX_OUTLINE_STEPS};
 use espalier_settings::{Appearance, ParameterValues};
 
 pub(crate) use self::bytes::{Container, Reader, SESSION, Writer};
@@ -48,7 +48,7 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::{cause::Cause, schedule::GrowthSchedule};
+use crate::{cause::Cause, form, schedule::GrowthSchedule};
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
@@ -282,13 +282,11 @@ impl Document {
     }
 
     fn plant_seed(&mut self, cause: Cause<'_>, position: Position) -> Result<(), Problem> {
-        let position = position.get();
-        if position.y != 0.0 {
-            return Err(Problem::out_of_range("position[1]", position.y, "0, the ground"));
-        }
+        let position = form::on_ground(position)?;
         if self.simulation.scene().is_solid(position) {
             let value = format!("{position}, in an obstacle");
-            return Err(Problem::out_of_range("position", value, "a place outside all obstacles"));
+            let problem = Problem::out_of_range("position", value, "a place outside all obstacles");
+            return Err(Problem { reason: Reason::InObstacle, ..problem });
         }
         self.require_room()?;
         self.record(Kind::Seed, cause);
@@ -313,14 +311,10 @@ impl Document {
 fn wood_of(plant: &Plant, field: &str, row: u32) -> Result<MetamerId, Problem> {
     let is_known = (row as usize) < plant.metamer_count();
     let metamer = is_known.then(|| MetamerId::new(row as usize));
-    metamer.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).ok_or_else(|| Problem {
-        code: ProblemCode::NotFound,
-        field: Some(field.to_owned()),
-        allowed: Some("the row of a living metamer".into()),
-        message: format!("there is no living metamer with row {row}"),
-    })
+    metamer.filter(|&id| plant.is_alive(id) && !plant.is_seed(id)).ok_or_else(|| branch_gone(field, row))
 }
 
-fn refused(message: impl Into<String>) -> Problem {
-    Problem::new(ProblemCode::Refused, message)
+fn branch_gone(field: &str, row: u32) -> Problem {
+    Problem::new(Reason::BranchGone, format!("there is no living metamer with row {row}"))
+        .at(field, "the row of a living metamer")
 }

@@ -1,7 +1,8 @@
 //! What a command's form must be beyond what its type says: parameters and looks in range, meshes that are solid.
 
-use espalier_proto::{Action, Command, Problem};
+use espalier_proto::{Action, Command, Position, Problem, Reason};
 use espalier_settings::{ParameterValues, ParametersPatch};
+use glam::Vec3;
 
 use crate::{appearance::AppearanceChange, obstacle::Obstacle, schedule::Plan};
 
@@ -17,6 +18,16 @@ pub fn read_command(text: &str) -> Result<Command, Problem> {
     let command = Command::from_json(text)?;
     check(&command.action)?;
     Ok(command)
+}
+
+/// The place of a seed.
+pub(crate) fn on_ground(position: Position) -> Result<Vec3, Problem> {
+    let place = position.get();
+    if place.y == 0.0 {
+        return Ok(place);
+    }
+    let problem = Problem::out_of_range("position[1]", place.y, "0, the ground");
+    Err(Problem { reason: Reason::OffGround, ..problem })
 }
 
 /// Checks what the type of an action leaves open.

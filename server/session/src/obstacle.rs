@@ -5,7 +5,7 @@ use std::sync::Arc;
 use espalier_growth::{Obstacle as Solid, ObstacleError, Shape as Space, TriangleMesh};
 pub use espalier_proto::Mesh;
 use espalier_proto::{
-    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose as WirePose, Position, Problem, ProblemCode,
+    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose as WirePose, Position, Problem, Reason,
     Shape, UnitRotation,
 };
 use glam::{Quat, Vec3};
@@ -154,10 +154,11 @@ impl Form {
 }
 
 fn unfit(field: &str, error: &ObstacleError) -> Problem {
-    Problem {
-        code: ProblemCode::OutOfRange,
-        field: Some(field.into()),
-        allowed: Some("a shape with a surface".into()),
-        message: format!("the shape cannot be an obstacle: {error}"),
-    }
+    let reason = match error {
+        ObstacleError::EmptyMesh => Reason::EmptyMesh,
+        ObstacleError::TooManyTriangles(_) => Reason::LargeMesh,
+        _ => Reason::NoSurface,
+    };
+    Problem::new(reason, format!("the shape cannot be an obstacle: {error}"))
+        .at(field, "a shape with a surface")
 }

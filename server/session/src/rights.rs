@@ -3,7 +3,7 @@
 
 use std::{fmt, sync::Arc};
 
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, Reason};
 
 use crate::principal::Principal;
 
@@ -47,5 +47,5 @@ impl fmt::Debug for Rights {
 
 /// The refusal of what a principal may not do.
 pub fn forbidden() -> Problem {
-    Problem::new(ProblemCode::Refused, "You may not do this here.")
+    Problem::new(Reason::Forbidden, "You may not do this here.")
 }

@@ -14,8 +14,8 @@ use std::{
 };
 
 use espalier_proto::{
-    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, ProblemCode, Programme, ServerMessage,
-    Timeline, Unreadable, WidthConstraint,
+    ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason, ServerMessage, Timeline,
+    Unreadable, WidthConstraint,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -334,7 +334,7 @@ impl Session {
             }
             Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
             Ok(ClientMessage::Hello { .. }) => {
-                let problem = Problem::new(ProblemCode::Malformed, "hello is only the first message");
+                let problem = Problem::new(Reason::Malformed, "hello is only the first message");
                 self.send(client, &ServerMessage::Problem { problem });
             }
             Err(Unreadable { id: Some(id), problem }) => {
@@ -358,7 +358,7 @@ impl Session {
     fn read_binary(&mut self, client: ClientId) {
         match self.clients.get(&client) {
             Some(Client { connected: Some(_), .. }) => {
-                let problem = Problem::new(ProblemCode::Malformed, "clients send no binary messages");
+                let problem = Problem::new(Reason::Malformed, "clients send no binary messages");
                 self.send(client, &ServerMessage::Problem { problem });
             }
             Some(_) => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),

@@ -104,7 +104,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
             bench.act(AUTHOR, command).map_err(|problem| ScriptError {
                 name: name.clone(),
                 line: *line,
-                problem,
+                problem: Box::new(problem),
             })?;
         }
         Ok::<_, HeadlessError>(bench)

@@ -33,7 +33,7 @@ pub(super) async fn file(uri: Uri, headers: HeaderMap) -> Response {
 
 fn answer(path: &str, headers: &HeaderMap) -> Response {
     let Ok(index) = FILES.binary_search_by(|file| file.path.cmp(path)) else {
-        return Failure::not_found("address").into_response();
+        return Failure::none_such("address").into_response();
     };
     let file = &FILES[index];
     let mut response = Response::new(Body::empty());

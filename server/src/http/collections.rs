@@ -45,7 +45,7 @@ pub(super) async fn change(
     };
     shared.store.change_collection(&id, change).await?;
     let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
-    found.map(|found| Json(to_proto(found))).ok_or_else(|| Failure::not_found("collection"))
+    found.map(|found| Json(to_proto(found))).ok_or_else(|| Failure::none_such("collection"))
 }
 
 pub(super) async fn delete(

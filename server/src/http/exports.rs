@@ -18,7 +18,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
-    Problem, ProblemCode,
+    Problem, Reason,
     library::{ExportFormat, ExportProgress},
 };
 use futures_util::stream;
@@ -91,7 +91,7 @@ pub(super) async fn progress(
     Path((_, ticket)): Path<(String, String)>,
 ) -> Result<Json<ExportProgress>, Failure> {
     let found = shared.progresses.lock().get(&ticket).cloned();
-    let found = found.ok_or_else(|| Failure::not_found("export"))?;
+    let found = found.ok_or_else(|| Failure::none_such("export"))?;
     let written = found.written.load(Ordering::Relaxed);
     let expected = found.expected.load(Ordering::Relaxed).max(written);
     Ok(Json(ExportProgress { written, expected }))
@@ -128,7 +128,7 @@ pub(super) async fn take(
         Ok(Ok(length)) => length,
         Ok(Err(error)) => {
             tracing::error!(session, %error, "a document cannot be exported");
-            return Err(Failure::unavailable("The tree cannot be exported."));
+            return Err(Failure::new(Reason::NotExported, "The tree cannot be exported."));
         }
         Err(_) => return Err(crate::pool::Panicked.into()),
     };
@@ -174,10 +174,6 @@ fn send(mut file: impl Read, pieces: &mpsc::Sender<io::Result<Bytes>>) {
 
 fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
     let allowed = if row.options.is_empty() { "no option".to_owned() } else { row.options.join(", ") };
-    Problem {
-        field: Some(error.0.to_owned()),
-        message: format!("The export cannot be done: {error}; allowed: {allowed}."),
-        allowed: Some(allowed),
-        code: ProblemCode::OutOfRange,
-    }
+    let message = format!("The export cannot be done: {error}; allowed: {allowed}.");
+    Problem::new(Reason::NoSuchOption, message).at(error.0, allowed)
 }

@@ -7,7 +7,7 @@ use axum::{
     http::{HeaderMap, StatusCode, header, request::Parts},
     response::{IntoResponse, Response},
 };
-use espalier_proto::{Problem, ProblemCode, reading};
+use espalier_proto::{Problem, ProblemCode, Reason, reading};
 use serde::de::DeserializeOwned;
 
 use crate::{
@@ -24,61 +24,48 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    pub(super) fn not_found(what: &str) -> Self {
-        Problem::new(ProblemCode::NotFound, format!("There is no such {what}.")).into()
+    pub(super) fn new(reason: Reason, sentence: impl Into<String>) -> Self {
+        Problem::new(reason, sentence).into()
     }
 
-    pub(super) fn unavailable(sentence: &str) -> Self {
-        Problem::new(ProblemCode::Unavailable, sentence).into()
+    /// There is no such thing at this address.
+    pub(super) fn none_such(what: &str) -> Self {
+        Self::new(Reason::NoneSuch, format!("There is no such {what}."))
     }
 
-    pub(super) fn conflict(sentence: impl Into<String>) -> Self {
-        Problem::new(ProblemCode::Refused, sentence).into()
+    pub(super) fn no_tree(more: &str) -> Self {
+        Self::new(Reason::NoTree, format!("There is no such tree{more}."))
     }
 
-    pub(super) fn forbidden() -> Self {
-        Self { status: StatusCode::FORBIDDEN, problem: espalier_session::forbidden() }
+    pub(super) fn no_session() -> Self {
+        Self::new(Reason::NoSession, "There is no such session.")
     }
 
     /// A file of which so many bytes are taken did not arrive.
     pub(super) fn unread(rejection: &BytesRejection, most: usize) -> Self {
         if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
             let allowed = format!("{} MiB", most >> 20);
-            let sentence = format!("The file is larger than {allowed}.");
-            return Self::too_large(None, &allowed, sentence);
+            let problem = Problem::new(Reason::LargeFile, format!("The file is larger than {allowed}."));
+            return Problem { allowed: Some(allowed), ..problem }.into();
         }
-        Problem::new(ProblemCode::Malformed, "The file did not arrive whole.").into()
-    }
-
-    fn too_large(field: Option<&str>, allowed: &str, sentence: String) -> Self {
-        let problem = Problem {
-            code: ProblemCode::TooMany,
-            field: field.map(str::to_owned),
-            allowed: Some(allowed.to_owned()),
-            message: sentence,
-        };
-        Self { status: StatusCode::PAYLOAD_TOO_LARGE, problem }
-    }
-
-    /// A thumbnail that is none, or too large.
-    pub(super) fn of_thumbnail(problem: Problem) -> Self {
-        match problem.code {
-            ProblemCode::TooMany => Self { status: StatusCode::PAYLOAD_TOO_LARGE, problem },
-            _ => problem.into(),
-        }
+        Self::new(Reason::FileCutOff, "The file did not arrive whole.")
     }
 }
 
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
-        let status = match problem.code {
-            ProblemCode::Malformed | ProblemCode::OutOfRange | ProblemCode::TooMany => {
+        let status = match (problem.reason, problem.code) {
+            (Reason::Forbidden, _) => StatusCode::FORBIDDEN,
+            (Reason::LargeFile | Reason::LargeRequest | Reason::LargeThumbnail, _) => {
+                StatusCode::PAYLOAD_TOO_LARGE
+            }
+            (_, ProblemCode::Malformed | ProblemCode::OutOfRange | ProblemCode::TooMany) => {
                 StatusCode::BAD_REQUEST
             }
-            ProblemCode::Refused => StatusCode::CONFLICT,
-            ProblemCode::NotFound => StatusCode::NOT_FOUND,
-            ProblemCode::Stale => StatusCode::PRECONDITION_FAILED,
-            ProblemCode::Unavailable => StatusCode::SERVICE_UNAVAILABLE,
+            (_, ProblemCode::Refused) => StatusCode::CONFLICT,
+            (_, ProblemCode::NotFound) => StatusCode::NOT_FOUND,
+            (_, ProblemCode::Stale) => StatusCode::PRECONDITION_FAILED,
+            (_, ProblemCode::Unavailable) => StatusCode::SERVICE_UNAVAILABLE,
         };
         Self { status, problem }
     }
@@ -87,36 +74,40 @@ impl From<Problem> for Failure {
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
         match error {
-            StoreError::NotFound => return Self::not_found("tree, version or collection"),
+            StoreError::NotFound => return Self::no_tree(", version or collection"),
             StoreError::Stale => {
                 let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
-                return Problem::new(ProblemCode::Stale, sentence).into();
+                return Self::new(Reason::Stale, sentence);
             }
-            StoreError::Cycle => return Self::conflict("A collection cannot lie in itself."),
+            StoreError::Cycle => {
+                return Self::new(Reason::CollectionInItself, "A collection cannot lie in itself.");
+            }
             StoreError::Gone(_) => {
                 tracing::error!(%error, "the store failed");
-                return Self::unavailable(
+                return Self::new(
+                    Reason::DatabaseGone,
                     "The server's database file has been moved, deleted or replaced; nothing was changed.",
                 );
             }
             _ => {}
         }
         tracing::error!(%error, "the store failed");
-        Self::unavailable("The server cannot use its database now; nothing was changed. Is its disk full?")
+        let sentence = "The server cannot use its database now; nothing was changed. Is its disk full?";
+        Self::new(Reason::DatabaseFailed, sentence)
     }
 }
 
 impl From<OpenError> for Failure {
     fn from(error: OpenError) -> Self {
         match error {
-            OpenError::Stopping => Self::unavailable("The server is stopping."),
-            error if error.is_final() => {
-                tracing::error!(%error, "a session cannot be opened");
-                Self::conflict(error.to_string())
-            }
-            error => {
+            OpenError::Store(_) => {
                 tracing::error!(%error, "a session could not be opened");
-                Self::unavailable("The session cannot be opened now.")
+                Self::new(Reason::NotOpened, "The session cannot be opened now.")
+            }
+            OpenError::Stopping => error.problem().into(),
+            error => {
+                tracing::error!(%error, "a session cannot be opened");
+                error.problem().into()
             }
         }
     }
@@ -124,14 +115,14 @@ impl From<OpenError> for Failure {
 
 impl From<Ended> for Failure {
     fn from(Ended: Ended) -> Self {
-        Self::unavailable("The session has just ended; try again.")
+        Self::new(Reason::SessionEnded, "The session has just ended; try again.")
     }
 }
 
 impl From<Panicked> for Failure {
     fn from(error: Panicked) -> Self {
         tracing::error!(%error, "a request failed");
-        Self::unavailable("The server failed to compute this; nothing was changed.")
+        Self::new(Reason::Failed, "The server failed to compute this; nothing was changed.")
     }
 }
 
@@ -150,16 +141,15 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
 
     async fn from_request(request: Request, state: &S) -> Result<Self, Failure> {
         if !is_json(request.headers()) {
-            let allowed = Some("application/json".into());
-            let problem = Problem::new(ProblemCode::Malformed, "The request must be application/json.");
-            return Err(Problem { allowed, ..problem }.into());
+            let problem = Problem::new(Reason::Malformed, "The request must be application/json.");
+            return Err(problem.at("content-type", "application/json").into());
         }
         let bytes = Bytes::from_request(request, state).await.map_err(|rejection| {
             if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-                return Failure::too_large(None, "a smaller body", "The request is too large.".into());
+                let problem = Problem::new(Reason::LargeRequest, "The request is too large.");
+                return Problem { allowed: Some("a smaller body".into()), ..problem }.into();
             }
-            Problem::new(ProblemCode::Malformed, "The request cannot be read: it did not arrive whole.")
-                .into()
+            Failure::new(Reason::Malformed, "The request cannot be read: it did not arrive whole.")
         })?;
         // Bytes that are no text are no JSON, and the reader says so.
         Ok(Self(reading::from_json(&String::from_utf8_lossy(&bytes))?))
@@ -185,7 +175,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
 }
 
 pub(super) async fn unknown_route() -> Failure {
-    Failure::not_found("address")
+    Failure::none_such("address")
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
 
 use super::failure::Failure;
@@ -55,7 +55,7 @@ pub(super) async fn headers(mut response: Response) -> Response {
 pub(super) async fn time_limit(request: Request, next: Next) -> Response {
     match tokio::time::timeout(TIME_LIMIT, next.run(request)).await {
         Ok(response) => response,
-        Err(_) => Failure::unavailable("The request took too long.").into_response(),
+        Err(_) => Failure::new(Reason::Late, "The request took too long.").into_response(),
     }
 }
 
@@ -80,7 +80,7 @@ pub(super) async fn ask(
     let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
     let object = named("session").map(Object::Session).or_else(|| named("tree").map(Object::Tree));
     if !(asked.authority)(&principal, asked.action, object.unwrap_or(Object::Server)) {
-        return Failure::forbidden().into_response();
+        return Failure::from(espalier_session::forbidden()).into_response();
     }
     request.extensions_mut().insert(principal);
     next.run(request).await
@@ -88,9 +88,10 @@ pub(super) async fn ask(
 
 fn principal(headers: &HeaderMap) -> Result<Principal, Problem> {
     let Some(key) = headers.get(CLIENT) else { return Ok(Principal::visitor()) };
-    key.to_str().ok().and_then(Principal::client).ok_or_else(|| {
-        Problem::new(ProblemCode::Malformed, "The request cannot be read: its client key is none.")
-    })
+    key.to_str()
+        .ok()
+        .and_then(Principal::client)
+        .ok_or_else(|| Problem::new(Reason::Malformed, "The request cannot be read: its client key is none."))
 }
 
 /// Another site's page may neither open a socket (browsers allow that across sites) nor change anything here.

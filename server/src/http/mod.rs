@@ -70,7 +70,11 @@ pub struct Shared {
 impl Shared {
     /// Asks for what a request names in its body; its address has been asked for before.
     fn ask(&self, principal: &Principal, action: Action, object: Object<'_>) -> Result<(), Failure> {
-        if (self.authority)(principal, action, object) { Ok(()) } else { Err(Failure::forbidden()) }
+        if (self.authority)(principal, action, object) {
+            Ok(())
+        } else {
+            Err(espalier_session::forbidden().into())
+        }
     }
 }
 

@@ -9,7 +9,7 @@ use axum::{
 };
 use espalier_import::{ImportError, Limits};
 use espalier_proto::{
-    Action, Mesh, Obstacle, Pose, Position, Problem, ProblemCode, Scale, Shape, UnitRotation,
+    Action, Mesh, Obstacle, Pose, Position, Problem, Reason, Scale, Shape, UnitRotation,
     version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
 };
 use espalier_session::Principal;
@@ -30,9 +30,7 @@ pub(super) async fn upload(
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
     let mesh = shared.pool.run(move || mesh_of(&file)).await?;
-    let mesh = mesh.map_err(|error| {
-        Problem::new(ProblemCode::Malformed, format!("The file cannot be an obstacle: {error}."))
-    })?;
+    let mesh = mesh.map_err(|error| no_obstacle(&error))?;
     let scale = Scale::try_from(1.0 / metres)
         .map_err(|fault| Problem::out_of_range("scale", fault.found, fault.allowed))?;
     let shape = Shape::Mesh { mesh, scale };
@@ -40,7 +38,7 @@ pub(super) async fn upload(
     let action = Action::PlaceObstacle { obstacle: Obstacle { shape, pose } };
     match session.act(principal, action.into()).await?? {
         Some(placed) => Ok((StatusCode::CREATED, Json(placed))),
-        None => Err(Failure::unavailable("The obstacle was not placed.")),
+        None => Err(Failure::new(Reason::NotPlaced, "The obstacle was not placed.")),
     }
 }
 
@@ -50,8 +48,22 @@ pub(super) async fn mesh(
     Path((session, obstacle)): Path<(String, u32)>,
 ) -> Result<Response, Failure> {
     let session = sessions::open(&shared, &session).await?;
-    let mesh = session.mesh(obstacle).await?.ok_or_else(|| Failure::not_found("mesh"))?;
+    let mesh = session.mesh(obstacle).await?.ok_or_else(|| Failure::none_such("mesh"))?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
+}
+
+/// Why a file cannot be an obstacle.
+fn no_obstacle(error: &ImportError) -> Problem {
+    let (reason, cause) = match error {
+        ImportError::NotGltf(_) => (Reason::NotGltf, None),
+        ImportError::Version(version) => (Reason::GltfVersion, Some(version.clone())),
+        ImportError::ExternalBuffer(_) => (Reason::GltfBuffers, None),
+        ImportError::Unsupported(what) => (Reason::GltfNeeds, Some(what.clone())),
+        ImportError::Damaged(_) | ImportError::NotFinite => (Reason::GltfDamaged, None),
+        ImportError::Empty => (Reason::EmptyMesh, None),
+        ImportError::TooLarge(_) => (Reason::LargeMesh, None),
+    };
+    Problem { cause, ..Problem::new(reason, format!("The file cannot be an obstacle: {error}.")) }
 }
 
 /// The triangles of a file.

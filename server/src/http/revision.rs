@@ -4,7 +4,7 @@ use axum::{
     extract::FromRequestParts,
     http::{HeaderName, HeaderValue, header, request::Parts},
 };
-use espalier_proto::{Problem, ProblemCode};
+use espalier_proto::{Problem, Reason};
 
 use super::failure::Failure;
 
@@ -31,7 +31,7 @@ impl<S: Sync> FromRequestParts<S> for Expected {
         let revision = number.and_then(|number| number.parse().ok());
         let problem = || Problem {
             allowed: Some("an ETag of the tree, as \"3\"".into()),
-            ..Problem::new(ProblemCode::Malformed, format!("The request cannot be read: If-Match is {text}."))
+            ..Problem::new(Reason::Malformed, format!("The request cannot be read: If-Match is {text}."))
         };
         revision.map(|revision| Self(Some(revision))).ok_or_else(|| problem().into())
     }

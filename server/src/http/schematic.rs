@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use axum::{Json, extract::State, response::IntoResponse};
+use espalier_proto::Reason;
 use espalier_settings::ParameterValues;
 use tokio::time::timeout;
 
@@ -20,7 +21,8 @@ pub(super) async fn draw(
     Body(parameters): Body<ParameterValues>,
 ) -> Result<impl IntoResponse, Failure> {
     let drawn = shared.pool.run(move || espalier_session::schematic(&parameters));
-    let late = |_| Failure::unavailable("The server is busy growing trees; the schematic took too long.");
+    let sentence = "The server is busy growing trees; the schematic took too long.";
+    let late = |_| Failure::new(Reason::Busy, sentence);
     let schematic = timeout(TIME_LIMIT, drawn).await.map_err(late)???;
     Ok(Json(schematic))
 }

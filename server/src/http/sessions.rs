@@ -10,6 +10,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
+    Reason,
     library::{NewSession, SessionCreated, SessionTree},
     version::CloseCode,
 };
@@ -46,7 +47,7 @@ pub(super) async fn create(
     shared.ask(&principal, Action::OpenTree, Object::Tree(&tree))?;
     let stored = trees::stored(&shared, &tree).await?;
     if stored.deleted_at.is_some() {
-        return Err(Failure::not_found("tree any more: it was deleted, and can be taken back"));
+        return Err(Failure::no_tree(" any more: it was deleted, and can be taken back"));
     }
     // Two who open a tree at once come into one session.
     let _one = shared.opening.lock().await;
@@ -110,7 +111,7 @@ pub(super) async fn find(
     if shared.store.has_session(&session).await? {
         Ok(Json(told(&shared, session).await?))
     } else {
-        Err(Failure::not_found("session"))
+        Err(Failure::no_session())
     }
 }
 
@@ -124,7 +125,7 @@ pub(super) async fn socket(
         Err(rejection) => return rejection.into_response(),
     };
     let Some(place) = shared.sessions.place() else {
-        return Failure::unavailable("Too many people are here already.").into_response();
+        return Failure::new(Reason::ManyPeople, "Too many people are here already.").into_response();
     };
     upgrade
         .read_buffer_size(READ_BUFFER)
@@ -144,7 +145,8 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
         Err(error) => {
             tracing::error!(session = name, %error, "a session could not be opened");
             if error.is_final() {
-                return live::turn_away(socket, CloseCode::CannotOpen, &error.to_string()).await;
+                let sentence = error.problem().in_close();
+                return live::turn_away(socket, CloseCode::CannotOpen, &sentence).await;
             }
             let reason = if let OpenError::Store(error) = &error { error.in_words() } else { "try again" };
             let sentence = format!("The session cannot be opened now: {reason}.");
@@ -161,7 +163,7 @@ pub(super) async fn saved_document(
     version: u32,
 ) -> Result<TreeDocument, Failure> {
     match shared.store.document(tree, version).await {
-        Ok(document) => document.ok_or_else(|| Failure::not_found("version")),
+        Ok(document) => document.ok_or_else(|| Failure::none_such("version")),
         Err(StoreError::Damaged(what)) => Err(unreadable(tree, &what)),
         Err(error) => Err(error.into()),
     }
@@ -181,10 +183,10 @@ async fn planted(shared: &Shared, tree: &str, version: u32) -> Result<Vec<u8>, F
 
 fn unreadable(tree: &str, error: &dyn std::fmt::Display) -> Failure {
     tracing::error!(tree, %error, "a saved tree cannot be read");
-    Failure::conflict(format!("The tree cannot be read: {error}."))
+    Failure::new(Reason::TreeDamaged, format!("The tree cannot be read: {error}."))
 }
 
 /// A live session for a request.
 pub(super) async fn open(shared: &Shared, name: &str) -> Result<SessionHandle, Failure> {
-    shared.sessions.open(name).await?.ok_or_else(|| Failure::not_found("session"))
+    shared.sessions.open(name).await?.ok_or_else(Failure::no_session)
 }

@@ -7,7 +7,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_growth::species;
-use espalier_proto::species::Species;
+use espalier_proto::{Reason, species::Species};
 use espalier_session::wire_species;
 
 use super::{Shared, failure::Failure};
@@ -27,9 +27,9 @@ pub(super) async fn picture(
 ) -> Result<Response, Failure> {
     let print = shared.portraits.of(&slug, &shared.pool).await.map_err(|error| {
         tracing::error!(slug, %error, "a species cannot be drawn");
-        Failure::unavailable("The picture cannot be drawn.")
+        Failure::new(Reason::NotDrawn, "The picture cannot be drawn.")
     })?;
-    let print = print.ok_or_else(|| Failure::not_found("species"))?;
+    let print = print.ok_or_else(|| Failure::none_such("species"))?;
     let headers = [(header::ETAG, print.tag.clone()), (header::CACHE_CONTROL, CACHE.to_owned())];
     let known = asked.get(header::IF_NONE_MATCH).and_then(|tags| tags.to_str().ok());
     let is_known = known.is_some_and(|tags| tags.split(',').any(|tag| tag.trim() == print.tag));

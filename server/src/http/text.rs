@@ -1,7 +1,7 @@
 //! Names and notes that people give.
 
 use espalier_proto::{
-    Problem,
+    Problem, Reason,
     version::{MAX_NAME_CHARACTERS, MAX_NOTE_CHARACTERS},
 };
 use unicode_properties::{GeneralCategory, UnicodeGeneralCategory};
@@ -15,10 +15,13 @@ pub(super) fn name(field: &str, text: &str) -> Result<String, Problem> {
     let length = name.chars().count();
     if !(1..=MAX_NAME_CHARACTERS).contains(&length) {
         let value = format!("{length} characters long");
-        return Err(Problem::out_of_range(field, value, format!("1 to {MAX_NAME_CHARACTERS} characters")));
+        return Err(Problem {
+            reason: Reason::TextLength,
+            ..Problem::out_of_range(field, value, format!("1 to {MAX_NAME_CHARACTERS} characters"))
+        });
     }
     if name.chars().any(misleads) || !name.chars().any(is_seen) {
-        return Err(Problem::out_of_range(field, "not plain text", "characters one can see"));
+        return Err(unseen(field, "characters one can see"));
     }
     Ok(name.to_owned())
 }
@@ -29,12 +32,19 @@ pub(super) fn note(text: &str) -> Result<String, Problem> {
     let length = note.chars().count();
     if length > MAX_NOTE_CHARACTERS {
         let value = format!("{length} characters long");
-        return Err(Problem::out_of_range("note", value, format!("up to {MAX_NOTE_CHARACTERS} characters")));
+        return Err(Problem {
+            reason: Reason::TextLength,
+            ..Problem::out_of_range("note", value, format!("0 to {MAX_NOTE_CHARACTERS} characters"))
+        });
     }
     if note.chars().any(|letter| misleads(letter) && !matches!(letter, '\n' | '\r' | '\t')) {
-        return Err(Problem::out_of_range("note", "not plain text", "characters one can see, and new lines"));
+        return Err(unseen("note", "characters one can see, and new lines"));
     }
     Ok(note.to_owned())
+}
+
+fn unseen(field: &str, allowed: &str) -> Problem {
+    Problem { reason: Reason::TextUnseen, ..Problem::out_of_range(field, "not plain text", allowed) }
 }
 
 /// Whether a character controls how others are shown: a new line, or the direction of writing.

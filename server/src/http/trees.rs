@@ -10,7 +10,7 @@ use axum::{
 };
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
-    Problem, ProblemCode,
+    Problem, Reason,
     library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
     version::MAX_TAGS,
 };
@@ -103,11 +103,9 @@ impl Page {
         let tags: Vec<String> = tags.map(str::to_owned).collect();
         for (field, count) in [("q", words.len()), ("tags", tags.len())] {
             if count > MAX_WORDS {
-                return Err(Problem::out_of_range(
-                    field,
-                    format!("{count} words"),
-                    format!("up to {MAX_WORDS} words"),
-                ));
+                let allowed = format!("up to {MAX_WORDS} words");
+                let problem = Problem::out_of_range(field, format!("{count} words"), allowed);
+                return Err(Problem { reason: Reason::ManyWords, ..problem });
             }
         }
         let whoever = || Some(principal.to_string());
@@ -174,10 +172,9 @@ fn read_place(text: &str) -> Result<TreePlace, Problem> {
     let read = bytes.and_then(|bytes| String::from_utf8(bytes).ok());
     let parts = read.as_deref().and_then(|read| read.split_once('\0'));
     let place = parts.map(|(id, value)| TreePlace { id: id.to_owned(), value: value.to_owned() });
-    place.ok_or_else(|| Problem {
-        field: Some("after".into()),
-        allowed: Some("the next of the page before".into()),
-        ..Problem::new(ProblemCode::Malformed, "after is not the next of a page")
+    place.ok_or_else(|| {
+        Problem::new(Reason::Malformed, "after is not the next of a page")
+            .at("after", "the next of the page before")
     })
 }
 
@@ -251,16 +248,17 @@ pub(super) async fn change(
 
 fn parse_tags(tags: &[String]) -> Result<Vec<String>, Problem> {
     if tags.len() > MAX_TAGS {
-        return Err(Problem::out_of_range(
-            "tags",
-            format!("{} tags", tags.len()),
-            format!("up to {MAX_TAGS} tags"),
-        ));
+        let (found, allowed) = (format!("{} tags", tags.len()), format!("up to {MAX_TAGS} tags"));
+        let problem = Problem::out_of_range("tags", found, allowed);
+        return Err(Problem { reason: Reason::ManyTags, ..problem });
     }
     let parse = |(number, tag): (usize, &String)| {
         let field = format!("tags[{number}]");
         match text::name(&field, tag)? {
-            tag if tag.contains(',') => Err(Problem::out_of_range(field, "two tags", "no comma")),
+            tag if tag.contains(',') => {
+                let problem = Problem::out_of_range(field, "two tags", "no comma");
+                Err(Problem { reason: Reason::TagComma, ..problem })
+            }
             tag => Ok(tag),
         }
     };
@@ -305,7 +303,7 @@ async fn answer(
 }
 
 pub(super) async fn stored(shared: &Shared, id: &str) -> Result<StoredTree, Failure> {
-    shared.store.tree(id).await?.ok_or_else(|| Failure::not_found("tree"))
+    shared.store.tree(id).await?.ok_or_else(|| Failure::no_tree(""))
 }
 
 /// How many people are working on a tree: those in the session it was saved from last, unless that has become another

@@ -70,8 +70,7 @@ pub(super) async fn read(
     saving: Saving,
 ) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
-    let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose();
-    let thumbnail = thumbnail.map_err(Failure::of_thumbnail)?;
+    let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose()?;
     let said = Said::parse(author.as_deref(), note.as_deref())?;
     shared.ask(principal, Action::TakeTree, Object::Session(&session))?;
     let read = sessions::open(shared, &session).await?.read().await?;
@@ -155,7 +154,7 @@ pub(super) async fn change(
 async fn version_of(shared: &Shared, tree: &str, number: u32) -> Result<TreeVersion, Failure> {
     let found = shared.store.versions(tree, 1, Some(number.saturating_add(1))).await?.pop();
     let found = found.filter(|version| version.number == number);
-    found.map(|version| to_proto(tree, version)).ok_or_else(|| Failure::not_found("version"))
+    found.map(|version| to_proto(tree, version)).ok_or_else(|| Failure::none_such("version"))
 }
 
 pub(super) async fn document(
@@ -176,7 +175,7 @@ pub(super) async fn thumbnail(
     Path((tree, number)): Path<(String, u32)>,
 ) -> Result<impl IntoResponse, Failure> {
     let picture =
-        shared.store.thumbnail(&tree, number).await?.ok_or_else(|| Failure::not_found("picture"))?;
+        shared.store.thumbnail(&tree, number).await?.ok_or_else(|| Failure::none_such("picture"))?;
     let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
     Ok((headers, picture.bytes))
 }

@@ -1,6 +1,6 @@
 //! Restoring a session from what is stored of it: which snapshot, what was damaged, what people are notified of.
 
-use espalier_proto::Notice;
+use espalier_proto::{Notice, Problem, Reason};
 use espalier_session::{DocumentError, JournalEntry, RestoreError, Session};
 
 use super::actor::Services;
@@ -37,6 +37,17 @@ impl OpenError {
     /// Whether an older snapshot may serve. Going on from one would grow another tree than a newer program did.
     fn is_of_snapshot(&self) -> bool {
         matches!(self, Self::Restore(_) | Self::Panicked(_))
+    }
+
+    /// The same for clients.
+    pub fn problem(&self) -> Problem {
+        let reason = match self {
+            Self::Store(_) => Reason::NotOpened,
+            Self::Damaged(_) | Self::Restore(_) | Self::Panicked(_) => Reason::SessionDamaged,
+            Self::Later(_) => Reason::NewerProgram,
+            Self::Stopping => Reason::Stopping,
+        };
+        Problem::new(reason, self.to_string())
     }
 
     /// Whether asking again is of no use.

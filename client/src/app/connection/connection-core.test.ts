@@ -234,7 +234,7 @@ describe("commands", () => {
     connect();
     core.submit(undo);
     core.effects();
-    const problem = { code: "refused", message: "There is nothing to undo." } as const;
+    const problem = { code: "refused", reason: "nothing-to-undo", message: "There is nothing to undo." } as const;
     core.message(1, { type: "refused", id: 1, problem });
     core.message(1, { type: "refused", id: 1, problem });
     expect(core.effects()).toEqual([{ kind: "refused", problem, command: undo }]);
@@ -245,7 +245,11 @@ describe("commands", () => {
     const { core, connect, reconnect } = setUp();
     connect();
     core.submit(undo);
-    core.message(1, { type: "refused", id: 1, problem: { code: "out_of_range", message: "No." } });
+    core.message(1, {
+      type: "refused",
+      id: 1,
+      problem: { code: "out_of_range", reason: "out-of-range", message: "No." },
+    });
     core.submit(undo);
     core.closed(2, 1006);
     core.effects();

@@ -234,7 +234,7 @@ describe("what is in the way", () => {
   it("HS6: a session that cannot be opened, with the reason", async () => {
     const { link, hindrance, lastSession, newest, clock } = setUp("/s/oak");
     await link.start();
-    newest().end(CloseCode.CannotOpen, "The session is damaged: 7.");
+    newest().end(CloseCode.CannotOpen, "session-damaged: The session is damaged: 7.");
     clock.pass(600_000);
     expect(hindrance.peek()).toBe("cannot-open");
     await vi.waitFor(() => expect(link.refusal.peek()).toBe("The record of this tree is damaged."));

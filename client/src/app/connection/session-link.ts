@@ -7,7 +7,7 @@ import type { Clock } from "../page/clock";
 import type { Hindrance } from "../page/hindrance";
 import type { PageEvents } from "../page/page-life";
 import { explained } from "../problems/explained";
-import { RequestFailed } from "../requests/request";
+import { turnedAway } from "../requests/request";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { Connection, type ConnectionEvents, type Socket } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
@@ -254,8 +254,8 @@ export class SessionLink implements PageEvents {
           });
           events.settled(settled);
         },
-        cannotOpen: async (message) => {
-          this.refusal.value = await explained(new RequestFailed(409, { code: "refused", message }));
+        cannotOpen: async (text) => {
+          this.refusal.value = await explained(turnedAway(text));
         },
         reload: () => {
           if (mayReload(page.store, Date.now())) {

@@ -18,7 +18,7 @@ function library() {
       stop?.throwIfAborted();
     }
     if (path.includes("bad")) {
-      throw refusal(400, { code: "malformed", message: "The file cannot become a tree: line 3: no radius." });
+      throw refusal(400, { code: "malformed", reason: "not-a-tree-file", cause: "line 3: no radius", message: "No." });
     }
     return savedTree({ id: `${sent.length}`, name: new URLSearchParams(path.split("?")[1]).get("name") ?? "" });
   });

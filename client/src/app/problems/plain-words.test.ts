@@ -1,48 +1,68 @@
-import { describe, expect, it } from "vitest";
-import { RequestFailed } from "../requests/request";
+import { afterEach, describe, expect, it } from "vitest";
+import { RequestFailed, turnedAway } from "../requests/request";
 import { language } from "../words/say";
 import { noticed, plainly, sentence } from "./plain-words";
 
+afterEach(() => {
+  language.value = "en";
+});
+
 describe("plain words", () => {
-  it("say that a branch is gone", () => {
-    for (const field of ["row", "rows[3]", "onto", "base", "touches[0]"]) {
-      const message = "there is no living metamer with row 152";
-      expect(plainly({ code: "not_found", field, message })).toMatch(/^That branch is gone/);
-    }
-    expect(plainly({ code: "not_found", field: "future", message: "there is no future 4" })).toMatch(/future/);
-  });
-
-  it("name no rows, and are a sentence", () => {
-    const problem = { code: "refused", message: "row 7 is the foot of a trunk, which cannot be turned" } as const;
-    expect(plainly(problem)).toBe("That branch is the foot of a trunk, which cannot be turned.");
-  });
-
-  it("known sentences are shown in the language of the page", () => {
+  it("are those of the reason, whatever the sentence says", () => {
+    const problem = { code: "not_found", reason: "branch-gone", field: "rows[3]", message: "no row 152" } as const;
+    expect(plainly(problem)).toMatch(/^That branch is gone/);
     language.value = "de";
-    try {
-      expect(plainly({ code: "refused", message: "there is nothing to undo" })).toMatch(/rückgängig/);
-      const many = "the scene has 64 obstacles; remove one first";
-      expect(plainly({ code: "refused", message: many })).toMatch(/64 Hindernisse/);
-      expect(plainly({ code: "out_of_range", allowed: "0 to 40", message: "radius is 50" })).toMatch(/0 bis 40/);
-      expect(plainly({ code: "refused", message: "the moon is full" })).toBe("The moon is full.");
-    } finally {
-      language.value = "en";
-    }
+    expect(plainly({ code: "refused", reason: "nothing-to-undo", message: "x" })).toMatch(/rückgängig/);
   });
 
-  it("what a request came to is shown like any other problem", () => {
-    const failed = new RequestFailed(409, { code: "refused", message: "there is nothing to redo" });
+  it("tell what is allowed", () => {
     language.value = "de";
-    try {
-      expect(sentence(failed)).toMatch(/wiederholen/);
-    } finally {
-      language.value = "en";
-    }
+    const full = { code: "refused", reason: "obstacles-full", allowed: "up to 64 obstacles", message: "x" } as const;
+    expect(plainly(full)).toMatch(/64 Hindernisse/);
+    const long = { code: "out_of_range", reason: "text-length", allowed: "1 to 80 characters", message: "x" } as const;
+    expect(plainly(long)).toMatch(/1 bis 80 Zeichen/);
+    const large = { code: "too_many", reason: "large-file", allowed: "64 MiB", message: "x" } as const;
+    expect(plainly(large)).toBe("Die Datei ist größer als 64 MiB.");
+  });
+
+  it("tell a range in the language of the page, and nothing of what is no range", () => {
+    const message = "radius is -50.5; allowed: -4.5 to 40";
+    const problem = { code: "out_of_range", reason: "out-of-range", allowed: "-4.5 to 40", message } as const;
+    expect(plainly(problem)).toBe("Radius is -50.5; allowed: -4.5 to 40.");
+    language.value = "de";
+    expect(plainly(problem)).toMatch(/-4.5 bis 40/);
+    expect(plainly({ ...problem, allowed: "a row, 40 metamers up at most" })).toBe("Dieser Wert ist nicht möglich.");
+  });
+
+  it("are better ones for a field that has such", () => {
+    const problem = { code: "too_many", reason: "too-many", message: "x" } as const;
+    expect(plainly({ ...problem, field: "outline" })).toMatch(/^This outline/);
+    expect(plainly({ ...problem, field: "samples" })).toMatch(/^That is too much/);
+  });
+
+  it("say what is wrong with a file", () => {
+    const problem = {
+      code: "malformed",
+      reason: "gltf-needs",
+      cause: "KHR_draco_mesh_compression",
+      message: "x",
+    } as const;
+    expect(plainly(problem)).toMatch(/needs KHR_draco_mesh_compression/);
+  });
+
+  it("are the server's own for a reason that the page does not know, without rows", () => {
+    language.value = "de";
+    const problem = { code: "refused", reason: "full-moon" as never, message: "row 7 is under a full moon" } as const;
+    expect(plainly(problem)).toBe("That branch is under a full moon.");
+    expect(plainly({ code: "unavailable", message: "Es ist still." })).toBe("Es ist still.");
+  });
+
+  it("are found for requests, closed sockets and errors", () => {
+    const problem = { code: "refused", reason: "nothing-to-redo", message: "x" } as const;
+    expect(sentence(new RequestFailed(409, problem))).toBe("There is nothing to redo.");
+    expect(sentence(turnedAway("session-damaged: The session is damaged: 7."))).toMatch(/^The record of this tree/);
+    expect(sentence(turnedAway("come again"))).toBe("Come again.");
     expect(sentence(new Error("It broke."))).toBe("It broke.");
-  });
-
-  it("leave sentences as they are", () => {
-    expect(plainly({ code: "refused", message: "There is nothing to undo." })).toBe("There is nothing to undo.");
   });
 
   it("OP4: a notice of damage names the entry from which on the record is missing", () => {
@@ -51,6 +71,5 @@ describe("plain words", () => {
       expect(noticed({ kind: "damaged", entry: 152 })).toMatch(/152/);
       expect(noticed({ kind: "regrown", from: 3, to: 4 })).not.toMatch(/[{}]/);
     }
-    language.value = "en";
   });
 });

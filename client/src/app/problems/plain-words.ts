@@ -1,40 +1,27 @@
-import type { Notice, Problem } from "../../wire/generated";
-import { RequestFailed } from "../requests/request";
+import type { Notice } from "../../wire/generated";
+import { RequestFailed, type Trouble } from "../requests/request";
 import { type Key, language, say } from "../words/say";
-import { ALLOWED, REFUSALS } from "./refusal-table";
-
-/** Fields that name wood by its rows, which a person does not. */
-const WOOD = /^(row|onto|base|touches)/;
 
 /** The sentence that a user reads about a problem: in their language and without numbers of rows. */
-export function plainly({ code, field, allowed, message }: Problem): string {
-  if (code === "not_found" && WOOD.test(field ?? "")) {
-    return say("problems.branch-gone");
+export function plainly({ reason, field = "", allowed = "", cause = "", message }: Trouble): string {
+  const [least, most = least] = allowed.match(/-?\d+(\.\d+)?/g) ?? [];
+  const isRange = /^-?[\d.]+ to /.test(allowed);
+  if (reason === "out-of-range" && (language.value === "en" || !isRange)) {
+    return language.value === "en" ? asSentence(message) : say("problems.impossible");
   }
-  const known = matched(REFUSALS, message);
-  if (known !== null) {
-    return known;
-  }
-  if (code === "malformed") {
-    return say("problems.page");
-  }
-  if (code === "out_of_range" && language.value !== "en") {
-    const words = matched(ALLOWED, allowed ?? "");
-    return words === null ? say("problems.out-of-range") : say("problems.out-of-range.allowed", { allowed: words });
-  }
-  const words = message.replace(/\brow \d+\b/g, "that branch");
-  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
-}
-
-/** The words of the first entry that a text matches; null if none does. */
-function matched(table: readonly (readonly [RegExp, Key])[], text: string): string | null {
-  for (const [pattern, key] of table) {
-    const match = pattern.exec(text);
-    if (match) {
-      return say(key, match.groups);
+  const part = field.split(".").at(-1);
+  for (const key of [`problems.${reason}.${part}`, `problems.${reason}`] as Key[]) {
+    const words = say(key, { least: `${least}`, most: `${most}`, allowed, cause });
+    if (words !== key) {
+      return words;
     }
   }
-  return null;
+  return asSentence(message);
+}
+
+function asSentence(message: string): string {
+  const words = message.replace(/\brow \d+\b/g, "that branch");
+  return `${words.charAt(0).toUpperCase()}${words.slice(1)}${/[.!?]$/.test(words) ? "" : "."}`;
 }
 
 /** The sentence that a user reads about an error. */

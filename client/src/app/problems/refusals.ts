@@ -29,7 +29,7 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
   if (command?.kind.endsWith("_obstacle")) {
     page.obstacles.refused(command);
   }
-  if (problem.code === "not_found" && problem.field === "bud") {
+  if (problem.reason === "branch-gone" && problem.field === "bud") {
     // It was shed, or someone went back to before it grew.
     page.tools.abandon();
     if (page.bud.row.peek() !== null) {
@@ -38,7 +38,7 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     }
     return;
   }
-  if (problem.code === "not_found" && problem.field === "stroke") {
+  if (problem.reason === "stroke-gone") {
     // Someone went back in time, which ends every stroke; what was still in progress of this one is refused.
     if (page.tools.drawing.peek()) {
       page.toasts.show(say("notices.stroke-ended"));
@@ -46,7 +46,7 @@ export function refused(page: RefusalTargets, problem: Problem, command?: Comman
     page.tools.abandon();
     return;
   }
-  if (problem.code === "not_found" && problem.field === "bend") {
+  if (problem.reason === "bend-gone") {
     // What was still in progress of a bend that was refused or given up says nothing new.
     return;
   }

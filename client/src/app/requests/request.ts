@@ -1,14 +1,17 @@
-import type { Problem } from "../../wire/generated";
+import type { Problem, Reason } from "../../wire/generated";
 import { say } from "../words/say";
 import { principal } from "./principal";
 
+/** A problem of the server's, or one of the page's own, which has its words and needs no reason. */
+export type Trouble = Omit<Problem, "reason"> & { readonly reason?: Reason };
+
 /** A request the server refused, or that never reached it. */
 export class RequestFailed extends Error {
-  readonly problem: Problem;
+  readonly problem: Trouble;
   /** The HTTP status; 0 if there was no answer. */
   readonly status: number;
 
-  constructor(status: number, problem: Problem) {
+  constructor(status: number, problem: Trouble) {
     super(problem.message);
     this.name = "RequestFailed";
     this.status = status;
@@ -67,16 +70,22 @@ export function refusal(status: number, json: unknown): RequestFailed {
   return new RequestFailed(status, asProblem(json) ?? unexplained(status));
 }
 
+/** What the reason of a close says (`HS6`): a reason, a colon and a sentence. */
+export function turnedAway(text: string): RequestFailed {
+  const [, reason, message = text] = /^([a-z-]+): ([\s\S]*)$/.exec(text) ?? [];
+  return new RequestFailed(0, { code: "refused", message, ...(reason && { reason: reason as Reason }) });
+}
+
 /** What no answer at all says. */
 export function silence(): RequestFailed {
   return new RequestFailed(0, { code: "unavailable", message: say("problems.silent") });
 }
 
-function asProblem(json: unknown): Problem | null {
+function asProblem(json: unknown): Trouble | null {
   const message = typeof json === "object" && json !== null && "message" in json ? json.message : null;
-  return typeof message === "string" ? (json as Problem) : null;
+  return typeof message === "string" ? (json as Trouble) : null;
 }
 
-function unexplained(status: number): Problem {
+function unexplained(status: number): Trouble {
   return { code: "unavailable", message: say("problems.unexplained", { status }) };
 }

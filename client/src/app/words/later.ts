@@ -11,7 +11,7 @@ import { HELP } from "./help";
 import { LEAVES } from "./leaves";
 import { LIBRARY } from "./library";
 import { PARAMETERS } from "./parameters";
-import { PROBLEMS } from "./problems";
+import { PROBLEMS, REFUSALS } from "./problems";
 import { SCENE } from "./scene";
 import { SETTINGS } from "./settings";
 import { SHEETS } from "./sheets";
@@ -32,6 +32,7 @@ export const LATER = {
   ...BACKGROUND,
   ...SETTINGS,
   ...PROBLEMS,
+  ...REFUSALS,
   ...SCENE,
   ...SHEETS,
   ...EXPORTS,

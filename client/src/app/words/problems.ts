@@ -1,18 +1,89 @@
-/** What a server refuses, for people; what it says that is not here is shown as it says it. */
-export const PROBLEMS = {
-  "problems.branch-gone": [
-    "That branch is gone: someone has just cut it, or the tree has shed it.",
-    "Diesen Ast gibt es nicht mehr: Jemand hat ihn gerade geschnitten, oder der Baum hat ihn abgeworfen.",
+import type { Reason } from "../../wire/generated";
+
+const MISUNDERSTOOD = [
+  "This page and the server misunderstand each other. Load the page again.",
+  "Diese Seite und der Server missverstehen sich. Lade die Seite neu.",
+] as const;
+
+/** What a server refuses, by its reasons; `{least}` and `{most}` are of what is allowed. */
+export const REFUSALS = {
+  "problems.malformed": MISUNDERSTOOD,
+  "problems.file-cut-off": [
+    "The file did not arrive whole; try again.",
+    "Die Datei ist nicht ganz angekommen; versuche es noch einmal.",
   ],
-  "problems.out-of-reach": ["No bud is near enough to grow here.", "Keine Knospe ist nah genug, um hier zu wachsen."],
-  "problems.nothing-grew": [
-    "Nothing could grow here: the space is taken, or something is in the way.",
-    "Hier konnte nichts wachsen: Der Platz ist besetzt, oder etwas ist im Weg.",
+  "problems.not-a-tree-file": ["It cannot become a tree: {cause}.", "Daraus wird kein Baum: {cause}."],
+  "problems.not-gltf": [
+    "This is no glTF file. Export the model as .glb.",
+    "Das ist keine glTF-Datei. Exportiere das Modell als .glb.",
   ],
-  "problems.did-not-reach": [
-    "Growth did not get there: something is in the way.",
-    "Das Wachstum kam nicht bis dorthin: Etwas ist im Weg.",
+  "problems.gltf-version": [
+    "The file is glTF {cause}, and only version 2 can be read.",
+    "Die Datei ist glTF {cause}, gelesen wird nur Version 2.",
   ],
+  "problems.gltf-buffers": [
+    "A part of the model lies in another file. Choose both together, or export it as one .glb.",
+    "Ein Teil des Modells liegt in einer anderen Datei. Wähle beide zusammen, oder exportiere es als ein .glb.",
+  ],
+  "problems.gltf-needs": [
+    "The file needs {cause}, which cannot be read here. Export it without.",
+    "Die Datei braucht {cause}; das wird hier nicht gelesen. Exportiere sie ohne.",
+  ],
+  "problems.gltf-damaged": [
+    "The file is damaged and cannot be an obstacle.",
+    "Die Datei ist beschädigt und kann kein Hindernis werden.",
+  ],
+  "problems.thumbnail-kind": [
+    "The picture for the library could not be taken; try again.",
+    "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",
+  ],
+  "problems.out-of-range": ["Allowed there: {least} to {most}.", "Möglich ist dort: {least} bis {most}."],
+  "problems.too-few": ["That is too little.", "Das ist zu wenig."],
+  "problems.off-ground": ["Allowed there: 0, the ground.", "Möglich ist dort: 0, der Boden."],
+  "problems.in-obstacle": [
+    "Allowed there: a place outside all obstacles.",
+    "Möglich ist dort: eine Stelle außerhalb aller Hindernisse.",
+  ],
+  "problems.no-surface": [
+    "This shape cannot be an obstacle: it is too thin, too large or too far away.",
+    "Diese Form kann kein Hindernis sein: Sie ist zu dünn, zu groß oder zu weit weg.",
+  ],
+  "problems.empty-mesh": [
+    "The model has no surface: no triangle in it has an area.",
+    "Das Modell hat keine Oberfläche: Kein Dreieck darin hat eine Fläche.",
+  ],
+  "problems.large-mesh": [
+    "The model has too many triangles or corners. Simplify it first.",
+    "Das Modell hat zu viele Dreiecke oder Ecken. Vereinfache es zuerst.",
+  ],
+  "problems.text-length": [
+    "Allowed there: {least} to {most} characters.",
+    "Möglich ist dort: {least} bis {most} Zeichen.",
+  ],
+  "problems.text-unseen": ["Allowed there: characters one can see.", "Möglich ist dort: sichtbare Zeichen."],
+  "problems.many-words": ["Allowed there: up to {most} words.", "Möglich ist dort: höchstens {most} Wörter."],
+  "problems.many-tags": ["Allowed there: up to {most} tags.", "Möglich ist dort: höchstens {most} Tags."],
+  "problems.tag-comma": ["Allowed there: a tag without a comma.", "Möglich ist dort: ein Tag ohne Komma."],
+  "problems.no-such-option": [
+    "This format has no such option, or not in this range.",
+    "Dieses Format hat diese Option nicht oder nicht in diesem Bereich.",
+  ],
+  "problems.too-many": ["That is too much at once; do it in parts.", "Das ist zu viel auf einmal; mach es in Teilen."],
+  "problems.behind": [
+    "The tree is still growing what was asked for; try again when it has caught up.",
+    "Der Baum wächst noch, was verlangt wurde; versuche es wieder, wenn er nachgekommen ist.",
+  ],
+  "problems.large-file": ["The file is larger than {allowed}.", "Die Datei ist größer als {allowed}."],
+  "problems.large-request": [
+    "That is more than the server takes at once.",
+    "Das ist mehr, als der Server auf einmal annimmt.",
+  ],
+  "problems.large-thumbnail": [
+    "The picture for the library is too large; try again.",
+    "Das Bild für die Bibliothek ist zu groß; versuche es noch einmal.",
+  ],
+  "problems.forbidden": ["You may not do this here.", "Das darfst du hier nicht."],
+  "problems.number-taken": MISUNDERSTOOD,
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
   "problems.nothing-to-ungrow": [
@@ -20,7 +91,7 @@ export const PROBLEMS = {
     "Der Baum ist ein Samen; weiter kann er nicht zurückwachsen.",
   ],
   "problems.no-dim-branch": ["No branch stands in so little light.", "Kein Ast steht in so wenig Licht."],
-  "problems.trunk-foot": [
+  "problems.trunk-turned": [
     "That branch is the foot of a trunk, which cannot be turned.",
     "Dieser Ast ist der Fuß eines Stamms; der lässt sich nicht drehen.",
   ],
@@ -37,42 +108,64 @@ export const PROBLEMS = {
     "Jemand biegt diesen Ast gerade; warte, bis er losgelassen wird.",
   ],
   "problems.own-branch": ["A branch cannot be set on itself.", "Ein Ast lässt sich nicht auf sich selbst setzen."],
-  "problems.world": ["The branch would leave the world.", "Der Ast würde über den Rand der Welt hinausragen."],
-  "problems.outline": [
+  "problems.outside-world": ["The branch would leave the world.", "Der Ast würde über den Rand der Welt hinausragen."],
+  "problems.no-room": [
     "Nothing can grow into this outline. Draw it around some room.",
     "In diesen Umriss kann nichts wachsen. Zeichne ihn um etwas Raum herum.",
   ],
-  "problems.widths": [
-    "There are {limit} widths set, which is the most. Remove some first.",
-    "Es sind schon {limit} Dicken festgelegt, mehr geht nicht. Entferne zuerst einige.",
+  "problems.tree-full": [
+    "The tree has all the growth this document holds.",
+    "Der Baum ist so groß, wie dieses Dokument es erlaubt.",
   ],
-  "problems.places": [
+  "problems.strokes-full": [
+    "{most} strokes are being drawn already; let go of one first.",
+    "Es werden schon {most} Striche gezeichnet; beende zuerst einen.",
+  ],
+  "problems.bends-full": [
+    "{most} branches are being bent already; let go of one first.",
+    "Es werden schon {most} Äste gebogen; lass zuerst einen los.",
+  ],
+  "problems.widths-full": [
+    "There are {most} widths set, which is the most. Remove some first.",
+    "Es sind schon {most} Dicken festgelegt, mehr geht nicht. Entferne zuerst einige.",
+  ],
+  "problems.history-full": [
     "The history holds as much moved wood as it can. Undo something first.",
     "Die Vorgeschichte fasst nicht mehr bewegtes Holz. Nimm zuerst etwas zurück.",
+  ],
+  "problems.obstacles-full": [
+    "There are {most} obstacles in the scene; remove one first.",
+    "In der Szene sind schon {most} Hindernisse; entferne zuerst eines.",
+  ],
+  "problems.triangles-full": [
+    "All models of the scene and its history together may have {most} triangles; this would be more.",
+    "Alle Modelle der Szene und ihrer Vorgeschichte dürfen zusammen {most} Dreiecke haben; so wären es mehr.",
+  ],
+  "problems.mesh-keeps-shape": [
+    "A model keeps its shape; place another one instead.",
+    "Ein Modell behält seine Form; stelle stattdessen ein anderes auf.",
   ],
   "problems.no-programme": [
     "The tree has no programme any more that a parameter could follow.",
     "Der Baum hat kein Programm mehr, dem ein Parameter folgen könnte.",
   ],
-  "problems.full": [
-    "The tree has all the growth this document holds.",
-    "Der Baum ist so groß, wie dieses Dokument es erlaubt.",
+  "problems.future-damaged": [
+    "This future is damaged and cannot be taken up.",
+    "Diese Zukunft ist beschädigt und lässt sich nicht aufnehmen.",
   ],
-  "problems.obstacles": [
-    "There are {limit} obstacles in the scene; remove one first.",
-    "In der Szene sind schon {limit} Hindernisse; entferne zuerst eines.",
+  "problems.collection-in-itself": [
+    "A collection cannot lie in itself.",
+    "Eine Sammlung kann nicht in sich selbst liegen.",
   ],
-  "problems.outline-points": [
-    "This outline has too few or too many points. Draw it anew, in one go.",
-    "Dieser Umriss hat zu wenige oder zu viele Punkte. Zeichne ihn neu, in einem Zug.",
+  "problems.newer-program": [
+    "This tree was made by a newer Espalier; the server must be updated to open it.",
+    "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",
   ],
-  "problems.strokes": [
-    "{limit} strokes are being drawn already; let go of one first.",
-    "Es werden schon {limit} Striche gezeichnet; beende zuerst einen.",
-  ],
-  "problems.bends": [
-    "{limit} branches are being bent already; let go of one first.",
-    "Es werden schon {limit} Äste gebogen; lass zuerst einen los.",
+  "problems.session-damaged": ["The record of this tree is damaged.", "Die Aufzeichnung dieses Baums ist beschädigt."],
+  "problems.tree-damaged": ["The saved tree is damaged.", "Der gespeicherte Baum ist beschädigt."],
+  "problems.branch-gone": [
+    "That branch is gone: someone has just cut it, or the tree has shed it.",
+    "Diesen Ast gibt es nicht mehr: Jemand hat ihn gerade geschnitten, oder der Baum hat ihn abgeworfen.",
   ],
   "problems.stroke-gone": ["This stroke has ended already.", "Dieser Strich ist schon zu Ende."],
   "problems.bend-gone": [
@@ -80,66 +173,9 @@ export const PROBLEMS = {
     "Dieses Biegen ist zu Ende: Den Ast gibt es nicht mehr, oder er hat sich verändert.",
   ],
   "problems.future-gone": ["This future is no longer kept.", "Diese Zukunft ist nicht mehr aufgehoben."],
-  "problems.future-damaged": [
-    "This future is damaged and cannot be taken up.",
-    "Diese Zukunft ist beschädigt und lässt sich nicht aufnehmen.",
-  ],
-  "problems.too-much": ["That is too much at once; do it in parts.", "Das ist zu viel auf einmal; mach es in Teilen."],
-  "problems.behind": [
-    "The tree is still growing what was asked for; try again when it has caught up.",
-    "Der Baum wächst noch, was verlangt wurde; versuche es wieder, wenn er nachgekommen ist.",
-  ],
   "problems.obstacle-gone": [
     "No obstacle stands there; perhaps someone has just taken it away.",
     "Dort steht kein Hindernis; vielleicht hat es gerade jemand entfernt.",
-  ],
-  "problems.mesh-keeps-shape": [
-    "A model keeps its shape; place another one instead.",
-    "Ein Modell behält seine Form; stelle stattdessen ein anderes auf.",
-  ],
-  "problems.obstacle-not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],
-  "problems.triangles": [
-    "All models of the scene and its history together may have {limit} triangles; this would be more.",
-    "Alle Modelle der Szene und ihrer Vorgeschichte dürfen zusammen {limit} Dreiecke haben; so wären es mehr.",
-  ],
-  "problems.no-tree-file": ["It cannot become a tree: {cause}.", "Daraus wird kein Baum: {cause}."],
-  "problems.in-itself": ["A collection cannot lie in itself.", "Eine Sammlung kann nicht in sich selbst liegen."],
-  "problems.file.kind": [
-    "This is no glTF file. Export the model as .glb.",
-    "Das ist keine glTF-Datei. Exportiere das Modell als .glb.",
-  ],
-  "problems.file.version": [
-    "The file is glTF {version}, and only version 2 can be read.",
-    "Die Datei ist glTF {version}, gelesen wird nur Version 2.",
-  ],
-  "problems.file.apart": [
-    "A part of the model lies in another file. Choose both together, or export it as one .glb.",
-    "Ein Teil des Modells liegt in einer anderen Datei. Wähle beide zusammen, oder exportiere es als ein .glb.",
-  ],
-  "problems.file.needs": [
-    "The file needs {needs}, which cannot be read here. Export it without.",
-    "Die Datei braucht {needs}; das wird hier nicht gelesen. Exportiere sie ohne.",
-  ],
-  "problems.file.empty": [
-    "The model has no surface: no triangle in it has an area.",
-    "Das Modell hat keine Oberfläche: Kein Dreieck darin hat eine Fläche.",
-  ],
-  "problems.file.large": [
-    "The model has too many triangles or corners. Simplify it first.",
-    "Das Modell hat zu viele Dreiecke oder Ecken. Vereinfache es zuerst.",
-  ],
-  "problems.file.damaged": [
-    "The file is damaged and cannot be an obstacle.",
-    "Die Datei ist beschädigt und kann kein Hindernis werden.",
-  ],
-  "problems.file.bytes": ["The file is larger than {allowed}.", "Die Datei ist größer als {allowed}."],
-  "problems.file.parts": [
-    "The file did not arrive whole; try again.",
-    "Die Datei ist nicht ganz angekommen; versuche es noch einmal.",
-  ],
-  "problems.shape": [
-    "This shape cannot be an obstacle: it is too thin, too large or too far away.",
-    "Diese Form kann kein Hindernis sein: Sie ist zu dünn, zu groß oder zu weit weg.",
   ],
   "problems.no-tree": ["This tree is no longer in the library.", "Dieser Baum ist nicht mehr in der Bibliothek."],
   "problems.no-session": [
@@ -147,11 +183,50 @@ export const PROBLEMS = {
     "Dieser Server kennt den Baum zu diesem Link nicht.",
   ],
   "problems.none-such": ["The server does not have this.", "Das hat der Server nicht."],
-  "problems.newer": [
-    "This tree was made by a newer Espalier; the server must be updated to open it.",
-    "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",
+  "problems.stale": [
+    "Somebody else has changed this tree meanwhile. Look at it and try again.",
+    "Jemand anders hat diesen Baum inzwischen verändert. Sieh ihn dir an und versuche es noch einmal.",
   ],
-  "problems.session-damaged": ["The record of this tree is damaged.", "Die Aufzeichnung dieses Baums ist beschädigt."],
+  "problems.database-gone": [
+    "The server's database file has been moved or deleted. Nothing is kept until it is back; tell whoever runs the server.",
+    "Die Datenbankdatei des Servers wurde verschoben oder gelöscht. Bis sie zurück ist, wird nichts gespeichert; sag es dem, der den Server betreibt.",
+  ],
+  "problems.database-failed": [
+    "The server cannot write to its disk; nothing was changed. Is the disk full?",
+    "Der Server kann nicht auf seine Platte schreiben; nichts wurde verändert. Ist sie voll?",
+  ],
+  "problems.stopping": ["The server is stopping.", "Der Server wird gerade beendet."],
+  "problems.not-opened": ["The tree cannot be opened now.", "Der Baum lässt sich gerade nicht öffnen."],
+  "problems.session-ended": [
+    "The server has just put this tree aside; try again.",
+    "Der Server hat diesen Baum gerade weggelegt; versuche es noch einmal.",
+  ],
+  "problems.many-people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
+  "problems.failed": [
+    "The server could not compute this; nothing was changed.",
+    "Der Server konnte das nicht berechnen; nichts wurde verändert.",
+  ],
+  "problems.busy": [
+    "The server is busy growing trees; the sketch comes later.",
+    "Der Server lässt gerade Bäume wachsen; die Skizze kommt später.",
+  ],
+  "problems.late": ["The server took too long.", "Der Server hat zu lange gebraucht."],
+  "problems.not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],
+  "problems.not-exported": ["The tree cannot be exported.", "Der Baum lässt sich nicht exportieren."],
+  "problems.not-drawn": ["This picture cannot be drawn.", "Dieses Bild lässt sich nicht zeichnen."],
+} as const satisfies Record<`problems.${Reason}`, readonly [string, string]>;
+
+/** What is said besides: of a field that has better words for a reason, of hints and notices. */
+export const PROBLEMS = {
+  "problems.out-of-reach": ["No bud is near enough to grow here.", "Keine Knospe ist nah genug, um hier zu wachsen."],
+  "problems.nothing-grew": [
+    "Nothing could grow here: the space is taken, or something is in the way.",
+    "Hier konnte nichts wachsen: Der Platz ist besetzt, oder etwas ist im Weg.",
+  ],
+  "problems.did-not-reach": [
+    "Growth did not get there: something is in the way.",
+    "Das Wachstum kam nicht bis dorthin: Etwas ist im Weg.",
+  ],
   "problems.regrown": [
     "Another version of Espalier was at work on this tree. The last strokes have been grown again by the rules of this one.",
     "An diesem Baum hat eine andere Version von Espalier gearbeitet. Die letzten Striche sind nach den Regeln von dieser neu gewachsen.",
@@ -160,67 +235,15 @@ export const PROBLEMS = {
     "The last part of this tree’s record is damaged, from entry {entry} on. You see the tree as it was before; the rest is kept on the server.",
     "Der letzte Teil der Aufzeichnung dieses Baums ist beschädigt, ab Eintrag {entry}. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
   ],
-  "problems.forbidden": ["You may not do this here.", "Das darfst du hier nicht."],
-  "problems.thumbnail": [
-    "The picture for the library could not be taken; try again.",
-    "Das Bild für die Bibliothek ist nicht gelungen; versuche es noch einmal.",
+  "problems.impossible": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
+  "problems.too-few.outline": [
+    "This outline has too few or too many points. Draw it anew, in one go.",
+    "Dieser Umriss hat zu wenige oder zu viele Punkte. Zeichne ihn neu, in einem Zug.",
   ],
-  "problems.tree-damaged": ["The saved tree is damaged.", "Der gespeicherte Baum ist beschädigt."],
-  "problems.stale": [
-    "Somebody else has changed this tree meanwhile. Look at it and try again.",
-    "Jemand anders hat diesen Baum inzwischen verändert. Sieh ihn dir an und versuche es noch einmal.",
+  "problems.too-many.outline": [
+    "This outline has too few or too many points. Draw it anew, in one go.",
+    "Dieser Umriss hat zu wenige oder zu viele Punkte. Zeichne ihn neu, in einem Zug.",
   ],
-  "problems.export-option": [
-    "This format has no such option, or not in this range.",
-    "Dieses Format hat diese Option nicht oder nicht in diesem Bereich.",
-  ],
-  "problems.not-exported": ["The tree cannot be exported.", "Der Baum lässt sich nicht exportieren."],
-  "problems.no-picture": ["This picture cannot be drawn.", "Dieses Bild lässt sich nicht zeichnen."],
-  "problems.not-opened": ["The tree cannot be opened now.", "Der Baum lässt sich gerade nicht öffnen."],
-  "problems.ended": [
-    "The server has just put this tree aside; try again.",
-    "Der Server hat diesen Baum gerade weggelegt; versuche es noch einmal.",
-  ],
-  "problems.too-large": [
-    "That is more than the server takes at once.",
-    "Das ist mehr, als der Server auf einmal annimmt.",
-  ],
-  "problems.database-gone": [
-    "The server's database file has been moved or deleted. Nothing is kept until it is back; tell whoever runs the server.",
-    "Die Datenbankdatei des Servers wurde verschoben oder gelöscht. Bis sie zurück ist, wird nichts gespeichert; sag es dem, der den Server betreibt.",
-  ],
-  "problems.disk": [
-    "The server cannot write to its disk; nothing was changed. Is the disk full?",
-    "Der Server kann nicht auf seine Platte schreiben; nichts wurde verändert. Ist sie voll?",
-  ],
-  "problems.stopping": ["The server is stopping.", "Der Server wird gerade beendet."],
-  "problems.failed": [
-    "The server could not compute this; nothing was changed.",
-    "Der Server konnte das nicht berechnen; nichts wurde verändert.",
-  ],
-  "problems.schematic-late": [
-    "The server is busy growing trees; the sketch comes later.",
-    "Der Server lässt gerade Bäume wachsen; die Skizze kommt später.",
-  ],
-  "problems.late": ["The server took too long.", "Der Server hat zu lange gebraucht."],
-  "problems.page": [
-    "This page and the server misunderstand each other. Load the page again.",
-    "Diese Seite und der Server missverstehen sich. Lade die Seite neu.",
-  ],
-  "problems.allowed.ground": ["{least}, the ground", "{least}, der Boden"],
-  "problems.allowed.outside": ["a place outside all obstacles", "eine Stelle außerhalb aller Hindernisse"],
-  "problems.allowed.simple-shapes": ["box, sphere or plane", "Quader, Kugel oder Ebene"],
-  "problems.allowed.plain": ["characters one can see", "sichtbare Zeichen"],
-  "problems.allowed.characters": ["{least} to {most} characters", "{least} bis {most} Zeichen"],
-  "problems.allowed.range": ["{least} to {most}", "{least} bis {most}"],
-  "problems.allowed.most-characters": ["up to {most} characters", "höchstens {most} Zeichen"],
-  "problems.allowed.most-words": ["up to {most} words", "höchstens {most} Wörter"],
-  "problems.allowed.most-tags": ["up to {most} tags", "höchstens {most} Tags"],
-  "problems.allowed.no-comma": ["a tag without a comma", "ein Tag ohne Komma"],
-  "problems.allowed.most": ["up to {most}", "höchstens {most}"],
-  "problems.people": ["Too many people are here already.", "Hier sind schon zu viele Leute."],
-  "problems.out-of-range": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
-  "problems.out-of-range.allowed": ["Allowed there: {allowed}.", "Möglich ist dort: {allowed}."],
 } as const;
 
 /** What a request says that got no answer, or one without a reason. */

@@ -1,10 +1,10 @@
 //! Branches in people's hands: bends between their begin and their end (`BE`).
 
 use espalier_plant::{Bend, MetamerId, Plant, Widths, hash::StableHash};
-use espalier_proto::{Position, Problem, ProblemCode, Share};
+use espalier_proto::{Position, Problem, Reason, Share};
 use glam::Vec3;
 
-use super::{Document, branches::said, history::Kind, refused};
+use super::{Document, branches::said, history::Kind};
 use crate::cause::Cause;
 
 /// Bends open at once (`LM7`).
@@ -71,11 +71,10 @@ impl OpenBends {
 
     fn find(&self, author: &str, number: u32) -> Result<usize, Problem> {
         let index = self.open.iter().position(|bend| bend.number == number && bend.author == author);
-        index.ok_or_else(|| Problem {
-            code: ProblemCode::NotFound,
-            field: Some("bend".into()),
-            allowed: Some("the number of a bend in progress".into()),
-            message: format!("bend {number} is not in progress: it was never begun, or its branch is gone"),
+        index.ok_or_else(|| {
+            let message =
+                format!("bend {number} is not in progress: it was never begun, or its branch is gone");
+            Problem::new(Reason::BendGone, message).at("bend", "the number of a bend in progress")
         })
     }
 }
@@ -95,10 +94,12 @@ impl Document {
         stretch: Share,
     ) -> Result<(), Problem> {
         if self.bends.find(cause.author, number).is_ok() {
-            return Err(refused(format!("bend {number} has begun already")));
+            return Err(Problem::new(Reason::NumberTaken, format!("bend {number} has begun already")));
         }
         if self.bends.open.len() >= MAX_OPEN {
-            return Err(refused(format!("{MAX_OPEN} bends are in progress; end one first")));
+            let message = format!("{MAX_OPEN} bends are in progress; end one first");
+            return Err(Problem::new(Reason::BendsFull, message)
+                .at("bend", format!("up to {MAX_OPEN} bends in progress")));
         }
         let base = self.wood("base", base)?;
         let touched =
@@ -145,12 +146,8 @@ impl Document {
         let bend = &mut self.bends.open[index];
         if targets.len() != bend.touches.len() {
             let allowed = format!("{}, one for each touch", bend.touches.len());
-            return Err(Problem {
-                code: ProblemCode::OutOfRange,
-                field: Some("targets".into()),
-                message: format!("targets has {} entries; allowed: {allowed}", targets.len()),
-                allowed: Some(allowed),
-            });
+            let message = format!("targets has {} entries; allowed: {allowed}", targets.len());
+            return Err(Problem::new(Reason::OutOfRange, message).at("targets", allowed));
         }
         let pairs: Vec<_> =
             bend.touches.iter().copied().zip(targets.iter().map(|target| target.get())).collect();
@@ -199,12 +196,8 @@ impl Document {
 }
 
 fn held(field: &str, row: MetamerId) -> Problem {
-    Problem {
-        code: ProblemCode::Refused,
-        field: Some(field.into()),
-        allowed: Some("wood that nobody is bending".into()),
-        message: format!("the branch at row {} is being bent; wait until it is let go", row.raw()),
-    }
+    let message = format!("the branch at row {} is being bent; wait until it is let go", row.raw());
+    Problem::new(Reason::BeingBent, message).at(field, "wood that nobody is bending")
 }
 
 /// The way from the base to the farthest touch, both included, and where on it each touch is.

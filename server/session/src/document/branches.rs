@@ -2,13 +2,12 @@
 
 use espalier_growth::{EditError, Original};
 use espalier_plant::{MetamerId, Motion};
-use espalier_proto::{Problem, ProblemCode, UnitRotation};
+use espalier_proto::{Problem, Reason, UnitRotation};
 use glam::{Quat, Vec3};
 
 use super::{
     Document,
     history::{Kind, Latest},
-    refused,
 };
 use crate::cause::Cause;
 
@@ -21,7 +20,7 @@ impl Document {
     ) -> Result<(), Problem> {
         let rotation = rotation.get();
         let branch = self.wood("row", row)?;
-        let base = self.base_of(branch, "turned")?;
+        let base = self.base_of(branch, Reason::TrunkTurned, "turned")?;
         self.require_no_bend_of(branch)?;
         let places = self.plant().above(branch).len();
         self.require_places(places)?;
@@ -93,12 +92,8 @@ impl Document {
         let rows = self.plant().above(branch);
         let is_on_branch = rows.binary_search(&bearer).is_ok();
         if is_on_branch {
-            return Err(Problem {
-                code: ProblemCode::Refused,
-                field: Some("onto".into()),
-                allowed: Some("wood of another branch".into()),
-                message: format!("row {onto} belongs to the very branch that begins with row {row}"),
-            });
+            let message = format!("row {onto} belongs to the very branch that begins with row {row}");
+            return Err(Problem::new(Reason::OwnBranch, message).at("onto", "wood of another branch"));
         }
         let base = if keep {
             self.plant()
@@ -107,7 +102,7 @@ impl Document {
                 .map_or(Vec3::ZERO, |base| self.plant().metamers().end(base))
         } else {
             self.require_no_bend_of(branch)?;
-            self.base_of(branch, "moved")?
+            self.base_of(branch, Reason::TrunkMoved, "moved")?
         };
         if keep {
             let brought = self.plant().widths().filter(|(id, _)| rows.binary_search(id).is_ok()).count();
@@ -131,19 +126,22 @@ impl Document {
     }
 
     /// Where a branch is borne; a trunk is borne by nothing.
-    fn base_of(&self, branch: MetamerId, done: &str) -> Result<Vec3, Problem> {
+    fn base_of(&self, branch: MetamerId, reason: Reason, done: &str) -> Result<Vec3, Problem> {
         let plant = self.plant();
         let base = plant.metamers().parent(branch).filter(|&base| !plant.is_seed(base));
-        base.map(|base| plant.metamers().end(base)).ok_or_else(|| Problem {
-            code: ProblemCode::Refused,
-            field: Some("row".into()),
-            allowed: Some("a row whose parent is no seed".into()),
-            message: format!("row {} is the foot of a trunk, which cannot be {done}", branch.raw()),
+        base.map(|base| plant.metamers().end(base)).ok_or_else(|| {
+            let message = format!("row {} is the foot of a trunk, which cannot be {done}", branch.raw());
+            Problem::new(reason, message).at("row", "a row whose parent is no seed")
         })
     }
 }
 
 /// An edit's error in words for people.
 pub(super) fn said(error: EditError) -> Problem {
-    refused(error.to_string())
+    let reason = match error {
+        EditError::OutOfWorld => Reason::OutsideWorld,
+        EditError::OutOfBudget => Reason::TreeFull,
+        EditError::Columns(_) => Reason::Failed,
+    };
+    Problem::new(reason, error.to_string())
 }

@@ -6,12 +6,11 @@
 use std::sync::Arc;
 
 use espalier_plant::{Future as Rows, hash::StableHash};
-use espalier_proto::{Problem, ProblemCode, version::MAX_FUTURES};
+use espalier_proto::{Problem, Reason, version::MAX_FUTURES};
 
 use super::{
     Document,
     history::{Before, History, Kind, Operation, Setting, StateMark, hash_operations},
-    refused,
 };
 use crate::cause::Cause;
 
@@ -237,11 +236,9 @@ impl Document {
 
     /// Goes over to another line, at its end (`TT4`).
     pub(super) fn take_future(&mut self, line: u32) -> Result<(), Problem> {
-        let way = self.futures.way_to(line).ok_or_else(|| Problem {
-            code: ProblemCode::NotFound,
-            field: Some("future".into()),
-            allowed: Some("the number of a future in timeline".into()),
-            message: format!("there is no future {line}"),
+        let way = self.futures.way_to(line).ok_or_else(|| {
+            Problem::new(Reason::FutureGone, format!("there is no future {line}"))
+                .at("future", "the number of a future in timeline")
         })?;
         for line in way {
             self.cross_over(line)?;
@@ -281,7 +278,7 @@ impl Document {
                 self.return_to_future();
             }
             self.futures.forget_with(line);
-            return Err(refused(format!("future {line} is damaged: {error}")));
+            return Err(Problem::new(Reason::FutureDamaged, format!("future {line} is damaged: {error}")));
         }
         self.futures.take_over(line);
         self.futures.present = line;
@@ -297,9 +294,10 @@ impl Document {
         if held + places as u64 <= MAX_PLACES {
             return Ok(());
         }
-        Err(refused(format!(
+        let message = format!(
             "the history keeps {held} places of wood that was moved, and may keep {MAX_PLACES}; undo something"
-        )))
+        );
+        Err(Problem::new(Reason::HistoryFull, message))
     }
 
     /// Forgets futures until all of them fit (`LM11`).

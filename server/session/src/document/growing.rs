@@ -3,11 +3,13 @@
 use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 use espalier_proto::{
-    Age, Depth, DrawingPlane, PlanePoint, Problem, ProblemCode, Steps, version::MAX_OUTLINE_STEPS,
+    Age, Depth, DrawingPlane, PlanePoint, Problem, Reason, Steps, version::MAX_OUTLINE_STEPS,
 };
 use glam::{Vec2, Vec3};
 
-use super::{Document, generators::Step, hints::OpenLasso, history::Kind, refused, strokes::OpenStroke};
+use super::{
+    Document, branch_gone, generators::Step, hints::OpenLasso, history::Kind, strokes::OpenStroke,
+};
 use crate::cause::Cause;
 
 /// Steps still to be run for an action taken on.
@@ -184,11 +186,9 @@ impl Document {
         let (right, up) = plane.axes();
         let plane = Plane { origin: plane.origin(), right, up };
         let zone = self.simulation.parameters().occupancy_radius;
-        let envelope = Envelope::inflate(&outline, plane, depth.get(), zone).map_err(|error| Problem {
-            code: ProblemCode::Refused,
-            field: Some("outline".into()),
-            allowed: None,
-            message: format!("nothing can grow into this: {error}"),
+        let envelope = Envelope::inflate(&outline, plane, depth.get(), zone).map_err(|error| {
+            Problem::new(Reason::NoRoom, format!("nothing can grow into this: {error}"))
+                .at("outline", "an outline around some room")
         })?;
         let continues = self.history.continues(&[Kind::Lasso], cause, self.plant().step());
         if self.strokes.is_empty() && !continues {
@@ -207,12 +207,7 @@ impl Document {
         let plant = self.plant();
         let is_known = (row as usize) < plant.metamer_count();
         let metamer = is_known.then(|| MetamerId::new(row as usize)).filter(|&id| plant.is_alive(id));
-        metamer.map(Some).ok_or_else(|| Problem {
-            code: ProblemCode::NotFound,
-            field: Some("bud".into()),
-            allowed: Some("the row of a living metamer".into()),
-            message: format!("there is no living metamer with row {row}"),
-        })
+        metamer.map(Some).ok_or_else(|| branch_gone("bud", row))
     }
 
     pub(super) fn require_room(&self) -> Result<(), Problem> {
@@ -220,7 +215,8 @@ impl Document {
         if held < budget {
             return Ok(());
         }
-        Err(refused(format!("the document holds {held} metamers, its budget is {budget}")))
+        let message = format!("the document holds {held} metamers, its budget is {budget}");
+        Err(Problem::new(Reason::TreeFull, message))
     }
 
     fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {

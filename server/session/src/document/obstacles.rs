@@ -5,14 +5,13 @@ use std::{collections::BTreeMap, sync::Arc};
 use espalier_growth::Obstacle as Solid;
 use espalier_plant::hash::StableHash;
 use espalier_proto::{
-    Obstacle as WireObstacle, PlacedObstacle, Pose as WirePose, Problem, ProblemCode, SimpleShape,
+    Obstacle as WireObstacle, PlacedObstacle, Pose as WirePose, Problem, Reason, SimpleShape,
     version::MAX_OBSTACLES,
 };
 
 use super::{
     Document,
     history::{Kind, Setting},
-    refused,
 };
 use crate::{
     cause::Cause,
@@ -55,11 +54,9 @@ impl Obstacles {
     }
 
     fn find(&self, id: u32) -> Result<usize, Problem> {
-        self.standing.binary_search_by_key(&id, |standing| standing.id).map_err(|_| Problem {
-            code: ProblemCode::NotFound,
-            field: Some("id".into()),
-            allowed: Some("the id of an obstacle in the scene".into()),
-            message: format!("there is no obstacle {id}"),
+        self.standing.binary_search_by_key(&id, |standing| standing.id).map_err(|_| {
+            Problem::new(Reason::ObstacleGone, format!("there is no obstacle {id}"))
+                .at("id", "the id of an obstacle in the scene")
         })
     }
 }
@@ -89,14 +86,18 @@ impl Document {
     pub(super) fn place_obstacle(&mut self, cause: Cause<'_>, wire: &WireObstacle) -> Result<(), Problem> {
         let standing = &self.obstacles.standing;
         if standing.len() >= MAX_OBSTACLES {
-            return Err(refused(format!("the scene has {MAX_OBSTACLES} obstacles; remove one first")));
+            let message = format!("the scene has {MAX_OBSTACLES} obstacles; remove one first");
+            return Err(Problem::new(Reason::ObstaclesFull, message)
+                .at("obstacle", format!("up to {MAX_OBSTACLES} obstacles")));
         }
         let obstacle = Obstacle::of(wire)?;
         let new = obstacle.mesh().map_or(0, |mesh| mesh.triangles.len());
         if new > 0 && self.held_triangles() + new > MAX_HELD_TRIANGLES {
-            return Err(refused(format!(
+            let message = format!(
                 "the meshes of the scene and its history may have {MAX_HELD_TRIANGLES} triangles; this would be more"
-            )));
+            );
+            return Err(Problem::new(Reason::TrianglesFull, message)
+                .at("obstacle.shape.mesh", format!("up to {MAX_HELD_TRIANGLES} triangles")));
         }
         self.obstacles.placed += 1;
         let mut after = standing.to_vec();
@@ -134,7 +135,8 @@ impl Document {
         let now = &self.obstacles.standing[index].obstacle;
         // The bytes of a mesh are asked for by its id, and stay what they are (`OB5`).
         if matches!(now.form, Form::Mesh { .. }) {
-            return Err(refused(format!("obstacle {id} is a mesh; a mesh keeps its shape")));
+            let message = format!("obstacle {id} is a mesh; a mesh keeps its shape");
+            return Err(Problem::new(Reason::MeshKeepsShape, message));
         }
         let form = Form::of(shape.get()).map_err(|problem| problem.within("shape"))?;
         if now.form == form {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use espalier_plant::hash::StableHash;
-use espalier_proto::{ParameterName, Problem, Programme};
+use espalier_proto::{ParameterName, Problem, Programme, Reason};
 
 use super::{
     Document,
@@ -59,7 +59,8 @@ impl Document {
         names: &[ParameterName],
     ) -> Result<(), Problem> {
         if self.programme().is_none() {
-            return Err(super::refused("there is no programme that parameters could follow"));
+            let message = "there is no programme that parameters could follow";
+            return Err(Problem::new(Reason::NoProgramme, message));
         }
         let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
         let wanted = self.schedule().without(&names)?;

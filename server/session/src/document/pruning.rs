@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use espalier_growth::Simulation;
 use espalier_plant::{MetamerId, Plant};
-use espalier_proto::{Problem, ProblemCode, Share};
+use espalier_proto::{Problem, Reason, Share};
 
-use super::{Document, Generators, history::Kind, refused, wood_of};
+use super::{Document, Generators, history::Kind, wood_of};
 use crate::cause::Cause;
 
 impl Document {
@@ -21,7 +21,8 @@ impl Document {
         self.simulation.show();
         let cuts = dim_branches(self.plant(), exposure);
         if cuts.is_empty() {
-            return Err(refused(format!("no lateral branch stands in so little light as {exposure}")));
+            let message = format!("no lateral branch stands in so little light as {exposure}");
+            return Err(Problem::new(Reason::NoDimBranch, message));
         }
         self.cut(cause, &cuts);
         Ok(())
@@ -55,11 +56,9 @@ fn cuts(plant: &Plant, rows: &[u32]) -> Result<Vec<MetamerId>, Problem> {
     for (index, &row) in rows.iter().enumerate().filter(|&(_, &row)| asked.insert(row)) {
         let field = format!("rows[{index}]");
         let metamer = wood_of(plant, &field, row)?;
-        let found = limbs.cuts(metamer).map_err(|sentence| Problem {
-            code: ProblemCode::Refused,
-            message: format!("row {row} cannot be cut: {sentence}"),
-            field: Some(field),
-            allowed: Some("rows of branches, or of wood above a width constraint".into()),
+        let found = limbs.cuts(metamer).map_err(|sentence| {
+            Problem::new(Reason::TrunkCut, format!("row {row} cannot be cut: {sentence}"))
+                .at(field, "rows of branches, or of wood above a width constraint")
         })?;
         cuts.extend(found);
     }

@@ -2,9 +2,8 @@
 
 use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
 use espalier_plant::{MetamerId, hash::StableHash};
-use espalier_proto::{Problem, ProblemCode, StrokeSample};
+use espalier_proto::{Problem, Reason, StrokeSample};
 
-use super::refused;
 use crate::stroke_pieces::pieces;
 
 /// Strokes open at once; more fingers than this on one tree are a mistake or an attack.
@@ -43,10 +42,12 @@ impl OpenStrokes {
 
     pub fn open(&mut self, author: &str, number: u32, chosen: Option<MetamerId>) -> Result<(), Problem> {
         if self.find(author, number).is_some() {
-            return Err(refused(format!("stroke {number} has begun already")));
+            return Err(Problem::new(Reason::NumberTaken, format!("stroke {number} has begun already")));
         }
         if self.open.len() >= MAX_OPEN {
-            return Err(refused(format!("{MAX_OPEN} strokes are in progress; end one first")));
+            let message = format!("{MAX_OPEN} strokes are in progress; end one first");
+            return Err(Problem::new(Reason::StrokesFull, message)
+                .at("stroke", format!("up to {MAX_OPEN} strokes in progress")));
         }
         self.begun = self.begun.wrapping_add(1);
         self.open.push(OpenStroke {
@@ -110,12 +111,8 @@ impl OpenStrokes {
 }
 
 fn unknown(number: u32) -> Problem {
-    Problem {
-        code: ProblemCode::NotFound,
-        field: Some("stroke".to_owned()),
-        allowed: Some("the number of a stroke in progress".to_owned()),
-        message: format!("there is no stroke {number} in progress"),
-    }
+    Problem::new(Reason::StrokeGone, format!("there is no stroke {number} in progress"))
+        .at("stroke", "the number of a stroke in progress")
 }
 
 #[cfg(test)]

@@ -12,8 +12,8 @@ mod strokes;
 mod times;
 
 use espalier_proto::{
-    BrushRadius, Depth, Diameter, Direction, DrawingPlane, List, Share, Steps, StrokeSample, Touches,
-    UnitRotation,
+    BrushRadius, Depth, Diameter, Direction, DrawingPlane, List, ProblemCode, Share, Steps, StrokeSample,
+    Touches, UnitRotation,
 };
 use espalier_settings::{Kind, ParameterValues, ParametersPatch};
 use glam::{Quat, Vec2, Vec3};

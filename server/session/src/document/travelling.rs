@@ -2,16 +2,19 @@
 
 use std::sync::Arc;
 
-use espalier_proto::Problem;
+use espalier_proto::{Problem, Reason};
 
-use super::{Document, refused};
+use super::Document;
 
 impl Document {
     /// So many steps back, with parameters, looks and obstacles as they are (`CM7`).
     pub(super) fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
         let now = self.plant().step();
         if now == 0 {
-            return Err(refused("the plant is a seed; there is nothing to ungrow"));
+            return Err(Problem::new(
+                Reason::NothingToUngrow,
+                "the plant is a seed; there is nothing to ungrow",
+            ));
         }
         let step = now.saturating_sub(steps);
         self.history.done = self.history.done.min(self.history.done_at(step));
@@ -24,7 +27,8 @@ impl Document {
             self.keep_to_line();
             return Ok(());
         }
-        let step = self.history.undo().ok_or_else(|| refused("there is nothing to undo"))?;
+        let nothing = || Problem::new(Reason::NothingToUndo, "there is nothing to undo");
+        let step = self.history.undo().ok_or_else(nothing)?;
         self.travel(step);
         self.keep_to_line();
         Ok(())
@@ -32,7 +36,8 @@ impl Document {
 
     pub(super) fn redo(&mut self) -> Result<(), Problem> {
         let now = self.plant().step();
-        let step = self.history.redo(now).ok_or_else(|| refused("there is nothing to redo"))?;
+        let nothing = || Problem::new(Reason::NothingToRedo, "there is nothing to redo");
+        let step = self.history.redo(now).ok_or_else(nothing)?;
         self.travel(step);
         self.keep_to_line();
         Ok(())

@@ -1,12 +1,11 @@
 //! Width constraints (`WI`).
 
 use espalier_plant::MetamerId;
-use espalier_proto::{Diameter, Problem};
+use espalier_proto::{Diameter, Problem, Reason};
 
 use super::{
     Document,
     history::{Kind, Latest},
-    refused,
 };
 use crate::cause::Cause;
 
@@ -51,9 +50,10 @@ impl Document {
         if more == 0 || held + more <= MAX_WIDTHS {
             return Ok(());
         }
-        Err(refused(format!(
-            "{held} width constraints are in force, and {MAX_WIDTHS} may be; remove some first"
-        )))
+        let message =
+            format!("{held} width constraints are in force, and {MAX_WIDTHS} may be; remove some first");
+        Err(Problem::new(Reason::WidthsFull, message)
+            .at("diameter", format!("up to {MAX_WIDTHS} width constraints")))
     }
 
     /// The constraint on a metamer.

@@ -7,7 +7,7 @@ use espalier_proto::{Problem, Programme, Stage, version::MAX_AGE};
 use espalier_settings::ParameterValues;
 use glam::Vec3;
 
-use crate::stroke_pieces::pieces;
+use crate::{form::on_ground, stroke_pieces::pieces};
 
 /// A programme, and what follows from it.
 #[derive(Clone, Debug)]
@@ -70,11 +70,8 @@ impl Plan {
                     plan.values.push((age, values));
                 }
                 Stage::Seed { position, .. } => {
-                    if position.get().y != 0.0 {
-                        let found = position.get().y;
-                        return Err(Problem::out_of_range("position[1]", found, "0, the ground").within(&at));
-                    }
-                    plan.seeds.push((age, position.get()));
+                    let place = on_ground(*position).map_err(|problem| problem.within(&at))?;
+                    plan.seeds.push((age, place));
                 }
                 Stage::Stroke { samples, .. } => {
                     let begun = plan.strokes.last().map_or(age, |before| before.ages.end.max(age));

@@ -2,7 +2,7 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use espalier_proto::{Action, Command, Problem, ProblemCode, ServerMessage};
+use espalier_proto::{Action, Command, Problem, Reason, ServerMessage};
 
 use super::Session;
 use crate::{
@@ -98,12 +98,8 @@ impl Session {
             return self.take_again(client, principal, id, command);
         }
         if id != next && !(author.forgot_refusals && id > next) {
-            let problem = Problem {
-                code: ProblemCode::Refused,
-                field: Some("id".into()),
-                allowed: Some(next.to_string()),
-                message: format!("the command has number {id}, but the next one of this client is {next}"),
-            };
+            let message = format!("the command has number {id}, but the next one of this client is {next}");
+            let problem = Problem::new(Reason::NumberTaken, message).at("id", next.to_string());
             return self.send(client, &ServerMessage::Refused { id, problem });
         }
         author.taken = id;
@@ -134,7 +130,7 @@ impl Session {
         }
         let problem = match command.and_then(|command| self.check(principal, command)) {
             Err(problem) => problem,
-            Ok(_) => Problem::new(ProblemCode::Refused, format!("command {id} was refused before")),
+            Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before")),
         };
         self.send(client, &ServerMessage::Refused { id, problem });
     }
@@ -152,7 +148,7 @@ impl Session {
             command.action = self.stop_now();
         }
         let text = serde_json::to_string(&command)
-            .map_err(|error| Problem::new(ProblemCode::Malformed, error.to_string()))?;
+            .map_err(|error| Problem::new(Reason::Malformed, error.to_string()))?;
         let command = read_command(&text)?;
         let (queued, queued_bytes) = self.queue.waiting();
         let (writing, written_bytes) = self.journal.waiting();
@@ -160,7 +156,7 @@ impl Session {
             || queued_bytes.max(written_bytes).saturating_add(text.len()) > MAX_WAITING_BYTES;
         if full {
             let message = "too many commands wait to be done: try again when the tree has caught up";
-            return Err(Problem::new(ProblemCode::TooMany, message));
+            return Err(Problem::new(Reason::Behind, message));
         }
         Ok((command, text))
     }

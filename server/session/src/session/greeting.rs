@@ -37,7 +37,7 @@ impl Session {
             Ok(ClientMessage::Hello { client: key, resume, .. }) => match Principal::client(&key) {
                 Some(principal) => match self.rights.ask(&principal, Access::Join) {
                     Ok(()) => self.welcome(client, principal, resume),
-                    Err(problem) => self.close(client, CloseCode::CannotOpen, &problem.message),
+                    Err(problem) => self.close(client, CloseCode::CannotOpen, &problem.in_close()),
                 },
                 None => {
                     let sentence = "a client key has 8 to 64 letters, digits, hyphens and underscores";

@@ -1,0 +1,196 @@
+//! Why something was refused: the names by which programs know it.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+use crate::problem::ProblemCode;
+
+/// Declares the reasons, those of each code together, with a sentence that `PROTOCOL.md` has as well.
+macro_rules! reasons {
+    ($($code:ident { $(#[doc = $sentence:literal] $reason:ident,)+ })+) => {
+        /// Why something was refused. Clients find their own words by it, in the language of whoever reads.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, TS, JsonSchema)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum Reason {
+            $($(#[doc = $sentence] $reason,)+)+
+        }
+
+        impl Reason {
+            /// All of them in their order, each with its sentence.
+            pub const ALL: &'static [(Self, &'static str)] = &[$($((Self::$reason, $sentence.trim_ascii()),)+)+];
+
+            /// The code of a problem with this reason.
+            pub const fn code(self) -> ProblemCode {
+                match self { $($(Self::$reason)|+ => ProblemCode::$code,)+ }
+            }
+        }
+    };
+}
+
+reasons! {
+    Malformed {
+        /// The message is no JSON, or a field of it is missing, unknown or of another type.
+        Malformed,
+        /// A file did not arrive whole.
+        FileCutOff,
+        /// No tree can be made of a file; `cause` says why. The code is that of the cause.
+        NotATreeFile,
+        /// A file is not glTF.
+        NotGltf,
+        /// A file is glTF of another version, `cause`.
+        GltfVersion,
+        /// The buffers of a glTF file lie in other files.
+        GltfBuffers,
+        /// A glTF file needs `cause`, which is not read.
+        GltfNeeds,
+        /// A glTF file contradicts itself.
+        GltfDamaged,
+        /// A thumbnail is not a picture.
+        ThumbnailKind,
+    }
+    OutOfRange {
+        /// A value is outside its range.
+        OutOfRange,
+        /// A list has too few entries.
+        TooFew,
+        /// A place is not on the ground.
+        OffGround,
+        /// A place is inside an obstacle.
+        InObstacle,
+        /// A shape has no surface that something could stand behind.
+        NoSurface,
+        /// No triangle of a mesh has an area.
+        EmptyMesh,
+        /// A mesh has more triangles or vertices than a mesh may have.
+        LargeMesh,
+        /// A name or note is too short or too long.
+        TextLength,
+        /// A name or note has characters that mislead, or none that one can see.
+        TextUnseen,
+        /// A list of trees is asked for with too many words.
+        ManyWords,
+        /// There are too many tags.
+        ManyTags,
+        /// A tag has a comma.
+        TagComma,
+        /// A file format does not have this option.
+        NoSuchOption,
+    }
+    TooMany {
+        /// A list has too many entries.
+        TooMany,
+        /// Too many commands wait to be done.
+        Behind,
+        /// A file has too many bytes.
+        LargeFile,
+        /// The body of a request has too many bytes.
+        LargeRequest,
+        /// A thumbnail has too many bytes.
+        LargeThumbnail,
+    }
+    Refused {
+        /// One may not do this.
+        Forbidden,
+        /// The number of a command, stroke or bend is taken, or not the next one.
+        NumberTaken,
+        /// There is nothing to undo.
+        NothingToUndo,
+        /// There is nothing to redo.
+        NothingToRedo,
+        /// The plant is a seed.
+        NothingToUngrow,
+        /// No lateral branch stands in so little light.
+        NoDimBranch,
+        /// The foot of a trunk cannot be turned.
+        TrunkTurned,
+        /// The foot of a trunk cannot be moved.
+        TrunkMoved,
+        /// Nothing branches off below, so the trunk cannot be cut.
+        TrunkCut,
+        /// Somebody is bending the branch.
+        BeingBent,
+        /// A branch cannot be set on itself.
+        OwnBranch,
+        /// The branch would leave the world.
+        OutsideWorld,
+        /// Nothing can grow into this outline.
+        NoRoom,
+        /// The document holds as many metamers as it may.
+        TreeFull,
+        /// As many strokes as may be are in progress.
+        StrokesFull,
+        /// As many bends as may be are in progress.
+        BendsFull,
+        /// As many width constraints as may be are in force.
+        WidthsFull,
+        /// The history keeps as many places of moved wood as it may.
+        HistoryFull,
+        /// As many obstacles as may be are in the scene.
+        ObstaclesFull,
+        /// The meshes of the scene and its history would have too many triangles.
+        TrianglesFull,
+        /// The shape of a mesh stays as it is.
+        MeshKeepsShape,
+        /// There is no programme that parameters could follow.
+        NoProgramme,
+        /// A future is damaged.
+        FutureDamaged,
+        /// A collection cannot lie in itself.
+        CollectionInItself,
+        /// A newer program wrote this.
+        NewerProgram,
+        /// What is stored of a session is damaged.
+        SessionDamaged,
+        /// What is stored of a saved tree is damaged.
+        TreeDamaged,
+    }
+    NotFound {
+        /// There is no living metamer with this row.
+        BranchGone,
+        /// No such stroke is in progress.
+        StrokeGone,
+        /// No such bend is in progress.
+        BendGone,
+        /// There is no such future.
+        FutureGone,
+        /// There is no such obstacle.
+        ObstacleGone,
+        /// There is no such tree in the library.
+        NoTree,
+        /// There is no such session.
+        NoSession,
+        /// There is no such address, or nothing there.
+        NoneSuch,
+    }
+    Stale {
+        /// Somebody else has changed the tree meanwhile.
+        Stale,
+    }
+    Unavailable {
+        /// The database file was moved, deleted or replaced.
+        DatabaseGone,
+        /// The database cannot be used now.
+        DatabaseFailed,
+        /// The server is stopping.
+        Stopping,
+        /// The session cannot be opened now.
+        NotOpened,
+        /// The session has just ended.
+        SessionEnded,
+        /// As many people as may be are here.
+        ManyPeople,
+        /// The server failed to compute this.
+        Failed,
+        /// The server is busy growing.
+        Busy,
+        /// The request took too long.
+        Late,
+        /// The obstacle was not placed.
+        NotPlaced,
+        /// The tree cannot be exported.
+        NotExported,
+        /// The picture cannot be drawn.
+        NotDrawn,
+    }
+}
