@@ -16,9 +16,18 @@ pub enum LifeEvent {
     Shedding(f32),
     Seed(f32),
     Ball(f32),
+    MoveBall(u32, f32),
+    Reshape(u32, f32),
+    RemoveBall(u32),
+    Programme(u32, f32),
+    NoProgramme(bool),
+    Follow,
+    Stop(u32),
     Bend(u32, f32),
+    GiveUpBend(u32, f32),
     Width(u32, Option<f32>),
     Prune(u32),
+    PruneDim(f32),
     Turn(u32),
     Graft(u32, u32, bool),
     Ungrow(u32),
@@ -40,9 +49,18 @@ pub fn events() -> impl Strategy<Value = Vec<LifeEvent>> {
         1 => (0f32..0.3).prop_map(LifeEvent::Shedding),
         1 => (-9f32..9.0).prop_map(LifeEvent::Seed),
         1 => (-9f32..9.0).prop_map(LifeEvent::Ball),
+        1 => (any::<u32>(), -9f32..9.0).prop_map(|(which, x)| LifeEvent::MoveBall(which, x)),
+        1 => (any::<u32>(), 0.5f32..2.0).prop_map(|(which, size)| LifeEvent::Reshape(which, size)),
+        1 => any::<u32>().prop_map(LifeEvent::RemoveBall),
+        2 => (0u32..12, 0.4f32..0.7).prop_map(|(age, value)| LifeEvent::Programme(age, value)),
+        1 => any::<bool>().prop_map(LifeEvent::NoProgramme),
+        1 => Just(LifeEvent::Follow),
+        1 => (0u32..9).prop_map(LifeEvent::Stop),
         2 => (any::<u32>(), -3f32..3.0).prop_map(|(row, x)| LifeEvent::Bend(row, x)),
+        1 => (any::<u32>(), -3f32..3.0).prop_map(|(row, x)| LifeEvent::GiveUpBend(row, x)),
         2 => (any::<u32>(), prop::option::weighted(0.8, 0.05f32..2.0)).prop_map(|(row, d)| LifeEvent::Width(row, d)),
         2 => any::<u32>().prop_map(LifeEvent::Prune),
+        1 => (0f32..1.0).prop_map(LifeEvent::PruneDim),
         2 => any::<u32>().prop_map(LifeEvent::Turn),
         2 => (any::<u32>(), any::<u32>(), any::<bool>()).prop_map(|(row, onto, keep)| LifeEvent::Graft(row, onto, keep)),
         2 => (1u32..6).prop_map(LifeEvent::Ungrow),
@@ -97,21 +115,46 @@ fn commands(document: &Document, number: usize, event: &LifeEvent) -> Vec<String
         LifeEvent::Ball(x) => one(format!(
             r#"{{"kind":"place_obstacle","obstacle":{{"shape":{{"kind":"sphere","radius":1.5}},"pose":{{"position":[{x:?},4.0,0.0]}}}}}}"#
         )),
-        LifeEvent::Bend(any, x) => {
-            let (end, base) = (row(any), below(document, row(any), 4));
-            vec![
-                format!(
-                    r#"{{"kind":"bend_begin","bend":{number},"base":{base},"touches":[{end}],"stretch":0.3}}"#
-                ),
-                format!(r#"{{"kind":"bend_move","bend":{number},"targets":[[{x:?},6.0,1.0]]}}"#),
-                format!(r#"{{"kind":"bend_end","bend":{number}}}"#),
-            ]
+        LifeEvent::MoveBall(any, x) => of_obstacle(document, any, |id| {
+            format!(r#"{{"kind":"move_obstacle","id":{id},"pose":{{"position":[{x:?},3.0,1.0]}}}}"#)
+        }),
+        LifeEvent::Reshape(any, size) => of_obstacle(document, any, |id| {
+            let shape = format!(r#"{{"kind":"box","size":[{size:?},2.0,1.0]}}"#);
+            format!(r#"{{"kind":"reshape_obstacle","id":{id},"shape":{shape}}}"#)
+        }),
+        LifeEvent::RemoveBall(any) => {
+            of_obstacle(document, any, |id| format!(r#"{{"kind":"remove_obstacle","id":{id}}}"#))
         }
+        // Its stages lie before, at and after the age of the tree.
+        LifeEvent::Programme(age, value) => {
+            let change =
+                format!(r#"{{"kind":"change","age":{age},"parameters":{{"apical_control":{value:?}}}}}"#);
+            let seed = format!(r#"{{"kind":"seed","age":{age},"position":[5.0,0.0,{value:?}]}}"#);
+            let sample = r#"{"position":[2.0,5.0,0.0],"radius":1.5}"#;
+            let stroke = format!(r#"{{"kind":"stroke","age":{},"samples":[{sample}]}}"#, age + 2);
+            one(format!(
+                r#"{{"kind":"set_programme","programme":{{"species":"oak","parameters":{{"branching_angle":40.0}},
+                    "stages":[{change},{seed},{stroke}],"age":20}}}}"#
+            ))
+        }
+        LifeEvent::NoProgramme(keep) => {
+            one(format!(r#"{{"kind":"set_programme","programme":null,"keep":{keep}}}"#))
+        }
+        LifeEvent::Follow => {
+            one(r#"{"kind":"follow_programme","parameters":["apical_control","shedding_threshold"]}"#
+                .to_owned())
+        }
+        LifeEvent::Stop(more) => {
+            one(format!(r#"{{"kind":"stop","tick":{}}}"#, document.figures().steps_begun + more))
+        }
+        LifeEvent::Bend(any, x) => bend(document, number, row(any), x, "bend_end"),
+        LifeEvent::GiveUpBend(any, x) => bend(document, number, row(any), x, "bend_cancel"),
         LifeEvent::Width(any, diameter) => {
             let diameter = diameter.map_or("null".to_owned(), |diameter| format!("{diameter:?}"));
             one(format!(r#"{{"kind":"set_width","row":{},"diameter":{diameter}}}"#, row(any % 7)))
         }
         LifeEvent::Prune(any) => one(format!(r#"{{"kind":"prune","rows":[{}]}}"#, row(any))),
+        LifeEvent::PruneDim(exposure) => one(format!(r#"{{"kind":"prune_dim","exposure":{exposure:?}}}"#)),
         LifeEvent::Turn(any) => {
             one(format!(r#"{{"kind":"turn_branch","row":{},"rotation":{quarter}}}"#, row(any)))
         }
@@ -135,6 +178,21 @@ fn commands(document: &Document, number: usize, event: &LifeEvent) -> Vec<String
                 .collect()
         }
     }
+}
+
+fn bend(document: &Document, number: usize, end: u32, x: f32, last: &str) -> Vec<String> {
+    let base = below(document, end, 4);
+    vec![
+        format!(r#"{{"kind":"bend_begin","bend":{number},"base":{base},"touches":[{end}],"stretch":0.3}}"#),
+        format!(r#"{{"kind":"bend_move","bend":{number},"targets":[[{x:?},6.0,1.0]]}}"#),
+        format!(r#"{{"kind":"{last}","bend":{number}}}"#),
+    ]
+}
+
+/// A command for one of the obstacles, if there is any.
+fn of_obstacle(document: &Document, any: u32, command: impl Fn(u32) -> String) -> Vec<String> {
+    let all = document.obstacles();
+    all.get(any as usize % all.len().max(1)).map(|one| command(one.id)).into_iter().collect()
 }
 
 fn parameter(name: &str, value: f32) -> String {
