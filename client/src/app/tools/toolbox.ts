@@ -7,7 +7,7 @@ import { say } from "../words/say";
 import type { AnyTool, Mover, Service, ToolDescriptor, ToolKit, Workshop } from "./descriptor";
 import { pace } from "./pacing";
 import { strokeCopies, symmetryNow } from "./symmetry/stroke-copies";
-import type { SymmetryFrame } from "./symmetry/symmetry";
+import type { SymmetryCentre } from "./symmetry/symmetry";
 import { PICK_TOLERANCE } from "./tool";
 import { descriptorOf, FIRST_TOOL, type MadeTools, makeMover, TOOL_NAMES, type ToolName, toolFor } from "./tools";
 
@@ -44,7 +44,7 @@ export class Toolbox {
   readonly drawing = signal(false);
   readonly hold = signal<Hold | null>(null);
   /** What the stroke in progress is repeated about. */
-  readonly frame = signal<SymmetryFrame | null>(null);
+  readonly centre = signal<SymmetryCentre | null>(null);
   /** Each tool by its name, once its code is there; null without a view. */
   readonly made = signal<MadeTools | null>(null);
 
@@ -75,8 +75,8 @@ export class Toolbox {
       copies: strokeCopies(
         { table, view, base },
         () => symmetryNow(settings, bud.row.peek()),
-        (frame) => {
-          this.frame.value = frame;
+        (centre) => {
+          this.centre.value = centre;
         },
       ),
       say: (text) => toasts.show(say(text)),
@@ -369,7 +369,7 @@ export class Toolbox {
       this.#active = null;
       this.#letGo();
       this.drawing.value = false;
-      this.frame.value = null;
+      this.centre.value = null;
     }
   }
 

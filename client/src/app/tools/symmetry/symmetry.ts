@@ -17,7 +17,7 @@ export interface Symmetry {
 }
 
 /** What strokes are repeated about. */
-export interface SymmetryFrame {
+export interface SymmetryCentre {
   /** The foot of the vertical axis. */
   readonly foot: Vec3;
   /** The horizontal normal of the mirror plane, of length one. */
@@ -46,7 +46,10 @@ export function isSymmetry(value: unknown): value is Symmetry {
 }
 
 /** The stroke itself, and all its repetitions. */
-export function copiesOf({ kind, around, mirrored }: Symmetry, { foot, mirrorNormal }: SymmetryFrame): readonly Copy[] {
+export function copiesOf(
+  { kind, around, mirrored }: Symmetry,
+  { foot, mirrorNormal }: SymmetryCentre,
+): readonly Copy[] {
   const turns = kind === "around" ? around : 1;
   const reflects = kind === "mirror" || (kind === "around" && mirrored);
   const sides = reflects ? [false, true] : [false];

@@ -2,7 +2,7 @@ import { useRef } from "preact/hooks";
 import type { Vec3 } from "../../../scene/vector";
 import type { Studio } from "../../studio";
 import { symmetryNow } from "../../tools/symmetry/stroke-copies";
-import { copiesOf, type SymmetryFrame } from "../../tools/symmetry/symmetry";
+import { copiesOf, type SymmetryCentre } from "../../tools/symmetry/symmetry";
 import { useAnimationFrames } from "../use-animation-frames";
 
 /** How far the axis reaches above the tree, and how long it is at least, in internodes. */
@@ -30,26 +30,26 @@ export function SymmetryMark({ studio }: { studio: Studio }) {
 }
 
 function linesOf(studio: Studio): (readonly [Vec3, Vec3])[] {
-  const frame = studio.tools.frame.peek() ?? idleFrame(studio);
+  const centre = studio.tools.centre.peek() ?? idleCentre(studio);
   const symmetry = symmetryNow(studio.settings, studio.bud.row.peek());
-  const [x, , z] = frame.foot;
+  const [x, , z] = centre.foot;
   const height = Math.max(LEAST_HEIGHT, studio.table.bounds().max[1] + ABOVE);
-  const axis: readonly [Vec3, Vec3] = [frame.foot, [x, height, z]];
+  const axis: readonly [Vec3, Vec3] = [centre.foot, [x, height, z]];
   if (symmetry.kind !== "around") {
     return [axis];
   }
   // Along the mirror, where there is one; else no direction is better than another.
-  const [rx, , rz] = symmetry.mirrored ? frame.mirrorNormal : [0, 0, 1];
-  const turns = copiesOf({ ...symmetry, mirrored: false }, frame);
+  const [rx, , rz] = symmetry.mirrored ? centre.mirrorNormal : [0, 0, 1];
+  const turns = copiesOf({ ...symmetry, mirrored: false }, centre);
   const rays = turns.map(({ direction }) => {
     const [dx, , dz] = direction([-rz * RAY, 0, rx * RAY]);
-    return [frame.foot, [x + dx, 0, z + dz]] as const;
+    return [centre.foot, [x + dx, 0, z + dz]] as const;
   });
   return [axis, ...rays];
 }
 
 /** What the next stroke would be repeated about: the plant in the middle of the picture. */
-function idleFrame(studio: Studio): SymmetryFrame {
+function idleCentre(studio: Studio): SymmetryCentre {
   const { base, right } = studio.stage.middle();
   return { foot: base, mirrorNormal: right };
 }
