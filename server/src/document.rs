@@ -141,7 +141,7 @@ const SHARES: &[(&str, [f64; 2])] =
     &[(option::QUANTISED, [0.55, 0.5]), (option::COMPRESSED, [0.4, 0.3]), (option::INSTANCED, [1.0, 0.12])];
 
 impl FormatRow {
-    /// What clients are told of it.
+    /// The row as clients read it.
     pub fn described(&self) -> ExportFormat {
         let [least, metamer, leaf] = self.bytes;
         ExportFormat {
@@ -260,7 +260,7 @@ fn species_of(parameters: &ParameterValues, looks: &Appearance) -> Option<&'stat
     let changes_to = |stage: &Stage| matches!(stage, Stage::Change(values) if **values == *parameters);
     let is_it = |species: &&Species| {
         let grows_so = species.parameters == *parameters || species.schedule.iter().any(changes_to);
-        // What surrounds it is nobody's.
+        // Species differ in leaves, flowers, fruits and bark; the background is no part of one.
         grows_so && Appearance { background: looks.background, ..species.appearance } == *looks
     };
     let mut found = species::all().iter().filter(is_it);

@@ -14,7 +14,7 @@ use crate::{
     billboard::Billboard,
     foliage::{
         Foliage,
-        cards::{Cards, LeafForm, Pose},
+        cards::{Cards, LeafForm, LeafInstance},
         living,
     },
     hull,
@@ -89,7 +89,7 @@ pub(crate) struct Scatter<'a> {
     pub surface: Surface<'a>,
     pub strength: f32,
     pub form: &'a LeafForm,
-    pub each: Each<'a, (Pose, Vec3)>,
+    pub each: Each<'a, (LeafInstance, Vec3)>,
 }
 
 /// Makes a file of nodes and parts.
@@ -296,9 +296,9 @@ impl<'a> Assembly<'a> {
             let (name, Some(thin)) = (PARTS[kind], thin) else { continue };
             let surface = Surface::Thin(name, &thin.texture);
             if kind == 0 && self.model.instanced {
-                let each: Each<'_, (Pose, Vec3)> = &|take| {
+                let each: Each<'_, (LeafInstance, Vec3)> = &|take| {
                     for &id in &limb.metamers {
-                        level.foliage.poses(id).try_for_each(&mut *take)?;
+                        level.foliage.instances(id).try_for_each(&mut *take)?;
                     }
                     Ok(())
                 };

@@ -268,9 +268,9 @@ impl Builder for Writer<'_> {
         let (origin, scale, each) = (self.origin(), self.scale, scatter.each);
         let (mut sum, mut count) = (Vec3::ZERO, 0);
         let mut is_finite = true;
-        each(&mut |(pose, hue)| {
+        each(&mut |(instance, hue)| {
             (sum, count) = (sum + hue * scatter.strength, count + 1);
-            is_finite &= (pose.place * scale).is_finite();
+            is_finite &= (instance.place * scale).is_finite();
             Ok(())
         })?;
         if count == 0 {
@@ -284,18 +284,20 @@ impl Builder for Writer<'_> {
         let leaf = |which: usize| format!("<{}/Leaf{which}>", self.path(scatter.name));
         let prototypes: Vec<String> = (0..LeafForm::PROTOTYPES).map(leaf).collect();
         writeln!(self.out, "rel prototypes = [{}]", prototypes.join(", "))?;
-        self.array("int[] protoIndices", "", |array| each(&mut |(pose, _)| array.put(pose.prototype)))?;
+        self.array("int[] protoIndices", "", |array| {
+            each(&mut |(instance, _)| array.put(instance.prototype))
+        })?;
         self.array("point3f[] positions", "", |array| {
-            each(&mut |(pose, _)| array.vector(&((pose.place - origin) * scale).to_array()))
+            each(&mut |(instance, _)| array.vector(&((instance.place - origin) * scale).to_array()))
         })?;
         self.array("quath[] orientations", "", |array| {
-            each(&mut |(pose, _)| {
-                let [x, y, z, w] = pose.rotation.to_array();
+            each(&mut |(instance, _)| {
+                let [x, y, z, w] = instance.rotation.to_array();
                 array.vector(&[w, x, y, z])
             })
         })?;
         self.array("float3[] scales", "", |array| {
-            each(&mut |(pose, _)| array.vector(&[pose.scale * scale; 3]))
+            each(&mut |(instance, _)| array.vector(&[instance.scale * scale; 3]))
         })?;
         self.array("color3f[] primvars:displayColor", " (\ninterpolation = \"vertex\"\n)", |array| {
             each(&mut |(_, hue)| array.vector(&(hue * scatter.strength).to_array()))

@@ -81,7 +81,7 @@ async fn begin(
         tree,
     };
     shared.store.create_session(new).await?;
-    Ok(Json(told(shared, name).await?))
+    Ok(Json(described(shared, name).await?))
 }
 
 /// The session of a tree, if somebody else is working there, or if it is as the tree was saved last (`LB3`).
@@ -91,14 +91,15 @@ async fn to_join(
     tree: &StoredTree,
 ) -> Result<Option<SessionCreated>, Failure> {
     let Some(session) = &tree.session else { return Ok(None) };
-    let told = told(shared, session.clone()).await?;
-    let is_saved = told.tree.as_ref().is_some_and(|of| of.saved && of.version == tree.head.number);
+    let found = described(shared, session.clone()).await?;
+    let is_saved = found.tree.as_ref().is_some_and(|of| of.saved && of.version == tree.head.number);
     let is_in_work = shared.sessions.people(session).await.iter().any(|other| other != principal);
-    let is_theirs = told.tree.as_ref().is_some_and(|of| of.id == tree.id);
-    Ok((is_theirs && (is_saved || is_in_work)).then_some(told))
+    let is_theirs = found.tree.as_ref().is_some_and(|of| of.id == tree.id);
+    Ok((is_theirs && (is_saved || is_in_work)).then_some(found))
 }
 
-async fn told(shared: &Shared, session: String) -> Result<SessionCreated, Failure> {
+/// A session with the tree that it belongs to.
+async fn described(shared: &Shared, session: String) -> Result<SessionCreated, Failure> {
     let tree = shared.store.tree_of(&session).await?;
     let tree = tree.map(|tree| SessionTree { id: tree.id, version: tree.version, saved: tree.is_saved });
     Ok(SessionCreated { session, tree })
@@ -109,7 +110,7 @@ pub(super) async fn find(
     Path(session): Path<String>,
 ) -> Result<impl IntoResponse, Failure> {
     if shared.store.has_session(&session).await? {
-        Ok(Json(told(&shared, session).await?))
+        Ok(Json(described(&shared, session).await?))
     } else {
         Err(Failure::no_session())
     }

@@ -85,10 +85,10 @@ impl LeafForm {
     }
 
     /// Which of those forms stands for a leaf, and where.
-    pub(crate) fn pose(&self, leaf: &Leaf) -> Pose {
+    pub(crate) fn instance(&self, leaf: &Leaf) -> LeafInstance {
         let Stand { base, direction, side, up, size } = self.stand(leaf);
         let number = own_numbers(leaf.random).x * Self::PROTOTYPES as f32;
-        Pose {
+        LeafInstance {
             prototype: (number as usize).min(Self::PROTOTYPES - 1),
             place: base,
             rotation: Quat::from_mat3(&Mat3::from_cols(direction, up, side)).normalize(),
@@ -156,7 +156,7 @@ impl LeafForm {
 
 /// A leaf that is one of few forms, moved, turned and scaled.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pose {
+pub(crate) struct LeafInstance {
     pub prototype: usize,
     pub place: Vec3,
     pub rotation: Quat,

@@ -13,7 +13,7 @@ use espalier_settings::Appearance;
 use glam::Vec3;
 
 use self::{
-    cards::{Cards, LeafForm, Pose},
+    cards::{Cards, LeafForm, LeafInstance},
     leaf_look::{LeafPainter, Shoot},
     ornaments::Bearer,
 };
@@ -69,8 +69,8 @@ impl<'a> Foliage<'a> {
     }
 
     /// The leaves of a metamer as places of few forms, and their colours.
-    pub(crate) fn poses(&self, id: MetamerId) -> impl Iterator<Item = (Pose, Vec3)> {
-        self.leaves(id).map(|(leaf, hue)| (self.form.pose(&leaf), hue))
+    pub(crate) fn instances(&self, id: MetamerId) -> impl Iterator<Item = (LeafInstance, Vec3)> {
+        self.leaves(id).map(|(leaf, hue)| (self.form.instance(&leaf), hue))
     }
 
     /// What all its leaves have in common.

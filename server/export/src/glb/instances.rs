@@ -33,15 +33,15 @@ pub(super) fn scatter(writer: &mut Writer<'_>, scatter: &Scatter<'_>) -> Result<
     let mut places: [Places; LeafForm::PROTOTYPES] = Default::default();
     let (origin, scale) = (writer.origin(), writer.scale);
     let mut is_finite = true;
-    (scatter.each)(&mut |(pose, hue)| {
-        let to = &mut places[pose.prototype];
+    (scatter.each)(&mut |(instance, hue)| {
+        let to = &mut places[instance.prototype];
         to.count += 1;
-        let place = (pose.place - origin) * scale;
+        let place = (instance.place - origin) * scale;
         is_finite &= place.is_finite();
         to.translations.extend(place.to_array().iter().flat_map(|part| part.to_le_bytes()));
-        let turn = pose.rotation.to_array().map(|part| (part * f32::from(i16::MAX)).round() as i16);
+        let turn = instance.rotation.to_array().map(|part| (part * f32::from(i16::MAX)).round() as i16);
         to.rotations.extend(turn.iter().flat_map(|part| part.to_le_bytes()));
-        to.scales.extend([pose.scale * scale; 3].iter().flat_map(|part| part.to_le_bytes()));
+        to.scales.extend([instance.scale * scale; 3].iter().flat_map(|part| part.to_le_bytes()));
         let colour = (hue * scatter.strength).clamp(Vec3::ZERO, Vec3::ONE) * 255.0;
         to.colours.extend(colour.to_array().map(|part| part.round() as u8));
         to.colours.push(255);

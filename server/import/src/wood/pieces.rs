@@ -198,7 +198,7 @@ impl Joinery<'_> {
         let places = (1..=count as u32).map(|k| start.lerp(end, f64::from(k) / count));
         let places = is_apart.then_some(start).into_iter().chain(places);
         let radius = piece.radius.map(|radius| (radius / self.metres) as f32);
-        // One that is too thin to be told is as good as none.
+        // Of one that is 0 or less than an f32 can hold, nothing is known; its width follows from what it bears.
         let radius = radius.filter(|radius| radius.is_finite() && *radius > 0.0);
         let (base, first, mut last) = (bearer, self.nodes.len() as u32, bearer);
         for place in places {
