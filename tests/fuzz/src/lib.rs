@@ -14,6 +14,7 @@ pub mod mesh;
 pub mod message;
 pub mod mtg;
 pub mod qsm;
+pub mod query;
 pub mod script;
 pub mod section;
 pub mod skeleton;
@@ -32,7 +33,7 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 13] = [
+pub const TARGETS: [Target; 14] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
@@ -42,6 +43,7 @@ pub const TARGETS: [Target; 13] = [
     Target { name: "message", read: message::read, seeds: message::seeds },
     Target { name: "mtg", read: mtg::read, seeds: mtg::seeds },
     Target { name: "qsm", read: qsm::read, seeds: qsm::seeds },
+    Target { name: "query", read: query::read, seeds: query::seeds },
     Target { name: "script", read: script::read, seeds: script::seeds },
     Target { name: "section", read: section::read, seeds: section::seeds },
     Target { name: "skeleton", read: skeleton::read, seeds: skeleton::seeds },

@@ -168,6 +168,11 @@ fn thumbnails_survive_damage() {
 }
 
 #[test]
+fn queries_survive_damage() {
+    check("query", 5000);
+}
+
+#[test]
 fn frames_survive_damage() {
     check("frame", 10000);
 }
