@@ -14,6 +14,7 @@ mod schematic;
 mod sessions;
 mod species;
 mod text;
+mod time;
 mod trees;
 mod versions;
 

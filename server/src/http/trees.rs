@@ -1,6 +1,6 @@
 //! The library: its trees as a whole.
 
-use std::{collections::BTreeSet, time::SystemTime};
+use std::collections::BTreeSet;
 
 use axum::{
     Extension, Json,
@@ -23,6 +23,7 @@ use super::{
     failure::{Body, Failure, Query},
     revision::{self, Expected},
     text,
+    time::{Time, now},
     versions::{self, Said, Saving},
 };
 use crate::{
@@ -76,9 +77,11 @@ pub(super) struct Page {
     /// The most metamers.
     max_metamers: Option<u32>,
     /// Saved at this time or later: RFC 3339, UTC.
-    saved_from: Option<String>,
+    #[schemars(with = "String")]
+    saved_from: Option<Time>,
     /// Saved before this time.
-    saved_before: Option<String>,
+    #[schemars(with = "String")]
+    saved_before: Option<Time>,
     /// The order.
     #[serde(default)]
     sort: Order,
@@ -120,8 +123,8 @@ impl Page {
             author: self.author,
             saved_by: self.mine.then(whoever).flatten(),
             metamers: self.min_metamers.unwrap_or(0)..=self.max_metamers.unwrap_or(u32::MAX),
-            saved_from: self.saved_from,
-            saved_before: self.saved_before,
+            saved_from: self.saved_from.map(|time| time.0),
+            saved_before: self.saved_before.map(|time| time.0),
             sort: match self.sort {
                 Order::Newest => Sort::Newest,
                 Order::Oldest => Sort::Oldest,
@@ -145,11 +148,11 @@ pub(super) async fn list(
     let last = trees.last().filter(|_| trees.len() == query.limit as usize);
     let next = last.map(|tree| write_place(&query.place_of(tree)));
     let favourites = shared.store.favourites(&principal.to_string()).await?;
-    let mut told = Vec::with_capacity(trees.len());
+    let mut listed = Vec::with_capacity(trees.len());
     for tree in trees {
-        told.push(to_proto(&shared, tree, &favourites).await?);
+        listed.push(to_proto(&shared, tree, &favourites).await?);
     }
-    Ok(Json(TreePage { trees: told, next }))
+    Ok(Json(TreePage { trees: listed, next }))
 }
 
 /// How many were asked for.
@@ -284,11 +287,6 @@ pub(super) async fn undelete(
     let deletion = Some(Deletion::Undeleted);
     shared.store.change_tree(&id, expected, TreeChange { deletion, ..TreeChange::default() }).await?;
     answer(&shared, &principal, &id).await
-}
-
-/// The present time, as the library keeps it.
-pub(super) fn now() -> String {
-    humantime::format_rfc3339_millis(SystemTime::now()).to_string()
 }
 
 /// A tree as it is now.

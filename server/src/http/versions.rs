@@ -20,7 +20,8 @@ use super::{
     failure::{Body, Failure, Query},
     revision::{self, Expected},
     sessions, text,
-    trees::{self, limit_of, now},
+    time::now,
+    trees::{self, limit_of},
 };
 use crate::{
     SIMULATION_VERSION,

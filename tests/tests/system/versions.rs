@@ -274,7 +274,8 @@ async fn lb7_trees_are_found_by_what_is_said_of_them() {
         ("mine=true&min_metamers=1", vec!["Äpfel", "Pear", "Érable"]),
         ("max_metamers=0", vec![]),
         ("sort=oldest&q=r", vec!["Érable", "Pear"]),
-        ("saved_before=2000", vec![]),
+        ("saved_before=2000-01-01T00:00:00Z", vec![]),
+        ("saved_from=2000-01-01T00:00:00Z&q=pear", vec!["Pear"]),
         (&format!("sort=name&after={next}"), vec!["Érable", "Pear"]),
     ] {
         assert_eq!(found(query), expected, "{query}");

@@ -40,6 +40,13 @@ describe("what is wanted", () => {
     expect(asked({ ...all, from: "soon", to: "" })).toMatchObject({ saved_from: undefined, saved_before: undefined });
   });
 
+  it("years that are being typed are none that the server refuses", () => {
+    expect(asked({ ...all, from: "0202-01-01", to: "20260-01-01" })).toMatchObject({
+      saved_from: "1970-01-01T00:00:00.000Z",
+      saved_before: "9999-01-01T00:00:00.000Z",
+    });
+  });
+
   it("sizes leave no gap", () => {
     const [, ...ranges] = Object.values(SIZES);
     const ends = ranges.slice(0, -1).map(([, most]) => (most ?? 0) + 1);

@@ -123,5 +123,9 @@ export function cleared({ collection, sort }: Wanted): Wanted {
 function midnight(day: string, later: number): string | undefined {
   const [year = Number.NaN, month = 1, date = 1] = day.split("-").map(Number);
   const time = new Date(year, month - 1, date + later);
-  return day === "" || Number.isNaN(time.valueOf()) ? undefined : time.toISOString();
+  if (day === "" || Number.isNaN(time.valueOf())) {
+    return undefined;
+  }
+  // The server takes years of four digits from 1970 on, and a year that is being typed may be any.
+  return new Date(Math.min(Math.max(time.valueOf(), 0), Date.UTC(9999, 0))).toISOString();
 }
