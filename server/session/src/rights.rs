@@ -29,7 +29,11 @@ impl Rights {
     }
 
     pub(crate) fn ask(&self, principal: &Principal, access: Access) -> Result<(), Problem> {
-        if (self.0)(principal, access) { Ok(()) } else { Err(forbidden()) }
+        let (field, allowed) = match access {
+            Access::Join => ("client", "the key of a client that may join"),
+            Access::Edit => ("kind", "commands of a client that may edit"),
+        };
+        if (self.0)(principal, access) { Ok(()) } else { Err(forbidden().at(field, allowed)) }
     }
 }
 

@@ -334,7 +334,8 @@ impl Session {
             }
             Ok(ClientMessage::Ping { nonce }) => self.send(client, &ServerMessage::Pong { nonce }),
             Ok(ClientMessage::Hello { .. }) => {
-                let problem = Problem::new(Reason::Malformed, "hello is only the first message");
+                let problem = Problem::new(Reason::Malformed, "hello is only the first message")
+                    .at("type", "any other message");
                 self.send(client, &ServerMessage::Problem { problem });
             }
             Err(Unreadable { id: Some(id), problem }) => {
@@ -358,7 +359,8 @@ impl Session {
     fn read_binary(&mut self, client: ClientId) {
         match self.clients.get(&client) {
             Some(Client { connected: Some(_), .. }) => {
-                let problem = Problem::new(Reason::Malformed, "clients send no binary messages");
+                let problem = Problem::new(Reason::Malformed, "clients send no binary messages")
+                    .at("type", "a control message, as text");
                 self.send(client, &ServerMessage::Problem { problem });
             }
             Some(_) => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),

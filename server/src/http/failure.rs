@@ -46,9 +46,9 @@ impl Failure {
         if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
             let allowed = format!("{} MiB", most >> 20);
             let problem = Problem::new(Reason::LargeFile, format!("The file is larger than {allowed}."));
-            return Problem { allowed: Some(allowed), ..problem }.into();
+            return problem.at("body", allowed).into();
         }
-        Self::new(Reason::FileCutOff, "The file did not arrive whole.")
+        Problem::new(Reason::FileCutOff, "The file did not arrive whole.").at("body", "a whole file").into()
     }
 }
 
@@ -144,12 +144,14 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
             let problem = Problem::new(Reason::Malformed, "The request must be application/json.");
             return Err(problem.at("content-type", "application/json").into());
         }
-        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| {
+        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| -> Failure {
             if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
                 let problem = Problem::new(Reason::LargeRequest, "The request is too large.");
-                return Problem { allowed: Some("a smaller body".into()), ..problem }.into();
+                return problem.at("body", "a smaller body").into();
             }
-            Failure::new(Reason::Malformed, "The request cannot be read: it did not arrive whole.")
+            Problem::new(Reason::Malformed, "The request cannot be read: it did not arrive whole.")
+                .at("body", "a whole body")
+                .into()
         })?;
         // Bytes that are no text are no JSON, and the reader says so.
         Ok(Self(reading::from_json(&String::from_utf8_lossy(&bytes))?))

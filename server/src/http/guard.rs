@@ -88,10 +88,10 @@ pub(super) async fn ask(
 
 fn principal(headers: &HeaderMap) -> Result<Principal, Problem> {
     let Some(key) = headers.get(CLIENT) else { return Ok(Principal::visitor()) };
-    key.to_str()
-        .ok()
-        .and_then(Principal::client)
-        .ok_or_else(|| Problem::new(Reason::Malformed, "The request cannot be read: its client key is none."))
+    key.to_str().ok().and_then(Principal::client).ok_or_else(|| {
+        Problem::new(Reason::Malformed, "The request cannot be read: its client key is none.")
+            .at(CLIENT.as_str(), "8 to 64 letters, digits, - and _")
+    })
 }
 
 /// Another site's page may neither open a socket (browsers allow that across sites) nor change anything here.
@@ -129,6 +129,13 @@ mod tests {
             headers.insert(header::ORIGIN, HeaderValue::from_static(origin));
         }
         is_same_origin(&headers)
+    }
+
+    #[test]
+    fn a_client_key_that_is_none_is_named_with_what_is_allowed() {
+        let headers = HeaderMap::from_iter([(CLIENT, HeaderValue::from_static("seven_7"))]);
+        let problem = principal(&headers).expect_err("it is too short");
+        assert_eq!((problem.field.as_deref(), problem.allowed.is_some()), (Some("espalier-client"), true));
     }
 
     #[test]

@@ -29,9 +29,9 @@ impl<S: Sync> FromRequestParts<S> for Expected {
         }
         let number = text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
         let revision = number.and_then(|number| number.parse().ok());
-        let problem = || Problem {
-            allowed: Some("an ETag of the tree, as \"3\"".into()),
-            ..Problem::new(Reason::Malformed, format!("The request cannot be read: If-Match is {text}."))
+        let problem = || {
+            Problem::new(Reason::Malformed, format!("The request cannot be read: If-Match is {text}."))
+                .at(header::IF_MATCH.as_str(), "an ETag of the tree, as \"3\"")
         };
         revision.map(|revision| Self(Some(revision))).ok_or_else(|| problem().into())
     }

@@ -94,7 +94,9 @@ impl Document {
         stretch: Share,
     ) -> Result<(), Problem> {
         if self.bends.find(cause.author, number).is_ok() {
-            return Err(Problem::new(Reason::NumberTaken, format!("bend {number} has begun already")));
+            let message = format!("bend {number} has begun already");
+            return Err(Problem::new(Reason::NumberTaken, message)
+                .at("bend", "a number that no bend in progress has"));
         }
         if self.bends.open.len() >= MAX_OPEN {
             let message = format!("{MAX_OPEN} bends are in progress; end one first");
@@ -175,7 +177,7 @@ impl Document {
             if let Some(recorded) = recorded {
                 self.refuse(recorded);
             }
-            return carried.map_err(said);
+            return carried.map_err(said("bend"));
         }
         self.reach();
         self.history.keep_places(places);

@@ -40,7 +40,7 @@ impl Document {
                 if let Some(recorded) = recorded {
                     self.refuse(recorded);
                 }
-                outcome.map_err(said)?;
+                outcome.map_err(said("rotation"))?;
             }
         }
         Ok(())
@@ -58,7 +58,7 @@ impl Document {
             let _fits = self.simulation.take_future(former);
             self.simulation.go_to(now);
             self.keep_state();
-            return Err(said(error));
+            return Err(said("rotation")(error));
         }
         if self.plant().step() == now {
             self.history.latest = Some(Latest { step: now, row: branch.raw(), rotation: Some(rotation) });
@@ -113,7 +113,7 @@ impl Document {
         let recorded = self.record(Kind::Graft, cause);
         if let Err(error) = self.simulation.graft(branch, bearer, &motion, original) {
             self.refuse(recorded);
-            return Err(said(error));
+            return Err(said("onto")(error));
         }
         self.reach();
         self.release_lost_bends();
@@ -136,12 +136,14 @@ impl Document {
     }
 }
 
-/// An edit's error in words for people.
-pub(super) fn said(error: EditError) -> Problem {
-    let reason = match error {
-        EditError::OutOfWorld => Reason::OutsideWorld,
-        EditError::OutOfBudget => Reason::TreeFull,
-        EditError::Columns(_) => Reason::Failed,
-    };
-    Problem::new(reason, error.to_string())
+/// An edit's error in words for people; the field says where the wood would go.
+pub(super) fn said(field: &str) -> impl Fn(EditError) -> Problem {
+    move |error| {
+        let (reason, allowed) = match error {
+            EditError::OutOfWorld => (Reason::OutsideWorld, "places inside the world"),
+            EditError::OutOfBudget => (Reason::TreeFull, "wood that the budget of the document holds"),
+            EditError::Columns(_) => (Reason::Failed, "wood that fits the plants"),
+        };
+        Problem::new(reason, error.to_string()).at(field, allowed)
+    }
 }

@@ -278,7 +278,8 @@ impl Document {
                 self.return_to_future();
             }
             self.futures.forget_with(line);
-            return Err(Problem::new(Reason::FutureDamaged, format!("future {line} is damaged: {error}")));
+            let message = format!("future {line} is damaged: {error}");
+            return Err(Problem::new(Reason::FutureDamaged, message).at("future", "a future that is whole"));
         }
         self.futures.take_over(line);
         self.futures.present = line;
@@ -297,7 +298,8 @@ impl Document {
         let message = format!(
             "the history keeps {held} places of wood that was moved, and may keep {MAX_PLACES}; undo something"
         );
-        Err(Problem::new(Reason::HistoryFull, message))
+        let allowed = format!("edits of up to {MAX_PLACES} places of wood in all");
+        Err(Problem::new(Reason::HistoryFull, message).at("kind", allowed))
     }
 
     /// Forgets futures until all of them fit (`LM11`).

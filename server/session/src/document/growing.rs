@@ -7,9 +7,7 @@ use espalier_proto::{
 };
 use glam::{Vec2, Vec3};
 
-use super::{
-    Document, branch_gone, generators::Step, hints::OpenLasso, history::Kind, strokes::OpenStroke,
-};
+use super::{Document, branch_gone, generators::Step, hints::OpenLasso, history::Kind, strokes::OpenStroke};
 use crate::cause::Cause;
 
 /// Steps still to be run for an action taken on.
@@ -216,7 +214,8 @@ impl Document {
             return Ok(());
         }
         let message = format!("the document holds {held} metamers, its budget is {budget}");
-        Err(Problem::new(Reason::TreeFull, message))
+        let allowed = format!("what grows while there are fewer than {budget} metamers");
+        Err(Problem::new(Reason::TreeFull, message).at("kind", allowed))
     }
 
     fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {

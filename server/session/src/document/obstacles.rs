@@ -136,7 +136,9 @@ impl Document {
         // The bytes of a mesh are asked for by its id, and stay what they are (`OB5`).
         if matches!(now.form, Form::Mesh { .. }) {
             let message = format!("obstacle {id} is a mesh; a mesh keeps its shape");
-            return Err(Problem::new(Reason::MeshKeepsShape, message));
+            return Err(
+                Problem::new(Reason::MeshKeepsShape, message).at("id", "the id of a box, sphere or plane")
+            );
         }
         let form = Form::of(shape.get()).map_err(|problem| problem.within("shape"))?;
         if now.form == form {

@@ -60,7 +60,8 @@ impl Document {
     ) -> Result<(), Problem> {
         if self.programme().is_none() {
             let message = "there is no programme that parameters could follow";
-            return Err(Problem::new(Reason::NoProgramme, message));
+            return Err(Problem::new(Reason::NoProgramme, message)
+                .at("parameters", "names of parameters while a programme is in force"));
         }
         let names: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
         let wanted = self.schedule().without(&names)?;

@@ -22,7 +22,8 @@ impl Document {
         let cuts = dim_branches(self.plant(), exposure);
         if cuts.is_empty() {
             let message = format!("no lateral branch stands in so little light as {exposure}");
-            return Err(Problem::new(Reason::NoDimBranch, message));
+            return Err(Problem::new(Reason::NoDimBranch, message)
+                .at("exposure", "the light of some lateral branch, or more"));
         }
         self.cut(cause, &cuts);
         Ok(())

@@ -42,7 +42,9 @@ impl OpenStrokes {
 
     pub fn open(&mut self, author: &str, number: u32, chosen: Option<MetamerId>) -> Result<(), Problem> {
         if self.find(author, number).is_some() {
-            return Err(Problem::new(Reason::NumberTaken, format!("stroke {number} has begun already")));
+            let message = format!("stroke {number} has begun already");
+            return Err(Problem::new(Reason::NumberTaken, message)
+                .at("stroke", "a number that no stroke in progress has"));
         }
         if self.open.len() >= MAX_OPEN {
             let message = format!("{MAX_OPEN} strokes are in progress; end one first");

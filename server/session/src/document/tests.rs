@@ -95,6 +95,7 @@ fn problem(document: &mut Document, action: &Command) -> Problem {
     let before = document.hash();
     let problem = document.apply("ann", action).expect_err("it is refused");
     assert_eq!(document.hash(), before, "{action:?} is refused and changes something");
+    assert!(problem.field.is_some() && problem.allowed.is_some(), "{action:?} names too little: {problem:?}");
     problem
 }
 

@@ -11,10 +11,9 @@ impl Document {
     pub(super) fn ungrow(&mut self, steps: u32) -> Result<(), Problem> {
         let now = self.plant().step();
         if now == 0 {
-            return Err(Problem::new(
-                Reason::NothingToUngrow,
-                "the plant is a seed; there is nothing to ungrow",
-            ));
+            let message = "the plant is a seed; there is nothing to ungrow";
+            return Err(Problem::new(Reason::NothingToUngrow, message)
+                .at("kind", "ungrow, where a step has grown something"));
         }
         let step = now.saturating_sub(steps);
         self.history.done = self.history.done.min(self.history.done_at(step));
@@ -27,7 +26,10 @@ impl Document {
             self.keep_to_line();
             return Ok(());
         }
-        let nothing = || Problem::new(Reason::NothingToUndo, "there is nothing to undo");
+        let nothing = || {
+            Problem::new(Reason::NothingToUndo, "there is nothing to undo")
+                .at("kind", "undo, where something was done")
+        };
         let step = self.history.undo().ok_or_else(nothing)?;
         self.travel(step);
         self.keep_to_line();
@@ -36,7 +38,10 @@ impl Document {
 
     pub(super) fn redo(&mut self) -> Result<(), Problem> {
         let now = self.plant().step();
-        let nothing = || Problem::new(Reason::NothingToRedo, "there is nothing to redo");
+        let nothing = || {
+            Problem::new(Reason::NothingToRedo, "there is nothing to redo")
+                .at("kind", "redo, where something was undone")
+        };
         let step = self.history.redo(now).ok_or_else(nothing)?;
         self.travel(step);
         self.keep_to_line();

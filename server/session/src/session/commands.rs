@@ -130,7 +130,8 @@ impl Session {
         }
         let problem = match command.and_then(|command| self.check(principal, command)) {
             Err(problem) => problem,
-            Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before")),
+            Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before"))
+                .at("id", "a number that no command had"),
         };
         self.send(client, &ServerMessage::Refused { id, problem });
     }
@@ -148,7 +149,7 @@ impl Session {
             command.action = self.stop_now();
         }
         let text = serde_json::to_string(&command)
-            .map_err(|error| Problem::new(Reason::Malformed, error.to_string()))?;
+            .map_err(|error| Problem::new(Reason::Malformed, error.to_string()).at("kind", "plain values"))?;
         let command = read_command(&text)?;
         let (queued, queued_bytes) = self.queue.waiting();
         let (writing, written_bytes) = self.journal.waiting();
@@ -156,7 +157,8 @@ impl Session {
             || queued_bytes.max(written_bytes).saturating_add(text.len()) > MAX_WAITING_BYTES;
         if full {
             let message = "too many commands wait to be done: try again when the tree has caught up";
-            return Err(Problem::new(Reason::Behind, message));
+            let allowed = format!("up to {MAX_WAITING} commands in {MAX_WAITING_BYTES} bytes that wait");
+            return Err(Problem::new(Reason::Behind, message).at("kind", allowed));
         }
         Ok((command, text))
     }

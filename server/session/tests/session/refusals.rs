@@ -1,7 +1,7 @@
 //! Every refusal of a message names the field at fault and what is allowed there (`CM3`, `CM8`).
 
-use espalier_proto::{ClientMessage, Problem};
-use espalier_session::read_command;
+use espalier_proto::{ClientMessage, Problem, Reason};
+use espalier_session::{Document, read_command};
 use serde_json::{Value, json};
 
 use crate::obstacles::tetrahedron;
@@ -12,7 +12,7 @@ pub(crate) fn commands() -> Vec<Value> {
     let looks = Value::from_iter([("appearance", json!(espalier_settings::Appearance::default()))]);
     let mut set_appearance = looks;
     set_appearance["kind"] = "set_appearance".into();
-    let parameters = espalier_session::Document::new(1).parameters();
+    let parameters = Document::new(1).parameters();
     let mesh = json!({ "kind": "mesh", "mesh": tetrahedron().to_base64(), "scale": 1 });
     let stages = json!([
         { "kind": "change", "age": 0, "parameters": { "shedding_threshold": 0.5, "trunk_upward": true } },
@@ -211,6 +211,87 @@ fn cm3_every_refused_command_names_field_and_range() {
 fn cm8_every_refused_message_names_field_and_range() {
     let read = |text: &str| ClientMessage::from_json(text).map(drop).map_err(|unread| unread.problem);
     check(&count(&messages(), read), 150);
+}
+
+/// What is refused for what the document is: what was done before, the command, and the field that it should name.
+fn by_state() -> Vec<(Reason, Vec<Value>, Value, &'static str)> {
+    let stroke = |stroke: u32| json!({ "kind": "stroke_begin", "stroke": stroke });
+    let place = |shape: &Value| json!({ "kind": "place_obstacle", "obstacle": { "shape": shape, "pose": { "position": [40, 3, 0] } } });
+    let ball = json!({ "kind": "sphere", "radius": 2 });
+    let mesh = json!({ "kind": "mesh", "mesh": tetrahedron().to_base64(), "scale": 1 });
+    let grow = |steps: u32| json!({ "kind": "grow", "steps": steps });
+    let turned = json!([0, 0.6, 0, 0.8]);
+    let line = json!({
+        "kind": "lasso", "outline": [[0, 0], [0, 0], [0, 0]], "depth": 0.5,
+        "plane": { "origin": [0, 0, 0], "right": [1, 0, 0], "up": [0, 1, 0] },
+    });
+    vec![
+        (Reason::NothingToUndo, vec![], json!({ "kind": "undo" }), "kind"),
+        (Reason::NothingToRedo, vec![grow(1)], json!({ "kind": "redo" }), "kind"),
+        (Reason::NothingToUngrow, vec![], json!({ "kind": "ungrow", "steps": 1 }), "kind"),
+        (Reason::OutOfRange, vec![grow(1)], json!({ "kind": "go_to", "step": 9 }), "step"),
+        (Reason::NoDimBranch, vec![grow(3)], json!({ "kind": "prune_dim", "exposure": 0 }), "exposure"),
+        (Reason::NumberTaken, vec![stroke(1)], stroke(1), "stroke"),
+        (Reason::StrokesFull, (0..32).map(stroke).collect(), stroke(32), "stroke"),
+        (Reason::StrokeGone, vec![], json!({ "kind": "stroke_end", "stroke": 1 }), "stroke"),
+        (Reason::BendGone, vec![], json!({ "kind": "bend_cancel", "bend": 1 }), "bend"),
+        (Reason::FutureGone, vec![], json!({ "kind": "take_future", "future": 1 }), "future"),
+        (Reason::ObstacleGone, vec![], json!({ "kind": "remove_obstacle", "id": 1 }), "id"),
+        (Reason::ObstaclesFull, vec![place(&ball); 64], place(&ball), "obstacle"),
+        (
+            Reason::MeshKeepsShape,
+            vec![place(&mesh)],
+            json!({ "kind": "reshape_obstacle", "id": 1, "shape": ball }),
+            "id",
+        ),
+        (
+            Reason::NoProgramme,
+            vec![],
+            json!({ "kind": "follow_programme", "parameters": ["apical_control"] }),
+            "parameters",
+        ),
+        (Reason::OffGround, vec![], json!({ "kind": "plant_seed", "position": [9, 1, 0] }), "position[1]"),
+        (
+            Reason::InObstacle,
+            vec![place(&json!({ "kind": "sphere", "radius": 9 }))],
+            json!({ "kind": "plant_seed", "position": [40, 0, 0] }),
+            "position",
+        ),
+        (Reason::NoRoom, vec![], line, "outline"),
+        (Reason::BranchGone, vec![], json!({ "kind": "grow", "steps": 1, "bud": 999 }), "bud"),
+        (Reason::BranchGone, vec![], json!({ "kind": "prune", "rows": [999] }), "rows[0]"),
+        (Reason::TrunkCut, vec![grow(1)], json!({ "kind": "prune", "rows": [1] }), "rows[0]"),
+        (
+            Reason::TrunkTurned,
+            vec![grow(1)],
+            json!({ "kind": "turn_branch", "row": 1, "rotation": turned }),
+            "row",
+        ),
+        (
+            Reason::OwnBranch,
+            vec![grow(2)],
+            json!({ "kind": "graft", "row": 1, "onto": 2, "rotation": turned, "keep": false }),
+            "onto",
+        ),
+        (Reason::TreeFull, vec![grow(20)], grow(1), "kind"),
+    ]
+}
+
+#[test]
+fn cm3_every_refusal_by_the_state_names_field_and_range() {
+    for (reason, before, refused, field) in by_state() {
+        let mut document = Document::new(1);
+        document.set_metamer_budget(100);
+        let read = |value: &Value| read_command(&value.to_string()).expect("it is in good form");
+        for command in &before {
+            document.apply("ann", &read(command)).unwrap_or_else(|problem| panic!("{command}: {problem}"));
+        }
+        let hash = document.hash();
+        let problem = document.apply("ann", &read(&refused)).expect_err("it is refused");
+        assert_eq!((problem.reason, problem.field.as_deref()), (reason, Some(field)), "{refused}: {problem}");
+        assert!(problem.allowed.is_some_and(|allowed| !allowed.is_empty()), "{refused}");
+        assert_eq!(document.hash(), hash, "{refused} changes something");
+    }
 }
 
 #[test]

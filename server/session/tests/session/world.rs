@@ -127,7 +127,14 @@ impl World {
             Output::Text(ClientId(id), text) => {
                 let peer = self.peers.get_mut(&id).expect("a text goes to a connection that was made");
                 assert!(peer.closed.is_none(), "nothing follows a close");
-                peer.texts.push(serde_json::from_str(&text).expect("every text is a server message"));
+                let message = serde_json::from_str(&text).expect("every text is a server message");
+                if let ServerMessage::Refused { problem, .. } | ServerMessage::Problem { problem } = &message
+                {
+                    let is_no_json = problem.allowed.as_deref() == Some("JSON");
+                    let names = (problem.field.is_some() || is_no_json, problem.allowed.is_some());
+                    assert_eq!(names, (true, true), "a refusal names too little: {problem:?}");
+                }
+                peer.texts.push(message);
                 peer.unread += 1;
             }
             Output::Frame(ClientId(id), bytes) => {

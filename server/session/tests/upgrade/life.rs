@@ -76,7 +76,9 @@ pub fn events() -> impl Strategy<Value = Vec<LifeEvent>> {
 pub fn live(document: &mut Document, number: usize, event: &LifeEvent) {
     for command in commands(document, number, event) {
         let read = read_command(&command).unwrap_or_else(|problem| panic!("{command}: {problem}"));
-        let _refused = document.apply("ann", &read);
+        if let Err(problem) = document.apply("ann", &read) {
+            assert!(problem.field.is_some() && problem.allowed.is_some(), "{command}: {problem:?}");
+        }
     }
 }
 

@@ -145,7 +145,7 @@ fn be1_impossible_bends_name_what_is_wrong() {
         "base and end on different branches: {field}"
     );
     apply(&mut document, &begin(1, base, &[top, path[2]]));
-    assert_eq!(refusal(&mut document, &begin(1, base, &[top])), (Refused, String::new()), "begun already");
+    assert_eq!(refusal(&mut document, &begin(1, base, &[top])), (Refused, "bend".into()), "begun already");
     let one = plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) });
     assert_eq!(refusal(&mut document, &one), (OutOfRange, "targets".into()));
     // BE2: wood that moves is in one pair of hands.
