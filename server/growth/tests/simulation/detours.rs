@@ -25,6 +25,7 @@ struct Drawn {
     /// Metamers that grew, and how many do without the obstacle.
     grown: usize,
     freely: usize,
+    /// Whether none of them meets the obstacle.
     is_clean: bool,
 }
 
@@ -33,18 +34,14 @@ fn drawn(obstacles: &[Obstacle], path: &[Vec3], radius: f32, seed: u32) -> Drawn
         let mut simulation = trunk(seed, |_| {});
         simulation.set_metamer_budget(20_000);
         simulation.set_obstacles(obstacles.to_vec());
-        let before = simulation.plant().metamer_count();
+        let (before, standing) = (simulation.plant().metamer_count(), violations(&simulation));
         brush(&mut simulation, 2, &stroke(path, radius));
         let count = simulation.plant().metamer_count() - before;
-        (simulation, count)
+        let is_clean = violations(&simulation) == standing;
+        (simulation, count, is_clean)
     };
-    let (simulation, count) = grown(obstacles);
-    Drawn {
-        left: nearness(&simulation, path[path.len() - 1]),
-        grown: count,
-        freely: grown(&[]).1,
-        is_clean: violations(&simulation) == 0,
-    }
+    let (simulation, count, is_clean) = grown(obstacles);
+    Drawn { left: nearness(&simulation, path[path.len() - 1]), grown: count, freely: grown(&[]).1, is_clean }
 }
 
 /// What is wrong with strokes of all radii by so many seeds.
