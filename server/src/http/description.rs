@@ -13,13 +13,10 @@ use crate::http::guard::CLIENT;
 /// Writes a type's schema into a generator.
 type SchemaOf = fn(&mut SchemaGenerator) -> Value;
 
-/// The name of a type in the protocol's table.
-type NameOf = fn() -> String;
-
 /// What is taken or given.
 #[derive(Clone, Copy)]
 enum Content {
-    Json(SchemaOf, NameOf),
+    Json(SchemaOf),
     File(&'static str),
     Nothing,
 }
@@ -37,11 +34,6 @@ pub(super) struct About {
 
 fn schema_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Value {
     generator.subschema_for::<T>().to_value()
-}
-
-fn name_of<T: JsonSchema>() -> String {
-    let name = T::schema_name();
-    name.strip_prefix("Array_of_").map_or_else(|| name.to_string(), |entry| format!("{entry}[]"))
 }
 
 impl About {
@@ -62,7 +54,7 @@ impl About {
 
     /// The body of the request.
     pub fn takes<T: JsonSchema>(self) -> Self {
-        Self { takes: Some(Content::Json(schema_of::<T>, name_of::<T>)), ..self }
+        Self { takes: Some(Content::Json(schema_of::<T>)), ..self }
     }
 
     /// The body of the request is a file.
@@ -72,7 +64,7 @@ impl About {
 
     /// The body of an answer with this status.
     pub fn gives<T: JsonSchema>(self, status: u16) -> Self {
-        self.answers(status, Content::Json(schema_of::<T>, name_of::<T>))
+        self.answers(status, Content::Json(schema_of::<T>))
     }
 
     /// The answer is a file.
@@ -112,25 +104,6 @@ impl About {
             .map(|(name, schema)| (name.clone(), without_null(schema), required.contains(&json!(name))))
             .collect()
     }
-
-    /// What it does, takes and gives, as cells of a table.
-    fn cells(&self, generator: &mut SchemaGenerator) -> String {
-        let named = |content: &Content| match content {
-            Content::Json(_, name) => format!("`{}`", name()),
-            Content::File(media_type) => (*media_type).to_owned(),
-            Content::Nothing => String::new(),
-        };
-        let given = self.gives.iter().map(|(status, content)| match content {
-            Content::Nothing => status.to_string(),
-            content if *status == 200 => named(content),
-            content => format!("{} ({status})", named(content)),
-        });
-        let given = given.collect::<Vec<_>>().join(" or ");
-        let options = self.options(generator).into_iter().map(|(name, ..)| format!("`{name}`"));
-        let options = options.collect::<Vec<_>>().join(", ");
-        let taken = self.takes.iter().map(named).chain(Some(options).filter(|all| !all.is_empty()));
-        format!("{} | {} | {given}", self.does, taken.collect::<Vec<_>>().join("; "))
-    }
 }
 
 /// All addresses in the order of the list, each with what is said of it.
@@ -138,15 +111,6 @@ fn all() -> Vec<(String, About)> {
     let listed =
         routes().into_iter().chain(downloads()).map(|route| (route.address.into_owned(), route.about));
     listed.chain([(SOCKET.to_owned(), about_socket())]).collect()
-}
-
-/// The table of `PROTOCOL.md`.
-fn table() -> String {
-    let mut generator = SchemaGenerator::default();
-    let mut row =
-        |(address, about): (String, About)| format!("| `{address}` | {} |\n", about.cells(&mut generator));
-    let rows: String = all().into_iter().map(&mut row).collect();
-    format!("| address | does | body; query | answer |\n|---|---|---|---|\n{rows}")
 }
 
 /// The description's text.
@@ -192,7 +156,7 @@ fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGene
     let parts = path.split(['/', '.', '{', '}']).filter(|part| !part.is_empty() && *part != "api");
     let name = parts.clone().fold(method.to_lowercase(), |name, part| format!("{name}_{part}"));
     let mut content = |content: Content| match content {
-        Content::Json(schema, _) => json!({ "application/json": { "schema": schema(generator) } }),
+        Content::Json(schema) => json!({ "application/json": { "schema": schema(generator) } }),
         Content::File(media_type) => json!({ media_type: {} }),
         Content::Nothing => json!({}),
     };
@@ -281,6 +245,42 @@ mod tests {
 
     const BEGIN: &str = "<!-- addresses -->\n";
     const END: &str = "<!-- /addresses -->\n";
+
+    /// How the table names what is taken or given.
+    fn named(content: Content, generator: &mut SchemaGenerator) -> String {
+        let schema = match content {
+            Content::Json(schema) => schema(generator),
+            Content::File(media_type) => return media_type.to_owned(),
+            Content::Nothing => return String::new(),
+        };
+        let (reference, list) = match &schema["$ref"] {
+            Value::Null => (&schema["items"]["$ref"], "[]"),
+            reference => (reference, ""),
+        };
+        let name = reference.as_str().and_then(|path| path.rsplit('/').next()).unwrap_or("JSON");
+        format!("`{name}{list}`")
+    }
+
+    /// The table of `PROTOCOL.md`: what each address does, takes and gives.
+    fn table() -> String {
+        let mut generator = SchemaGenerator::default();
+        let mut table = "| address | does | body; query | answer |\n|---|---|---|---|\n".to_owned();
+        for (address, about) in all() {
+            let given = about.gives.iter().map(|&(status, content)| match (status, content) {
+                (status, Content::Nothing) => status.to_string(),
+                (200, content) => named(content, &mut generator),
+                (status, content) => format!("{} ({status})", named(content, &mut generator)),
+            });
+            let given = given.collect::<Vec<_>>().join(" or ");
+            let options = about.options(&mut generator).into_iter().map(|(name, ..)| format!("`{name}`"));
+            let options = options.collect::<Vec<_>>().join(", ");
+            let taken = about.takes.map(|taken| named(taken, &mut generator));
+            let taken = taken.into_iter().chain(Some(options).filter(|all| !all.is_empty()));
+            let taken = taken.collect::<Vec<_>>().join("; ");
+            table += &format!("| `{address}` | {} | {taken} | {given} |\n", about.does);
+        }
+        table
+    }
 
     /// After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier description`.
     #[test]
