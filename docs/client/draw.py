@@ -27,7 +27,7 @@ class Session:
     """A socket to a session: sends commands, and listens until they are durable and all growth has ended."""
 
     def __init__(self, server, name):
-        self.socket = connect(f"{server.replace('http', 'ws', 1)}/api/sessions/{name}/socket", max_size=None)
+        self.socket = connect(f"{server.replace('http', 'ws', 1)}/api/v1/sessions/{name}/socket", max_size=None)
         self.commands = 0
         self.acknowledged = 0
         self.frame_bytes = 0
@@ -77,7 +77,7 @@ class Session:
 
 
 def main(server):
-    name = json.loads(request("POST", f"{server}/api/sessions", {"seed": 7}))["session"]
+    name = json.loads(request("POST", f"{server}/api/v1/sessions", {"seed": 7}))["session"]
     session = Session(server, name)
     session.command(kind="stroke_begin", stroke=1)
     for height in range(2, 14, 2):
@@ -88,10 +88,10 @@ def main(server):
     session.settle()
     print(f"{session.frame_bytes} bytes of frames so far")
 
-    tree = json.loads(request("POST", f"{server}/api/trees", {"session": name, "name": "From a script"}))
+    tree = json.loads(request("POST", f"{server}/api/v1/trees", {"session": name, "name": "From a script"}))
     print(f"saved as {tree['id']}, version {tree['version']}")
-    glb = request("GET", f"{server}/api/sessions/{name}/tree.glb?quantised=true")
-    skeleton = json.loads(request("GET", f"{server}/api/sessions/{name}/tree.json"))
+    glb = request("GET", f"{server}/api/v1/sessions/{name}/tree.glb?quantised=true")
+    skeleton = json.loads(request("GET", f"{server}/api/v1/sessions/{name}/tree.json"))
     print(f"{len(glb)} bytes of glTF, {len(skeleton['metamers'])} metamers in the skeleton")
 
 

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// `POST /api/sessions`: start a session, or come into the one of a tree.
+/// `POST /api/v1/sessions`: start a session, or come into the one of a tree.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct NewSession {
@@ -52,7 +52,7 @@ pub struct SessionTree {
     pub saved: bool,
 }
 
-/// `POST /api/trees`: save a session's plants as a new tree.
+/// `POST /api/v1/trees`: save a session's plants as a new tree.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveTree {
@@ -74,7 +74,7 @@ pub struct SaveTree {
     pub thumbnail: Option<String>,
 }
 
-/// `POST /api/trees/ID/versions`: save a session's plants as the newest version of a tree.
+/// `POST /api/v1/trees/ID/versions`: save a session's plants as the newest version of a tree.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct SaveVersion {
@@ -94,7 +94,7 @@ pub struct SaveVersion {
     pub thumbnail: Option<String>,
 }
 
-/// `POST /api/trees/ID/versions/N/restore`: what was saved then becomes the newest version.
+/// `POST /api/v1/trees/ID/versions/N/restore`: what was saved then becomes the newest version.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct RestoreVersion {
@@ -108,7 +108,7 @@ pub struct RestoreVersion {
     pub author: Option<String>,
 }
 
-/// `POST /api/trees/ID/copies`: a new tree that begins with a version of this one.
+/// `POST /api/v1/trees/ID/copies`: a new tree that begins with a version of this one.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct CopyTree {
@@ -128,7 +128,7 @@ pub struct CopyTree {
     pub author: Option<String>,
 }
 
-/// `GET /api/trees`: some trees of the library, in the order that was asked for.
+/// `GET /api/v1/trees`: some trees of the library, in the order that was asked for.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreePage {
@@ -195,7 +195,7 @@ pub struct SavedTree {
     pub revision: u64,
 }
 
-/// One format of `GET /api/formats`.
+/// One format of `GET /api/v1/formats`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ExportFormat {
@@ -211,7 +211,7 @@ pub struct ExportFormat {
     pub shares: BTreeMap<String, [f64; 2]>,
 }
 
-/// `GET /api/sessions/NAME/exports/TICKET`: how far a file is that is being made.
+/// `GET /api/v1/sessions/NAME/exports/TICKET`: how far a file is that is being made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ExportProgress {
@@ -233,7 +233,7 @@ pub struct Origin {
     pub version: u32,
 }
 
-/// What was saved of a tree at one time; `GET /api/trees/ID/versions` lists them, newest first.
+/// What was saved of a tree at one time; `GET /api/v1/trees/ID/versions` lists them, newest first.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeVersion {
@@ -265,7 +265,7 @@ pub struct TreeVersion {
     pub document: String,
 }
 
-/// `PATCH /api/trees/ID`: what is left out stays as it is.
+/// `PATCH /api/v1/trees/ID`: what is left out stays as it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeTree {
@@ -291,7 +291,7 @@ pub struct ChangeTree {
     pub collection: Option<String>,
 }
 
-/// A folder of trees and other collections; `GET /api/collections` lists all of them by name.
+/// A folder of trees and other collections; `GET /api/v1/collections` lists all of them by name.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeCollection {
@@ -307,7 +307,7 @@ pub struct TreeCollection {
     pub trees: u32,
 }
 
-/// `POST /api/collections`: make a collection.
+/// `POST /api/v1/collections`: make a collection.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct NewCollection {
@@ -319,7 +319,7 @@ pub struct NewCollection {
     pub parent: Option<String>,
 }
 
-/// `PATCH /api/collections/ID`: what is left out stays as it is.
+/// `PATCH /api/v1/collections/ID`: what is left out stays as it is.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeCollection {
@@ -333,7 +333,7 @@ pub struct ChangeCollection {
     pub parent: Option<String>,
 }
 
-/// A tag that trees have; `GET /api/tags` lists all of them.
+/// A tag that trees have; `GET /api/v1/tags` lists all of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeTag {
@@ -343,7 +343,7 @@ pub struct TreeTag {
     pub trees: u32,
 }
 
-/// Who saved a tree last, as they wanted to be called; `GET /api/authors` lists all of them.
+/// Who saved a tree last, as they wanted to be called; `GET /api/v1/authors` lists all of them.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct TreeAuthor {
@@ -353,10 +353,10 @@ pub struct TreeAuthor {
     pub trees: u32,
 }
 
-/// How the names of files end that `POST /api/trees/import` makes trees of.
+/// How the names of files end that `POST /api/v1/trees/import` makes trees of.
 pub const IMPORT_ENDINGS: [&str; 4] = ["espalier", "mtg", "csv", "json"];
 
-/// `PATCH /api/trees/ID/versions/N`: what is said of a version.
+/// `PATCH /api/v1/trees/ID/versions/N`: what is said of a version.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct ChangeVersion {

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-/// The answer to `POST /api/schematic`: a tree that grew in a plane, metamer by metamer in birth order (`SC1`).
+/// The answer to `POST /api/v1/schematic`: a tree that grew in a plane, metamer by metamer in birth order (`SC1`).
 ///
 /// All lists but `segments` have one entry for each metamer.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, TS)]

@@ -7,7 +7,7 @@ use ts_rs::TS;
 
 use crate::programme::Programme;
 
-/// A programme and an appearance with a name, from `GET /api/species`.
+/// A programme and an appearance with a name, from `GET /api/v1/species`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
 pub struct Species {

@@ -203,7 +203,7 @@ pub struct ImportFile {
 /// Options of `species`.
 #[derive(Debug, Args)]
 pub struct Species {
-    /// Print them as JSON, each with its programme and looks, as `GET /api/species` tells them.
+    /// Print them as JSON, each with its programme and looks, as `GET /api/v1/species` tells them.
     #[arg(long, conflicts_with = "sheet")]
     pub json: bool,
     /// Grow every species to its age and draw all of them into a PNG file.

@@ -37,8 +37,8 @@ fn main() {
     let server = Server::start(&scratch.path("trees.db"));
     let port = server.port();
     let saved =
-        ask(port, "POST", "/api/trees", &json!({ "session": server.new_session(7), "name": "First" }));
-    let first = format!("/api/trees/{}", saved["id"].as_str().unwrap_or_default());
+        ask(port, "POST", "/api/v1/trees", &json!({ "session": server.new_session(7), "name": "First" }));
+    let first = format!("/api/v1/trees/{}", saved["id"].as_str().unwrap_or_default());
     thread::scope(|scope| {
         for hand in 0..HANDS {
             let first = &first;
@@ -65,7 +65,7 @@ fn fill(port: u16, first: &str, number: usize) {
     let word = |step: usize| WORDS[number / step % WORDS.len()];
     let copy = json!({ "name": format!("{} {} {number}", word(1), word(16)), "author": word(3) });
     let made = ask(port, "POST", &format!("{first}/copies"), &copy);
-    let path = format!("/api/trees/{}", made["id"].as_str().unwrap_or_default());
+    let path = format!("/api/v1/trees/{}", made["id"].as_str().unwrap_or_default());
     ask(
         port,
         "PATCH",
@@ -77,14 +77,14 @@ fn fill(port: u16, first: &str, number: usize) {
 fn middle_of(port: u16) -> String {
     let mut query = String::from("limit=500");
     for _ in 0..TREES / 1000 {
-        let page = ask(port, "GET", &format!("/api/trees?{query}"), &Value::Null);
+        let page = ask(port, "GET", &format!("/api/v1/trees?{query}"), &Value::Null);
         query = format!("limit=500&after={}", page["next"].as_str().unwrap_or_default());
     }
     query.replace("limit=500", "limit=48")
 }
 
 fn median(port: u16, query: &str) -> Duration {
-    let path = format!("/api/trees?{query}");
+    let path = format!("/api/v1/trees?{query}");
     let mut times: Vec<Duration> = (0..TIMES)
         .map(|_| {
             let begun = Instant::now();

@@ -91,7 +91,7 @@ pub struct Client {
 
 /// A socket of this session on which nothing has been said.
 pub async fn open(port: u16, session: &str) -> Socket {
-    let url = format!("ws://127.0.0.1:{port}/api/sessions/{session}/socket");
+    let url = format!("ws://127.0.0.1:{port}/api/v1/sessions/{session}/socket");
     let (socket, _) = connect_async(url).await.expect("the socket opens");
     socket
 }

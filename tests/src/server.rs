@@ -83,7 +83,7 @@ impl Server {
 
     /// A new session with this seed; returns its name.
     pub fn new_session(&self, seed: u32) -> String {
-        let answer = http::send(self.port, "POST", "/api/sessions", Some(&json!({ "seed": seed })))
+        let answer = http::send(self.port, "POST", "/api/v1/sessions", Some(&json!({ "seed": seed })))
             .expect("the server answers");
         assert_eq!(answer.status, 201, "{}", answer.text());
         let body: Value = serde_json::from_slice(&answer.body).expect("the answer is JSON");

@@ -67,7 +67,7 @@ pub(super) fn path_of(address: &str) -> &str {
 }
 
 /// The socket. Who comes there is known by the hello, so nothing is asked before.
-pub(super) const SOCKET: &str = "GET /api/sessions/{session}/socket";
+pub(super) const SOCKET: &str = "GET /api/v1/sessions/{session}/socket";
 
 /// What the description says of the socket.
 pub(super) fn about_socket() -> About {
@@ -81,7 +81,7 @@ pub(super) fn downloads() -> Vec<Route> {
         let answer = get(move |state: State<Shared>, path: Path<String>, query| {
             exports::take(state, path, query, row)
         });
-        let address = format!("GET /api/sessions/{{session}}/tree.{}", row.ending);
+        let address = format!("GET /api/v1/sessions/{{session}}/tree.{}", row.ending);
         let about = About::new(format!("Download: {}.", row.what))
             .asks::<ExportOptions>()
             .among(row.options)
@@ -96,37 +96,37 @@ pub(super) fn routes() -> Vec<Route> {
     let at_once = GlobalConcurrencyLimitLayer::new;
     let body = DefaultBodyLimit::max;
     vec![
-        route("GET /api/openapi.json", Action::SeeSpecies, get(description::show), About::new("The description of this API (OpenAPI 3.1).").gives_file("application/json")),
-        route("GET /api/formats", Action::SeeSpecies, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),
-        route("GET /api/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
-        route("POST /api/sessions", Action::BeginSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
-        route("GET /api/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
-        route("POST /api/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
-        route("GET /api/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
-        route("GET /api/species", Action::SeeSpecies, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
-        route("GET /api/species/{slug}/picture", Action::SeeSpecies, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
-        route("POST /api/schematic", Action::DrawSchematic, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
-        route("GET /api/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
-        route("POST /api/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
-        route("POST /api/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
-        route("GET /api/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
-        route("PATCH /api/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
-        route("DELETE /api/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new("Delete a tree; it can be taken back for 30 days (LB6).").gives_nothing().revised()),
-        route("POST /api/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()),
-        route("POST /api/trees/{tree}/copies", Action::OpenTree, post(trees::copy).layer(body(MAX_SAID_BODY)), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)),
-        route("PUT /api/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
-        route("DELETE /api/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
-        route("GET /api/tags", Action::ListTrees, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
-        route("GET /api/authors", Action::ListTrees, get(collections::authors), About::new("Who saved trees last, by name.").gives::<Vec<TreeAuthor>>(200)),
-        route("GET /api/collections", Action::ListTrees, get(collections::list), About::new("All collections, by name.").gives::<Vec<TreeCollection>>(200)),
-        route("POST /api/collections", Action::ChangeCollections, post(collections::add), About::new("Make a collection.").takes::<NewCollection>().gives::<TreeCollection>(201)),
-        route("PATCH /api/collections/{id}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
-        route("DELETE /api/collections/{id}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
-        route("GET /api/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
-        route("POST /api/trees/{tree}/versions", Action::ChangeTree, post(versions::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()),
-        route("PATCH /api/trees/{tree}/versions/{number}", Action::ChangeTree, patch(versions::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()),
-        route("POST /api/trees/{tree}/versions/{number}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()),
-        route("GET /api/trees/{tree}/versions/{number}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_file("application/octet-stream")),
-        route("GET /api/trees/{tree}/versions/{number}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
+        route("GET /api/v1/openapi.json", Action::SeeSpecies, get(description::show), About::new("The description of this API (OpenAPI 3.1).").gives_file("application/json")),
+        route("GET /api/v1/formats", Action::SeeSpecies, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),
+        route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
+        route("POST /api/v1/sessions", Action::BeginSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
+        route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
+        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
+        route("GET /api/v1/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
+        route("GET /api/v1/species", Action::SeeSpecies, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
+        route("GET /api/v1/species/{slug}/picture", Action::SeeSpecies, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
+        route("POST /api/v1/schematic", Action::DrawSchematic, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
+        route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
+        route("POST /api/v1/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
+        route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
+        route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
+        route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new("Delete a tree; it can be taken back for 30 days (LB6).").gives_nothing().revised()),
+        route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()),
+        route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy).layer(body(MAX_SAID_BODY)), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)),
+        route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
+        route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
+        route("GET /api/v1/tags", Action::ListTrees, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
+        route("GET /api/v1/authors", Action::ListTrees, get(collections::authors), About::new("Who saved trees last, by name.").gives::<Vec<TreeAuthor>>(200)),
+        route("GET /api/v1/collections", Action::ListTrees, get(collections::list), About::new("All collections, by name.").gives::<Vec<TreeCollection>>(200)),
+        route("POST /api/v1/collections", Action::ChangeCollections, post(collections::add), About::new("Make a collection.").takes::<NewCollection>().gives::<TreeCollection>(201)),
+        route("PATCH /api/v1/collections/{id}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
+        route("DELETE /api/v1/collections/{id}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
+        route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
+        route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()),
+        route("PATCH /api/v1/trees/{tree}/versions/{number}", Action::ChangeTree, patch(versions::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()),
+        route("POST /api/v1/trees/{tree}/versions/{number}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()),
+        route("GET /api/v1/trees/{tree}/versions/{number}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_file("application/octet-stream")),
+        route("GET /api/v1/trees/{tree}/versions/{number}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
     ]
 }

@@ -153,7 +153,8 @@ fn document() -> String {
 }
 
 fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGenerator) -> Value {
-    let parts = path.split(['/', '.', '{', '}']).filter(|part| !part.is_empty() && *part != "api");
+    let parts =
+        path.split(['/', '.', '{', '}']).filter(|part| !part.is_empty() && !["api", "v1"].contains(part));
     let name = parts.clone().fold(method.to_lowercase(), |name, part| format!("{name}_{part}"));
     let mut content = |content: Content| match content {
         Content::Json(schema) => json!({ "application/json": { "schema": schema(generator) } }),
@@ -231,7 +232,7 @@ fn without_null(schema: &Value) -> Value {
     }
 }
 
-/// `GET /api/openapi.json`.
+/// `GET /api/v1/openapi.json`.
 pub(super) async fn show() -> impl IntoResponse {
     static DOCUMENT: LazyLock<String> = LazyLock::new(document);
     ([(header::CONTENT_TYPE, "application/json")], DOCUMENT.as_str())

@@ -188,17 +188,17 @@ mod tests {
         })
         .await;
         for (path, body) in [
-            ("/api/sessions", r#"{"tree":"ash"}"#),
-            ("/api/trees", r#"{"session":"oak","name":"Oak"}"#),
-            ("/api/trees/ash/versions", r#"{"session":"oak"}"#),
-            ("/api/trees/ash/copies", r#"{"name":"Oak"}"#),
-            ("/api/sessions/oak/tree.glb", ""),
-            ("/api/sessions/oak/tree.json", ""),
+            ("/api/v1/sessions", r#"{"tree":"ash"}"#),
+            ("/api/v1/trees", r#"{"session":"oak","name":"Oak"}"#),
+            ("/api/v1/trees/ash/versions", r#"{"session":"oak"}"#),
+            ("/api/v1/trees/ash/copies", r#"{"name":"Oak"}"#),
+            ("/api/v1/sessions/oak/tree.glb", ""),
+            ("/api/v1/sessions/oak/tree.json", ""),
         ] {
             let method = if body.is_empty() { Method::GET } else { Method::POST };
             assert_eq!(status(&server, &method, path, body).await, StatusCode::FORBIDDEN, "{path}");
         }
-        let new = status(&server, &Method::POST, "/api/sessions", r#"{"seed":1}"#).await;
+        let new = status(&server, &Method::POST, "/api/v1/sessions", r#"{"seed":1}"#).await;
         assert_eq!(new, StatusCode::CREATED);
     }
 
@@ -212,7 +212,7 @@ mod tests {
             (Some("short"), StatusCode::BAD_REQUEST),
             (Some("outside"), StatusCode::BAD_REQUEST),
         ] {
-            let mut request = Request::builder().uri("/api/trees");
+            let mut request = Request::builder().uri("/api/v1/trees");
             if let Some(key) = key {
                 request = request.header(guard::CLIENT, key);
             }

@@ -183,13 +183,13 @@ pub(super) async fn thumbnail(
 
 /// Where the picture of a version is, if it has one.
 pub(super) fn thumbnail_of(tree: &str, version: &StoredVersion) -> Option<String> {
-    version.has_thumbnail.then(|| format!("/api/trees/{tree}/versions/{}/thumbnail", version.number))
+    version.has_thumbnail.then(|| format!("/api/v1/trees/{tree}/versions/{}/thumbnail", version.number))
 }
 
 fn to_proto(tree: &str, version: StoredVersion) -> TreeVersion {
     TreeVersion {
         thumbnail: thumbnail_of(tree, &version),
-        document: format!("/api/trees/{tree}/versions/{}/document", version.number),
+        document: format!("/api/v1/trees/{tree}/versions/{}/document", version.number),
         number: version.number,
         saved_at: version.saved_at,
         author: version.author,

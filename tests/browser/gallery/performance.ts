@@ -11,7 +11,7 @@ export async function perform(page: Page, session: string, commands: readonly st
         const ahead = 64;
         let sent = 0;
         let done = 0;
-        const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/sessions/${session}/socket`);
+        const socket = new WebSocket(`${location.origin.replace("http", "ws")}/api/v1/sessions/${session}/socket`);
         // Nothing is drawn here: frames that nobody answers are not sent again, and hold nothing up.
         socket.binaryType = "arraybuffer";
         const send = () => {

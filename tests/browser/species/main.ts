@@ -74,7 +74,7 @@ export async function main(words: readonly string[]): Promise<number> {
 
 /** The species with these names, or all; a name that is not there is an error. */
 async function chosen({ address }: Server, slugs: readonly string[]): Promise<readonly Species[]> {
-  const all = (await (await fetch(`${address}/api/species`)).json()) as Species[];
+  const all = (await (await fetch(`${address}/api/v1/species`)).json()) as Species[];
   const unknown = slugs.filter((slug) => !all.some((one) => one.slug === slug));
   if (unknown.length > 0) throw new Error(`no such species: ${unknown.join(", ")}`);
   return slugs.length === 0 ? all : all.filter(({ slug }) => slugs.includes(slug));
@@ -82,7 +82,7 @@ async function chosen({ address }: Server, slugs: readonly string[]): Promise<re
 
 /** The tree of the contact sheet, drawn by the server as it is there. */
 async function pictureOf({ address }: Server, slug: string): Promise<Buffer> {
-  const answer = await fetch(`${address}/api/species/${slug}/picture`);
+  const answer = await fetch(`${address}/api/v1/species/${slug}/picture`);
   if (!answer.ok) throw new Error(`no picture of ${slug}`);
   return Buffer.from(await answer.arrayBuffer());
 }

@@ -26,7 +26,7 @@ export async function growByHand(tablet: Tablet, slug: string): Promise<void> {
 
 /** The tree of a session as a glTF file. */
 export async function treeAt(address: string): Promise<Buffer> {
-  const answer = await fetch(`${address.replace("/s/", "/api/sessions/")}/tree.glb`);
+  const answer = await fetch(`${address.replace("/s/", "/api/v1/sessions/")}/tree.glb`);
   if (!answer.ok) throw new Error(`no tree at ${address}: ${await answer.text()}`);
   return Buffer.from(await answer.arrayBuffer());
 }

@@ -21,7 +21,7 @@ interface Gltf {
 
 /** How far the wood of a session's plants reaches, as its glTF file says: exact, where pictures are not. */
 export async function extentOf(address: string): Promise<Extent> {
-  const answer = await fetch(`${address.replace("/s/", "/api/sessions/")}/tree.glb`);
+  const answer = await fetch(`${address.replace("/s/", "/api/v1/sessions/")}/tree.glb`);
   const bytes = Buffer.from(await answer.arrayBuffer());
   // A header of 12 bytes, then the length and the kind of the first chunk, which is the JSON.
   const gltf = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString()) as Gltf;

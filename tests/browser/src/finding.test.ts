@@ -28,12 +28,12 @@ async function library(screen: Screen, names: readonly string[]): Promise<Tablet
   await tablet.untilQuiet();
   await tablet.page.evaluate(async (names) => {
     const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
-    for (const { id } of (await (await fetch("/api/trees")).json()).trees) {
-      await fetch(`/api/trees/${id}`, { method: "DELETE" });
+    for (const { id } of (await (await fetch("/api/v1/trees")).json()).trees) {
+      await fetch(`/api/v1/trees/${id}`, { method: "DELETE" });
     }
     for (const name of names) {
       const body = JSON.stringify({ session, name, author: "Ann" });
-      await fetch("/api/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
+      await fetch("/api/v1/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
     }
   }, names);
   await open(tablet);
@@ -260,7 +260,7 @@ test.each(Object.entries(SCREENS))("files become trees of the library: %s", asyn
   // What is dropped on the page opens the library.
   const document = await page.evaluate(async () => {
     const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
-    return (await fetch(`/api/sessions/${session}/tree.mtg`)).text();
+    return (await fetch(`/api/v1/sessions/${session}/tree.mtg`)).text();
   });
   await page.evaluate(
     ({ document, as }) => {

@@ -16,7 +16,7 @@ async function widen(tablet: Tablet): Promise<void> {
 
 /** How many metamers of a session's tree belong to its trunk. */
 async function trunk(address: string): Promise<number> {
-  const answer = await fetch(`${address.replace("/s/", "/api/sessions/")}/tree.json`);
+  const answer = await fetch(`${address.replace("/s/", "/api/v1/sessions/")}/tree.json`);
   const { metamers } = (await answer.json()) as { metamers: { axis: number }[] };
   return metamers.filter(({ axis }) => axis === 0).length;
 }

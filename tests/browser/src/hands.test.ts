@@ -34,7 +34,7 @@ test("a card that closes when its work is done leaves another one open", async (
   const { tablet } = await workshop.fresh(SMALL);
   const { page } = tablet;
   let answer = () => {};
-  await page.route("**/api/trees", async (route) => {
+  await page.route("**/api/v1/trees", async (route) => {
     if (route.request().method() === "POST") await new Promise<void>((resolve) => (answer = resolve));
     await route.continue();
   });

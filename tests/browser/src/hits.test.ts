@@ -29,7 +29,7 @@ async function grown(screen: Screen): Promise<Tablet> {
   await tablet.page.evaluate(async () => {
     const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
     const body = JSON.stringify({ session, name: "A tree that was saved" });
-    await fetch("/api/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
+    await fetch("/api/v1/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
   });
   return tablet;
 }

@@ -106,10 +106,10 @@ test("who saves after somebody else is told, and chooses", async () => {
   await page.getByRole("button", { name: "Save version 2" }).waitFor();
   // Meanwhile somebody else saves the very session.
   const saved = await page.evaluate(async () => {
-    const { trees } = await (await fetch("/api/trees")).json();
+    const { trees } = await (await fetch("/api/v1/trees")).json();
     const { id } = trees.find(({ name }: { name: string }) => name === "Elm");
-    const session = (await (await fetch("/api/sessions", post({}))).json()).session;
-    return (await fetch(`/api/trees/${id}/versions`, post({ session, author: "Ann", note: "Mine" }))).status;
+    const session = (await (await fetch("/api/v1/sessions", post({}))).json()).session;
+    return (await fetch(`/api/v1/trees/${id}/versions`, post({ session, author: "Ann", note: "Mine" }))).status;
     function post(body: object) {
       return { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) };
     }

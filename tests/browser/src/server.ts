@@ -14,7 +14,7 @@ export abstract class RunningServer {
 
   /** A session of its own for a test; returns its address. */
   async newSession(seed: number): Promise<string> {
-    const answer = await fetch(`${this.address}/api/sessions`, {
+    const answer = await fetch(`${this.address}/api/v1/sessions`, {
       method: "POST",
       headers: { "content-type": "application/json" },
       body: JSON.stringify({ seed }),

@@ -31,11 +31,11 @@ export default async function setup(project: TestProject): Promise<() => Promise
  * picker would else have its other questions wait for that.
  */
 async function drawSpecies({ address }: Server): Promise<void> {
-  const species = (await (await fetch(`${address}/api/species`)).json()) as { slug: string }[];
+  const species = (await (await fetch(`${address}/api/v1/species`)).json()) as { slug: string }[];
   for (const { slug } of species) {
     await until(
       `the picture of ${slug} is drawn`,
-      async () => (await fetch(`${address}/api/species/${slug}/picture`)).ok,
+      async () => (await fetch(`${address}/api/v1/species/${slug}/picture`)).ok,
     );
   }
 }

@@ -147,7 +147,7 @@ describe("the library", () => {
     const session = address.split("/").at(-1);
     await page.evaluate(async (session) => {
       for (let i = 1; i <= 60; i++) {
-        const saved = await fetch("/api/trees", {
+        const saved = await fetch("/api/v1/trees", {
           method: "POST",
           headers: { "content-type": "application/json" },
           body: JSON.stringify({ session, name: `Seedling ${i}` }),

@@ -68,10 +68,10 @@ async fn looks_outlive_a_kill_and_go_with_saved_trees() {
     assert_eq!((client.appearance.bark, client.appearance.background), (bark, background));
 
     let body = json!({"session": session, "name": "Birch"});
-    let saved = http::send(server.port(), "POST", "/api/trees", Some(&body)).expect("the server answers");
+    let saved = http::send(server.port(), "POST", "/api/v1/trees", Some(&body)).expect("the server answers");
     assert_eq!(saved.status, 201, "{}", saved.text());
     let opened = json!({"tree": saved.json()["id"], "template": true});
-    let opened = http::send(server.port(), "POST", "/api/sessions", Some(&opened)).expect("an answer");
+    let opened = http::send(server.port(), "POST", "/api/v1/sessions", Some(&opened)).expect("an answer");
     let other = opened.json()["session"].as_str().expect("a session").to_owned();
     let mut visitor = Client::connect(server.port(), &other, "browser-3").await;
     visitor.until("looks are told", |client| client.appearances > 0).await;
@@ -119,7 +119,7 @@ async fn sc1_schematics_are_small_flat_and_steady() {
     let session = server.new_session(7);
     let client = Client::connect(server.port(), &session, "browser-1").await;
     let ask = |parameters: &Value| {
-        http::send(server.port(), "POST", "/api/schematic", Some(parameters)).expect("the server answers")
+        http::send(server.port(), "POST", "/api/v1/schematic", Some(parameters)).expect("the server answers")
     };
     let defaults = serde_json::to_value(&client.parameters).expect("JSON");
     let first = ask(&defaults);
@@ -150,14 +150,14 @@ async fn sc1_schematics_are_small_flat_and_steady() {
     }
     wrong["extra"] = json!("x".repeat(9000));
     assert_eq!(ask(&wrong).status, 413);
-    assert_eq!(http::get(server.port(), "/api/schematic").expect("an answer").status, 405);
+    assert_eq!(http::get(server.port(), "/api/v1/schematic").expect("an answer").status, 405);
 }
 
 #[tokio::test]
 async fn species_have_pictures_that_may_be_kept() {
     let scratch = Scratch::new();
     let server = Server::start(&scratch.path("trees.db"));
-    let path = "/api/species/bonsai-literati/picture";
+    let path = "/api/v1/species/bonsai-literati/picture";
     let first = http::get(server.port(), path).expect("the server answers");
     assert_eq!((first.status, first.header("content-type")), (200, Some("image/png")));
     assert!(first.body.starts_with(b"\x89PNG\r\n\x1a\n"));
@@ -167,7 +167,7 @@ async fn species_have_pictures_that_may_be_kept() {
     let again = http::get(server.port(), path).expect("the server answers");
     assert_eq!(again.header("etag"), Some(tag.as_str()));
     assert_eq!(again.body, first.body);
-    for missing in ["/api/species/triffid/picture", "/api/species/%2e%2e/picture"] {
+    for missing in ["/api/v1/species/triffid/picture", "/api/v1/species/%2e%2e/picture"] {
         assert_eq!(http::get(server.port(), missing).expect("an answer").status, 404);
     }
 }

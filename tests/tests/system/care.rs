@@ -37,7 +37,7 @@ async fn grow(client: &mut Client, steps: u32) {
 
 fn save(server: &Server, session: &str) {
     let body = json!({ "session": session, "name": "Pear" });
-    let saved = http::send(server.port(), "POST", "/api/trees", Some(&body)).expect("the server answers");
+    let saved = http::send(server.port(), "POST", "/api/v1/trees", Some(&body)).expect("the server answers");
     assert_eq!(saved.status, 201, "{}", saved.text());
 }
 
@@ -71,7 +71,7 @@ async fn a_backup_made_while_people_draw_is_restored_as_it_was() {
     let server = Server::start(&database);
     client = Client::connect(server.port(), &client.session, "browser-2").await;
     client.until_form(&before).await;
-    let trees = http::get(server.port(), "/api/trees").expect("the server answers").json();
+    let trees = http::get(server.port(), "/api/v1/trees").expect("the server answers").json();
     assert_eq!(trees["trees"][0]["name"], json!("Pear"));
     server.kill();
 
@@ -168,7 +168,7 @@ async fn hs5_nothing_is_acknowledged_once_the_database_is_gone() {
     assert!(closed.reason.contains("database file has been moved"), "{}", closed.reason);
     let health = http::get(server.port(), "/health").expect("the server answers");
     assert_eq!(health.status, 503, "{}", health.text());
-    let refused = http::send(server.port(), "POST", "/api/sessions", Some(&json!({ "seed": 1 })));
+    let refused = http::send(server.port(), "POST", "/api/v1/sessions", Some(&json!({ "seed": 1 })));
     let refused = refused.expect("the server answers");
     assert_eq!(refused.status, 503);
     assert!(refused.text().contains("moved, deleted or replaced"), "{}", refused.text());

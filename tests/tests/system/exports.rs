@@ -24,12 +24,12 @@ fn get(server: &Server, path: &str) -> http::Answer {
 #[tokio::test]
 async fn ex1_each_format_that_is_listed_can_be_downloaded() {
     let (server, session, _scratch) = grown().await;
-    let formats = get(&server, "/api/formats").json();
+    let formats = get(&server, "/api/v1/formats").json();
     let formats = formats.as_array().expect("a list");
     assert!(formats.len() >= 7);
     for format in formats {
         let ending = format["ending"].as_str().expect("an ending");
-        let answer = get(&server, &format!("/api/sessions/{session}/tree.{ending}"));
+        let answer = get(&server, &format!("/api/v1/sessions/{session}/tree.{ending}"));
         assert_eq!(answer.status, 200, "{ending}: {}", answer.text());
         assert_eq!(answer.header("content-length"), Some(answer.body.len().to_string().as_str()));
         let name = format!("attachment; filename=\"tree.{ending}\"");
@@ -43,7 +43,7 @@ async fn ex1_each_format_that_is_listed_can_be_downloaded() {
 #[tokio::test]
 async fn ex2_options_change_the_file_and_wrong_ones_are_named() {
     let (server, session, _scratch) = grown().await;
-    let file = |query: &str| get(&server, &format!("/api/sessions/{session}/tree.{query}"));
+    let file = |query: &str| get(&server, &format!("/api/v1/sessions/{session}/tree.{query}"));
     let [plain, small, far] = ["glb", "glb?quantised=true&compressed=true", "glb?lod=3"].map(file);
     assert!(small.status == 200 && small.body.len() < plain.body.len());
     let text = |answer: &http::Answer| String::from_utf8_lossy(&answer.body).into_owned();
@@ -73,10 +73,10 @@ async fn ex2_options_change_the_file_and_wrong_ones_are_named() {
 #[tokio::test]
 async fn ex3_an_export_tells_how_far_it_is_and_can_be_given_up() {
     let (server, session, _scratch) = grown().await;
-    let progress = format!("/api/sessions/{session}/exports/0123456789abcdef");
+    let progress = format!("/api/v1/sessions/{session}/exports/0123456789abcdef");
     assert_eq!(get(&server, &progress).status, 404);
     let mut slow = TcpStream::connect(("127.0.0.1", server.port())).expect("the server listens");
-    let path = format!("/api/sessions/{session}/tree.png?frames=180&size=300x300&ticket=0123456789abcdef");
+    let path = format!("/api/v1/sessions/{session}/tree.png?frames=180&size=300x300&ticket=0123456789abcdef");
     write!(slow, "GET {path} HTTP/1.1\r\nhost: 127.0.0.1:{}\r\n\r\n", server.port())
         .expect("it takes the request");
     let far = loop {
@@ -88,5 +88,5 @@ async fn ex3_an_export_tells_how_far_it_is_and_can_be_given_up() {
     assert!(far["written"].as_u64() <= far["expected"].as_u64(), "{far}");
     drop(slow);
     while get(&server, &progress).status != 404 {}
-    assert_eq!(get(&server, &format!("/api/sessions/{session}/tree.json")).status, 200);
+    assert_eq!(get(&server, &format!("/api/v1/sessions/{session}/tree.json")).status, 200);
 }

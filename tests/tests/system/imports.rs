@@ -14,12 +14,12 @@ use serde_json::{Value, json};
 const SCAN: &str = include_str!("../../fuzz/seeds/rtwig.csv");
 
 fn post(server: &Server, query: &str, file: &str) -> Answer {
-    let path = format!("/api/trees/import?{query}");
+    let path = format!("/api/v1/trees/import?{query}");
     http::send_bytes(server.port(), "POST", &path, "text/csv", file.as_bytes()).expect("the server answers")
 }
 
 fn saved(server: &Server) -> usize {
-    let list = http::get(server.port(), "/api/trees").expect("the server answers").json();
+    let list = http::get(server.port(), "/api/v1/trees").expect("the server answers").json();
     list["trees"].as_array().map_or(0, Vec::len)
 }
 
@@ -34,7 +34,7 @@ async fn im1_a_scan_becomes_a_tree_that_grows_on() {
     let server = server.kill_and_restart();
     let body = json!({ "tree": tree["id"] });
     let session =
-        http::send(server.port(), "POST", "/api/sessions", Some(&body)).expect("the server answers");
+        http::send(server.port(), "POST", "/api/v1/sessions", Some(&body)).expect("the server answers");
     let session = session.json()["session"].as_str().expect("a name").to_owned();
     let mut client = Client::connect(server.port(), &session, "browser-1").await;
     client.until_settled().await;
@@ -134,7 +134,7 @@ async fn a_session_is_taken_in_every_format() {
         ("csv", "text/csv", "radius,length,start.x"),
         ("ply", "application/octet-stream", "ply\nformat binary_little_endian"),
     ] {
-        let address = format!("/api/sessions/{}/tree.{ending}", client.session);
+        let address = format!("/api/v1/sessions/{}/tree.{ending}", client.session);
         let answer = http::get(server.port(), &address).expect("the server answers");
         assert_eq!((answer.status, answer.header("content-type")), (200, Some(kind)), "{ending}");
         assert!(

@@ -33,15 +33,15 @@ fn of_simulation(version: u32, scratch: &Scratch) -> Vec<u8> {
 }
 
 fn upload(server: &Server, bytes: &[u8]) -> Answer {
-    let address = "/api/trees/import?name=Oak&format=espalier";
+    let address = "/api/v1/trees/import?name=Oak&format=espalier";
     http::send_bytes(server.port(), "POST", address, "application/octet-stream", bytes)
         .expect("the server answers")
 }
 
 fn open_first(server: &Server) -> Answer {
-    let trees = http::get(server.port(), "/api/trees").expect("the server answers").json();
+    let trees = http::get(server.port(), "/api/v1/trees").expect("the server answers").json();
     let open = json!({ "tree": trees["trees"][0]["id"], "version": 1 });
-    http::send(server.port(), "POST", "/api/sessions", Some(&open)).expect("the server answers")
+    http::send(server.port(), "POST", "/api/v1/sessions", Some(&open)).expect("the server answers")
 }
 
 /// A kept database in which this is the saved tree.
@@ -91,7 +91,7 @@ async fn op1_hs6_what_needs_a_later_program_is_refused_whichever_way_it_comes() 
     put(&path, "snapshots", LATER).await;
     let session = sessions(&path).await.remove(0);
     let server = Server::start(&path);
-    let export = format!("/api/sessions/{session}/tree.glb");
+    let export = format!("/api/v1/sessions/{session}/tree.glb");
     let export = http::get(server.port(), &export).expect("the server answers");
     for answer in [open_first(&server), upload(&server, LATER), export] {
         let sentence = answer.json()["message"].as_str().unwrap_or_default().to_owned();
@@ -104,6 +104,6 @@ async fn op1_hs6_what_needs_a_later_program_is_refused_whichever_way_it_comes() 
     let frame = refused_by(server.port(), &session).await;
     assert_eq!(u16::from(frame.code), 4007);
     assert!(frame.reason.contains(NEEDED), "{}", frame.reason);
-    let trees = http::get(server.port(), "/api/trees").expect("the server answers").json();
+    let trees = http::get(server.port(), "/api/v1/trees").expect("the server answers").json();
     assert_eq!(trees["trees"].as_array().map(Vec::len), Some(1), "nothing was kept of what was refused");
 }

@@ -30,13 +30,13 @@ impl Library {
 
     pub(super) fn save(&self, name: &str) -> Value {
         let body = json!({"session": self.client.session, "name": name, "thumbnail": PICTURE});
-        let answer = self.ask("POST", "/api/trees", Some(body));
+        let answer = self.ask("POST", "/api/v1/trees", Some(body));
         assert_eq!(answer.status, 201, "{}", answer.text());
         answer.json()
     }
 
     pub(super) fn names(&self) -> Vec<String> {
-        let list = self.ask("GET", "/api/trees", None).json();
+        let list = self.ask("GET", "/api/v1/trees", None).json();
         let trees = list["trees"].as_array().expect("the library is a list");
         trees.iter().map(|tree| tree["name"].as_str().expect("a tree has a name").to_owned()).collect()
     }
@@ -56,7 +56,7 @@ async fn a_saved_tree_is_listed_renamed_and_deleted() {
         "RFC 3339 in UTC: {time}"
     );
 
-    let path = format!("/api/trees/{}", first["id"].as_str().expect("a tree has an id"));
+    let path = format!("/api/v1/trees/{}", first["id"].as_str().expect("a tree has an id"));
     let renamed = library.ask("PATCH", &path, Some(json!({"name": "Quince"})));
     assert_eq!((renamed.status, renamed.json()["name"].clone()), (200, json!("Quince")));
     assert_eq!(library.names(), ["Äpfel & Birnen 🌳", "Quince"]);
@@ -74,7 +74,7 @@ async fn a_thumbnail_comes_back_as_it_was() {
     let tree = library.save("Pear");
     let id = tree["id"].as_str().expect("a tree has an id");
     let link = tree["thumbnail"].as_str().expect("a tree with a picture has a link to it");
-    assert_eq!(link, format!("/api/trees/{id}/versions/1/thumbnail"));
+    assert_eq!(link, format!("/api/v1/trees/{id}/versions/1/thumbnail"));
     let picture = library.ask("GET", link, None);
     assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
     assert!(picture.body.starts_with(b"\x89PNG\r\n\x1a\n") && picture.body.ends_with(b"IEND\xaeB`\x82"));
@@ -84,7 +84,7 @@ async fn a_thumbnail_comes_back_as_it_was() {
 async fn a_reopened_tree_is_the_same_and_another_document() {
     let mut library = Library::new().await;
     let tree = library.save("Pear");
-    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"], "template": true})));
+    let answer = library.ask("POST", "/api/v1/sessions", Some(json!({"tree": tree["id"], "template": true})));
     assert_eq!(answer.status, 201, "{}", answer.text());
     let session = answer.json()["session"].as_str().expect("a session has a name").to_owned();
     assert_ne!(session, library.client.session);
@@ -107,7 +107,7 @@ async fn the_library_outlives_a_kill() {
     let tree = library.save("Pear");
     library.server = library.server.kill_and_restart();
     assert_eq!(library.names(), ["Pear"]);
-    let answer = library.ask("POST", "/api/sessions", Some(json!({"tree": tree["id"]})));
+    let answer = library.ask("POST", "/api/v1/sessions", Some(json!({"tree": tree["id"]})));
     assert_eq!(answer.status, 200, "{}", answer.text());
     assert_eq!(answer.json()["session"], json!(library.client.session), "it is as it was saved");
 }
@@ -119,21 +119,21 @@ async fn bad_requests_name_what_is_wrong() {
     let long = "x".repeat(81);
     let heavy = format!("data:image/png;base64,{}", "A".repeat(300 * 1024));
     let cases = [
-        ("POST", "/api/trees", json!({"session": session, "name": ""}), 400, "name"),
-        ("POST", "/api/trees", json!({"session": session, "name": long}), 400, "name"),
-        ("POST", "/api/trees", json!({"session": session}), 400, "name"),
+        ("POST", "/api/v1/trees", json!({"session": session, "name": ""}), 400, "name"),
+        ("POST", "/api/v1/trees", json!({"session": session, "name": long}), 400, "name"),
+        ("POST", "/api/v1/trees", json!({"session": session}), 400, "name"),
         (
             "POST",
-            "/api/trees",
+            "/api/v1/trees",
             json!({"session": session, "name": "a", "thumbnail": "javascript:1"}),
             400,
             "thumbnail",
         ),
-        ("POST", "/api/trees", json!({"session": session, "name": "a", "thumbnail": heavy}), 413, ""),
-        ("POST", "/api/trees", json!({"session": "nowhere", "name": "a"}), 404, "session"),
-        ("POST", "/api/sessions", json!({"tree": "nothing"}), 404, "tree"),
-        ("POST", "/api/sessions", json!({"seed": -1}), 400, "seed"),
-        ("POST", "/api/sessions", json!({"sead": 1}), 400, "sead"),
+        ("POST", "/api/v1/trees", json!({"session": session, "name": "a", "thumbnail": heavy}), 413, ""),
+        ("POST", "/api/v1/trees", json!({"session": "nowhere", "name": "a"}), 404, "session"),
+        ("POST", "/api/v1/sessions", json!({"tree": "nothing"}), 404, "tree"),
+        ("POST", "/api/v1/sessions", json!({"seed": -1}), 400, "seed"),
+        ("POST", "/api/v1/sessions", json!({"sead": 1}), 400, "sead"),
     ];
     for (method, path, body, status, word) in cases {
         let shown: String = body.to_string().chars().take(100).collect();
@@ -144,28 +144,28 @@ async fn bad_requests_name_what_is_wrong() {
         let said = format!("{} {}", problem.field.unwrap_or_default(), problem.message);
         assert!(said.contains(word), "{shown}: {said}");
     }
-    assert_eq!(library.ask("GET", "/api/sessions/nowhere", None).status, 404);
-    assert_eq!(library.ask("GET", "/api/trees/nothing/versions/1/thumbnail", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/v1/sessions/nowhere", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/v1/trees/nothing/versions/1/thumbnail", None).status, 404);
     assert_eq!(library.names(), Vec::<String>::new());
 }
 
 #[tokio::test]
 async fn tree_glb_is_binary_gltf() {
     let library = Library::new().await;
-    let answer = library.ask("GET", &format!("/api/sessions/{}/tree.glb", library.client.session), None);
+    let answer = library.ask("GET", &format!("/api/v1/sessions/{}/tree.glb", library.client.session), None);
     assert_eq!((answer.status, answer.header("content-type")), (200, Some("model/gltf-binary")));
     crate::command_line::is_gltf(&answer.body);
-    assert_eq!(library.ask("GET", "/api/sessions/nowhere/tree.glb", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/v1/sessions/nowhere/tree.glb", None).status, 404);
 }
 
 #[tokio::test]
 async fn tree_json_is_the_skeleton() {
     let library = Library::new().await;
-    let answer = library.ask("GET", &format!("/api/sessions/{}/tree.json", library.client.session), None);
+    let answer = library.ask("GET", &format!("/api/v1/sessions/{}/tree.json", library.client.session), None);
     assert_eq!((answer.status, answer.header("content-type")), (200, Some("application/json")));
     let skeleton: Value = serde_json::from_slice(&answer.body).expect("it is JSON");
     assert_eq!(skeleton["format"], "espalier-skeleton");
-    assert_eq!(library.ask("GET", "/api/sessions/nowhere/tree.json", None).status, 404);
+    assert_eq!(library.ask("GET", "/api/v1/sessions/nowhere/tree.json", None).status, 404);
 }
 
 #[tokio::test]

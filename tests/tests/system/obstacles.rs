@@ -40,7 +40,7 @@ fn model(corners: [[f32; 3]; 3]) -> Vec<u8> {
 }
 
 fn upload(server: &Server, session: &str, file: &[u8]) -> Answer {
-    let path = format!("/api/sessions/{session}/obstacles");
+    let path = format!("/api/v1/sessions/{session}/obstacles");
     http::send_bytes(server.port(), "POST", &path, GLB, file).expect("the server answers")
 }
 
@@ -89,7 +89,7 @@ async fn ob6_a_gltf_file_becomes_an_obstacle() {
     // A metre is ten internodes unless the parameters say otherwise.
     assert_eq!(client.obstacles[0].shape, PlacedShape::Mesh { vertices: 3, triangles: 1, scale: 10.0 });
     let server = server.kill_and_restart();
-    let path = format!("/api/sessions/{session}/obstacles/1");
+    let path = format!("/api/v1/sessions/{session}/obstacles/1");
     let mesh = http::get(server.port(), &path).expect("the server answers");
     let words: Vec<u32> = mesh
         .body
@@ -132,7 +132,7 @@ async fn ob6_what_is_no_mesh_is_refused_in_words() {
     }
     assert_eq!(upload(&server, &session, &vec![0; MAX_GLB_BYTES + 1]).status, 413);
     assert_eq!(upload(&server, "nowhere", &model(TRIANGLE)).status, 404);
-    let path = format!("/api/sessions/{session}/obstacles/one");
+    let path = format!("/api/v1/sessions/{session}/obstacles/one");
     assert_eq!(http::get(server.port(), &path).expect("the server answers").status, 400);
     client.until_settled().await;
     assert_eq!(client.obstacles, []);

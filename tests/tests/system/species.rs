@@ -60,7 +60,7 @@ fn pictures_and_sheets_are_png_files() {
 async fn pg5_a_picked_species_is_told_and_grows_up_as_on_the_command_line() {
     let scratch = Scratch::new();
     let server = Server::start(&scratch.path("trees.db"));
-    let answer = http::send(server.port(), "GET", "/api/species", None).expect("the server answers");
+    let answer = http::send(server.port(), "GET", "/api/v1/species", None).expect("the server answers");
     assert_eq!(answer.status, 200);
     let all: Vec<Species> = serde_json::from_value(answer.json()).expect("a list of species");
     let willow = all.iter().find(|species| species.slug == "weeping-willow").expect("there is a willow");

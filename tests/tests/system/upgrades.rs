@@ -119,10 +119,10 @@ async fn op1_a_kept_tree_opens_under_this_and_any_later_simulation() {
     for version in [SIMULATION_VERSION, KEPT_SIMULATION, 2] {
         change(&path, &format!("UPDATE documents SET simulation_version = {version}")).await;
         let server = Server::start(&path);
-        let trees = http::get(server.port(), "/api/trees").expect("the server answers").json();
+        let trees = http::get(server.port(), "/api/v1/trees").expect("the server answers").json();
         let (id, metamers) = (trees["trees"][0]["id"].clone(), trees["trees"][0]["metamers"].clone());
         let open = json!({ "tree": id, "version": 1 });
-        let opened = http::send(server.port(), "POST", "/api/sessions", Some(&open));
+        let opened = http::send(server.port(), "POST", "/api/v1/sessions", Some(&open));
         let opened = opened.expect("the server answers");
         assert_eq!(opened.status, 201, "{}", opened.text());
         let session = opened.json()["session"].as_str().expect("a name").to_owned();
@@ -234,12 +234,13 @@ async fn a_damaged_tree_is_said_to_be_damaged() {
     let path = scratch.path("trees.db");
     let server = Server::start(&path);
     let save = json!({ "session": server.new_session(7), "name": "Oak" });
-    let saved = http::send(server.port(), "POST", "/api/trees", Some(&save)).expect("the server answers");
+    let saved = http::send(server.port(), "POST", "/api/v1/trees", Some(&save)).expect("the server answers");
     let tree = json!({ "tree": saved.json()["id"], "version": 1 });
     assert!(server.terminate().success());
     change(&path, "UPDATE documents SET bytes = substr(bytes, 2)").await;
     let server = Server::start(&path);
-    let opened = http::send(server.port(), "POST", "/api/sessions", Some(&tree)).expect("the server answers");
+    let opened =
+        http::send(server.port(), "POST", "/api/v1/sessions", Some(&tree)).expect("the server answers");
     assert_eq!(opened.status, 409, "{}", opened.text());
     assert!(opened.text().contains("damaged"), "{}", opened.text());
 }

@@ -37,7 +37,7 @@ impl Library {
 }
 
 fn path_of(tree: &Value) -> String {
-    format!("/api/trees/{}", tree["id"].as_str().expect("a tree has an id"))
+    format!("/api/v1/trees/{}", tree["id"].as_str().expect("a tree has an id"))
 }
 
 fn numbers(versions: &Value) -> Vec<u64> {
@@ -80,7 +80,7 @@ async fn lb1_each_save_is_a_version_that_can_be_had_again() {
     let copy = library.post(&format!("{path}/copies"), json!({ "name": "Branch", "version": 2 }), 201);
     assert_eq!(copy["origin"], json!({ "tree": tree["id"], "version": 2 }));
     assert_eq!((&copy["metamers"], &copy["version"]), (&second["metamers"], &json!(1)));
-    let opened = library.post("/api/sessions", json!({ "tree": tree["id"], "version": 1 }), 201);
+    let opened = library.post("/api/v1/sessions", json!({ "tree": tree["id"], "version": 1 }), 201);
     let mut visitor = library.enter(&opened, "browser-2").await;
     visitor.until_form(&before).await;
     let noted = library.ask("PATCH", &format!("{path}/versions/2"), Some(json!({ "note": "In leaf" })));
@@ -128,13 +128,13 @@ async fn lb3_opening_a_tree_in_work_is_joining() {
     let ours = json!(library.client.session);
     let open = json!({ "tree": tree["id"] });
     assert_eq!(library.get(&path_of(&tree))["people"], json!(1));
-    let opened = library.post("/api/sessions", open.clone(), 200);
+    let opened = library.post("/api/v1/sessions", open.clone(), 200);
     let saved = json!({ "id": tree["id"], "version": 1, "saved": true });
     assert_eq!((&opened["session"], &opened["tree"]), (&ours, &saved));
     let mut friend = library.enter(&opened, "browser-2").await;
     library.grow(2).await;
     friend.until_form(&library.client.table.form()).await;
-    let joined = library.post("/api/sessions", open.clone(), 200);
+    let joined = library.post("/api/v1/sessions", open.clone(), 200);
     assert_eq!(
         (&joined["session"], &joined["tree"]["saved"]),
         (&ours, &json!(false)),
@@ -147,17 +147,17 @@ async fn lb3_opening_a_tree_in_work_is_joining() {
     while !alone() {
         tokio::task::yield_now().await;
     }
-    let anew = library.post("/api/sessions", open.clone(), 201);
+    let anew = library.post("/api/v1/sessions", open.clone(), 201);
     assert_ne!(anew["session"], ours, "the tree is what was saved");
     let mut visitor = library.enter(&anew, "browser-3").await;
     visitor.until_settled().await;
     assert_eq!(json!(visitor.state.metamers), tree["metamers"]);
     assert_eq!(
-        library.post("/api/sessions", open, 200)["session"],
+        library.post("/api/v1/sessions", open, 200)["session"],
         anew["session"],
         "two come into one session"
     );
-    let left = library.get(&format!("/api/sessions/{}", library.client.session));
+    let left = library.get(&format!("/api/v1/sessions/{}", library.client.session));
     assert_eq!(left["tree"]["saved"], json!(false), "the work of before is there still");
 }
 
@@ -167,7 +167,7 @@ async fn lb3_people_work_on_the_tree_that_their_session_was_saved_as_last() {
     let (pear, apple) = (library.save("Pear"), library.save("Apple"));
     let people = |tree: &Value| library.get(&path_of(tree))["people"].clone();
     assert_eq!((people(&pear), people(&apple)), (json!(0), json!(1)));
-    let listed = library.get("/api/trees?sort=name");
+    let listed = library.get("/api/v1/trees?sort=name");
     let counts: Vec<&Value> =
         listed["trees"].as_array().expect("a list").iter().map(|tree| &tree["people"]).collect();
     assert_eq!(counts, [&json!(1), &json!(0)]);
@@ -180,9 +180,9 @@ async fn lb4_a_template_begins_a_tree_of_its_own() {
     let tree = library.save("Pear");
     let path = path_of(&tree);
     assert_eq!(library.ask("PATCH", &path, Some(json!({ "template": true }))).status, 200);
-    let listed = |query: &str| library.get(&format!("/api/trees?template={query}"))["trees"].clone();
+    let listed = |query: &str| library.get(&format!("/api/v1/trees?template={query}"))["trees"].clone();
     assert_eq!((listed("true")[0]["id"].clone(), listed("false")), (tree["id"].clone(), json!([])));
-    let begun = library.post("/api/sessions", json!({ "tree": tree["id"], "template": true }), 201);
+    let begun = library.post("/api/v1/sessions", json!({ "tree": tree["id"], "template": true }), 201);
     assert_eq!(begun["tree"], Value::Null);
     let mut visitor = library.enter(&begun, "browser-2").await;
     visitor.until_form(&library.client.table.form()).await;
@@ -203,7 +203,7 @@ async fn lb6_a_deleted_tree_is_taken_back_whole() {
     let before = library.get(&path);
     assert_eq!(library.ask("DELETE", &path, None).status, 204);
     assert_eq!(library.names(), Vec::<String>::new());
-    let deleted = library.get("/api/trees?deleted=true");
+    let deleted = library.get("/api/v1/trees?deleted=true");
     assert_eq!(
         (&deleted["trees"][0]["id"], deleted["trees"][0]["deleted_at"].is_string()),
         (&before["id"], true)
@@ -212,7 +212,7 @@ async fn lb6_a_deleted_tree_is_taken_back_whole() {
     let refused =
         library.ask("POST", &format!("{path}/versions"), Some(json!({ "session": library.client.session })));
     assert_eq!(refused.status, 404, "{}", refused.text());
-    let refused = library.ask("POST", "/api/sessions", Some(json!({ "tree": before["id"] })));
+    let refused = library.ask("POST", "/api/v1/sessions", Some(json!({ "tree": before["id"] })));
     assert_eq!(refused.status, 404, "{}", refused.text());
     let back = library.post(&format!("{path}/undelete"), json!({}), 200);
     assert_eq!(
@@ -234,7 +234,7 @@ async fn lb5_what_is_said_is_plain_text() {
         ("PATCH", path.clone(), json!({ "note": "bell\u{7}" }), "note"),
         ("POST", format!("{path}/versions"), json!({ "session": session, "author": "\u{200b}" }), "author"),
         ("POST", format!("{path}/copies"), json!({ "name": "\u{3164}" }), "name"),
-        ("POST", "/api/trees".into(), json!({ "session": session, "name": hidden }), "name"),
+        ("POST", "/api/v1/trees".into(), json!({ "session": session, "name": hidden }), "name"),
     ] {
         let refused = library.ask(method, &at, Some(body));
         assert_eq!((refused.status, &refused.json()["field"]), (400, &json!(field)), "{}", refused.text());
@@ -247,19 +247,19 @@ async fn lb5_what_is_said_is_plain_text() {
 async fn lb7_trees_are_found_by_what_is_said_of_them() {
     let library = Library::new().await;
     let found = |query: &str| {
-        let page = library.get(&format!("/api/trees?{query}"));
+        let page = library.get(&format!("/api/v1/trees?{query}"));
         let trees = page["trees"].as_array().expect("a list").clone();
         trees.iter().map(|tree| tree["name"].as_str().expect("a name").to_owned()).collect::<Vec<_>>()
     };
     let [oak, pear, apple] = ["Érable", "Pear", "Äpfel"].map(|name| path_of(&library.save(name)));
-    let wood = library.post("/api/collections", json!({ "name": "Wood" }), 201);
-    let copse = library.post("/api/collections", json!({ "name": "Copse", "parent": wood["id"] }), 201);
+    let wood = library.post("/api/v1/collections", json!({ "name": "Wood" }), 201);
+    let copse = library.post("/api/v1/collections", json!({ "name": "Copse", "parent": wood["id"] }), 201);
     let said = json!({ "tags": ["old", "Red maple"], "note": "By the lake", "collection": copse["id"] });
     let changed = library.ask("PATCH", &oak, Some(said)).json();
     assert_eq!((&changed["tags"], &changed["collection"]), (&json!(["Red maple", "old"]), &copse["id"]));
     assert_eq!(library.ask("PUT", &format!("{pear}/favourite"), None).status, 204);
     assert_eq!(library.get(&pear)["favourite"], json!(true));
-    let first = library.get("/api/trees?sort=name&limit=1");
+    let first = library.get("/api/v1/trees?sort=name&limit=1");
     let next = first["next"].as_str().expect("there are more");
     for (query, expected) in [
         ("q=erab", vec!["Érable"]),
@@ -281,19 +281,20 @@ async fn lb7_trees_are_found_by_what_is_said_of_them() {
         assert_eq!(found(query), expected, "{query}");
     }
     assert_eq!(
-        library.get("/api/tags"),
+        library.get("/api/v1/tags"),
         json!([{ "tag": "Red maple", "trees": 1 }, { "tag": "old", "trees": 1 }])
     );
     let ours = json!([{ "author": "Ada", "trees": 1 }]);
     library.post(&format!("{apple}/copies"), json!({ "name": "Apple", "author": "Ada" }), 201);
-    assert_eq!(library.get("/api/authors"), ours);
+    assert_eq!(library.get("/api/v1/authors"), ours);
     let under_itself = json!({ "parent": copse["id"] });
-    let at = |collection: &Value| format!("/api/collections/{}", collection["id"].as_str().expect("an id"));
+    let at =
+        |collection: &Value| format!("/api/v1/collections/{}", collection["id"].as_str().expect("an id"));
     assert_eq!(library.ask("PATCH", &at(&wood), Some(under_itself)).status, 409);
     assert_eq!(library.ask("DELETE", &at(&copse), None).status, 204);
-    assert_eq!(library.get("/api/collections")[0]["trees"], json!(1), "what lay in it lies in its parent");
+    assert_eq!(library.get("/api/v1/collections")[0]["trees"], json!(1), "what lay in it lies in its parent");
     for query in ["q=a+b+c+d+e+f+g+h+i", "sort=best", "after=x", "limit=0", "colour=red"] {
-        let refused = library.ask("GET", &format!("/api/trees?{query}"), None);
+        let refused = library.ask("GET", &format!("/api/v1/trees?{query}"), None);
         assert_eq!(refused.status, 400, "{query}: {}", refused.text());
     }
     for (path, tags) in [(&apple, json!(["a,b"])), (&apple, json!([""])), (&apple, json!(vec!["x"; 33]))] {

@@ -9,7 +9,7 @@ describe("session address", () => {
   });
 
   it("other paths name none", () => {
-    for (const path of ["/", "/s/", "/s/a/b", "/api/sessions", "/s/%E0%A4%A"]) {
+    for (const path of ["/", "/s/", "/s/a/b", "/api/v1/sessions", "/s/%E0%A4%A"]) {
       expect(sessionInPath(path), path).toBeNull();
     }
   });

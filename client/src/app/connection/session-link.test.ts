@@ -86,7 +86,7 @@ describe("the session a page opens with", () => {
     const { asked } = serveSessions([], []);
     const { link, sockets, lastSession } = setUp("/s/oak");
     await link.start();
-    expect(sockets.map(({ address }) => address)).toEqual(["wss://trees/api/sessions/oak/socket"]);
+    expect(sockets.map(({ address }) => address)).toEqual(["wss://trees/api/v1/sessions/oak/socket"]);
     expect([link.session.peek(), lastSession.peek(), asked]).toEqual(["oak", "oak", []]);
   });
 
@@ -140,7 +140,7 @@ describe("another session", () => {
     const { link } = setUp("/s/oak");
     await link.start();
     expect(await Promise.all([link.change(), link.change()])).toMatchObject([{ session: "one" }, null]);
-    expect(asked).toEqual(["POST /api/sessions"]);
+    expect(asked).toEqual(["POST /api/v1/sessions"]);
     expect(await link.change(), "and later again").not.toBeNull();
   });
 

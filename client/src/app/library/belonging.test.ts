@@ -10,7 +10,7 @@ function serve(tree: SavedTree, of = { id: tree.id, version: tree.version, saved
   vi.stubGlobal("fetch", async (path: string, { method, headers }: RequestInit) => {
     asked.push(`${method} ${path}`);
     const answer = (status: number, body: unknown) => new Response(JSON.stringify(body), { status });
-    if (path.startsWith("/api/sessions/")) return answer(200, { session: "s", tree: of });
+    if (path.startsWith("/api/v1/sessions/")) return answer(200, { session: "s", tree: of });
     if (state.gone) return answer(404, { code: "not_found", message: "There is no such tree." });
     if (method === "GET") return answer(200, state.tree);
     state.meanwhile();

@@ -40,7 +40,7 @@ export class Exports {
     if (session !== null) {
       await this.#give(name, ending, () =>
         this.transfer.run(async (signal, tell) => {
-          const place = `/api/sessions/${encodeURIComponent(session)}`;
+          const place = `/api/v1/sessions/${encodeURIComponent(session)}`;
           const ticket = newClientKey();
           let isMaking = true;
           const watch = setInterval(

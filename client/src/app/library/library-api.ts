@@ -26,7 +26,7 @@ export interface Which extends Partial<ReturnType<typeof asked>> {
 
 /** So many saved trees, newest first if no order is asked for; those behind another page, if its `next` is given. */
 export async function listTrees(limit: number, after?: string, which: Which = {}): Promise<Page<SavedTree>> {
-  const { trees, next } = await ask<TreePage>("GET", `/api/trees?${query({ limit, after, ...which })}`);
+  const { trees, next } = await ask<TreePage>("GET", `/api/v1/trees?${query({ limit, after, ...which })}`);
   return next === undefined ? { items: trees } : { items: trees, next };
 }
 
@@ -37,7 +37,7 @@ export function findTree(id: string): Promise<SavedTree> {
 
 /** Saves a session's plants as a new tree. */
 export function saveTree(request: SaveTree): Promise<SavedTree> {
-  return ask<SavedTree>("POST", "/api/trees", request);
+  return ask<SavedTree>("POST", "/api/v1/trees", request);
 }
 
 /** Saves them as the next version of a tree, if that is at this revision still (`LB2`). */
@@ -85,33 +85,33 @@ export async function setFavourite(id: string, favourite: boolean): Promise<void
 
 /** All tags that trees have. */
 export function listTags(): Promise<readonly TreeTag[]> {
-  return ask<TreeTag[]>("GET", "/api/tags");
+  return ask<TreeTag[]>("GET", "/api/v1/tags");
 }
 
 /** All who saved a tree last and said their name. */
 export function listAuthors(): Promise<readonly TreeAuthor[]> {
-  return ask<TreeAuthor[]>("GET", "/api/authors");
+  return ask<TreeAuthor[]>("GET", "/api/v1/authors");
 }
 
 /** All collections, by name. */
 export function listCollections(): Promise<readonly TreeCollection[]> {
-  return ask<TreeCollection[]>("GET", "/api/collections");
+  return ask<TreeCollection[]>("GET", "/api/v1/collections");
 }
 
 export function addCollection(collection: NewCollection): Promise<TreeCollection> {
-  return ask<TreeCollection>("POST", "/api/collections", collection);
+  return ask<TreeCollection>("POST", "/api/v1/collections", collection);
 }
 
 export function changeCollection(id: string, change: ChangeCollection): Promise<TreeCollection> {
-  return ask<TreeCollection>("PATCH", `/api/collections/${encodeURIComponent(id)}`, change);
+  return ask<TreeCollection>("PATCH", `/api/v1/collections/${encodeURIComponent(id)}`, change);
 }
 
 export async function deleteCollection(id: string): Promise<void> {
-  await ask<undefined>("DELETE", `/api/collections/${encodeURIComponent(id)}`);
+  await ask<undefined>("DELETE", `/api/v1/collections/${encodeURIComponent(id)}`);
 }
 
 function pathOf(id: string): string {
-  return `/api/trees/${encodeURIComponent(id)}`;
+  return `/api/v1/trees/${encodeURIComponent(id)}`;
 }
 
 function query(fields: Readonly<Record<string, string | number | boolean | undefined>>): string {

@@ -38,8 +38,8 @@ describe("files", () => {
     const { files, take, sent, said, acts, opened } = library();
     await take(file("Old oak.MTG"), file("a & b.espalier"));
     expect(sent).toEqual([
-      "/api/trees/import?name=Old+oak&format=mtg",
-      "/api/trees/import?name=a+%26+b&format=espalier",
+      "/api/v1/trees/import?name=Old+oak&format=mtg",
+      "/api/v1/trees/import?name=a+%26+b&format=espalier",
     ]);
     expect(said).toEqual(["“Old oak” is in the library now", "“a & b” is in the library now"]);
     expect(files.added.value?.name).toBe("a & b");

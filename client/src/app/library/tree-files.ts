@@ -58,7 +58,7 @@ export class TreeFiles {
     if (file.size > MAX_WOOD_BYTES) {
       throw new Error(say("library.file.too-large", { limit: MAX_WOOD_BYTES / MEGABYTE }));
     }
-    const path = `/api/trees/import?${new URLSearchParams({ name: nameOf(file.name), format })}`;
+    const path = `/api/v1/trees/import?${new URLSearchParams({ name: nameOf(file.name), format })}`;
     const body = new Uint8Array(await file.arrayBuffer());
     return (await this.#post(path, { type: "application/octet-stream", body }, stop, tell)) as SavedTree;
   }

@@ -16,7 +16,7 @@ describe("requests", () => {
   it("starts a session from a saved tree", async () => {
     const fetch = answer(201, { session: "oak" });
     expect(await createSession({ tree: "t1" })).toEqual({ session: "oak" });
-    expect(fetch).toHaveBeenCalledWith("/api/sessions", expect.objectContaining({ body: '{"tree":"t1"}' }));
+    expect(fetch).toHaveBeenCalledWith("/api/v1/sessions", expect.objectContaining({ body: '{"tree":"t1"}' }));
   });
 
   it("AU1: says which client asks, once there is one", async () => {
@@ -76,7 +76,7 @@ describe("requests", () => {
   it("keeps names inside their path", async () => {
     const fetch = answer(204, undefined);
     await deleteTree("../x");
-    expect(fetch).toHaveBeenCalledWith("/api/trees/..%2Fx", expect.anything());
-    expect(socketAddress("a/b", { protocol: "https:", host: "h:1" })).toBe("wss://h:1/api/sessions/a%2Fb/socket");
+    expect(fetch).toHaveBeenCalledWith("/api/v1/trees/..%2Fx", expect.anything());
+    expect(socketAddress("a/b", { protocol: "https:", host: "h:1" })).toBe("wss://h:1/api/v1/sessions/a%2Fb/socket");
   });
 });

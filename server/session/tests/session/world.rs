@@ -130,8 +130,8 @@ impl World {
                 let message = serde_json::from_str(&text).expect("every text is a server message");
                 if let ServerMessage::Refused { problem, .. } | ServerMessage::Problem { problem } = &message
                 {
-                    let is_no_json = problem.allowed.as_deref() == Some("JSON");
-                    let names = (problem.field.is_some() || is_no_json, problem.allowed.is_some());
+                    let is_whole = problem.message.starts_with("the message");
+                    let names = (problem.field.is_some() || is_whole, problem.allowed.is_some());
                     assert_eq!(names, (true, true), "a refusal names too little: {problem:?}");
                 }
                 peer.texts.push(message);

@@ -20,40 +20,44 @@ fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
     let names = |names: &[&str]| names.iter().copied().map(str::to_owned).collect();
     let saved = json!({ "session": "oak", "name": "Oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" });
     vec![
-        ("POST /api/sessions", vec![], json!({ "seed": 1, "tree": "ash", "version": 1, "template": true })),
-        ("POST /api/schematic", every, parameters),
-        ("POST /api/trees", names(&["session", "name"]), with(saved)),
         (
-            "PATCH /api/trees/{tree}",
+            "POST /api/v1/sessions",
+            vec![],
+            json!({ "seed": 1, "tree": "ash", "version": 1, "template": true }),
+        ),
+        ("POST /api/v1/schematic", every, parameters),
+        ("POST /api/v1/trees", names(&["session", "name"]), with(saved)),
+        (
+            "PATCH /api/v1/trees/{tree}",
             vec![],
             json!({ "name": "Oak", "note": "Old", "template": true, "tags": ["old"], "collection": "" }),
         ),
-        ("POST /api/collections", names(&["name"]), json!({ "name": "Woods", "parent": "park" })),
-        ("PATCH /api/collections/{id}", vec![], json!({ "name": "Woods", "parent": "" })),
-        ("POST /api/trees/{tree}/copies", names(&["name"]), with(json!({ "name": "Oak", "version": 1 }))),
+        ("POST /api/v1/collections", names(&["name"]), json!({ "name": "Woods", "parent": "park" })),
+        ("PATCH /api/v1/collections/{id}", vec![], json!({ "name": "Woods", "parent": "" })),
+        ("POST /api/v1/trees/{tree}/copies", names(&["name"]), with(json!({ "name": "Oak", "version": 1 }))),
         (
-            "POST /api/trees/{tree}/versions",
+            "POST /api/v1/trees/{tree}/versions",
             names(&["session"]),
             with(json!({ "session": "oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" })),
         ),
-        ("PATCH /api/trees/{tree}/versions/{number}", names(&["note"]), json!({ "note": "Old" })),
-        ("POST /api/trees/{tree}/versions/{number}/restore", vec![], said),
+        ("PATCH /api/v1/trees/{tree}/versions/{number}", names(&["note"]), json!({ "note": "Old" })),
+        ("POST /api/v1/trees/{tree}/versions/{number}/restore", vec![], said),
     ]
 }
 
 /// Addresses that take a file, or nothing.
 const WITHOUT: [&str; 4] = [
-    "POST /api/sessions/{session}/obstacles",
-    "POST /api/trees/import",
-    "POST /api/trees/{tree}/undelete",
-    "PUT /api/trees/{tree}/favourite",
+    "POST /api/v1/sessions/{session}/obstacles",
+    "POST /api/v1/trees/import",
+    "POST /api/v1/trees/{tree}/undelete",
+    "PUT /api/v1/trees/{tree}/favourite",
 ];
 
 /// Queries with one field that is wrong, and its name.
 fn queries() -> Vec<(String, &'static str, &'static str)> {
-    let list = "GET /api/trees";
-    let versions = "GET /api/trees/{tree}/versions";
-    let import = "POST /api/trees/import";
+    let list = "GET /api/v1/trees";
+    let versions = "GET /api/v1/trees/{tree}/versions";
+    let import = "POST /api/v1/trees/import";
     let fixed = [
         (list, "limit=x", "limit"),
         (list, "limit=0", "limit"),
@@ -83,7 +87,7 @@ fn queries() -> Vec<(String, &'static str, &'static str)> {
     ];
     let mut all: Vec<_> = fixed.map(|(address, query, field)| (address.to_owned(), query, field)).into();
     for row in FORMATS {
-        let address = format!("GET /api/sessions/{{session}}/tree.{}", row.ending);
+        let address = format!("GET /api/v1/sessions/{{session}}/tree.{}", row.ending);
         // Each value is none that its option can have; a format that has no such option says so.
         for (query, field) in [
             ("lod=9", "lod"),

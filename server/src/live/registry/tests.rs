@@ -156,10 +156,10 @@ async fn au2_a_session_asks_the_authority_under_its_name() {
         ServerMessage::Refused { problem, .. } => Some(problem),
         _ => None,
     });
-    assert_eq!(refused.await, espalier_session::forbidden());
+    assert_eq!(refused.await, espalier_session::forbidden().at("kind", "commands of a client that may edit"));
     let command = espalier_session::read_command(r#"{"kind":"grow","steps":1}"#).unwrap();
     let uploaded = viewer.session.act(Principal::visitor(), command).await.unwrap();
-    assert_eq!(uploaded, Err(espalier_session::forbidden()));
+    assert_eq!(uploaded, Err(espalier_session::forbidden().at("kind", "commands of a client that may edit")));
 }
 
 #[tokio::test]

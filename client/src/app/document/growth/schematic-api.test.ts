@@ -15,7 +15,7 @@ describe("schematic tree", () => {
       return new Response(JSON.stringify({ segments: [0, 0, 0, 1] }));
     });
     expect(await growSchematic(DEFAULTS)).toEqual({ segments: [0, 0, 0, 1] });
-    expect(asked).toEqual([["/api/schematic", "POST", DEFAULTS]]);
+    expect(asked).toEqual([["/api/v1/schematic", "POST", DEFAULTS]]);
   });
 
   it("a server that never answers is not waited for", async () => {

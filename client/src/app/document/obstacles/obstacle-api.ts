@@ -42,5 +42,5 @@ export async function uploadModel(
 }
 
 function addressOf(session: string): string {
-  return `/api/sessions/${encodeURIComponent(session)}/obstacles`;
+  return `/api/v1/sessions/${encodeURIComponent(session)}/obstacles`;
 }

@@ -30,6 +30,6 @@ describe("species", () => {
   });
 
   it("each has an address for its picture", () => {
-    expect(pictureOf("cedar-of-lebanon")).toBe("/api/species/cedar-of-lebanon/picture");
+    expect(pictureOf("cedar-of-lebanon")).toBe("/api/v1/species/cedar-of-lebanon/picture");
   });
 });

@@ -187,7 +187,7 @@ function useFormats() {
   const [formats, set] = useState<readonly ExportFormat[] | null | undefined>();
   const load = () => {
     set(undefined);
-    ask<ExportFormat[]>("GET", "/api/formats").then(set, () => set(null));
+    ask<ExportFormat[]>("GET", "/api/v1/formats").then(set, () => set(null));
   };
   useEffect(load, []);
   return [formats, load] as const;
