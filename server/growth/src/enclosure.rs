@@ -18,6 +18,8 @@ use crate::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct Enclosure {
     pub(crate) envelope: Arc<Envelope>,
+    /// What has grown for it has at least this id.
+    pub(crate) first_born: MetamerId,
     /// Limbs that lead through it, those first that others begin on; none before the first step.
     pub(crate) limbs: Option<Vec<Guide>>,
     sowing: Sowing,
@@ -26,10 +28,11 @@ pub struct Enclosure {
 }
 
 impl Enclosure {
-    /// An envelope in which so many markers will lie.
-    pub(crate) fn new(envelope: Envelope, count: usize, draw: Draw) -> Self {
+    /// An envelope in which so many markers will lie, drawn beside a plant with so many metamers.
+    pub(crate) fn new(envelope: Envelope, count: usize, draw: Draw, metamers: usize) -> Self {
         let sowing = Sowing::new(&envelope, count, draw);
-        Self { envelope: Arc::new(envelope), limbs: None, sowing, noticed: 0 }
+        let first_born = MetamerId::new(metamers);
+        Self { envelope: Arc::new(envelope), first_born, limbs: None, sowing, noticed: 0 }
     }
 
     /// Calls `lay` with the markers that a bud may perceive by now, within `reach` of it, above ground and beside obstacles.

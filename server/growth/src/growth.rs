@@ -101,7 +101,7 @@ impl Growth {
         let count = (envelope.marker_count(density).round() as usize).clamp(1, MAX_LASSO_MARKERS);
         // A second envelope in the same tick must not repeat the pattern of the first.
         let draw = Draw::new(self.seed, Purpose::Lasso, self.tick, self.enclosures.len() as u32);
-        self.enclosures.push(Enclosure::new(envelope, count, draw));
+        self.enclosures.push(Enclosure::new(envelope, count, draw, scene.plant.metamer_count()));
         self.sow_envelopes(scene);
     }
 

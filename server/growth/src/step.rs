@@ -228,14 +228,15 @@ impl Growth {
         nodes
     }
 
-    /// Which axes may be shed: not those that lead a stroke, nor those born since somebody began to draw, nor what bears
+    /// Which axes may be shed: not those that lead a stroke or a lasso, nor those born since somebody began to draw, nor what bears
     /// either. Whether what was drawn by hand pays is asked once growth has come to rest.
     pub(crate) fn spares(&self, plant: &Plant) -> impl Fn(&AxisId) -> bool + use<> {
         let mut spared = BTreeSet::new();
         let limbs = self.enclosures.iter().flat_map(|one| one.limbs.iter().flatten());
         let leaders = self.guides.values().chain(limbs).filter_map(|guide| guide.leader);
         let by_hand = self.guides.iter().filter(|(stroke, _)| !stroke.is_of_programme());
-        let first_born = by_hand.map(|(_, guide)| guide.first_born).min();
+        let enclosed = self.enclosures.iter().map(|one| one.first_born);
+        let first_born = by_hand.map(|(_, guide)| guide.first_born).chain(enclosed).min();
         let is_young = |&axis: &AxisId| {
             plant.axes().first(axis).zip(first_born).is_some_and(|(first, born)| first >= born)
         };

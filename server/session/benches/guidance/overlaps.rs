@@ -33,6 +33,12 @@ pub struct Overlaps {
 /// A seedling that has grown into an outline.
 pub fn enclosed(seed: u32, outline: &[Vec2]) -> Document {
     let mut document = Document::new(seed);
+    enclose(&mut document, outline);
+    document
+}
+
+/// Lets a document grow into an outline.
+pub fn enclose(document: &mut Document, outline: &[Vec2]) {
     let direction = |axis: Vec3| Direction::try_from(axis).expect("of length 1");
     let plane = DrawingPlane::new(Position::ORIGIN, direction(Vec3::X), direction(Vec3::Y));
     let points: Vec<PlanePoint> =
@@ -44,7 +50,6 @@ pub fn enclosed(seed: u32, outline: &[Vec2]) -> Document {
         bud: None,
     };
     document.apply("finger", &lasso.into()).expect("a lasso can be drawn");
-    document
 }
 
 impl Overlaps {

@@ -108,7 +108,8 @@ impl Document {
             OpenLasso { first_born, .. } if first_born == plant.metamer_count() => HintReason::NothingGrew,
             _ => HintReason::DidNotReach,
         };
-        let is_empty = !born.any(|id| lasso.envelope.contains(plant.metamers().end(id)));
+        let is_empty =
+            !born.any(|id| plant.is_alive(id) && lasso.envelope.contains(plant.metamers().end(id)));
         if is_empty && !self.is_stopped() && self.require_room().is_ok() {
             self.hints.say(DrawnInVain { stroke: None, reason, place: lasso.end });
         }
