@@ -158,6 +158,8 @@ reasons! {
         ObstacleGone,
         /// There is no such tree in the library.
         NoTree,
+        /// There is no such collection in the library.
+        NoCollection,
         /// There is no such session.
         NoSession,
         /// There is no such address, or nothing there.

@@ -34,8 +34,10 @@ use crate::{
 const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail of 192 KiB as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = 264 * 1024;
-/// Uploads at once: each holds a file and its triangles.
+/// Uploads of obstacles at once: each holds a file and its triangles.
 const MAX_UPLOADS: usize = 2;
+/// Files at once that become trees: a document may unpack to 2.7 GB.
+const MAX_IMPORTS: usize = 1;
 /// Exports made at once: each holds a scene of its own.
 const MAX_EXPORTS: usize = 1;
 /// Pictures of species made at once: sessions grow on the same threads.
@@ -108,7 +110,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/schematic", Action::DrawSchematic, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
         route("POST /api/v1/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
-        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_UPLOADS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_IMPORTS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new("Delete a tree; it can be taken back for 30 days (LB6).").gives_nothing().revised()),

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     name,
-    store::{Collection, CollectionChange, Finding},
+    store::{Collection, CollectionChange, Finding, StoreError},
 };
 
 pub(super) async fn list(State(shared): State<Shared>) -> Result<Json<Vec<TreeCollection>>, Failure> {
@@ -30,7 +30,7 @@ pub(super) async fn add(
 ) -> Result<impl IntoResponse, Failure> {
     let (id, name) = (name::unguessable(), text::name("name", &new.name)?);
     let new = Collection { id, name, parent: new.parent, trees: 0 };
-    shared.store.add_collection(new.clone()).await?;
+    shared.store.add_collection(new.clone()).await.map_err(|error| missing("parent", error))?;
     Ok((StatusCode::CREATED, Json(to_proto(new))))
 }
 
@@ -43,16 +43,19 @@ pub(super) async fn change(
         name: change.name.map(|name| text::name("name", &name)).transpose()?,
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
     };
-    shared.store.change_collection(&id, change).await?;
+    let changed = shared.store.change_collection(&id, change).await;
     let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
-    found.map(|found| Json(to_proto(found))).ok_or_else(|| Failure::none_such("collection"))
+    let found = found.ok_or_else(|| Failure::no_collection("id"))?;
+    // It is there, so it is the parent that is not.
+    changed.map_err(|error| missing("parent", error))?;
+    Ok(Json(to_proto(found)))
 }
 
 pub(super) async fn delete(
     State(shared): State<Shared>,
     Path(id): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    shared.store.delete_collection(&id).await?;
+    shared.store.delete_collection(&id).await.map_err(|error| missing("id", error))?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -82,6 +85,11 @@ pub(super) async fn unlike(
 ) -> Result<StatusCode, Failure> {
     shared.store.set_favourite(&principal.to_string(), &tree, false).await?;
     Ok(StatusCode::NO_CONTENT)
+}
+
+/// What is not there is the collection that a field names.
+fn missing(field: &str, error: StoreError) -> Failure {
+    if matches!(error, StoreError::NotFound) { Failure::no_collection(field) } else { error.into() }
 }
 
 fn to_proto(collection: Collection) -> TreeCollection {

@@ -37,6 +37,12 @@ impl Failure {
         Self::new(Reason::NoTree, format!("There is no such tree{more}."))
     }
 
+    /// No collection has the identifier in this field.
+    pub(super) fn no_collection(field: &str) -> Self {
+        let problem = Problem::new(Reason::NoCollection, "There is no such collection.");
+        problem.at(field, "the identifier of a collection").into()
+    }
+
     pub(super) fn no_session() -> Self {
         Self::new(Reason::NoSession, "There is no such session.")
     }
@@ -74,7 +80,7 @@ impl From<Problem> for Failure {
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
         match error {
-            StoreError::NotFound => return Self::no_tree(", version or collection"),
+            StoreError::NotFound => return Self::no_tree(" or version"),
             StoreError::Stale => {
                 let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
                 return Self::new(Reason::Stale, sentence);

@@ -203,6 +203,43 @@ mod tests {
     }
 
     #[tokio::test]
+    async fn what_is_not_there_is_told_from_what_it_was_to_lie_in() {
+        let server = server(authority::may).await;
+        for (method, path, body, reason, field) in [
+            (
+                Method::PATCH,
+                "/api/v1/trees/ash",
+                r#"{"collection":"none"}"#,
+                "no-collection",
+                Some("collection"),
+            ),
+            (Method::PATCH, "/api/v1/trees/elm", r#"{"note":"Old"}"#, "no-tree", None),
+            (
+                Method::POST,
+                "/api/v1/collections",
+                r#"{"name":"Woods","parent":"none"}"#,
+                "no-collection",
+                Some("parent"),
+            ),
+            (Method::PATCH, "/api/v1/collections/none", r#"{"name":"Woods"}"#, "no-collection", Some("id")),
+            (Method::DELETE, "/api/v1/collections/none", "", "no-collection", Some("id")),
+        ] {
+            let request = Request::builder().method(&method).uri(path);
+            let request =
+                request.header(header::CONTENT_TYPE, "application/json").body(Body::from(body)).unwrap();
+            let answer = server.clone().oneshot(request).await.unwrap();
+            assert_eq!(answer.status(), StatusCode::NOT_FOUND, "{method} {path}");
+            let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+            let problem: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+            assert_eq!(
+                (problem["reason"].as_str(), problem["field"].as_str()),
+                (Some(reason), field),
+                "{method} {path}"
+            );
+        }
+    }
+
+    #[tokio::test]
     async fn au1_who_asks_is_known_by_a_key() {
         let server = server(|principal, _, _| principal.to_string() == "browser-1").await;
         for (key, expected) in [

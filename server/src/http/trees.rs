@@ -30,8 +30,8 @@ use crate::{
     authority::{Action, Object},
     name,
     store::{
-        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoredTree, TreeChange, TreePlace,
-        TreeQuery,
+        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoreError, StoredTree, TreeChange,
+        TreePlace, TreeQuery,
     },
 };
 
@@ -245,7 +245,14 @@ pub(super) async fn change(
         collection: change.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
         ..TreeChange::default()
     };
-    shared.store.change_tree(&id, expected, change).await?;
+    let collection = change.collection.clone().flatten();
+    let changed = shared.store.change_tree(&id, expected, change).await;
+    if let (Err(StoreError::NotFound), Some(wanted)) = (&changed, collection)
+        && shared.store.collections().await?.iter().all(|collection| collection.id != wanted)
+    {
+        return Err(Failure::no_collection("collection"));
+    }
+    changed?;
     answer(&shared, &principal, &id).await
 }
 

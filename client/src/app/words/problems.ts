@@ -178,6 +178,10 @@ export const REFUSALS = {
     "Dort steht kein Hindernis; vielleicht hat es gerade jemand entfernt.",
   ],
   "problems.no-tree": ["This tree is no longer in the library.", "Dieser Baum ist nicht mehr in der Bibliothek."],
+  "problems.no-collection": [
+    "This collection is no longer in the library.",
+    "Diese Sammlung ist nicht mehr in der Bibliothek.",
+  ],
   "problems.no-session": [
     "This server does not know the tree of this link.",
     "Dieser Server kennt den Baum zu diesem Link nicht.",
