@@ -106,7 +106,7 @@ test("who draws on a young pine is told that it sheds, once", async () => {
   await workshop.act(address, brushAt(1));
   await sentence.waitFor();
   const drawn = await tablet.untilQuiet();
-  expect(await sentence.textContent()).toMatch(/sheds most of what you drew with its next step, until age 10/);
+  expect(await sentence.textContent()).toMatch(/sheds much of what you drew with its next step, until age 10/);
   await workshop.act(address, [{ kind: "grow", steps: 1 }]);
   await sentence.waitFor({ state: "detached" });
   const { metamers, step } = await tablet.untilQuiet();

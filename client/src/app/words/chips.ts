@@ -19,8 +19,8 @@ export const CHIPS = {
   "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
   "chips.shedding": [
-    "This young tree sheds most of what you drew with its next step, until age {age}.",
-    "Dieser junge Baum wirft mit seinem nächsten Schritt das meiste ab, was du gezeichnet hast, bis zum Alter {age}.",
+    "This young tree sheds much of what you drew with its next step, until age {age}.",
+    "Dieser junge Baum wirft mit seinem nächsten Schritt vieles ab, was du gezeichnet hast, bis zum Alter {age}.",
   ],
   "chips.shedding.keep": ["Keep branches", "Äste behalten"],
   "chips.shedding.keep.title": [
