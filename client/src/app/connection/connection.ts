@@ -1,3 +1,4 @@
+import { FrameKind } from "../../wire/envelope";
 import type { ClientMessage, Command, Problem, ServerMessage } from "../../wire/generated";
 import type { Clock } from "../page/clock";
 import {
@@ -20,9 +21,6 @@ export interface Socket {
   send(text: string): void;
   close(): void;
 }
-
-/** The kind of a frame that changes the rows. */
-const MESH_DELTA = 1;
 
 /** A frame that is no change of the rows, under its kind. */
 export interface AsideFrame {
@@ -54,7 +52,9 @@ export interface ConnectionOptions<Frame, Aside> {
   readonly openSocket: () => Socket;
   readonly clock: Clock;
   readonly rows: RowStore<Frame>;
-  readonly decode: (bytes: ArrayBuffer) => Promise<{ readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside>;
+  readonly decode: (
+    bytes: ArrayBuffer,
+  ) => Promise<{ readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame } | Aside>;
   readonly newKey: () => string;
   readonly events: ConnectionEvents<Aside>;
   readonly random?: () => number;
@@ -277,7 +277,7 @@ export class Connection<Frame extends FrameHead, Aside extends AsideFrame> {
 }
 
 function isDelta<Frame, Aside extends AsideFrame>(
-  incoming: { readonly kind: typeof MESH_DELTA; readonly frame: Frame } | Aside,
-): incoming is { readonly kind: typeof MESH_DELTA; readonly frame: Frame } {
-  return incoming.kind === MESH_DELTA;
+  incoming: { readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame } | Aside,
+): incoming is { readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame } {
+  return incoming.kind === FrameKind.MeshDelta;
 }

@@ -29,7 +29,7 @@ export class TreeFiles {
     this.#post = post;
   }
 
-  /** Sends files to the library; what of them is no tree is told, and the others go on. */
+  /** Sends files to the library; shows why one of them is no tree, and goes on with the others. */
   async take(files: readonly TreeFile[], { show, open }: Taking): Promise<void> {
     if (this.transfer.progress.peek() !== null) {
       show(say("library.busy-file"));

@@ -1,4 +1,5 @@
 import type { Vec3 } from "../../../scene/vector";
+import { LOOKS } from "../../../wire/generated";
 
 /** Where the sun stands, in degrees: from the z axis towards the x axis, and above the horizon. */
 export interface SunPlace {
@@ -16,8 +17,7 @@ export interface DomePlace {
 /** The screen's own directions in the world: right, up, and out of it towards the eye. */
 export type ScreenAxes = readonly [right: Vec3, up: Vec3, out: Vec3];
 
-export const LOWEST_SUN = -10;
-export const HIGHEST_SUN = 90;
+export const { least: LOWEST_SUN, most: HIGHEST_SUN } = LOOKS.background.sun_elevation;
 
 const DEGREE = Math.PI / 180;
 

@@ -8,7 +8,7 @@ export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
 /** After so many milliseconds in which the server has nothing to do, a step of which it reported nothing has come to nothing. */
-const UNTOLD = 400;
+const SILENCE = 400;
 
 /** What the server has still to do. */
 export interface Backlog {
@@ -89,7 +89,7 @@ export class GrowPacer {
       return false;
     }
     this.#idleSince ??= now;
-    if (now - this.#idleSince >= UNTOLD) {
+    if (now - this.#idleSince >= SILENCE) {
       this.#open = null;
     }
     return this.#open === null;

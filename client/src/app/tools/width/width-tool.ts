@@ -2,14 +2,12 @@ import { type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import { type Girth, WidthOverlay } from "../../../scene/overlay/width-overlay";
 import { axisRows, pathUp } from "../../../scene/table/branch-rows";
 import { radiusOf, type TreeTable } from "../../../scene/table/tree-table";
-import { type Command, MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";
+import { type Command, MAX_DIAMETER, MIN_DIAMETER, type WidthConstraint } from "../../../wire/generated";
 import type { Grip } from "../../input/gesture-recogniser";
 import type { ShapingView } from "../shaping-view";
 import { type GripTool, PICK_TOLERANCE } from "../tool";
 import type { WidthList } from "./width-list";
 
-/** The slimmest a limb can be made, in internodes. */
-export const LEAST_DIAMETER = 0.01;
 /** Two fingers this far apart, in pixels, are around a limb; further apart they zoom. */
 const WIDEST_PINCH = 320;
 /** How near to the middle between two fingers a limb has to be. */
@@ -371,7 +369,7 @@ export class WidthTool implements GripTool {
   #leastAt(row: number): number {
     const { table } = this.#options;
     const above = this.widths.peek().filter((width) => width.row > row && pathUp(table, row, width.row) !== null);
-    return Math.max(LEAST_DIAMETER, ...above.map(({ effective }) => effective));
+    return Math.max(MIN_DIAMETER, ...above.map(({ effective }) => effective));
   }
 
   /** The width that is set at a row. */

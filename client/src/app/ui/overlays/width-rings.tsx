@@ -1,7 +1,7 @@
 import { useEffect, useRef, useState } from "preact/hooks";
-import { MAX_DIAMETER, type WidthConstraint } from "../../../wire/generated";
+import { MAX_DIAMETER, MIN_DIAMETER, type WidthConstraint } from "../../../wire/generated";
 import type { ToolPage, ToolViewProps } from "../../tools/descriptor";
-import { LEAST_DIAMETER, type WidthTool } from "../../tools/width/width-tool";
+import type { WidthTool } from "../../tools/width/width-tool";
 import { numberText } from "../../words/number-text";
 import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
@@ -120,7 +120,7 @@ function Widget({ page, width, row, diameter }: WidgetProps) {
         role="slider"
         tabIndex={0}
         aria-label={say("tools.width.diameter")}
-        aria-valuemin={LEAST_DIAMETER}
+        aria-valuemin={MIN_DIAMETER}
         aria-valuemax={MAX_DIAMETER}
         aria-valuenow={diameter}
         aria-valuetext={say("tools.width.value", { width: figure(diameter) })}
