@@ -29,7 +29,7 @@ class Session:
     def __init__(self, server, name):
         self.socket = connect(f"{server.replace('http', 'ws', 1)}/api/v1/sessions/{name}/socket", max_size=None)
         self.commands = 0
-        self.acknowledged = 0
+        self.done = 0
         self.frame_bytes = 0
         self.refused = {}
         self.is_welcome = False
@@ -57,21 +57,17 @@ class Session:
         message = json.loads(message)
         if message["type"] == "welcome":
             self.is_welcome = True
-        elif message["type"] == "acknowledged":
-            self.acknowledged = message["id"]
+        elif message["type"] == "done":
+            self.done = message["id"]
         elif message["type"] == "refused":
             self.refused[message["id"]] = message["problem"]["message"]
         elif message["type"] == "problem":
             raise SystemExit(message["problem"]["message"])
 
     def settle(self):
-        """Waits until every command is done and durable."""
-        # Commands have one order (CM4), so one that is refused when its turn comes tells that all before it are done.
-        self.command(kind="stroke_end", stroke=2**32 - 1)
-        marker = self.commands
-        while marker not in self.refused or self.acknowledged < marker:
+        """Waits until every command is durable and all growth has ended (CM11)."""
+        while self.done < self.commands:
             self.listen()
-        del self.refused[marker]
         for fault in self.refused.values():
             raise SystemExit(fault)
 
