@@ -1,6 +1,7 @@
 import { gzipSync } from "node:zlib";
 import type { Plugin, Rollup } from "vite";
 
+const PAGE = "index.html";
 /** Bytes that a page may load before its first picture: page, scripts and styles, each compressed with gzip. */
 export const FIRST_PICTURE_BYTES = 200_000;
 
@@ -24,7 +25,7 @@ export function firstPictureBudget(): Plugin {
   };
 }
 
-/** The page, and all scripts and styles that are loaded with it: not those that a script asks for later. */
+/** The tablet's page, and all scripts and styles that are loaded with it: not those that a script asks for later. */
 export function firstPictureFiles(bundle: Rollup.OutputBundle): string[] {
   const found = new Set<string>();
   const add = (name: string) => {
@@ -38,10 +39,10 @@ export function firstPictureFiles(bundle: Rollup.OutputBundle): string[] {
       output.viteMetadata?.importedCss.forEach(add);
     }
   };
-  for (const [name, output] of Object.entries(bundle)) {
-    if (name.endsWith(".html") || (output.type === "chunk" && output.isEntry)) {
-      add(name);
-    }
+  const page = bundle[PAGE];
+  const text = page?.type === "asset" ? String(page.source) : "";
+  for (const name of [PAGE, ...Object.keys(bundle).filter((name) => text.includes(`"/${name}"`))]) {
+    add(name);
   }
   return [...found];
 }

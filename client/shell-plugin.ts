@@ -3,6 +3,9 @@ import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Plugin } from "vite";
 
+/** The page of the API is of no use without the server, and nobody reads licences there. */
+const LEFT_OUT = /^(api[.-]|licences\.txt$)/;
+
 /** Writes `sw.js` beside the built client: the service worker with what it keeps, under a version made of all of it. */
 export function shellWorker(): Plugin {
   return {
@@ -13,7 +16,7 @@ export function shellWorker(): Plugin {
         throw new Error("The client has no folder to be built into.");
       }
       const files = (readdirSync(dir, { recursive: true, withFileTypes: true }) as import("node:fs").Dirent[])
-        .filter((entry) => entry.isFile() && entry.name !== "sw.js")
+        .filter((entry) => entry.isFile() && entry.name !== "sw.js" && !LEFT_OUT.test(entry.name))
         .map((entry) => join(entry.parentPath, entry.name))
         .sort();
       const hash = createHash("sha256");

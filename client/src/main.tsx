@@ -1,4 +1,5 @@
 import { render } from "preact";
+import { ENTRY_PATH } from "./app/entry/ask-to-enter";
 import { registerServiceWorker } from "./app/page/register-service-worker";
 import { Studio } from "./app/studio";
 import { App } from "./app/ui/app";
@@ -15,8 +16,13 @@ const root = document.getElementById("app");
 if (!root) {
   throw new Error("index.html has no element #app.");
 }
-const studio = new Studio();
-// The server is asked first: it answers while the browser makes its picture ready.
-void studio.link.start();
-render(<App studio={studio} />, root);
-registerServiceWorker();
+if (location.pathname === ENTRY_PATH) {
+  void import("./app/entry/entry-page").then(({ showEntry }) => showEntry(root));
+} else {
+  const studio = new Studio();
+  // The server is asked first: it answers while the browser makes its picture ready.
+  void studio.link.start();
+  void studio.rights.ask();
+  render(<App studio={studio} />, root);
+  registerServiceWorker();
+}

@@ -7,7 +7,7 @@ const source = readFileSync(join(import.meta.dirname, "service-worker.js"), "utf
 afterEach(() => vi.useRealTimers());
 
 /** The worker over a network and what is kept; gives what it answers to a navigation. */
-function setUp(network: () => Promise<string>, shell: string | null = "kept page") {
+function setUp(network: () => Promise<string>, shell: string | null = "kept page", path = "/s/oak") {
   vi.useFakeTimers();
   const heard: Record<string, (event: unknown) => void> = {};
   const self = {
@@ -20,9 +20,9 @@ function setUp(network: () => Promise<string>, shell: string | null = "kept page
     open: async () => ({ match: async (path: string) => (path === "/" ? (shell ?? undefined) : undefined) }),
   };
   new Function("self", "caches", "fetch", source)(self, caches, network);
-  let answer: Promise<string | undefined> = Promise.resolve(undefined);
+  let answer: Promise<string | undefined> = Promise.resolve("the browser's own");
   heard.fetch!({
-    request: { method: "GET", url: "http://here/s/oak", mode: "navigate" },
+    request: { method: "GET", url: `http://here${path}`, mode: "navigate" },
     respondWith: (promise: Promise<string>) => {
       answer = promise;
     },
@@ -50,6 +50,14 @@ describe("service worker", () => {
     const answer = setUp(() => Promise.reject(new TypeError("offline")));
     await vi.advanceTimersByTimeAsync(0);
     expect(await answer).toBe("kept page");
+  });
+
+  it("leaves the API, its page and what is downloaded to the browser", async () => {
+    for (const path of ["/api", "/api/v1/sessions/oak/tree.glb", "/api/v1/openapi.json"]) {
+      const answer = setUp(() => new Promise(() => {}), "kept page", path);
+      await vi.advanceTimersByTimeAsync(3100);
+      expect(await answer, path).toBe("the browser's own");
+    }
   });
 
   it("goes on waiting where nothing is kept", async () => {

@@ -9,8 +9,8 @@ export function textureOf({ material }: Mesh): DataTexture {
 /** How many things a mesh draws, those included that show nothing. */
 export function countOf({ geometry, material }: Mesh): number {
   const [count, step] = (material as ShaderMaterial).uniforms.uItemsDrawn!.value as [number, number];
-  const room = geometry instanceof BlockGeometry ? geometry.instanceCount * geometry.block : 0;
-  if (room * step < count) throw new Error(`${count} things, but room for ${room * step}`);
+  const capacity = geometry instanceof BlockGeometry ? geometry.instanceCount * geometry.block : 0;
+  if (capacity * step < count) throw new Error(`${count} things, but a capacity of ${capacity * step}`);
   return Math.ceil(count / step);
 }
 

@@ -218,6 +218,11 @@ pub enum ServerMessage {
         /// The command.
         id: u32,
     },
+    /// Nothing that this client asked for is under way any more (`CM11`).
+    Done {
+        /// Its last command.
+        id: u32,
+    },
     /// A command was not done; nothing in the document changed (`CM3`).
     Refused {
         /// The command.

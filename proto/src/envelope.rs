@@ -70,6 +70,8 @@ schemas! {
 }
 
 impl FrameKind {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::MeshDelta, Self::Pose, Self::Ghost];
     const CODES: Between<u32> = Between(Self::MeshDelta as u32, Self::Ghost as u32);
 
     /// Its number in the header.
@@ -79,7 +81,7 @@ impl FrameKind {
 
     /// The kind with this number.
     pub fn from_code(code: u8) -> Option<Self> {
-        [Self::MeshDelta, Self::Pose, Self::Ghost].into_iter().find(|kind| kind.code() == code)
+        Self::ALL.into_iter().find(|kind| kind.code() == code)
     }
 
     /// The kind that a frame's header states, whether or not the rest is valid.

@@ -6,6 +6,7 @@
 //! length 1. What cannot be read comes back as a [`problem::Problem`] with the field and what is allowed there. The
 //! settings of a tree are those of the tables in `espalier-settings`.
 
+pub mod access;
 pub mod bounded;
 pub mod command;
 pub mod control;

@@ -184,7 +184,7 @@ pub struct SavedTree {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub origin: Option<Origin>,
-    /// When it was deleted, if it was; 30 days later it is gone.
+    /// When it was deleted, if it was; `LB6` says how long it can be taken back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
     pub deleted_at: Option<String>,
@@ -201,6 +201,10 @@ pub struct SavedTree {
 pub struct ExportFormat {
     /// How the names of its files end.
     pub ending: String,
+    /// What a person calls it, in English and German.
+    pub label: [String; 2],
+    /// What it is good for, in a sentence, in English and German.
+    pub text: [String; 2],
     /// What can be asked for.
     pub options: Vec<String>,
     /// About how many bytes a file has at least, and for each metamer and each leaf at the finest level of detail.

@@ -3,14 +3,18 @@
 //! Every type says in its `expecting` text, or in the `allowed` of a [`NotAllowed`], what it takes. A path-tracking
 //! deserialiser says where. Nothing else knows the fields, so there is no second schema to keep.
 
+mod by_name;
+
 use std::fmt;
 
+use percent_encoding::percent_decode_str;
 use serde::{
     Deserialize, Deserializer,
     de::{DeserializeOwned, Error, Unexpected},
 };
 use serde_json::{Map, Value};
 
+use self::by_name::ByName;
 use crate::{problem::Problem, reason::Reason};
 
 /// Characters of what was found that a problem tells again.
@@ -32,6 +36,7 @@ pub fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, Problem> {
 ///
 /// A problem names the field and what is allowed there.
 pub fn from_query<T: DeserializeOwned>(query: &str) -> Result<T, Problem> {
+    check_text(query)?;
     let mut fields = Map::new();
     for (name, value) in form_urlencoded::parse(query.as_bytes()) {
         if fields.insert(name.clone().into_owned(), value.into_owned().into()).is_some() {
@@ -56,6 +61,18 @@ pub fn from_query<T: DeserializeOwned>(query: &str) -> Result<T, Problem> {
         }
     }
     from_value(value)
+}
+
+/// What may stand for the characters of a text in an address.
+pub const ENCODED: &str = "UTF-8 with % and two digits for each byte";
+
+/// Refuses bytes that are no text, which would be taken for other characters.
+fn check_text(query: &str) -> Result<(), Problem> {
+    let is_text = |part: &&str| percent_decode_str(part).decode_utf8().is_ok();
+    let Some(part) = query.split('&').find(|part| !is_text(part)) else { return Ok(()) };
+    let name = part.split_once('=').map_or(part, |(name, _)| name);
+    let name = percent_decode_str(name).decode_utf8_lossy();
+    Err(unexpected(&shortened(&name), "no text", ENCODED))
 }
 
 /// The text as a JSON value. Numbers that JSON does not have, such as NaN or 1e999, stand in it as texts, so that
@@ -91,6 +108,12 @@ pub fn from_value<T: DeserializeOwned>(mut value: Value) -> Result<T, Problem> {
     let allowed = allowed.and_then(|nothing| nothing.problem().allowed);
     let message = format!("{field} is missing{}", and_allowed(allowed.as_deref()));
     Err(Problem { field: Some(field), allowed, ..Problem::new(Reason::Malformed, message) })
+}
+
+/// A text that stands for no value of the type that serde calls `expected`.
+pub fn unexpected(field: &str, found: &str, expected: &str) -> Problem {
+    let (found, allowed) = (shortened(found), plain(expected));
+    Problem::new(Reason::Malformed, format!("{field} is {found}; allowed: {allowed}")).at(field, allowed)
 }
 
 /// A value that a type does not take.
@@ -222,7 +245,7 @@ struct Fault {
 }
 
 fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
-    serde_path_to_error::deserialize(value).map_err(|error| {
+    serde_path_to_error::deserialize(ByName(value)).map_err(|error| {
         let path = error.path().iter().next().map(|_| error.path().to_string()).unwrap_or_default();
         let text = error.inner().to_string();
         // What was read in parts names the rest of the path.
@@ -287,6 +310,7 @@ fn plain(expected: &str) -> String {
     match expected {
         "u8" => "a whole number from 0 to 255".into(),
         "u32" => format!("a whole number from 0 to {}", u32::MAX),
+        "u64" => "a whole number, 0 or more".into(),
         "f32" | "f64" => "a number".into(),
         "a boolean" => "true, false".into(),
         "a string" => "a text".into(),

@@ -32,6 +32,8 @@ reasons! {
     Malformed {
         /// The message is no JSON, or a field of it is missing, unknown or of another type.
         Malformed,
+        /// The address does not take this method.
+        WrongMethod,
         /// A file did not arrive whole.
         FileCutOff,
         /// No tree can be made of a file; `cause` says why. The code is that of the cause.
@@ -80,6 +82,8 @@ reasons! {
     TooMany {
         /// A list has too many entries.
         TooMany,
+        /// Secrets are tried too often.
+        TooOften,
         /// Too many commands wait to be done.
         Behind,
         /// A file has too many bytes.
@@ -92,6 +96,14 @@ reasons! {
     Refused {
         /// One may not do this.
         Forbidden,
+        /// Whoever asks was not let in: they were not invited and have not logged in.
+        NotLetIn,
+        /// A name and a password do not belong together, or nobody goes by the name.
+        WrongPassword,
+        /// A page of another site asks.
+        OtherSite,
+        /// The server is not known by the name that its address was given.
+        UnknownHost,
         /// The number of a command, stroke or bend is taken, or not the next one.
         NumberTaken,
         /// There is nothing to undo.
@@ -118,6 +130,8 @@ reasons! {
         NoRoom,
         /// The document holds as many metamers as it may.
         TreeFull,
+        /// The tree stopped growing before it had as many metamers as were asked for.
+        StoppedGrowing,
         /// As many strokes as may be are in progress.
         StrokesFull,
         /// As many bends as may be are in progress.
@@ -162,6 +176,8 @@ reasons! {
         NoCollection,
         /// There is no such session.
         NoSession,
+        /// There is no such invitation, or not any more.
+        NoInvitation,
         /// There is no such address, or nothing there.
         NoneSuch,
     }
@@ -192,6 +208,10 @@ reasons! {
         NotPlaced,
         /// The tree cannot be exported.
         NotExported,
+        /// As many jobs wait as may.
+        JobsFull,
+        /// The files of jobs find no room on the disk.
+        JobsDiskFull,
         /// The picture cannot be drawn.
         NotDrawn,
     }

@@ -4,7 +4,8 @@ use base64::{Engine, engine::general_purpose::STANDARD};
 
 use crate::{problem::Problem, reason::Reason};
 
-const MAX_BYTES: usize = 192 * 1024;
+/// The most bytes of a picture, before it is base64.
+pub const MAX_THUMBNAIL_BYTES: usize = 192 * 1024;
 const ALLOWED: &str = "a PNG, JPEG or WebP picture as a base64 data URL";
 
 /// A picture that a browser shows.
@@ -24,11 +25,11 @@ pub struct Picture {
 pub fn from_data_url(url: &str) -> Result<Picture, Problem> {
     let (media_type, encoded) =
         url.strip_prefix("data:").and_then(|rest| rest.split_once(";base64,")).ok_or_else(refused)?;
-    if encoded.len() > MAX_BYTES.div_ceil(3) * 4 {
+    if encoded.len() > MAX_THUMBNAIL_BYTES.div_ceil(3) * 4 {
         return Err(too_large());
     }
     let bytes = STANDARD.decode(encoded).map_err(|_| refused())?;
-    if bytes.len() > MAX_BYTES {
+    if bytes.len() > MAX_THUMBNAIL_BYTES {
         return Err(too_large());
     }
     let is_what_it_claims = match media_type {
@@ -46,7 +47,7 @@ fn refused() -> Problem {
 }
 
 fn too_large() -> Problem {
-    let allowed = format!("at most {} KiB", MAX_BYTES / 1024);
+    let allowed = format!("at most {} KiB", MAX_THUMBNAIL_BYTES / 1024);
     let message = format!("thumbnail is too large; allowed: {allowed}");
     Problem::new(Reason::LargeThumbnail, message).at("thumbnail", allowed)
 }
@@ -92,11 +93,11 @@ mod tests {
     #[test]
     fn the_size_is_limited_to_the_byte() {
         let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
-        bytes.resize(MAX_BYTES, 0);
+        bytes.resize(MAX_THUMBNAIL_BYTES, 0);
         assert!(from_data_url(&url("image/png", &bytes)).is_ok());
         bytes.push(0);
         assert_eq!(from_data_url(&url("image/png", &bytes)), Err(too_large()));
-        bytes.resize(2 * MAX_BYTES, 0);
+        bytes.resize(2 * MAX_THUMBNAIL_BYTES, 0);
         assert_eq!(from_data_url(&url("image/png", &bytes)), Err(too_large()));
     }
 }

@@ -7,8 +7,8 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, reason,
-    schematic, species, timeline, version,
+    access, bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, reason,
+    schematic, species, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -27,6 +27,8 @@ pub fn declarations() -> String {
     constant("MAX_OUTLINE_STEPS", version::MAX_OUTLINE_STEPS.to_string());
     constant("MAX_NAME_CHARACTERS", version::MAX_NAME_CHARACTERS.to_string());
     constant("MAX_NOTE_CHARACTERS", version::MAX_NOTE_CHARACTERS.to_string());
+    constant("MAX_THUMBNAIL_BYTES", thumbnail::MAX_THUMBNAIL_BYTES.to_string());
+    constant("KEPT_DAYS", version::KEPT_DAYS.to_string());
     constant("FARTHEST", place::FARTHEST.to_string());
     constant("DEEPEST", place::DEEPEST.to_string());
     constant("MAX_BEND_TOUCHES", version::MAX_BEND_TOUCHES.to_string());
@@ -67,6 +69,10 @@ pub fn declarations() -> String {
         ("CannotOpen", version::CloseCode::CannotOpen),
     ] {
         out.push_str(&format!("  {name}: {},\n", u16::from(code)));
+    }
+    out.push_str("} as const;\n\n/** What a frame is about; each kind counts its sequences by itself. */\nexport const FrameKind = {\n");
+    for kind in envelope::FrameKind::ALL {
+        out.push_str(&format!("  {kind:?}: {},\n", kind.code()));
     }
     out.push_str("} as const;\n");
     add_tables(&mut out);
@@ -148,6 +154,15 @@ pub fn declarations() -> String {
         library::ChangeCollection::decl(&config),
         library::TreeTag::decl(&config),
         library::TreeAuthor::decl(&config),
+        access::Role::decl(&config),
+        access::Redeem::decl(&config),
+        access::Admitted::decl(&config),
+        access::LogIn::decl(&config),
+        access::Entrance::decl(&config),
+        access::ListedUser::decl(&config),
+        access::AuditEvent::decl(&config),
+        access::Me::decl(&config),
+        access::Way::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }

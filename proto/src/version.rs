@@ -27,6 +27,9 @@ pub const MAX_NAME_CHARACTERS: usize = 80;
 /// The most characters of a note on a tree or a version (`LB5`).
 pub const MAX_NOTE_CHARACTERS: usize = 2000;
 
+/// Days for which a deleted tree can be taken back (`LB6`).
+pub const KEPT_DAYS: u32 = 30;
+
 /// The most touches of one bend (`LM7`).
 pub const MAX_BEND_TOUCHES: usize = 8;
 

@@ -3,9 +3,12 @@
 use std::{
     fmt::Write as _,
     net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket},
+    time::Duration,
 };
 
 use qrcode::{EcLevel, QrCode, render::unicode::Dense1x2};
+
+use crate::access::{Secret, admission::INVITATION_LIFE};
 
 /// Where the text goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,23 +19,65 @@ pub enum Medium {
     Plain,
 }
 
+/// Who is let in.
+#[derive(Clone)]
+pub enum OpenTo {
+    /// Those at this machine.
+    Machine,
+    /// Others as well, who are invited: the secret of an invitation.
+    Invited(Secret),
+    /// Those who log in, if there is anybody who can.
+    Users {
+        /// Whether there is.
+        any: bool,
+    },
+}
+
 /// What is printed once the server listens. The first line is for programs too.
-pub fn text(bound: SocketAddr, medium: Medium) -> String {
+pub fn text(bound: SocketAddr, open_to: &OpenTo, medium: Medium) -> String {
     let here = if bound.ip().is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { bound.ip() };
     let mut text = format!("Espalier is listening on {}\n", url(here, bound.port()));
-    let addresses = if bound.ip().is_unspecified() { lan_addresses() } else { Vec::new() };
-    if let Some(&first) = addresses.first() {
-        let urls: Vec<String> = addresses.iter().map(|&address| url(address, bound.port())).collect();
-        let _ = write!(text, "On a tablet in the same network, open {}", urls.join(" or "));
-        match qr_code(&url(first, bound.port()), medium) {
-            Some(code) => {
-                let _ = write!(text, " or scan:\n\n{code}\n");
-            }
-            None => text.push('\n'),
+    match open_to {
+        OpenTo::Invited(secret) => {
+            text.push_str(&invitation(&addresses(bound), secret.text(), INVITATION_LIFE, medium));
+            text.push_str("`espalier invite` prints another one.\n");
         }
+        OpenTo::Machine => text.push_str(
+            "It is there for this machine alone; --host 0.0.0.0 opens it to a tablet in the same network.\n",
+        ),
+        OpenTo::Users { any: true } => {
+            text.push_str("It lets in whoever logs in; `espalier user add NAME` adds somebody.\n");
+        }
+        OpenTo::Users { any: false } => text.push_str(
+            "Nobody can log in yet: `espalier user add --admin NAME` adds the first, while this server runs.\n",
+        ),
     }
     text.push_str("Ctrl+C stops the server.");
     text
+}
+
+/// The links of an invitation that waits so long, and a QR code of the first one. `addresses` are those of the server.
+pub fn invitation(addresses: &[String], secret: &str, waits: Duration, medium: Medium) -> String {
+    let links: Vec<String> = addresses.iter().map(|address| format!("{address}/pair#{secret}")).collect();
+    let waits = humantime::format_duration(waits);
+    let mut text =
+        format!("To let somebody in, on a tablet in the same network, say, open there within {waits}\n");
+    for link in &links {
+        let _ = writeln!(text, "  {link}");
+    }
+    match links.first().and_then(|link| qr_code(link, medium)) {
+        Some(code) => {
+            let _ = write!(text, "or scan:\n\n{code}\n");
+        }
+        None => text.push('\n'),
+    }
+    text
+}
+
+/// Where others reach a server that listens there.
+pub fn addresses(bound: SocketAddr) -> Vec<String> {
+    let addresses = if bound.ip().is_unspecified() { lan_addresses() } else { vec![bound.ip()] };
+    addresses.into_iter().map(|address| url(address, bound.port())).collect()
 }
 
 fn url(address: IpAddr, port: u16) -> String {
@@ -80,8 +125,9 @@ mod tests {
 
     #[test]
     fn the_first_line_is_where_to_connect() {
-        let first =
-            |address: &str| text(address.parse().unwrap(), Medium::Plain).lines().next().unwrap().to_owned();
+        let first = |address: &str| {
+            text(address.parse().unwrap(), &OpenTo::Machine, Medium::Plain).lines().next().unwrap().to_owned()
+        };
         assert_eq!(first("0.0.0.0:7700"), "Espalier is listening on http://127.0.0.1:7700");
         assert_eq!(first("127.0.0.1:80"), "Espalier is listening on http://127.0.0.1:80");
         assert_eq!(first("[::1]:7700"), "Espalier is listening on http://[::1]:7700");
@@ -89,7 +135,24 @@ mod tests {
 
     #[test]
     fn a_server_for_this_machine_shows_no_code() {
-        assert!(!text("127.0.0.1:7700".parse().unwrap(), Medium::Terminal).contains("scan"));
+        let text = text("127.0.0.1:7700".parse().unwrap(), &OpenTo::Machine, Medium::Terminal);
+        assert!(!text.contains("scan") && text.contains("--host 0.0.0.0"), "{text}");
+    }
+
+    #[test]
+    fn ac9_a_server_without_users_says_how_to_add_one() {
+        let text = |any| text("127.0.0.1:7700".parse().unwrap(), &OpenTo::Users { any }, Medium::Plain);
+        assert!(text(false).contains("`espalier user add --admin NAME`"), "{}", text(false));
+        assert!(!text(true).contains("--admin") && !text(true).contains("/pair#"), "{}", text(true));
+    }
+
+    #[test]
+    fn ac3_the_secret_stands_behind_the_hash_of_a_link() {
+        let secret = Secret::short();
+        let link = format!("  http://192.168.1.7:7700/pair#{}\n", secret.text());
+        let text = text("192.168.1.7:7700".parse().unwrap(), &OpenTo::Invited(secret), Medium::Plain);
+        assert!(text.contains(&link), "{text}");
+        assert!(text.contains("scan") && text.contains('█'), "{text}");
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! `espalier backup`, `restore` and `check`: the care of a database.
 
 use std::{
-    io::{self, IsTerminal, Write},
+    io::{self, Write},
     path::PathBuf,
 };
 
-use crate::{cli, store};
+use crate::{cli, progress::Bar, store};
 
 /// It could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -30,7 +30,7 @@ pub enum CareError {
 pub fn backup(options: &cli::Backup) -> Result<(), CareError> {
     let database = &options.database.path;
     let copied =
-        run(store::backup(database, &options.file, options.replace, progress("copied", 1 << 20, " MiB")))?;
+        run(store::backup(database, &options.file, options.replace, reports(Bar::of_bytes("copied"))))?;
     let bytes = copied?;
     print(&format!(
         "{} is backed up in {}: {} KiB.",
@@ -44,7 +44,7 @@ pub fn backup(options: &cli::Backup) -> Result<(), CareError> {
 /// `espalier restore`.
 pub fn restore(options: &cli::Restore) -> Result<(), CareError> {
     let database = &options.database.path;
-    let restored = run(store::restore(&options.file, database, progress("copied", 1 << 20, " MiB")))?;
+    let restored = run(store::restore(&options.file, database, reports(Bar::of_bytes("copied"))))?;
     let kept = restored?;
     print(&format!("{} is as it was in {}.", database.display(), options.file.display()));
     if let Some(kept) = kept {
@@ -56,7 +56,7 @@ pub fn restore(options: &cli::Restore) -> Result<(), CareError> {
 /// `espalier check`.
 pub fn check(options: &cli::Check) -> Result<(), CareError> {
     let database = &options.database.path;
-    let report = run(store::check(database, progress("read", 1, " sessions and versions")))??;
+    let report = run(store::check(database, reports(Bar::of(0, "sessions and versions read"))))??;
     for part in &report.damage {
         print(part);
     }
@@ -75,16 +75,8 @@ fn run<T>(work: impl Future<Output = T>) -> io::Result<T> {
     Ok(tokio::runtime::Builder::new_current_thread().enable_all().build()?.block_on(work))
 }
 
-/// Writes how far something is, over and over on one line, where a person looks on.
-fn progress(done: &'static str, unit: u64, what: &'static str) -> impl FnMut(u64, u64) {
-    let is_watched = io::stderr().is_terminal();
-    move |now, all| {
-        if is_watched {
-            let end = if now == all { "\r\x1b[K" } else { "" };
-            let line = format!("\r{} of {}{what} {done}\x1b[K{end}", now / unit, all.div_ceil(unit));
-            let _ = io::stderr().write_all(line.as_bytes());
-        }
-    }
+fn reports(bar: Bar) -> impl FnMut(u64, u64) {
+    move |now, all| bar.report(now, all)
 }
 
 fn print(line: &str) {

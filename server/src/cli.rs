@@ -1,18 +1,29 @@
 //! The command line.
 
+pub mod library;
+mod people;
+mod results;
+
 use std::{net::IpAddr, num::NonZeroUsize, ops::RangeInclusive, path::PathBuf};
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
+use espalier_proto::Steps;
 use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 
-use crate::{
-    document::{FORMATS, FormatRow},
-    export_options::ExportOptions,
-    import,
+use crate::{hosts::HostName, import, recipe::SeedRange};
+
+pub use self::{
+    people::{
+        Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, Revoked, RoleOfUser, Scope, Token, User,
+    },
+    results::{NoFormat, Results},
 };
+
+/// Where the server listens unless it is told otherwise.
+const PORT: u16 = 7700;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -23,6 +34,8 @@ Examples:
   espalier grow --species oak --seeds 1-50 --export 'oak-{seed}.glb'
   espalier import scan.csv --grow 3 --export scan.glb
   espalier replay strokes.jsonl --export tree.json --stats json
+  espalier library ls
+  espalier library export 'Old oak' oak.glb
   espalier backup trees-2026-05-01.db       while a server is running
 
 Without a command, espalier serves. Every option of `serve` can be set by the environment variable named in
@@ -34,7 +47,8 @@ const BUDGETS: RangeInclusive<i64> = 1..=100_000_000;
 const SESSION_BUDGETS: RangeInclusive<i64> = 1..=MAX_METAMER_BUDGET as i64;
 
 const SERVE_NOTES: &str = "\
-The server prints its address, the address for tablets in the same network, and a QR code of it.
+The server prints its address and, with --host 0.0.0.0, a link and a QR code that let a tablet in the same network in;
+`espalier invite` prints more of them.
 Everything is kept in one SQLite file; Ctrl+C stops the server, and even a crash loses nothing acknowledged.";
 
 const REPLAY_NOTES: &str = "\
@@ -75,6 +89,21 @@ pub enum Command {
     Import(Import),
     /// List the species, or draw them all on one sheet.
     Species(Species),
+    /// Print a link and a QR code that let somebody in who does not sit at this machine.
+    Invite(Invite),
+    /// Add those who log in with a password, list them, or remove them.
+    #[command(subcommand)]
+    User(User),
+    /// List the devices that are let in, or let one in no longer.
+    #[command(subcommand)]
+    Device(Device),
+    /// Let a program in, by a token that it sends.
+    #[command(subcommand)]
+    Token(Token),
+    /// List, take out and put in trees of the library.
+    Library(Library),
+    /// List who came in, and what they deleted, restored or took away.
+    Audit(Audit),
     /// Copy the database to a file; a server may go on using it.
     Backup(Backup),
     /// Put a backup in the place of the database; what was there is kept beside it.
@@ -105,11 +134,28 @@ pub struct Database {
 #[derive(Clone, Debug, Args)]
 #[command(after_help = SERVE_NOTES)]
 pub struct Serve {
-    /// Address to listen on; 127.0.0.1 keeps other machines out.
-    #[arg(long, env = "ESPALIER_HOST", default_value = "0.0.0.0")]
+    /// Address to listen on; 0.0.0.0 lets other machines in, a tablet, say.
+    #[arg(long, env = "ESPALIER_HOST", default_value = "127.0.0.1")]
     pub host: IpAddr,
+    /// A name of this server besides localhost and the machine's own, as a proxy in front of it passes it on; may be
+    /// given again.
+    #[arg(
+        id = "host-name",
+        long = "host-name",
+        env = "ESPALIER_HOST_NAME",
+        value_name = "NAME",
+        value_delimiter = ',',
+        value_parser = parse_host_name
+    )]
+    pub host_names: Vec<HostName>,
+    /// Invite also whoever sits at this machine; for machines that strangers have accounts on.
+    #[arg(long, env = "ESPALIER_NO_LOCAL")]
+    pub no_local: bool,
+    /// Let in whoever logs in, and nobody merely because they sit at this machine; `espalier user add` adds people.
+    #[arg(long, env = "ESPALIER_AUTH", conflicts_with = "no_local")]
+    pub auth: bool,
     /// Port to listen on; 0 takes a free one.
-    #[arg(long, env = "ESPALIER_PORT", default_value_t = 7700)]
+    #[arg(long, env = "ESPALIER_PORT", default_value_t = PORT)]
     pub port: u16,
     #[command(flatten)]
     pub database: Database,
@@ -122,6 +168,15 @@ pub struct Serve {
         value_parser = clap::value_parser!(u32).range(SESSION_BUDGETS)
     )]
     pub metamer_budget: u32,
+    /// Days that the server keeps a session which is not saved after somebody was in it last; saved ones go after 30 at most.
+    #[arg(
+        long,
+        env = "ESPALIER_KEEP_UNSAVED",
+        default_value_t = 90,
+        value_name = "DAYS",
+        value_parser = clap::value_parser!(u32).range(1..=36_500)
+    )]
+    pub keep_unsaved: u32,
     /// What to log to stderr: error, warn, info, debug, trace, or a filter such as espalier=debug,sqlx=warn.
     #[arg(long, env = "ESPALIER_LOG", default_value = "info", value_name = "LEVEL")]
     pub log: String,
@@ -146,8 +201,15 @@ pub struct Replay {
 #[derive(Debug, Args)]
 pub struct Grow {
     /// Grow until so many metamers are alive.
-    #[arg(long, required_unless_present = "species", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(
+        long,
+        required_unless_present_any = ["species", "steps"],
+        value_parser = clap::value_parser!(u32).range(1..)
+    )]
     pub metamers: Option<u32>,
+    /// Grow for so many steps.
+    #[arg(long, value_name = "N", value_parser = parse_steps)]
+    pub steps: Option<Steps>,
     /// Grow a tree of a species to its age; `espalier species` lists them.
     #[arg(long, value_name = "NAME", value_parser = parse_species)]
     pub species: Option<&'static species::Species>,
@@ -155,17 +217,13 @@ pub struct Grow {
     #[arg(long, default_value_t = 1)]
     pub seed: u32,
     /// Grow a tree for each of these seeds, one after the other; `{seed}` in the name of the export is its seed.
-    #[arg(long, value_name = "FROM-TO", conflicts_with = "seed", value_parser = parse_seeds)]
-    pub seeds: Option<Seeds>,
+    #[arg(long, value_name = "FROM-TO", conflicts_with = "seed")]
+    pub seeds: Option<SeedRange>,
     #[command(flatten)]
     pub start: Start,
     #[command(flatten)]
     pub results: Results,
 }
-
-/// Seeds one after the other.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Seeds(pub RangeInclusive<u32>);
 
 /// The place of the seed in the name of an export.
 pub const SEED: &str = "{seed}";
@@ -215,6 +273,15 @@ pub struct Species {
     /// Threads; one for each core if not given.
     #[arg(long)]
     pub threads: Option<NonZeroUsize>,
+}
+
+/// Options of `library`.
+#[derive(Debug, Args)]
+#[command(after_help = library::NOTES)]
+pub struct Library {
+    /// What to do with it.
+    #[command(subcommand)]
+    pub command: library::LibraryCommand,
 }
 
 /// Options of `backup`.
@@ -271,55 +338,6 @@ pub struct Start {
     pub budget: Option<u32>,
 }
 
-/// What comes out, and with how many threads.
-#[derive(Clone, Debug, Args)]
-pub struct Results {
-    /// Write the plants to a file, in the format of its ending: .glb, .obj.zip, .usda, .usdz, .json, .mtg, .csv, .ply,
-    /// .png or .espalier; docs/formats.md says what is in them, and which options each has.
-    #[arg(long, value_name = "OUT", value_parser = parse_export)]
-    pub export: Option<Export>,
-    #[command(flatten)]
-    pub options: ExportOptions,
-    /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
-    #[arg(long, value_name = "FORMAT")]
-    pub stats: Option<Stats>,
-    /// Make no mesh deltas: time and memory are those of growth alone.
-    #[arg(long)]
-    pub no_deltas: bool,
-    /// Threads of the simulation; one for each core if not given. The plants do not depend on it.
-    #[arg(long)]
-    pub threads: Option<NonZeroUsize>,
-}
-
-/// Formats of the figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Stats {
-    /// One JSON object.
-    Json,
-}
-
-/// A file to write, in the format its name asks for.
-#[derive(Clone, Debug)]
-pub struct Export {
-    /// Where.
-    pub path: PathBuf,
-    /// As what.
-    pub row: &'static FormatRow,
-}
-
-fn parse_export(path: &str) -> Result<Export, String> {
-    let path = PathBuf::from(path);
-    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let ends = |row: &&FormatRow| {
-        name.strip_suffix(row.ending).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
-    };
-    let row = FORMATS.iter().find(ends).ok_or_else(|| {
-        let all: Vec<_> = FORMATS.iter().map(|row| format!(".{} ({})", row.ending, row.what)).collect();
-        format!("the name must end in one of: {}", all.join(", "))
-    })?;
-    Ok(Export { path, row })
-}
-
 fn parse_import(path: &str) -> Result<ImportFile, String> {
     let path = PathBuf::from(path);
     let ending = path.extension().map(|extension| extension.to_string_lossy().into_owned());
@@ -327,15 +345,18 @@ fn parse_import(path: &str) -> Result<ImportFile, String> {
     Ok(ImportFile { path, format })
 }
 
+fn parse_host_name(text: &str) -> Result<HostName, String> {
+    HostName::parse(text).ok_or_else(|| "write a name alone, such as trees.example".to_owned())
+}
+
 fn parse_unit(text: &str) -> Result<f64, String> {
     let unit = text.parse().ok().filter(|unit: &f64| unit.is_finite() && *unit > 0.0);
     unit.ok_or_else(|| "it must be a number above 0".to_owned())
 }
 
-fn parse_seeds(text: &str) -> Result<Seeds, String> {
-    let ends = text.split_once('-').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-    let (from, to): (u32, u32) = ends.ok_or("write them as FROM-TO, such as 1-50")?;
-    if from <= to { Ok(Seeds(from..=to)) } else { Err(format!("{from} comes after {to}")) }
+fn parse_steps(text: &str) -> Result<Steps, String> {
+    let steps = text.parse().ok().and_then(|steps: u32| Steps::try_from(steps).ok());
+    steps.ok_or_else(|| format!("allowed: {} to {}", Steps::LEAST.get(), Steps::MOST.get()))
 }
 
 fn parse_species(slug: &str) -> Result<&'static species::Species, String> {
@@ -379,7 +400,6 @@ mod tests {
     use clap::{CommandFactory, error::ErrorKind};
 
     use super::*;
-    use crate::document::Format;
 
     fn parse(line: &str) -> Result<Cli, clap::Error> {
         Cli::try_parse_from(line.split_whitespace())
@@ -394,7 +414,7 @@ mod tests {
     fn without_a_command_it_serves() {
         let cli = parse("espalier").unwrap();
         assert!(cli.command.is_none());
-        assert_eq!((cli.serve.host.to_string(), cli.serve.port), ("0.0.0.0".into(), 7700));
+        assert_eq!((cli.serve.host.to_string(), cli.serve.port), ("127.0.0.1".into(), 7700));
         assert_eq!(cli.serve.database.path, PathBuf::from("./data/espalier.db"));
         assert_eq!(parse("espalier --port 0").unwrap().serve.port, 0);
         assert!(
@@ -418,18 +438,7 @@ mod tests {
     fn a_name_that_was_mistyped_is_told_a_similar_one() {
         assert!(parse_species("scots-pin").unwrap_err().ends_with("`scots-pine`"));
         assert!(parse_species("triffid").unwrap_err().contains("espalier species"));
-        assert_eq!(parse_seeds("1-50"), Ok(Seeds(1..=50)));
-    }
-
-    #[test]
-    fn the_extension_chooses_the_format() {
-        assert_eq!(parse_export("a/tree.GLB").unwrap().row.format, Format::Glb);
-        assert_eq!(parse_export("tree.json").unwrap().row.format, Format::Skeleton);
-        assert_eq!(parse_export("tree.obj.zip").unwrap().row.format, Format::Obj);
-        assert_eq!(parse_export("tree.png").unwrap().row.format, Format::Picture);
-        for bad in ["tree", "tree.obj", "glb", ".json"] {
-            assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
-        }
+        assert_eq!("1-50".parse(), Ok(SeedRange(1..=50)));
     }
 
     #[test]
@@ -439,6 +448,7 @@ mod tests {
             ("espalier --host example", ErrorKind::ValueValidation),
             ("espalier grow", ErrorKind::MissingRequiredArgument),
             ("espalier grow --metamers 0", ErrorKind::ValueValidation),
+            ("espalier grow --steps 1001", ErrorKind::ValueValidation),
             ("espalier grow --species triffid", ErrorKind::ValueValidation),
             ("espalier grow --species oak --seeds 3", ErrorKind::ValueValidation),
             ("espalier grow --species oak --seeds 3-1", ErrorKind::ValueValidation),
@@ -455,8 +465,14 @@ mod tests {
             ("espalier replay a.jsonl --export a.txt", ErrorKind::ValueValidation),
             ("espalier grow --metamers 9 --lod 1", ErrorKind::MissingRequiredArgument),
             ("espalier grow --metamers 9 --export a.glb --lod 7", ErrorKind::ValueValidation),
+            ("espalier grow --metamers 9 --format glb", ErrorKind::MissingRequiredArgument),
+            ("espalier grow --metamers 9 --export - --format fbx", ErrorKind::ValueValidation),
             ("espalier import tree.glb", ErrorKind::ValueValidation),
             ("espalier import tree.csv --unit 0", ErrorKind::ValueValidation),
+            ("espalier library", ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand),
+            ("espalier library find", ErrorKind::MissingRequiredArgument),
+            ("espalier library export oak oak.fbx", ErrorKind::ValueValidation),
+            ("espalier library put a.csv --name A --to B", ErrorKind::ArgumentConflict),
             ("espalier import tree.csv --grow 0", ErrorKind::ValueValidation),
             ("espalier dig", ErrorKind::InvalidSubcommand),
         ] {

@@ -13,7 +13,10 @@ use espalier_proto::library::ExportFormat;
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
 
-use crate::export_options::{ExportOptions, Size, option};
+use crate::{
+    export_options::{ExportOptions, Size, option},
+    text::Name,
+};
 
 /// Pixels of a picture across and down.
 const PICTURE: Size = Size(1000, 1000);
@@ -70,19 +73,25 @@ pub struct FormatRow {
     pub what: &'static str,
     /// Their media type.
     pub media_type: &'static str,
+    /// What the page calls it, in English and German.
+    pub label: [&'static str; 2],
+    /// What the page says it is good for, in English and German.
+    pub text: [&'static str; 2],
     /// What can be asked for, as in [`option`].
     pub options: &'static [&'static str],
-    /// About how many bytes a file has at least, and for each metamer and each leaf at the finest level.
+    /// About how many bytes a file has at least, and for each metamer and each leaf at the finest level; measured, as
+    /// `client/test/export-sizes.json` has it.
     pub bytes: [f64; 3],
 }
 
 const fn row(
     format: Format,
     [ending, what, media_type]: [&'static str; 3],
+    [label, text]: [[&'static str; 2]; 2],
     options: &'static [&'static str],
     bytes: [f64; 3],
 ) -> FormatRow {
-    FormatRow { format, ending, what, media_type, options, bytes }
+    FormatRow { format, ending, what, media_type, label, text, options, bytes }
 }
 
 /// Every format.
@@ -90,6 +99,13 @@ pub const FORMATS: &[FormatRow] = &[
     row(
         Format::Glb,
         ["glb", "triangles", "model/gltf-binary"],
+        [
+            ["Model (glTF)", "Modell (glTF)"],
+            [
+                "Wood, leaves, flowers and fruits with their textures, in metres, for Blender, game engines and browsers.",
+                "Holz, Blätter, Blüten und Früchte mit ihren Texturen, in Metern, für Blender, Spiele-Engines und Browser.",
+            ],
+        ],
         &[
             option::LOD,
             option::QUANTISED,
@@ -100,55 +116,156 @@ pub const FORMATS: &[FormatRow] = &[
             option::AUTHOR,
             option::LICENCE,
         ],
-        [600e3, 500.0, 400.0],
+        [530e3, 1250.0, 787.0],
     ),
     row(
         Format::Obj,
         ["obj.zip", "triangles for any program", "application/zip"],
+        [
+            ["Model (OBJ)", "Modell (OBJ)"],
+            [
+                "The same triangles with materials and textures in a ZIP file, for programs that do not read glTF.",
+                "Dieselben Dreiecke mit Materialien und Texturen in einer ZIP-Datei, für Programme, die kein glTF lesen.",
+            ],
+        ],
         option::MESHES,
-        [600e3, 900.0, 700.0],
+        [480e3, 2900.0, 1600.0],
     ),
-    row(Format::Usda, ["usda", "triangles as USD", "model/vnd.usda"], option::SCENES, [4e3, 900.0, 700.0]),
+    row(
+        Format::Usda,
+        ["usda", "triangles as USD", "model/vnd.usda"],
+        [
+            ["Scene (USD, text)", "Szene (USD, Text)"],
+            [
+                "The same triangles as USD in text, each material with one colour.",
+                "Dieselben Dreiecke als USD in Textform, jedes Material mit einer Farbe.",
+            ],
+        ],
+        option::SCENES,
+        [4e3, 3300.0, 1800.0],
+    ),
     row(
         Format::Usdz,
         ["usdz", "triangles as USD with textures", "model/vnd.usdz+zip"],
+        [
+            ["Scene (USDZ)", "Szene (USDZ)"],
+            [
+                "USD with its textures in one file, which tablets and film programs show.",
+                "USD mit seinen Texturen in einer Datei, die Tablets und Filmprogramme zeigen.",
+            ],
+        ],
         option::SCENES,
-        [600e3, 900.0, 700.0],
+        [560e3, 3300.0, 1800.0],
     ),
-    row(Format::Skeleton, ["json", "skeleton", "application/json"], &[], [1e3, 160.0, 150.0]),
-    row(Format::Mtg, ["mtg", "axes and metamers for OpenAlea", "text/plain"], &[], [1e3, 80.0, 0.0]),
-    row(Format::Qsm, ["csv", "cylinders as TreeQSM has them", "text/csv"], &[], [1e3, 170.0, 0.0]),
+    row(
+        Format::Skeleton,
+        ["json", "skeleton", "application/json"],
+        [
+            ["Skeleton (JSON)", "Skelett (JSON)"],
+            [
+                "Each internode with its place, thickness, order and birth, for programs of your own.",
+                "Jedes Internodium mit Ort, Dicke, Ordnung und Geburt, für eigene Programme.",
+            ],
+        ],
+        &[],
+        [1e3, 200.0, 190.0],
+    ),
+    row(
+        Format::Mtg,
+        ["mtg", "axes and metamers for OpenAlea", "text/plain"],
+        [
+            ["Tree graph (MTG)", "Baumgraph (MTG)"],
+            ["Axes and internodes for OpenAlea.", "Achsen und Internodien für OpenAlea."],
+        ],
+        &[],
+        [1e3, 80.0, 0.0],
+    ),
+    row(
+        Format::Qsm,
+        ["csv", "cylinders as TreeQSM has them", "text/csv"],
+        [
+            ["Cylinders (QSM)", "Zylinder (QSM)"],
+            [
+                "Each internode as a cylinder, in the columns of TreeQSM.",
+                "Jedes Internodium als Zylinder, in den Spalten von TreeQSM.",
+            ],
+        ],
+        &[],
+        [1e3, 140.0, 0.0],
+    ),
     row(
         Format::Cloud,
         ["ply", "labelled points", "application/octet-stream"],
+        [
+            ["Point cloud (PLY)", "Punktwolke (PLY)"],
+            [
+                "A million points of wood and leaves, each with what it lies on.",
+                "Eine Million Punkte auf Holz und Blättern, jeder mit dem, worauf er liegt.",
+            ],
+        ],
         &[option::POINTS],
         [29e6, 0.0, 0.0],
     ),
     row(
         Format::Picture,
         ["png", "picture", "image/png"],
+        [
+            ["Turntable (PNG)", "Drehbild (PNG)"],
+            [
+                "An animated picture that goes around the tree once, made by the server.",
+                "Ein bewegtes Bild, das einmal um den Baum geht, vom Server gemacht.",
+            ],
+        ],
         &[option::SIZE, option::TURN, option::RISE, option::FRAMES],
         [300e3, 0.0, 0.0],
     ),
-    row(Format::Document, ["espalier", "document", "application/octet-stream"], &[], [10e3, 45.0, 0.0]),
+    row(
+        Format::Document,
+        ["espalier", "document", "application/octet-stream"],
+        [
+            ["Document", "Dokument"],
+            [
+                "The whole tree with its history, to be opened in Espalier again.",
+                "Der ganze Baum mit seiner Geschichte, um ihn wieder in Espalier zu öffnen.",
+            ],
+        ],
+        &[],
+        [25e3, 56.0, 0.0],
+    ),
 ];
 
-/// Shares of the bytes of the finest level that each level of detail has, and all together.
-const LEVELS: [f64; 4] = [1.0, 0.35, 0.1, 0.0];
+/// Shares of the bytes of the finest level that each level of detail has.
+const LEVELS: [f64; 4] = [1.0, 0.22, 0.036, 0.0022];
+/// The same of USD, which says more of each mesh.
+const USD_LEVELS: [f64; 4] = [1.0, 0.22, 0.048, 0.0008];
 
 /// The shares of the bytes for metamers and for leaves that options leave.
 const SHARES: &[(&str, [f64; 2])] =
-    &[(option::QUANTISED, [0.55, 0.5]), (option::COMPRESSED, [0.4, 0.3]), (option::INSTANCED, [1.0, 0.12])];
+    &[(option::QUANTISED, [0.58, 0.58]), (option::COMPRESSED, [0.5, 0.5]), (option::INSTANCED, [1.0, 0.08])];
 
 impl FormatRow {
+    /// Whether its files are text, for people to read.
+    pub fn is_text(&self) -> bool {
+        matches!(self.format, Format::Usda | Format::Skeleton | Format::Mtg | Format::Qsm)
+    }
+
+    fn levels(&self) -> [f64; 4] {
+        match self.format {
+            Format::Usda | Format::Usdz => USD_LEVELS,
+            _ => LEVELS,
+        }
+    }
+
     /// The row as clients read it.
     pub fn described(&self) -> ExportFormat {
         let [least, metamer, leaf] = self.bytes;
         ExportFormat {
             ending: self.ending.to_owned(),
+            label: self.label.map(str::to_owned),
+            text: self.text.map(str::to_owned),
             options: self.options.iter().map(|&option| option.to_owned()).collect(),
             bytes: [least, metamer, leaf],
-            levels: LEVELS,
+            levels: self.levels(),
             shares: SHARES
                 .iter()
                 .filter(|(option, _)| self.options.contains(option))
@@ -175,8 +292,8 @@ impl Stored {
         let leaves = f64::from(style_options(&self.0.parameters()).leaves_per_node);
         let metamers = f64::from(self.0.metamers());
         let level = match options.model().detail {
-            Detail::Set => LEVELS.iter().sum(),
-            Detail::Level(level) => LEVELS[usize::from(level)],
+            Detail::Set => row.levels().iter().sum(),
+            Detail::Level(level) => row.levels()[usize::from(level)],
         };
         let [least, metamer, leaf] = row.bytes;
         let given = options.given();
@@ -215,8 +332,8 @@ pub fn write(
         species: species.map(|species| species.name),
         seed: Some(seed),
         parameters: &parameters,
-        author: options.author.as_deref(),
-        licence: options.licence.as_deref(),
+        author: options.author.as_ref().map(Name::as_str),
+        licence: options.licence.as_ref().map(Name::as_str),
     };
     let model = options.model();
     match format {
@@ -270,6 +387,18 @@ fn species_of(parameters: &ParameterValues, looks: &Appearance) -> Option<&'stat
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ex1_formats_have_a_name_of_their_own_and_a_sentence_in_both_languages() {
+        for language in [0, 1] {
+            let mut names: Vec<_> = FORMATS.iter().map(|row| row.label[language]).collect();
+            names.sort_unstable();
+            assert!(names.windows(2).all(|pair| pair[0] != pair[1] && !pair[0].is_empty()), "{names:?}");
+            let is_sentence =
+                |row: &FormatRow| row.text[language].len() > 20 && row.text[language].ends_with('.');
+            assert!(FORMATS.iter().all(is_sentence));
+        }
+    }
 
     #[test]
     fn a_species_is_known_by_its_parameters_and_looks() {

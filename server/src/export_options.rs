@@ -7,6 +7,9 @@ use espalier_export::{Detail, Model, picture::Camera};
 use espalier_proto::NotAllowed;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
+use serde_json::Value;
+
+use crate::text::Name;
 
 /// The most pixels of a picture: each takes some 170 bytes while it is drawn.
 const MOST_PIXELS: usize = 4_000_000;
@@ -57,10 +60,10 @@ pub struct ExportOptions {
     pub points: Option<Points>,
     /// Say who made the plants.
     #[arg(long, value_name = "NAME", requires = "export")]
-    pub author: Option<String>,
+    pub author: Option<Name>,
     /// Say under which licence they may be used, by its SPDX name.
     #[arg(long, value_name = "LICENCE", requires = "export")]
-    pub licence: Option<String>,
+    pub licence: Option<Name>,
     /// The name under which a client asks how far its export is (`EX3`).
     #[arg(skip)]
     pub ticket: Option<String>,
@@ -146,18 +149,33 @@ impl ExportOptions {
 #[error("this format has no option `{0}`")]
 pub struct NotOfFormat(pub &'static str);
 
+/// A text, or a number as it is written.
+#[derive(Deserialize)]
+#[serde(from = "Value")]
+struct Word(String);
+
+impl From<Value> for Word {
+    fn from(value: Value) -> Self {
+        match value {
+            Value::String(text) => Self(text),
+            // What is neither is no allowed text either.
+            other => Self(other.to_string()),
+        }
+    }
+}
+
 /// Declares what an option can be: a text becomes a value, or is none of what is allowed.
 macro_rules! values {
     ($($(#[doc = $doc:literal])+ $name:ident($($type:ty),+): $allowed:expr, $read:expr;)+) => {$(
         $(#[doc = $doc])+
         #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-        #[serde(try_from = "String")]
+        #[serde(try_from = "Word")]
         pub struct $name($(pub $type),+);
 
-        impl TryFrom<String> for $name {
+        impl TryFrom<Word> for $name {
             type Error = NotAllowed;
 
-            fn try_from(text: String) -> Result<Self, NotAllowed> {
+            fn try_from(Word(text): Word) -> Result<Self, NotAllowed> {
                 let read: fn(&str) -> Option<Self> = $read;
                 read(&text).ok_or_else(|| NotAllowed::new(text, $allowed))
             }
@@ -173,7 +191,7 @@ macro_rules! values {
             }
 
             fn json_schema(_: &mut SchemaGenerator) -> Schema {
-                json_schema!({ "type": "string", "description": format!("Allowed: {}.", $allowed) })
+                json_schema!({ "type": ["string", "number"], "description": format!("Allowed: {}.", $allowed) })
             }
         }
 
@@ -181,7 +199,7 @@ macro_rules! values {
             type Err = String;
 
             fn from_str(text: &str) -> Result<Self, String> {
-                Self::try_from(text.to_owned()).map_err(|error| format!("allowed: {}", error.allowed))
+                Self::try_from(Word(text.to_owned())).map_err(|error| format!("allowed: {}", error.allowed))
             }
         }
     )+};

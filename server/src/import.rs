@@ -1,10 +1,17 @@
 //! Files that become trees: structure of other programs, and documents of this one.
 
+use std::{borrow::Cow, fmt};
+
 use espalier_growth::{WORLD_EXTENT, species};
 use espalier_import::{Fault, FaultKind, WoodFormat, WoodOptions, read_wood};
-use espalier_proto::{Problem, ProblemCode, Reason};
+use espalier_proto::{NotAllowed, Problem, ProblemCode, Reason};
 use espalier_session::{Document, DocumentError, TransplantError};
 use espalier_settings::{Appearance, ParameterValues, ParametersPatch};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error, Visitor},
+};
 
 use crate::live::OpenError;
 
@@ -24,6 +31,9 @@ pub const FORMATS: &[(Format, &str, &str)] = &[
     (Format::Wood(WoodFormat::Skeleton), "json", "a skeleton"),
     (Format::Document, "espalier", "a document"),
 ];
+
+/// The field of a problem with a file as a whole.
+const BODY: &str = "body";
 
 /// How a file is taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,9 +68,57 @@ pub enum ImportError {
 pub fn format_of(ending: &str) -> Result<Format, String> {
     let found = FORMATS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(ending));
     found.map(|&(format, ..)| format).ok_or_else(|| {
-        let all: Vec<_> = FORMATS.iter().map(|(_, ending, what)| format!(".{ending} ({what})")).collect();
+        let all: Vec<_> = FORMATS.iter().map(|(format, ..)| format.description()).collect();
         format!("a file must be one of: {}", all.join(", "))
     })
+}
+
+impl<'de> Deserialize<'de> for Format {
+    /// Of how the names of its files end.
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Ending;
+
+        impl Visitor<'_> for Ending {
+            type Value = Format;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(&endings().join(", "))
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Format, E> {
+                format_of(text).map_err(|_| E::custom(NotAllowed::new(text, endings().join(", "))))
+            }
+        }
+
+        deserializer.deserialize_str(Ending)
+    }
+}
+
+impl JsonSchema for Format {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "ImportFormat".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "enum": endings() })
+    }
+}
+
+/// How the names of all files end.
+fn endings() -> Vec<&'static str> {
+    FORMATS.iter().map(|(_, ending, _)| *ending).collect()
+}
+
+impl Format {
+    /// What is in its files, and how their names end.
+    fn description(self) -> String {
+        let row = FORMATS.iter().find(|(format, ..)| *format == self);
+        row.map(|(_, ending, what)| format!("{what} (.{ending})")).unwrap_or_default()
+    }
 }
 
 /// The document of a file.
@@ -89,33 +147,40 @@ pub fn document(bytes: &[u8], import: &Import) -> Result<Document, ImportError> 
     Ok(Document::transplanted(&file.wood, seed, &parameters, looks)?)
 }
 
-impl From<&ImportError> for Problem {
-    fn from(error: &ImportError) -> Self {
-        let message = format!("The file cannot become a tree: {error}.");
-        let (code, field) = match error {
+impl Import {
+    /// Why a file is refused: the place in it that is at fault, or the body as a whole, and what is allowed there.
+    pub fn refusal(&self, error: &ImportError) -> Problem {
+        let (code, place, allowed) = match error {
             ImportError::File(fault) => {
                 let code = match fault.kind {
                     FaultKind::Malformed => ProblemCode::Malformed,
                     FaultKind::OutOfRange => ProblemCode::OutOfRange,
                     FaultKind::TooMany => ProblemCode::TooMany,
                 };
-                (code, fault.place.as_ref().map(ToString::to_string))
+                (code, fault.place.as_ref().map(ToString::to_string), fault.allowed.clone())
             }
             ImportError::Wood(TransplantError::Parameters(error)) => {
-                (ProblemCode::OutOfRange, Some(format!("parameters.{}", error.field)))
+                let place = format!("parameters.{}", error.field);
+                (ProblemCode::OutOfRange, Some(place), Some(error.allowed.clone()))
             }
             ImportError::Document(DocumentError::Later(what)) => {
-                return OpenError::Later(what.clone()).problem();
+                let problem = OpenError::Later(what.clone()).problem();
+                return problem.at(BODY, "a document that this version of Espalier reads");
             }
-            ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None),
+            ImportError::Wood(_) | ImportError::Document(_) => (ProblemCode::Malformed, None, None),
         };
-        Self { code, field, cause: Some(error.to_string()), ..Self::new(Reason::NotATreeFile, message) }
+        let message = format!("The file cannot become a tree: {error}.");
+        let problem =
+            Problem { code, cause: Some(error.to_string()), ..Problem::new(Reason::NotATreeFile, message) };
+        let field = place.unwrap_or_else(|| BODY.into());
+        problem.at(field, allowed.unwrap_or_else(|| self.format.description()))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use espalier_proto::{Action, Steps, library::IMPORT_ENDINGS};
+    use espalier_session::Principal;
     use serde_json::json;
 
     use super::*;
@@ -147,7 +212,7 @@ mod tests {
         let (metamers, hash) = (scan.metamers(), scan.plant().hash());
         assert_eq!(metamers, 19);
         assert!(!scan.figures().can_undo);
-        let mut act = |value| scan.apply("someone", &command(value)).map(|()| scan.metamers());
+        let mut act = |value| scan.apply(&Principal::visitor(), &command(value)).map(|()| scan.metamers());
         // The branch is the last but the top of the trunk; its tip is moved up.
         let rows: Vec<u32> = (1..20).collect();
         let tip = rows[rows.len() - 1];
@@ -162,12 +227,13 @@ mod tests {
         let pruned = act(json!({"kind": "prune", "rows": [2]})).unwrap_or(grown);
         assert!(pruned < grown, "{pruned}");
         for _ in 0..3 {
-            scan.apply("someone", &Action::Undo {}.into()).unwrap_or_else(|problem| panic!("{problem}"));
+            scan.apply(&Principal::visitor(), &Action::Undo {}.into())
+                .unwrap_or_else(|problem| panic!("{problem}"));
         }
         assert_eq!(scan.plant().hash(), hash);
-        assert!(scan.apply("someone", &Action::Undo {}.into()).is_err());
+        assert!(scan.apply(&Principal::visitor(), &Action::Undo {}.into()).is_err());
         let ungrow = Action::Ungrow { steps: Steps::nearest(100) };
-        scan.apply("someone", &ungrow.into()).unwrap_or_else(|problem| panic!("{problem}"));
+        scan.apply(&Principal::visitor(), &ungrow.into()).unwrap_or_else(|problem| panic!("{problem}"));
         assert_eq!(scan.metamers(), 0);
     }
 
@@ -177,7 +243,7 @@ mod tests {
         let mut before = Document::new(77);
         let grow = Action::Grow { steps: Steps::nearest(6), until: None, bud: None };
         for action in espalier_session::script(species).into_iter().take(2).chain([grow]) {
-            before.apply("someone", &action.into()).unwrap_or_else(|problem| panic!("{problem}"));
+            before.apply(&Principal::visitor(), &action.into()).unwrap_or_else(|problem| panic!("{problem}"));
         }
         let file = exported(&mut before, exports::Format::Skeleton);
         let after = of_wood(WoodFormat::Skeleton, &file);
@@ -210,8 +276,9 @@ mod tests {
     #[test]
     fn problems_have_a_code_and_a_place() {
         let problem = |bytes: &str, parameters: &[ParametersPatch]| {
-            let made = document(bytes.as_bytes(), &import(Format::Wood(WoodFormat::Qsm), parameters));
-            made.err().map(|error| Problem::from(&error)).map(|problem| (problem.code, problem.field))
+            let import = import(Format::Wood(WoodFormat::Qsm), parameters);
+            let refusal = document(bytes.as_bytes(), &import).err().map(|error| import.refusal(&error));
+            refusal.map(|problem| (problem.code, problem.field))
         };
         let at = |place: &str| Some(place.to_owned());
         let thin = SCAN.replace("0.02,0.5", "-0.02,0.5");
@@ -228,6 +295,9 @@ mod tests {
     #[test]
     fn the_ending_says_the_format() {
         assert_eq!(format_of("MTG"), Ok(Format::Wood(WoodFormat::Mtg)));
-        assert!(format_of("glb").is_err_and(|all| all.contains(".csv") && all.contains(".espalier")));
+        assert!(
+            format_of("glb")
+                .is_err_and(|all| all.contains("cylinders of a QSM (.csv)") && all.contains(".espalier"))
+        );
     }
 }

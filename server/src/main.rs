@@ -1,24 +1,33 @@
 //! The Espalier server and command line: a thin shell around the session's state machine.
 
+mod access;
 mod announce;
-mod authority;
 mod care;
 mod cli;
 mod document;
 mod export_options;
 mod headless;
+mod hosts;
 mod http;
 mod import;
+mod jobs;
+mod library;
 mod listener;
 mod live;
 mod maintenance;
 mod manual;
 mod name;
+mod output;
+mod people;
 mod pool;
 mod portrait;
+mod progress;
+mod recipe;
 mod serve;
 mod spool;
 mod store;
+mod text;
+mod time;
 
 use std::process::ExitCode;
 
@@ -28,6 +37,10 @@ use crate::{
     care::CareError,
     cli::{Cli, Command},
     headless::HeadlessError,
+    library::LibraryError,
+    output::OutputError,
+    people::PeopleError,
+    recipe::GrowError,
     serve::ServeError,
 };
 
@@ -45,6 +58,12 @@ fn main() -> ExitCode {
         Some(Command::Grow(options)) => done(headless::grow(&options)),
         Some(Command::Import(options)) => done(headless::import(&options)),
         Some(Command::Species(options)) => done(headless::species(&options)),
+        Some(Command::Invite(options)) => let_in(people::invite(options)),
+        Some(Command::User(command)) => let_in(people::user(&command)),
+        Some(Command::Audit(options)) => let_in(people::audit(&options)),
+        Some(Command::Device(command)) => let_in(people::device(&command)),
+        Some(Command::Token(command)) => let_in(people::token(&command)),
+        Some(Command::Library(options)) => in_library(library::run(&options.command)),
         Some(Command::Backup(options)) => cared(care::backup(&options)),
         Some(Command::Restore(options)) => cared(care::restore(&options)),
         Some(Command::Check(options)) => cared(care::check(&options)),
@@ -65,10 +84,22 @@ fn written(result: std::io::Result<()>) -> ExitCode {
     ExitCode::FAILURE
 }
 
+fn let_in(result: Result<(), PeopleError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("{error}");
+    ExitCode::FAILURE
+}
+
 fn cared(result: Result<(), CareError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
     eprintln!("{error}");
     ExitCode::FAILURE
+}
+
+fn in_library(result: Result<(), LibraryError>) -> ExitCode {
+    let Err(error) = result else { return ExitCode::SUCCESS };
+    eprintln!("{error}");
+    if error.is_usage() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
 }
 
 fn done(result: Result<(), HeadlessError>) -> ExitCode {
@@ -80,7 +111,10 @@ fn done(result: Result<(), HeadlessError>) -> ExitCode {
         | HeadlessError::Import { .. }
         | HeadlessError::Options(_)
         | HeadlessError::OneName
-        | HeadlessError::Parameters(_) => ExitCode::from(USAGE),
+        | HeadlessError::NoFormat(_)
+        | HeadlessError::Output(OutputError::Terminal(_))
+        | HeadlessError::Parameters(_)
+        | HeadlessError::Grow(GrowError::Refused(_)) => ExitCode::from(USAGE),
         _ => ExitCode::FAILURE,
     }
 }

@@ -5,12 +5,14 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use espalier_proto::version::KEPT_DAYS;
 use tokio::time::{interval, sleep};
 use tokio_util::sync::CancellationToken;
 
 use crate::{
     live::Sessions,
-    store::{AnyStore, Library, Store, StoreError},
+    store::{AnyStore, Audit, Library, Passes, Store, StoreError},
+    time::written,
 };
 
 /// How often.
@@ -18,18 +20,22 @@ const PERIOD: Duration = Duration::from_hours(1);
 /// How often the file is looked for.
 const WATCH_PERIOD: Duration = Duration::from_secs(2);
 /// A tree that was deleted can be taken back for so long.
-const UNDELETABLE: Duration = Duration::from_hours(30 * 24);
-/// Trees that go in one step, so that people's work has its turns between.
+const UNDELETABLE: Duration = Duration::from_hours(KEPT_DAYS as u64 * 24);
+/// A session that is saved goes when nobody has entered it for so long; the tree stays.
+const SAVED_SESSIONS: Duration = Duration::from_hours(30 * 24);
+/// What was done is kept on the list for so long.
+const EVENTS: Duration = Duration::from_hours(365 * 24);
+/// Trees or sessions that go in one step, so that people's work has its turns between.
 const STEP: u32 = 8;
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Runs until the server stops.
-pub async fn run(store: Arc<AnyStore>, stop: CancellationToken) {
+/// Runs until the server stops. A session that is not saved is kept for `unsaved` after somebody was in it.
+pub async fn run(store: Arc<AnyStore>, unsaved: Duration, stop: CancellationToken) {
     let mut ticks = interval(PERIOD);
     let work = async {
         loop {
             ticks.tick().await;
-            if let Err(error) = once(&store, SystemTime::now()).await {
+            if let Err(error) = once(&store, unsaved, SystemTime::now()).await {
                 tracing::warn!(%error, "the database could not be looked after; it is tried again later");
             }
         }
@@ -61,9 +67,23 @@ pub async fn watch(store: Arc<AnyStore>, sessions: Sessions, stop: CancellationT
 }
 
 /// Does what is due at a time.
-async fn once(store: &AnyStore, now: SystemTime) -> Result<(), StoreError> {
-    let before = humantime::format_rfc3339_millis(now - UNDELETABLE).to_string();
-    while store.purge(&before, STEP).await? > 0 {
+async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<(), StoreError> {
+    let before = |span| written(now - span);
+    store.purge_passes(&written(now)).await?;
+    store.purge_events(&before(EVENTS)).await?;
+    while store.purge(&before(UNDELETABLE), STEP).await? > 0 {
+        sleep(PAUSE).await;
+    }
+    let (saved, unsaved) = (before(SAVED_SESSIONS.min(unsaved)), before(unsaved));
+    loop {
+        let gone = store.purge_sessions(&saved, &unsaved, STEP).await?;
+        if gone == 0 {
+            break;
+        }
+        tracing::info!(gone, "sessions that nobody had entered for long were given up");
+        sleep(PAUSE).await;
+    }
+    while store.shrink().await? {
         sleep(PAUSE).await;
     }
     Ok(())
@@ -72,7 +92,9 @@ async fn once(store: &AnyStore, now: SystemTime) -> Result<(), StoreError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::{Deletion, MemoryStore, TreeChange, tree};
+    use crate::store::{Deletion, MemoryStore, NewSession, TreeChange, tree};
+
+    const UNSAVED: Duration = Duration::from_hours(90 * 24);
 
     #[tokio::test]
     async fn lb6_what_was_deleted_thirty_days_ago_goes() {
@@ -83,8 +105,25 @@ mod tests {
             store.change_tree(id, None, TreeChange { deletion, ..TreeChange::default() }).await.unwrap();
         }
         let now = humantime::parse_rfc3339("2026-05-31T12:00:00Z").unwrap();
-        once(&store, now).await.unwrap();
+        once(&store, UNSAVED, now).await.unwrap();
         assert_eq!(store.tree("ash").await.unwrap(), None);
         assert!(store.tree("elm").await.unwrap().is_some());
+    }
+
+    #[tokio::test]
+    async fn lb8_a_session_that_nobody_enters_goes_later_where_it_is_not_saved() {
+        let store = AnyStore::Memory(MemoryStore::default());
+        for (name, snapshot) in [("seedling", None), ("unsaved", Some(vec![1]))] {
+            let new = NewSession { name: name.into(), snapshot, ..NewSession::default() };
+            store.create_session(new).await.unwrap();
+        }
+        let days = |days: u64| SystemTime::now() + Duration::from_hours(24 * days);
+        let mut left = Vec::new();
+        for day in [29, 31, 89, 91] {
+            once(&store, UNSAVED, days(day)).await.unwrap();
+            let is_there = async |name| store.has_session(name).await.unwrap();
+            left.push((is_there("seedling").await, is_there("unsaved").await));
+        }
+        assert_eq!(left, [(true, true), (false, true), (false, true), (false, false)]);
     }
 }

@@ -6,13 +6,11 @@ use espalier_export::picture::{self, Canvas, Look};
 use espalier_growth::species::{self, Species};
 use espalier_mesh::Style;
 use espalier_proto::Problem;
-use espalier_session::{Document, script, style_options};
+use espalier_session::{Document, Principal, script, style_options};
 use tokio::sync::OnceCell;
 
 use crate::pool::{Panicked, SimulationPool};
 
-/// Grown in this name.
-const GARDENER: &str = "gardener";
 /// The seed of pictures that are made once.
 const SEED: u32 = 1;
 /// Pixels of such a picture, across and down: three of a card's for one on a sharp screen.
@@ -22,7 +20,7 @@ const SIZE: (usize, usize) = (384, 396);
 pub fn portrait(species: &Species, seed: u32, (width, height): (usize, usize)) -> Result<Canvas, Problem> {
     let mut document = Document::new(seed);
     for action in script(species) {
-        document.apply(GARDENER, &action.into())?;
+        document.apply(&Principal::visitor(), &action.into())?;
     }
     let style = Style::new(style_options(&document.parameters()));
     Ok(picture::draw(document.portrait(), &style, &Look::from(species), width, height))

@@ -2,9 +2,9 @@
 
 use std::{
     io::{self, IsTerminal, Write},
-    net::SocketAddr,
+    net::{Ipv4Addr, Ipv6Addr, SocketAddr},
     sync::Arc,
-    time::Duration,
+    time::{Duration, SystemTime},
 };
 
 use tokio::{net::TcpListener, signal, time::timeout};
@@ -12,15 +12,18 @@ use tokio_util::sync::CancellationToken;
 use tracing_subscriber::{EnvFilter, fmt};
 
 use crate::{
-    announce::{self, Medium},
-    authority, cli,
+    access::admission::{self, Invite},
+    announce::{self, Medium, OpenTo},
+    cli,
+    hosts::Hosts,
     http::{self, Shared},
+    jobs::Jobs,
     listener,
     live::Sessions,
     maintenance,
     pool::SimulationPool,
     portrait::Portraits,
-    store::{AnyStore, OpenError, SqliteStore, Store},
+    store::{AnyStore, Audit, Event, OpenError, SqliteStore, Store, StoreError, Users},
 };
 
 /// How long the server waits for sessions and connections when it stops.
@@ -46,6 +49,9 @@ pub enum ServeError {
     /// The database cannot be used.
     #[error(transparent)]
     Database(#[from] OpenError),
+    /// Nobody can be let in.
+    #[error("Nobody can be let in: {}.", .0.in_words())]
+    LetIn(#[from] StoreError),
     /// The address is taken.
     #[error("Port {port} on {host} is in use, perhaps by another Espalier; choose another with --port.", host = .0.ip(), port = .0.port())]
     PortInUse(SocketAddr),
@@ -76,34 +82,55 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         _ => ServeError::Listen { address, cause },
     })?;
     let bound = listener.local_addr().map_err(|cause| ServeError::Listen { address, cause })?;
+    let listeners = [Some(listener), beside(bound).await].into_iter().flatten().collect();
     let store = Arc::new(AnyStore::Sqlite(SqliteStore::open(&options.database.path).await?));
 
+    let trusts_local = !options.no_local && !options.auth;
+    let open_to = if options.auth {
+        OpenTo::Users { any: !store.users().await?.is_empty() }
+    } else if trusts_local && bound.ip().is_loopback() {
+        OpenTo::Machine
+    } else {
+        let invite = Invite::default();
+        store.note(Event::at_machine("invite", &invite.name)).await?;
+        OpenTo::Invited(admission::invite(&*store, invite, SystemTime::now()).await?)
+    };
+
     let stop = CancellationToken::new();
-    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), authority::may, stop.clone());
+    let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
+    let jobs = Jobs::new(pool.clone(), stop.clone());
     let shared = Shared {
+        jobs: jobs.clone(),
         store: Arc::clone(&store),
         sessions: sessions.clone(),
         pool,
         metamer_budget: options.metamer_budget,
         portraits: Portraits::default(),
+        hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
-        authority: authority::may,
+        trusts_local,
+        tries: Arc::default(),
+        tries_for: Arc::default(),
+        passwords: Arc::default(),
         opening: Arc::default(),
     };
-    let caring = tokio::spawn(maintenance::run(Arc::clone(&store), stop.clone()));
+    let growing = tokio::spawn(jobs.run());
+    let unsaved = Duration::from_hours(24 * u64::from(options.keep_unsaved));
+    let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
-    let serving = tokio::spawn(listener::serve(listener, http::router(shared), stop.clone()));
+    let serving = tokio::spawn(listener::serve(listeners, http::router(shared), stop.clone()));
 
+    let asked_to_stop = stop_requested();
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
     // Nobody may be reading; the server works all the same.
-    let _ = writeln!(io::stdout(), "{}", announce::text(bound, medium));
-    stop_requested().await;
+    let _ = writeln!(io::stdout(), "{}", announce::text(bound, &open_to, medium));
+    asked_to_stop.await;
 
     tracing::info!("stopping");
     stop.cancel();
     let ended = async {
         sessions.ended().await;
-        serving.await.and(caring.await).and(watching.await)
+        serving.await.and(caring.await).and(watching.await).and(growing.await)
     };
     match timeout(LAST_WORK, ended).await {
         Ok(Ok(())) => {}
@@ -114,25 +141,54 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     Ok(())
 }
 
+/// The other address of `localhost`, which browsers try first: whoever has it would get what is meant for this server.
+async fn beside(bound: SocketAddr) -> Option<TcpListener> {
+    if bound.ip() != Ipv4Addr::LOCALHOST {
+        return None;
+    }
+    let address = SocketAddr::from((Ipv6Addr::LOCALHOST, bound.port()));
+    match TcpListener::bind(address).await {
+        Ok(listener) => Some(listener),
+        Err(error) if error.kind() == io::ErrorKind::AddrInUse => {
+            tracing::warn!(
+                "another program listens on {address}; browse to {bound}, for localhost may lead to it"
+            );
+            None
+        }
+        // The machine has no such address.
+        Err(error) => {
+            tracing::debug!(%error, "nothing listens on {address}");
+            None
+        }
+    }
+}
+
 /// Ctrl+C, or SIGTERM as service managers send it.
-async fn stop_requested() {
+///
+/// From the call on, not only once it is awaited: whoever reads the server's address may stop it at once.
+fn stop_requested() -> impl Future<Output = ()> {
     #[cfg(unix)]
-    let terminated = async {
-        match signal::unix::signal(signal::unix::SignalKind::terminate()) {
-            Ok(mut signal) => drop(signal.recv().await),
-            Err(error) => {
-                tracing::warn!(%error, "SIGTERM is not heard");
-                std::future::pending::<()>().await;
+    let terminated = {
+        let signal = signal::unix::signal(signal::unix::SignalKind::terminate());
+        async {
+            match signal {
+                Ok(mut signal) => drop(signal.recv().await),
+                Err(error) => {
+                    tracing::warn!(%error, "SIGTERM is not heard");
+                    std::future::pending::<()>().await;
+                }
             }
         }
     };
     #[cfg(not(unix))]
     let terminated = std::future::pending::<()>();
-    tokio::select! {
-        interrupted = signal::ctrl_c() => if let Err(error) = interrupted {
-            tracing::warn!(%error, "Ctrl+C is not heard");
-            std::future::pending::<()>().await;
-        },
-        () = terminated => {}
+    async {
+        tokio::select! {
+            interrupted = signal::ctrl_c() => if let Err(error) = interrupted {
+                tracing::warn!(%error, "Ctrl+C is not heard");
+                std::future::pending::<()>().await;
+            },
+            () = terminated => {}
+        }
     }
 }

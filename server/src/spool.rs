@@ -17,9 +17,9 @@ use crate::pool::SimulationPool;
 /// Bytes that are made in one go: some milliseconds of work.
 const SLICE: usize = 256 * 1024;
 /// How long a slice waits at most for those who draw.
-const PATIENCE: Duration = Duration::from_millis(20);
+pub const PATIENCE: Duration = Duration::from_millis(20);
 
-/// A temporary file that nobody else sees, gone when it is dropped.
+/// A file that takes no more when nobody wants it.
 #[derive(Debug)]
 pub struct Spool(BufWriter<Slices>);
 
@@ -29,13 +29,19 @@ struct Slices {
     pool: SimulationPool,
     stop: CancellationToken,
     written: Arc<AtomicU64>,
+    bytes_left: u64,
 }
 
 impl Spool {
-    /// An empty file. It counts in `written` the bytes that it has taken, and takes none after `stop`.
-    pub fn new(pool: SimulationPool, stop: CancellationToken, written: Arc<AtomicU64>) -> io::Result<Self> {
-        let file = tempfile::tempfile()?;
-        Ok(Self(BufWriter::with_capacity(SLICE, Slices { file, pool, stop, written })))
+    /// Writes to an empty file. It counts in `written` the bytes that it has taken, and takes none after `stop`.
+    pub fn new(file: File, pool: SimulationPool, stop: CancellationToken, written: Arc<AtomicU64>) -> Self {
+        Self(BufWriter::with_capacity(SLICE, Slices { file, pool, stop, written, bytes_left: u64::MAX }))
+    }
+
+    /// The same, and it takes no more bytes than these: what is beyond is `QuotaExceeded`.
+    pub fn within(mut self, bytes_left: u64) -> Self {
+        self.0.get_mut().bytes_left = bytes_left;
+        self
     }
 
     /// The whole file, from its beginning, and how many bytes it has.
@@ -69,6 +75,9 @@ impl Write for Slices {
         if self.stop.is_cancelled() {
             return Err(ErrorKind::ConnectionAborted.into());
         }
+        if self.written.load(Ordering::Relaxed).saturating_add(bytes.len() as u64) > self.bytes_left {
+            return Err(ErrorKind::QuotaExceeded.into());
+        }
         let count = self.file.write(bytes)?;
         self.written.fetch_add(count as u64, Ordering::Relaxed);
         Ok(count)
@@ -93,7 +102,7 @@ mod tests {
 
     fn spool(stop: &CancellationToken) -> Spool {
         let pool = SimulationPool::new(std::num::NonZeroUsize::new(1)).unwrap();
-        Spool::new(pool, stop.clone(), Arc::default()).unwrap()
+        Spool::new(tempfile::tempfile().unwrap(), pool, stop.clone(), Arc::default())
     }
 
     #[test]
@@ -116,5 +125,13 @@ mod tests {
         stop.cancel();
         let error = spool.write_all(&vec![0; 2 * SLICE]).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::ConnectionAborted);
+    }
+
+    #[test]
+    fn a_file_takes_no_more_than_its_room() {
+        let mut spool = spool(&CancellationToken::new()).within(SLICE as u64 + 1);
+        spool.write_all(&vec![0; SLICE]).unwrap();
+        let error = spool.write_all(&vec![0; SLICE]).and_then(|()| spool.flush()).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::QuotaExceeded);
     }
 }

@@ -26,7 +26,7 @@ async fn main() {
     println!("{} kB with one session", server.resident_bytes() / 1000);
     for round in 1..=ROUNDS {
         let before = server.resident_bytes();
-        let told =
+        let per_session =
             |server: &Server| (server.resident_bytes() as f64 - before as f64) / 1000.0 / SESSIONS as f64;
         let mut people: Vec<Client> = Vec::new();
         while people.len() < SESSIONS {
@@ -37,10 +37,10 @@ async fn main() {
         }
         let metamers: usize = people.iter().map(|person| person.state.metamers as usize).sum();
         println!("round {round}, {} metamers a session:", metamers / SESSIONS);
-        println!("  {:.0} kB a session with somebody in each", told(&server));
+        println!("  {:.0} kB a session with somebody in each", per_session(&server));
         drop(people);
         sleep(UNTIL_LEFT).await;
-        println!("  {:.0} kB a session when they have left", told(&server));
+        println!("  {:.0} kB a session when they have left", per_session(&server));
     }
     drop(first);
 }

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use tokio::{net::TcpStream, time};
 use tokio_tungstenite::{
     MaybeTlsStream, WebSocketStream, connect_async,
-    tungstenite::{Error, Message, protocol::CloseFrame},
+    tungstenite::{Error, Message, client::IntoClientRequest, protocol::CloseFrame},
 };
 
 use crate::{
@@ -32,6 +32,9 @@ pub enum Receipts {
     /// Frames are taken in without a word.
     Withheld,
 }
+
+/// The nonce of pings that no test sends.
+const NOBODYS: u32 = u32::MAX;
 
 /// One person with the page open.
 #[derive(Debug)]
@@ -66,6 +69,8 @@ pub struct Client {
     pub ghosts: Vec<GhostFrame>,
     /// The highest durable command.
     pub acknowledged: u32,
+    /// The command up to which nothing is left to do (`CM11`).
+    pub done: u32,
     /// What was sent and is not known to be durable.
     pub unacknowledged: VecDeque<(u32, Value)>,
     /// Whether the last welcome took up the resume.
@@ -91,8 +96,17 @@ pub struct Client {
 
 /// A socket of this session on which nothing has been said.
 pub async fn open(port: u16, session: &str) -> Socket {
+    open_with(port, session, &[]).await
+}
+
+/// The same with more headers.
+pub async fn open_with(port: u16, session: &str, headers: &[(&'static str, &str)]) -> Socket {
     let url = format!("ws://127.0.0.1:{port}/api/v1/sessions/{session}/socket");
-    let (socket, _) = connect_async(url).await.expect("the socket opens");
+    let mut request = url.into_client_request().expect("it is an address");
+    for (name, value) in headers {
+        request.headers_mut().insert(*name, value.parse().expect("it is a header"));
+    }
+    let (socket, _) = connect_async(request).await.expect("the socket opens");
     socket
 }
 
@@ -110,9 +124,14 @@ pub async fn next(socket: &mut Socket) -> Option<Message> {
 
 /// The code a bare socket is closed with; other messages before it are passed over.
 pub async fn close_code(socket: &mut Socket) -> Option<u16> {
+    close(socket).await.map(|(code, _)| code)
+}
+
+/// The same with the reason.
+pub async fn close(socket: &mut Socket) -> Option<(u16, String)> {
     loop {
         match next(socket).await? {
-            Message::Close(frame) => return frame.map(|frame| frame.code.into()),
+            Message::Close(frame) => return frame.map(|frame| (frame.code.into(), frame.reason.to_string())),
             _ => continue,
         }
     }
@@ -176,6 +195,7 @@ impl Client {
             poses: Vec::new(),
             ghosts: Vec::new(),
             acknowledged,
+            done: 0,
             unacknowledged: VecDeque::new(),
             resumed,
             refused: Vec::new(),
@@ -194,6 +214,9 @@ impl Client {
     pub async fn reconnect(&mut self, port: u16) {
         self.socket = None;
         self.closed = None;
+        // BE5: these end with the connection.
+        self.poses.clear();
+        self.ghosts.clear();
         let mut socket = open(port, &self.session).await;
         let hello = ClientMessage::Hello {
             protocol: espalier_proto::version::PROTOCOL_VERSION,
@@ -269,20 +292,17 @@ impl Client {
     }
 
     /// Waits until everything sent is durable and done, and all that came of it has arrived.
-    ///
-    /// A command that the document must refuse goes last: its refusal says that all before it are done.
     pub async fn until_settled(&mut self) {
-        let marker = self.send(json!({ "kind": "stroke_end", "stroke": u32::MAX })).await;
-        let refused = |client: &Self| client.refused.iter().any(|(id, _)| *id == marker);
-        self.until("everything is done", refused).await;
-        self.refused.retain(|(id, _)| *id != marker);
-        self.until("everything is durable", |client| client.acknowledged >= marker).await;
+        let last = self.next - 1;
+        self.until("everything is done (CM11)", |client| client.done >= last).await;
+        // What others did before, and what this client did nothing about, has come when an answer has.
+        self.send_message(&json!({ "type": "ping", "nonce": NOBODYS })).await;
+        self.until("a ping is answered", |client| client.pongs.contains(&NOBODYS)).await;
+        self.pongs.retain(|nonce| *nonce != NOBODYS);
         self.until("the rows are as many as the state says", |client| {
-            client.state.pending_steps == 0 && client.table.living() == client.state.metamers as usize
+            client.table.living() == client.state.metamers as usize
         })
         .await;
-        // Figures are told at intervals; the last ones may still be due.
-        self.listen(Duration::from_millis(200)).await;
     }
 
     /// Takes in messages until the table has this form.
@@ -368,9 +388,11 @@ impl Client {
                 self.obstacles.clear();
                 self.widths.clear();
                 self.state = state;
+                self.done = 0;
                 self.take_acknowledgement(acknowledged);
             }
             ServerMessage::Acknowledged { id } => self.take_acknowledgement(id),
+            ServerMessage::Done { id } => self.done = id,
             ServerMessage::Refused { id, problem } => {
                 self.unacknowledged.retain(|(other, _)| *other != id);
                 self.refused.push((id, problem));

@@ -63,7 +63,8 @@ pub fn send_bytes(port: u16, method: &str, path: &str, kind: &str, body: &[u8]) 
     send_with(port, method, path, &headers, body)
 }
 
-fn send_with(port: u16, method: &str, path: &str, headers: &str, body: &[u8]) -> io::Result<Answer> {
+/// Any request with more headers, one a line.
+pub fn send_with(port: u16, method: &str, path: &str, headers: &str, body: &[u8]) -> io::Result<Answer> {
     let mut request = format!("{method} {path} HTTP/1.1\r\nhost: 127.0.0.1:{port}\r\nconnection: close\r\n");
     request += headers;
     if !body.is_empty() {

@@ -2,6 +2,7 @@
 
 use std::{
     env,
+    io::Write,
     path::PathBuf,
     process::{Command, Stdio},
 };
@@ -47,7 +48,17 @@ pub fn command() -> Command {
 
 /// Runs the program with these arguments until it ends.
 pub fn run(arguments: &[&str]) -> Finished {
-    let output = command().args(arguments).output().expect("the program starts");
+    run_with(arguments, "")
+}
+
+/// The same with something on its standard input.
+pub fn run_with(arguments: &[&str], input: &str) -> Finished {
+    let mut command = command();
+    command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().expect("the program starts");
+    // One that does not read has closed it.
+    let _ = child.stdin.take().expect("it is piped").write_all(input.as_bytes());
+    let output = child.wait_with_output().expect("the program ends");
     Finished {
         code: output.status.code().unwrap_or(-1),
         stdout: String::from_utf8_lossy(&output.stdout).into_owned(),

@@ -119,12 +119,39 @@ impl Server {
 
     /// Resident memory in bytes, as the kernel counts it.
     pub fn resident_bytes(&self) -> u64 {
-        let status =
-            fs::read_to_string(format!("/proc/{}/status", self.child.id())).expect("Linux has /proc");
-        let line = status.lines().find(|line| line.starts_with("VmRSS:")).expect("a process has VmRSS");
+        self.status("VmRSS:")
+    }
+
+    /// The most resident memory in bytes since [`Server::forget_peak`].
+    pub fn peak_bytes(&self) -> u64 {
+        self.status("VmHWM:")
+    }
+
+    /// The peak of resident memory begins anew.
+    pub fn forget_peak(&self) {
+        fs::write(self.told_by_kernel("clear_refs"), "5").expect("Linux has clear_refs");
+    }
+
+    /// Processor time taken so far, by all threads, in steps of a hundredth of a second.
+    pub fn processor_time(&self) -> Duration {
+        let stat = fs::read_to_string(self.told_by_kernel("stat")).expect("Linux has /proc");
+        // The program's name, in brackets, may hold spaces.
+        let fields =
+            stat.rsplit_once(')').map(|(_, fields)| fields.split_whitespace()).expect("a process has a name");
+        let hundredths: u64 = fields.skip(11).take(2).map(|ticks| ticks.parse().unwrap_or(0)).sum();
+        Duration::from_millis(hundredths * 10)
+    }
+
+    fn status(&self, row: &str) -> u64 {
+        let status = fs::read_to_string(self.told_by_kernel("status")).expect("Linux has /proc");
+        let line = status.lines().find(|line| line.starts_with(row)).expect("a process has memory");
         let kilobytes: u64 =
-            line.split_whitespace().nth(1).and_then(|n| n.parse().ok()).expect("VmRSS is a number");
+            line.split_whitespace().nth(1).and_then(|n| n.parse().ok()).expect("it is a number");
         kilobytes * 1024
+    }
+
+    fn told_by_kernel(&self, what: &str) -> PathBuf {
+        PathBuf::from(format!("/proc/{}/{what}", self.child.id()))
     }
 }
 

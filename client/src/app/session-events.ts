@@ -1,9 +1,9 @@
 import type { Signal } from "@preact/signals";
 import type { TreeTable } from "../scene/table/tree-table";
-import { FrameKind } from "../wire/envelope";
 import type { DocumentState, Parameters } from "../wire/generated";
+import { FrameKind } from "../wire/generated";
 import { handle, type MessageHandlers } from "./connection/page-message";
-import type { SessionEvents, SessionLink } from "./connection/session-link";
+import type { SessionEvents } from "./connection/session-link";
 import type { LookDraft } from "./document/appearance/look-draft";
 import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
@@ -22,7 +22,6 @@ import { say } from "./words/say";
 
 /** The parts of a page that follow its session. */
 export interface SessionTargets extends RefusalTargets {
-  readonly link: Pick<SessionLink, "answered">;
   readonly document: Signal<DocumentState | null>;
   readonly growing: Draft<Parameters, null>;
   readonly programme: Pick<ProgrammeControl, "receive">;
@@ -49,8 +48,8 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.document.value = state;
       page.growth.reported();
       page.tools.changed();
-      page.outline.progressed(page.link.answered, state.pending_steps);
     },
+    done: ({ id }) => page.outline.done(id),
     parameters: ({ parameters }) => page.growing.receive(parameters),
     programme: ({ programme, by_hand }) => page.programme.receive(programme, by_hand),
     appearance: ({ appearance }) => page.looks.receive(appearance),
@@ -84,7 +83,6 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.looks.settle(settled);
       page.obstacles.settle(settled);
       page.tools.changed();
-      page.outline.settled(settled);
     },
     aside: (aside) => {
       if (aside.kind === FrameKind.Ghost) {

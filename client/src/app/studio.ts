@@ -2,6 +2,7 @@ import { signal } from "@preact/signals";
 import type { DrawMode } from "../scene/mode/draw-mode";
 import { TreeTable } from "../scene/table/tree-table";
 import { type Command, DEFAULT_PARAMETERS, type DocumentState, type Parameters } from "../wire/generated";
+import { Rights } from "./access/rights";
 import { rowStore } from "./connection/row-store";
 import { SessionLink } from "./connection/session-link";
 import { LookDraft } from "./document/appearance/look-draft";
@@ -42,6 +43,8 @@ const UNSAVED_PICTURE = 256;
 /** One open page: the session it shows and the tools. */
 export class Studio {
   readonly settings = loadSettings(localStorage);
+  /** What whoever is here may do. */
+  readonly rights = new Rights(localStorage);
   readonly toasts = new Toasts();
   readonly hindrance = signal<Hindrance | null>(null);
   /** Why the picture is slow however coarse it is: for want of a graphics card, or for the size of the tree. */
@@ -92,6 +95,7 @@ export class Studio {
     hindrance: this.hindrance,
     dark: () => this.stage.dark,
     lastSession: this.settings.lastSession,
+    onlyTree: () => this.#whereToLand(),
     begun: () => this.document.peek() !== null,
     events: sessionEvents(this),
   });
@@ -111,7 +115,7 @@ export class Studio {
   readonly unsaved = new UnsavedTrees({
     list: this.settings.unsavedTrees,
     saved: this.settings.savedState,
-    session: () => this.link.session.peek(),
+    session: () => (this.rights.mayChange.peek() ? this.link.session.peek() : null),
     metamers: () => this.document.peek()?.metamers ?? 0,
     picture: () => this.stage.thumbnail(UNSAVED_PICTURE),
   });
@@ -130,7 +134,7 @@ export class Studio {
   });
   readonly growth = new GrowControl({
     submit: (command) => this.submit(this.programme.paced(command)),
-    ready: () => this.link.connected,
+    ready: () => this.link.connected && this.rights.mayChange.peek(),
     newGesture: () => this.link.next,
     unsettled: () => this.link.unsettled("grow") + this.link.unsettled("ungrow"),
     pendingSteps: () => this.document.peek()?.pending_steps ?? 0,
@@ -178,7 +182,7 @@ export class Studio {
     },
     predict: (rows) => this.branches.predict(rows),
     hold: () => this.stage.hold(),
-    ready: () => this.link.open && this.hindrance.peek() === null,
+    ready: () => this.link.open && this.hindrance.peek() === null && this.rights.mayChange.peek(),
     arranging: () => this.layout.panel.peek() === "scene",
     choose: (x, y) => chooseBud(this, x, y),
     tapped: (fingers) => undoByTap(this, fingers),
@@ -186,7 +190,11 @@ export class Studio {
 
   readonly tour = new Tour({
     settings: this.settings,
-    ready: () => this.link.phase.value === "connected" && this.rows.value > 0 && this.hindrance.value === null,
+    ready: () =>
+      this.link.phase.value === "connected" &&
+      this.rows.value > 0 &&
+      this.hindrance.value === null &&
+      this.rights.mayChange.value,
     drawn: () => (this.tools.drawing.value ? 0 : (this.document.value?.metamers ?? 0)),
     turned: () => this.stage.turned,
     growing: () => this.growth.deflection.value !== 0,
@@ -208,6 +216,10 @@ export class Studio {
 
   /** Sends a command and gives its number; 0 while no session is open. */
   submit(command: Command): number {
+    if (!this.rights.mayChange.peek()) {
+      this.toasts.show(say("notices.looking-only"));
+      return 0;
+    }
     // The server gives up what it was asked to predict and does not always say so (`PD2`).
     this.branches.prediction.lost();
     return this.link.submit(command);
@@ -220,6 +232,16 @@ export class Studio {
 
   #ahead(): GrowthAhead {
     return growthAhead(this.document.peek(), this.outline.shown.peek()?.stage === "growing");
+  }
+
+  /** The tree to land on; who may see several chooses one in the library. */
+  async #whereToLand(): Promise<string | null> {
+    await this.rights.ask();
+    const tree = this.rights.onlyTree.peek();
+    if (tree === null) {
+      this.layout.sheet.value = "library";
+    }
+    return tree;
   }
 
   async #explain(error: unknown): Promise<void> {

@@ -4,6 +4,7 @@ import { Viewport } from "../scene/viewport";
 import { deflectionFor, KEY_RATE } from "./document/growth/grow-pacer";
 import { listenToKeys } from "./input/keyboard";
 import { listenToPointers } from "./input/pointer-source";
+import { StrokesAsTurns } from "./input/strokes-as-turns";
 import { publishFacts } from "./page/page-facts";
 import { followPageLife } from "./page/page-life";
 import type { Studio } from "./studio";
@@ -12,6 +13,7 @@ import { stepBack } from "./tools/step-back";
 import { nextKind } from "./tools/symmetry/symmetry";
 import { symmetryText } from "./tools/symmetry/symmetry-text";
 import { PictureLoss } from "./view/picture-loss";
+import { say } from "./words/say";
 
 /** So many of the wheel's notches are one doubling of what it changes, roughly. */
 const NOTCHES = 8;
@@ -54,6 +56,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     }
   });
   const stopLooks = effect(() => studio.stage.setAppearance(studio.appearance.value));
+  const stopThorough = effect(() => viewport.setThorough(studio.settings.thorough.value));
   const stopDrawMode = effect(() => studio.stage.setDrawMode(studio.drawMode.value));
   const stopFollowing = effect(() => {
     if (studio.document.value) {
@@ -71,6 +74,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     stopFollowing();
     stopLeaves();
     stopLooks();
+    stopThorough();
     stopDrawMode();
     stopPublishing();
     stopPointers();
@@ -86,6 +90,14 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
 }
 
 function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
+  /** Says to somebody who only looks that a key changes trees. */
+  const mayChange = () => {
+    const may = studio.rights.mayChange.peek();
+    if (!may) {
+      studio.toasts.show(say("notices.looking-only"));
+    }
+    return may;
+  };
   return listenToKeys({
     undo: () => studio.submit({ kind: "undo" }),
     redo: () => studio.submit({ kind: "redo" }),
@@ -99,18 +111,26 @@ function followKeys(studio: Studio): ReturnType<typeof listenToKeys> {
     bare: () => {
       studio.layout.bare.value = !studio.layout.bare.peek();
     },
-    tool: (tool) => studio.tools.choose(tool),
+    tool: (tool) => mayChange() && studio.tools.choose(tool),
     escape: () => stepBack(studio),
     widen: (notches) => studio.stage.setRadius(stepRadius(studio.stage.radius, notches)),
     symmetry: () => {
+      if (!mayChange()) {
+        return;
+      }
       const { symmetry } = studio.settings;
       symmetry.value = { ...symmetry.peek(), kind: nextKind(symmetry.peek().kind) };
       studio.toasts.show(symmetryText(symmetry.peek()));
     },
     turn: (right, up, twist) => studio.branches.step(right, up, twist) || turnTree(studio, right),
     travel: (direction, edge) => (edge ? studio.time.toEdge(direction) : studio.time.by(direction)),
-    grow: (direction) =>
-      direction === 0 ? studio.growth.release() : studio.growth.to(direction * deflectionFor(KEY_RATE)),
+    grow: (direction) => {
+      if (direction === 0) {
+        studio.growth.release();
+      } else if (mayChange()) {
+        studio.growth.to(direction * deflectionFor(KEY_RATE));
+      }
+    },
     busy: () => studio.layout.sheet.peek() !== null,
   });
 }
@@ -124,15 +144,20 @@ function turnTree(studio: Studio, right: number): boolean {
 }
 
 function followPointers(studio: Studio, canvas: HTMLCanvasElement, panHeld: () => boolean): () => void {
+  const turns = new StrokesAsTurns();
+  const mayChange = () => studio.rights.mayChange.peek();
   return listenToPointers(canvas, {
     gesture: (gesture) => {
       studio.stage.radiusSeen();
-      studio.tools.gesture(gesture);
+      const meant = mayChange() ? gesture : turns.seen(gesture);
+      if (meant !== null) {
+        studio.tools.gesture(meant);
+      }
     },
-    doubles: () => studio.tools.doubles(),
-    loading: () => studio.tools.loading(),
+    doubles: () => mayChange() && studio.tools.doubles(),
+    loading: () => (mayChange() ? studio.tools.loading() : null),
     grip: (x, y) => studio.tools.grip(x, y),
-    hover: (place) => studio.tools.hover(place),
+    hover: (place) => studio.tools.hover(mayChange() ? place : null),
     widen: (factor) => {
       const notches = Math.log(factor) * NOTCHES;
       if (!studio.branches.step(0, 0, notches)) {

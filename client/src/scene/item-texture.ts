@@ -29,13 +29,13 @@ export class ItemTexture<Numbers extends Float32Array<ArrayBuffer> | Uint32Array
   /** Whether the graphics card has yet to get all of it: parts of a new texture would leave the others empty. */
   private whole = true;
 
-  /** `room` makes the numbers, `texels` is how many each thing has. */
+  /** `array` makes the numbers, `texels` is how many each thing has. */
   constructor(
-    room: new (length: number) => Numbers,
+    array: new (length: number) => Numbers,
     private readonly texels: number,
   ) {
     this.stride = TEXEL * texels;
-    this.numbers = new room(ITEMS_A_LINE * this.stride);
+    this.numbers = new array(ITEMS_A_LINE * this.stride);
     this.texture = { value: this.allocate() };
   }
 
@@ -64,7 +64,7 @@ export class ItemTexture<Numbers extends Float32Array<ArrayBuffer> | Uint32Array
     return this.enter(copy);
   }
 
-  /** Makes room for so many. */
+  /** Reserves capacity for so many. */
   reserve(items: number): void {
     const line = ITEMS_A_LINE * this.stride;
     let lines = this.numbers.length / line;

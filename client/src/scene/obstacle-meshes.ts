@@ -12,7 +12,7 @@ import {
   Vector3,
 } from "three";
 import type { PlacedShape, Pose } from "../wire/generated";
-import type { Box } from "./camera/camera-pose";
+import type { Box } from "./camera/camera-view";
 import { facingOut } from "./closed-surface";
 import { PLANE_SHOWN } from "./glsl/obstacle";
 import type { Materials } from "./materials";

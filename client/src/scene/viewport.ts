@@ -5,13 +5,13 @@ import { type PictureSize, pixelsPerInternode } from "./camera/sight";
 import { ViewCamera } from "./camera/view-camera";
 import type { DrawMode, Legend } from "./mode/draw-mode";
 import type { DrawnObstacle } from "./obstacle-meshes";
-import type { GhostPose } from "./overlay/ghost";
+import type { GhostPlacement } from "./overlay/ghost";
 import type { Overlay } from "./overlay/overlays";
 import type { Fineness } from "./rendering/fineness";
 import { FrameFence } from "./rendering/frame-fence";
 import { drawsWithProcessor } from "./rendering/graphics-card";
 import { followPixelRatio } from "./rendering/pixel-ratio";
-import { OPENING, QUALITIES, type Quality, QualityControl } from "./rendering/quality";
+import { openingOf, QUALITIES, type Quality, QualityControl } from "./rendering/quality";
 import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { RenderPause } from "./rendering/render-pause";
@@ -24,6 +24,8 @@ import { World } from "./world";
 const MAX_PIXEL_RATIO = 2;
 /** The same where the processor draws each of them. */
 const MAX_CARDLESS_RATIO = 1;
+/** Rows of a tree whose picture is sure to be coarse there. */
+const LARGE = 10_000;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** A line's width in pixels of the page. */
@@ -45,7 +47,7 @@ export class Viewport {
   /** Whether no tree has been shown yet. */
   private empty = true;
   /** What the last frame was worth. */
-  private drawn = OPENING;
+  private drawn: Quality;
   /** Whether details are still to be chosen. */
   private unsettled = false;
   /** Whether the graphics card has taken its context away, and all that was drawn with it. */
@@ -57,8 +59,8 @@ export class Viewport {
 
   /**
    * Calls `lossChanged` with true when the picture is lost, and with false when it is back; `moved` when the view has
-   * another place or size; `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card; and
-   * `shown` with each frame that has a tree in it.
+   * another place or size; `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card, and
+   * for want of one as soon as a large tree has come; and `shown` with each frame that has a tree in it.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -74,7 +76,8 @@ export class Viewport {
     this.renderer.capabilities.getMaxAnisotropy();
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
     this.cardless = drawsWithProcessor(gl);
-    this.screen = new Screen(this.renderer, OPENING);
+    this.drawn = openingOf(this.cardless);
+    this.screen = new Screen(this.renderer, this.drawn);
     this.camera = new ViewCamera({
       tree: () => table.bounds(),
       shown: () => this.world.withGhost(table.bounds()),
@@ -116,12 +119,19 @@ export class Viewport {
       this.world.painter.begun = true;
       this.loop.open();
     }
+    if (this.cardless && this.table.rows > LARGE) this.slowed(true);
     this.loop.invalidate();
   }
 
   /** How the tree and its surroundings look. */
   setAppearance(appearance: Appearance): void {
     this.world.setAppearance(appearance);
+    this.stir();
+  }
+
+  /** Whether the picture at rest is the whole one also where that takes long. */
+  setThorough(thorough: boolean): void {
+    this.loop.control.thorough = thorough;
     this.stir();
   }
 
@@ -143,7 +153,7 @@ export class Viewport {
   }
 
   /** The radius of the largest brush around a point, or what the camera looks at, that stays in the picture. */
-  widest(point: Vec3 = this.camera.rig.pose.target): number {
+  widest(point: Vec3 = this.camera.rig.view.target): number {
     return this.camera.aimed().widest(point);
   }
 
@@ -230,8 +240,8 @@ export class Viewport {
   }
 
   /** Puts the ghost somewhere. */
-  placeGhost(pose: GhostPose): void {
-    this.world.ghost.place(pose);
+  placeGhost(placement: GhostPlacement): void {
+    this.world.ghost.place(placement);
     this.reachedAnew();
   }
 
@@ -365,7 +375,7 @@ export class Viewport {
   };
 
   /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
-  private refine(height: number, samples: number, quality: Quality, distance = this.camera.rig.pose.distance): boolean {
+  private refine(height: number, samples: number, quality: Quality, distance = this.camera.rig.view.distance): boolean {
     const fineness = this.fineness(height, quality);
     this.eye.set(...fineness.eye, fineness.pixels);
     this.world.uniforms.uSamples!.value = samples;

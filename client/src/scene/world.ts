@@ -1,8 +1,8 @@
 import { type Mesh, Scene, type WebGLRenderer } from "three";
 import type { Appearance } from "../wire/generated";
 import { BrushShell } from "./brush-shell";
-import type { Box } from "./camera/camera-pose";
 import { union } from "./camera/camera-rig";
+import type { Box } from "./camera/camera-view";
 import { extent } from "./camera/extent";
 import { Environment } from "./light/environment";
 import { ShadowDue } from "./light/shadow-due";

@@ -1,10 +1,8 @@
 import { FrameError } from "./frame-error";
-import { HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
+import { FrameKind, HEADER_BYTES, MAX_BODY_BYTES } from "./generated";
 import { inflateRaw } from "./inflate";
 
-/** What a frame is about; each kind counts its sequences by itself. */
-export const FrameKind = { MeshDelta: 1, Pose: 2, Ghost: 3 } as const;
-export type FrameKind = (typeof FrameKind)[keyof typeof FrameKind];
+type Kind = (typeof FrameKind)[keyof typeof FrameKind];
 
 /** What all frames have in common; mirrors `proto/src/envelope.rs`. */
 export interface OpenedFrame {
@@ -19,13 +17,13 @@ const VERSION = 1;
 const CATCH_UP = 1;
 
 /** The kind a frame's header states, if there is such a kind; whether the rest is valid is not looked at. */
-export function kindOf(bytes: ArrayBuffer): FrameKind | undefined {
+export function kindOf(bytes: ArrayBuffer): Kind | undefined {
   const code = bytes.byteLength < 2 ? 0 : new DataView(bytes).getUint8(1);
   return Object.values(FrameKind).find((kind) => kind === code);
 }
 
 /** The header and the unpacked body of a frame of one kind (FR1, FR2). */
-export async function openFrame(bytes: ArrayBuffer, wanted: FrameKind): Promise<OpenedFrame> {
+export async function openFrame(bytes: ArrayBuffer, wanted: Kind): Promise<OpenedFrame> {
   if (bytes.byteLength < HEADER_BYTES) throw new FrameError("The frame is cut short.");
   const header = new DataView(bytes, 0, HEADER_BYTES);
   const [version, kind, codec, flags] = [0, 1, 2, 3].map((at) => header.getUint8(at)) as [

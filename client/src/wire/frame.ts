@@ -1,7 +1,7 @@
 import { ByteReader } from "./bytes";
-import { FrameKind, openFrame } from "./envelope";
+import { openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
-import { CHUNK_ROWS } from "./generated";
+import { CHUNK_ROWS, FrameKind } from "./generated";
 
 export { FrameError } from "./frame-error";
 

@@ -9,6 +9,8 @@ export const MAX_OUTLINE_POINTS = 4096;
 export const MAX_OUTLINE_STEPS = 400;
 export const MAX_NAME_CHARACTERS = 80;
 export const MAX_NOTE_CHARACTERS = 2000;
+export const MAX_THUMBNAIL_BYTES = 196608;
+export const KEPT_DAYS = 30;
 export const FARTHEST = 1000;
 export const DEEPEST = -10;
 export const MAX_BEND_TOUCHES = 8;
@@ -56,6 +58,13 @@ export const CloseCode = {
   UnknownSession: 4003,
   Replaced: 4004,
   CannotOpen: 4007,
+} as const;
+
+/** What a frame is about; each kind counts its sequences by itself. */
+export const FrameKind = {
+  MeshDelta: 1,
+  Pose: 2,
+  Ghost: 3,
 } as const;
 
 export const PARAMETERS = {
@@ -1360,7 +1369,7 @@ appearance: Appearance, };
 
 export type ProblemCode = "malformed" | "out_of_range" | "too_many" | "refused" | "not_found" | "stale" | "unavailable";
 
-export type Reason = "malformed" | "file-cut-off" | "not-a-tree-file" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "not-drawn";
+export type Reason = "malformed" | "wrong-method" | "file-cut-off" | "not-a-tree-file" | "not-gltf" | "gltf-version" | "gltf-buffers" | "gltf-needs" | "gltf-damaged" | "thumbnail-kind" | "out-of-range" | "too-few" | "off-ground" | "in-obstacle" | "no-surface" | "empty-mesh" | "large-mesh" | "text-length" | "text-unseen" | "many-words" | "many-tags" | "tag-comma" | "no-such-option" | "too-many" | "too-often" | "behind" | "large-file" | "large-request" | "large-thumbnail" | "forbidden" | "not-let-in" | "wrong-password" | "other-site" | "unknown-host" | "number-taken" | "nothing-to-undo" | "nothing-to-redo" | "nothing-to-ungrow" | "no-dim-branch" | "trunk-turned" | "trunk-moved" | "trunk-cut" | "being-bent" | "own-branch" | "outside-world" | "no-room" | "tree-full" | "stopped-growing" | "strokes-full" | "bends-full" | "widths-full" | "history-full" | "obstacles-full" | "triangles-full" | "mesh-keeps-shape" | "no-programme" | "future-damaged" | "collection-in-itself" | "newer-program" | "session-damaged" | "tree-damaged" | "branch-gone" | "stroke-gone" | "bend-gone" | "future-gone" | "obstacle-gone" | "no-tree" | "no-collection" | "no-session" | "no-invitation" | "none-such" | "stale" | "database-gone" | "database-failed" | "stopping" | "not-opened" | "session-ended" | "many-people" | "failed" | "busy" | "late" | "not-placed" | "not-exported" | "jobs-full" | "jobs-disk-full" | "not-drawn";
 
 export type Problem = { 
 /**
@@ -1639,6 +1648,10 @@ state: DocumentState, } | { "type": "acknowledged",
 /**
  * The command.
  */
+id: number, } | { "type": "done", 
+/**
+ * Its last command.
+ */
 id: number, } | { "type": "refused", 
 /**
  * The command.
@@ -1875,7 +1888,7 @@ favourite: boolean,
  */
 origin?: Origin, 
 /**
- * When it was deleted, if it was; 30 days later it is gone.
+ * When it was deleted, if it was; `LB6` says how long it can be taken back.
  */
 deleted_at?: string, 
 /**
@@ -1969,6 +1982,14 @@ export type ExportFormat = {
  */
 ending: string, 
 /**
+ * What a person calls it, in English and German.
+ */
+label: [string, string], 
+/**
+ * What it is good for, in a sentence, in English and German.
+ */
+text: [string, string], 
+/**
  * What can be asked for.
  */
 options: Array<string>, 
@@ -2052,3 +2073,102 @@ author: string,
  * How many trees they saved last.
  */
 trees: number, };
+
+export type Role = "viewer" | "editor" | "owner" | "admin";
+
+export type Redeem = { 
+/**
+ * What stands behind the `#` of its link.
+ */
+secret: string, };
+
+export type Admitted = { 
+/**
+ * What they may do.
+ */
+role: Role, 
+/**
+ * The only tree that they may see, if it is one.
+ */
+tree?: string, };
+
+export type LogIn = { 
+/**
+ * Who one is.
+ */
+name: string, 
+/**
+ * What only they know.
+ */
+password: string, };
+
+export type Entrance = { 
+/**
+ * Whether anybody has a password here.
+ */
+passwords: boolean, };
+
+export type ListedUser = { 
+/**
+ * What they are called.
+ */
+name: string, 
+/**
+ * What they may do.
+ */
+role: Role, 
+/**
+ * When they were added, in UTC.
+ */
+created_at: string, };
+
+export type AuditEvent = { 
+/**
+ * Its number; later ones have larger numbers.
+ */
+number: number, 
+/**
+ * When, in UTC.
+ */
+at: string, 
+/**
+ * By whom: the way that they came in (`Way`), and how they are called.
+ */
+who: string, 
+/**
+ * Where they asked from; nothing where they sat at the machine's own command line.
+ */
+address?: string, 
+/**
+ * What.
+ */
+action: string, 
+/**
+ * To what.
+ */
+object?: string, 
+/**
+ * `done`, or the status that it was refused with.
+ */
+outcome: string, };
+
+export type Me = { 
+/**
+ * What they may do.
+ */
+role: Role, 
+/**
+ * How they have come in.
+ */
+way: Way, 
+/**
+ * What they are called, or their device or program; nobody at the machine itself is.
+ */
+name?: string, 
+/**
+ * The only tree that they may see, if it is one. They may not ask for the library as a whole then: its collections,
+ * tags and authors.
+ */
+tree?: string, };
+
+export type Way = "machine" | "device" | "login" | "token";

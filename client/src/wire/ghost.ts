@@ -1,5 +1,6 @@
-import { FrameKind, openFrame } from "./envelope";
+import { openFrame } from "./envelope";
 import { type ChunkChange, readChanges } from "./frame";
+import { FrameKind } from "./generated";
 
 /** A prediction as a table of its own; without changes there is none any more (PD2). Mirrors `proto/src/ghost.rs`. */
 export interface GhostFrame {

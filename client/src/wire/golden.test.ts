@@ -1,7 +1,7 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { FrameKind } from "./envelope";
 import type { ChunkChange, Rows } from "./frame";
+import { FrameKind } from "./generated";
 import { decodeServerFrame, type ServerFrame } from "./server-frame";
 
 const folder = new URL("../../../proto/golden/", import.meta.url);

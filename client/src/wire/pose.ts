@@ -1,6 +1,7 @@
 import { ByteReader } from "./bytes";
-import { FrameKind, openFrame } from "./envelope";
+import { openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
+import { FrameKind } from "./generated";
 
 /** Where a bend stands; without motions it is over (BE5). Mirrors `proto/src/pose.rs`. */
 export interface PoseFrame {

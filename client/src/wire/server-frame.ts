@@ -1,5 +1,6 @@
-import { FrameKind, kindOf } from "./envelope";
+import { kindOf } from "./envelope";
 import { decodeFrame, type Frame } from "./frame";
+import { FrameKind } from "./generated";
 import { decodeGhost, type GhostFrame } from "./ghost";
 import { decodePose, type PoseFrame } from "./pose";
 

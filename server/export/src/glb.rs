@@ -22,9 +22,9 @@ use crate::{
     gltf::{Asset, Scene},
 };
 
-/// Room for the JSON: of materials and the scene, and of a part with its node, mesh, accessors and views.
-const ROOM: usize = 12 * 1024;
-const ROOM_OF_PART: usize = 3 * 1024;
+/// Bytes for the JSON: of materials and the scene, and of a part with its node, mesh, accessors and views.
+const CAPACITY: usize = 12 * 1024;
+const CAPACITY_OF_PART: usize = 3 * 1024;
 /// The scene that only has hulls.
 const COLLISION: &str = "Collision";
 const HULL: Vec3 = Vec3::new(0.2, 0.6, 0.3);
@@ -49,12 +49,12 @@ pub fn glb(
         copyright: about.copyright(),
         extras: about.extras(),
     };
-    let room = match assembly.most_parts() {
+    let capacity = match assembly.most_parts() {
         0 => 0,
-        parts => ROOM + serde_json::to_vec(&asset)?.len() + parts * ROOM_OF_PART,
+        parts => CAPACITY + serde_json::to_vec(&asset)?.len() + parts * CAPACITY_OF_PART,
     };
     let packing = Packing { is_quantised: model.quantised, is_compressed: model.compressed };
-    let mut writer = Writer::new(out, asset, scale, packing, room)?;
+    let mut writer = Writer::new(out, asset, scale, packing, capacity)?;
     assembly.build(&mut writer)?;
     writer.finish()
 }

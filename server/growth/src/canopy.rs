@@ -9,18 +9,17 @@ mod slots;
 mod waves;
 mod wood;
 
-use espalier_plant::{AxisId, Condition, MetamerId, Plant, make_room};
+use espalier_plant::{AxisId, Condition, MetamerId, Plant, reserve};
 use espalier_settings::VigorModel;
 use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
     gravimorphism::propensity,
-    light::{ShadowGrid, Spot},
-    obstacles::Obstacles,
+    light::Spot,
     parameter_table::ParameterTable,
     parameters::Parameters,
-    space::Space,
+    scene::Scene,
     vigor::{self, Flow, Split},
 };
 use slots::Slots;
@@ -66,14 +65,6 @@ pub(crate) struct Canopy {
     has_left_out: bool,
     /// Whether all must be made afresh.
     outdated: bool,
-}
-
-/// What light and buds depend on.
-pub(crate) struct Surroundings<'a> {
-    pub plant: &'a Plant,
-    pub space: &'a Space,
-    pub shadows: &'a ShadowGrid,
-    pub obstacles: &'a Obstacles,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -144,7 +135,7 @@ impl Canopy {
         let more = plant.metamer_count() - self.slots.len();
         self.slots.reserve(more);
         self.wood.reserve(more);
-        make_room(&mut self.nodes, more);
+        reserve(&mut self.nodes, more);
         for index in self.slots.len()..plant.metamer_count() {
             let id = MetamerId::new(index);
             if !plant.is_alive(id) {
@@ -177,8 +168,8 @@ impl Canopy {
             self.wood.push(slot as usize, id, parent, plant);
             self.nodes.push(Node { bits, propensity });
         }
-        make_room(&mut self.light, more);
-        make_room(&mut self.flows, more);
+        reserve(&mut self.light, more);
+        reserve(&mut self.flows, more);
         self.light.resize(self.nodes.len(), 0.0);
         self.flows.resize(self.nodes.len(), Flow::default());
     }
@@ -214,13 +205,13 @@ impl Canopy {
     }
 
     /// Reads the light: where shadows have come or gone at these nodes, or everywhere.
-    pub(crate) fn read_light(&mut self, surroundings: &Surroundings<'_>, changed: &[Vec3]) {
-        let &Surroundings { plant, space, shadows, obstacles } = surroundings;
+    pub(crate) fn read_light(&mut self, scene: &Scene, changed: &[Vec3]) {
+        let Scene { plant, space, shadows, obstacles, .. } = scene;
         let is_new = self.spots.is_empty();
         let wood = self.wood.of(plant);
         let place = |slot: usize| plant.metamers().end(wood.id(slot));
         let new = self.spots.len()..self.nodes.len();
-        make_room(&mut self.spots, new.len());
+        reserve(&mut self.spots, new.len());
         self.spots.extend(new.map(|slot| shadows.spot(place(slot))));
         if !obstacles.is_empty() {
             let new = self.sky.len()..self.nodes.len();

@@ -13,10 +13,10 @@ impl Claimed {
     /// for grows by one at least, and in an envelope a shoot ends where its markers do, with its own zone still inside.
     pub(crate) fn shoot_length(self, vigor: f64, greatest: f64, parameters: &Parameters) -> u32 {
         let length = if vigor > 0.0 { vigor::shoot_length(vigor, greatest, parameters) } else { 0 };
-        match self.room {
-            Room::Free => length,
-            Room::Sweep => length.max(1),
-            Room::Envelope { far } => {
+        match self.region {
+            Region::Free => length,
+            Region::Sweep => length.max(1),
+            Region::Envelope { far } => {
                 length.max(1).min(libm::ceilf(far - parameters.occupancy_radius).max(1.0) as u32)
             }
         }
@@ -25,12 +25,12 @@ impl Claimed {
 
 /// Where a shoot may grow, from what sowed the markers that its bud has claimed; of several the widest.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub(crate) enum Room {
+pub(crate) enum Region {
     /// In an envelope, whose farthest marker among those claimed is this far away.
     Envelope { far: f32 },
     /// Where the brush has been.
     Sweep,
-    /// Wherever there is room.
+    /// Wherever there is space.
     Free,
 }
 
@@ -47,7 +47,7 @@ pub(crate) struct Claims {
 #[derive(Clone, Copy, Debug)]
 struct Claim {
     sum: [i32; 3],
-    room: Room,
+    region: Region,
 }
 
 /// What a bud has claimed.
@@ -56,7 +56,7 @@ pub(crate) struct Claimed {
     /// The direction E to it.
     pub space: Vec3,
     /// Where it may grow to.
-    pub room: Room,
+    pub region: Region,
 }
 
 impl Claims {
@@ -70,30 +70,30 @@ impl Claims {
 
     /// A bud claims a marker that lies there, seen from it.
     pub(crate) fn add(&mut self, axis: AxisId, offset: Vec3) {
-        self.add_in(Room::Free, axis, offset);
+        self.add_in(Region::Free, axis, offset);
     }
 
     /// A bud claims a marker that something has sown.
     pub(crate) fn add_sown(&mut self, axis: AxisId, offset: Vec3, source: MarkerSource) {
-        let room = match source {
-            MarkerSource::Brush => Room::Sweep,
-            MarkerSource::Lasso => Room::Envelope { far: offset.length() },
+        let region = match source {
+            MarkerSource::Brush => Region::Sweep,
+            MarkerSource::Lasso => Region::Envelope { far: offset.length() },
         };
-        self.add_in(room, axis, offset);
+        self.add_in(region, axis, offset);
     }
 
-    fn add_in(&mut self, room: Room, axis: AxisId, offset: Vec3) {
+    fn add_in(&mut self, region: Region, axis: AxisId, offset: Vec3) {
         let Some(unit) = offset.try_normalize() else { return };
         let (word, bit) = (&mut self.claimants[axis.index() / 64], 1 << (axis.index() % 64));
         let slot = &mut self.slots[axis.index()];
         if *word & bit == 0 {
             *word |= bit;
             *slot = self.claims.len() as u32;
-            self.claims.push(Claim { sum: [0; 3], room });
+            self.claims.push(Claim { sum: [0; 3], region });
         }
         let claim = &mut self.claims[*slot as usize];
-        if room > claim.room {
-            claim.room = room;
+        if region > claim.region {
+            claim.region = region;
         }
         for (sum, along) in claim.sum.iter_mut().zip(unit.to_array()) {
             *sum += (along * UNIT) as i32;
@@ -121,7 +121,7 @@ impl Claims {
         let claim = &self.claims[self.slots[axis.index()] as usize];
         let [x, y, z] = claim.sum.map(|sum| sum as f32);
         let space = (Vec3::new(x, y, z) * (1.0 / UNIT)).try_normalize()?;
-        Some(Claimed { space, room: claim.room })
+        Some(Claimed { space, region: claim.region })
     }
 
     /// Each of the claimants with its claim.

@@ -1,6 +1,6 @@
 //! Chunks of space that exist where something was written.
 
-use espalier_plant::make_room;
+use espalier_plant::reserve;
 use glam::{Vec3, Vec4};
 
 const ABSENT: u32 = u32::MAX;
@@ -54,7 +54,7 @@ impl<C> Directory<C> {
         }
     }
 
-    /// Makes room in the table for all chunks from `first` to `last`. Returns the slot of the first, and how far apart
+    /// Reserves the table for all chunks from `first` to `last`. Returns the slot of the first, and how far apart
     /// those of neighbours along x, y and z are until a chunk is asked for elsewhere.
     #[inline(always)]
     pub(crate) fn cover(&mut self, first: [i32; 3], last: [i32; 3]) -> (usize, [usize; 3]) {
@@ -72,7 +72,7 @@ impl<C> Directory<C> {
         self.slot(first).unwrap_or_else(|| self.widen(first))
     }
 
-    /// The chunk in a slot that was made room for, made if there was none.
+    /// The chunk in a slot that was reserved, made if there was none.
     #[inline(always)]
     pub(crate) fn in_slot(&mut self, slot: usize, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> &mut C {
         let mut chunk = self.table[slot];
@@ -87,7 +87,7 @@ impl<C> Directory<C> {
     fn append(&mut self, at: [i32; 3], make: impl FnOnce([i32; 3]) -> C) -> u32 {
         let slot = self.slot(at).unwrap_or_else(|| self.widen(at));
         let chunk = self.chunks.len();
-        make_room(&mut self.chunks, 1);
+        reserve(&mut self.chunks, 1);
         self.table[slot] = chunk as u32;
         self.chunks.push(make(at));
         chunk as u32
@@ -126,7 +126,7 @@ impl<C> Directory<C> {
         // In its own room, for it outlives whatever else is in use just now.
         self.table.clear();
         let slots = self.size.iter().map(|n| *n as usize).product();
-        make_room(&mut self.table, slots);
+        reserve(&mut self.table, slots);
         self.table.resize(slots, ABSENT);
         for y in 0..before.size[1] {
             for z in 0..before.size[2] {

@@ -10,7 +10,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    claims::{Claimed, Room},
+    claims::{Claimed, Region},
     growth::Growth,
     newcomers::Newcomers,
     obstacles::Obstacles,
@@ -108,14 +108,14 @@ impl Growth {
             last_grown += u32::from(last.is_some_and(|shoot| shoot.axis() == draft.axis));
         }
         if last.is_some_and(|shoot| last_grown < shoot.length()) {
-            // One after another, the last shoot would have asked for room once more.
+            // One after another, the last shoot would have asked for space once more.
             scene.is_full();
         }
     }
 
     fn aim(&self, scene: &Scene, axis: AxisId, stroke: Option<Vec3>) -> Option<Aim> {
-        let Claimed { space, room } = self.claims.of(axis)?;
-        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, room })
+        let Claimed { space, region } = self.claims.of(axis)?;
+        Some(Aim { space: Some(self.lit_side(scene, axis, space)), stroke, region })
     }
 
     /// Lets leaders grow along the paths of their strokes. Returns those that did.
@@ -139,7 +139,7 @@ impl Growth {
             while let Some(leader) = guide.leader.filter(|&leader| selection.includes(leader)) {
                 let space = self.claims.of(leader).map(|claimed| claimed.space);
                 let longest = self.parameters.of(leader).max_shoot_length;
-                let aim = Aim { space, stroke, room: Room::Sweep };
+                let aim = Aim { space, stroke, region: Region::Sweep };
                 let next = |tip, obstacles: &Obstacles| guide.next_node(tip, obstacles);
                 if self.grow_guided(scene, leader, longest, aim, next) > 0 {
                     led.insert(leader);

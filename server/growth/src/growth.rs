@@ -8,7 +8,7 @@ use glam::Vec3;
 
 use crate::{
     brush::StrokeId,
-    canopy::{Canopy, Surroundings},
+    canopy::Canopy,
     claims::Claims,
     enclosure::Enclosure,
     field::MarkerField,
@@ -46,6 +46,8 @@ pub struct Growth {
     pub(crate) field: Option<MarkerField>,
     pub(crate) canopy: Canopy,
     pub(crate) claims: Claims,
+    /// Steps after which, up to which, what was born is never shed.
+    pub(crate) kept: Vec<(u32, u32)>,
 }
 
 impl Growth {
@@ -61,6 +63,7 @@ impl Growth {
             field: None,
             canopy: Canopy::default(),
             claims: Claims::default(),
+            kept: Vec::new(),
         };
         growth.see_light(scene, &[], &mut NoObserver);
         growth
@@ -83,6 +86,12 @@ impl Growth {
             scene.rebuild(self.parameters.scene());
         }
         self.start_over(scene);
+    }
+
+    /// From now on no axis is shed that began after the first and up to the second of any of these pairs of steps, nor
+    /// what bears one. The pairs are in order and do not overlap.
+    pub fn keep_what_began_in(&mut self, steps: Vec<(u32, u32)>) {
+        self.kept = steps;
     }
 
     /// Forgets what guided growth so far: markers and strokes.
@@ -192,12 +201,11 @@ impl Growth {
     /// canopy was forgotten, everything is read.
     pub(crate) fn see_light(&mut self, scene: &Scene, changed: &[Vec3], observer: &mut impl Observer) {
         let Self { canopy, parameters, .. } = self;
-        let Scene { plant, space, shadows, obstacles, .. } = scene;
         observer.enter(Phase::Light);
-        canopy.follow(plant, parameters);
-        canopy.read_light(&Surroundings { plant, space, shadows, obstacles }, changed);
+        canopy.follow(&scene.plant, parameters);
+        canopy.read_light(scene, changed);
         observer.enter(Phase::Vigor);
-        canopy.distribute_vigor(plant, parameters);
+        canopy.distribute_vigor(&scene.plant, parameters);
     }
 }
 

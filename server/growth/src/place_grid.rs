@@ -1,6 +1,6 @@
 //! Points in space, found by place.
 
-use espalier_plant::make_room;
+use espalier_plant::reserve;
 use glam::{Vec3, Vec4};
 
 use crate::{
@@ -201,7 +201,7 @@ impl<L: Lanes> PlaceGrid<L> {
         if !has_room {
             let block = self.spare.pop().unwrap_or(self.blocks.len() as u32);
             if block as usize == self.blocks.len() {
-                make_room(&mut self.blocks, 1);
+                reserve(&mut self.blocks, 1);
                 self.blocks.push(Block::EMPTY);
             }
             self.blocks[block as usize].next = *head;

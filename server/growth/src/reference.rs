@@ -33,7 +33,8 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
     let vigor = Vigor::of(&scene.plant, &plain.parameters, &scene.obstacles);
     scene.plant.begin_step();
     let goes = plain.spares(&scene.plant);
-    for axis in all_axes(&scene.plant).filter(goes) {
+    let judged = all_axes(&scene.plant).filter(goes).filter(|_| plain.sheds(input));
+    for axis in judged {
         if scene.plant.is_standing(axis) && vigor.condemns(&scene.plant, axis, &plain.parameters) {
             scene.plant.shed(&[axis]);
         }
@@ -62,9 +63,9 @@ pub(crate) fn step(simulation: &mut Simulation, input: &StepInput) {
         shoots.push((length, axis, claimed));
     }
     shoots.sort_by_key(|&(length, axis, _)| (core::cmp::Reverse(length), axis));
-    for (length, axis, Claimed { space, room }) in shoots {
+    for (length, axis, Claimed { space, region }) in shoots {
         let lit = plain.lit_side(&scene, axis, space);
-        let aim = Aim { space: Some(lit), stroke, room };
+        let aim = Aim { space: Some(lit), stroke, region };
         plain.grow_shoot(&mut scene, axis, length, aim);
     }
     scene.plant.end_step();

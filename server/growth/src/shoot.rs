@@ -6,7 +6,7 @@ use espalier_plant::{AxisId, Internode, MetamerId, Plant};
 use glam::Vec3;
 
 use crate::{
-    claims::Room,
+    claims::Region,
     direction::{Tropism, across, azimuth, next_heading, transport, turn},
     growth::Growth,
     guide::Waypoint,
@@ -30,11 +30,11 @@ pub(crate) struct Aim {
     /// The direction of the stroke that guides this step.
     pub stroke: Option<Vec3>,
     /// Where it may grow.
-    pub room: Room,
+    pub region: Region,
 }
 
 /// Weights of heading, tropism and space where a person says what is to be filled: that form was asked for, so the
-/// room that is left in it counts for more than the habit of the plant.
+/// space that is left in it counts for more than the habit of the plant.
 const GUIDED_WEIGHTS: [f32; 3] = [0.45, 0.05, 0.5];
 
 impl Aim {
@@ -43,7 +43,7 @@ impl Aim {
         let own = [parameters.heading_weight, parameters.tropism_weight, parameters.space_weight];
         // A tropism along the stroke is a form asked for as well.
         let is_along_stroke = self.stroke.is_some() && parameters.tropism_from_stroke;
-        let is_guided = self.room != Room::Free && own[2] < GUIDED_WEIGHTS[2] && !is_along_stroke;
+        let is_guided = self.region != Region::Free && own[2] < GUIDED_WEIGHTS[2] && !is_along_stroke;
         if is_guided { GUIDED_WEIGHTS } else { own }
     }
 }
@@ -127,10 +127,10 @@ impl Growth {
     #[inline]
     fn draft_freely(&self, scene: &Scene, axis: AxisId, tip: Tip, aim: Aim) -> Option<Draft> {
         let draft = self.draft(scene, axis, tip, aim, None)?;
-        if aim.room == Room::Sweep && !self.stays_in_sweep(tip.base, draft.end) {
+        if aim.region == Region::Sweep && !self.stays_in_sweep(tip.base, draft.end) {
             return None;
         }
-        if matches!(aim.room, Room::Envelope { .. }) && self.leaves_outline(tip.base, draft.end) {
+        if matches!(aim.region, Region::Envelope { .. }) && self.leaves_outline(tip.base, draft.end) {
             return None;
         }
         let is_taken =
@@ -207,7 +207,7 @@ impl Growth {
             let towards = (position - base).try_normalize().unwrap_or(heading);
             heading = (heading * (1.0 - weight) + towards * weight).try_normalize().unwrap_or(towards);
         }
-        if aim.room == Room::Sweep && base.y + heading.y < GROUND_CLEARANCE {
+        if aim.region == Region::Sweep && base.y + heading.y < GROUND_CLEARANCE {
             heading = along_ground(base, heading, || azimuth(self.chance(axis), parameters));
         }
         let turned = self.way_around(scene, axis, base, heading)?;
@@ -220,9 +220,9 @@ impl Growth {
         let heading = turned;
         let end = base + heading;
         let in_world = is_in_world(end) && end.y >= GROUND_CLEARANCE;
-        let zone = match aim.room {
-            Room::Envelope { .. } => self.zone_at(end, parameters.occupancy_radius),
-            Room::Sweep | Room::Free => parameters.occupancy_radius,
+        let zone = match aim.region {
+            Region::Envelope { .. } => self.zone_at(end, parameters.occupancy_radius),
+            Region::Sweep | Region::Free => parameters.occupancy_radius,
         };
         let normal = || self.next_normal(scene, axis, tip, heading);
         in_world.then(|| Draft { axis, end, zone, heading, normal: normal() })

@@ -3,7 +3,7 @@
 //! The paper gives the occupancy zone to buds. Here every living node has one: a bud sits at a node, so each
 //! bud has its zone, and wood whose buds have all grown out does not offer its place to others again.
 
-use espalier_plant::{AxisId, MetamerId, make_room};
+use espalier_plant::{AxisId, MetamerId, reserve};
 use glam::Vec3;
 
 use crate::{
@@ -84,11 +84,11 @@ impl Space {
         self.remove_bud(axis);
         if index >= self.stands.len() {
             let more = index + 1 - self.stands.len();
-            make_room(&mut self.stands, more);
+            reserve(&mut self.stands, more);
             self.stands.resize(index + 1, Stand::NOWHERE);
             let words = index / 64 + 1;
             let more = words - self.moved.len();
-            make_room(&mut self.moved, more);
+            reserve(&mut self.moved, more);
             self.moved.resize(words, 0);
         }
         self.moved[index / 64] |= 1 << (index % 64);

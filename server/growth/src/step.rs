@@ -53,7 +53,7 @@ impl Generator for Growth {
         let born = scene.plant.metamer_count();
 
         observer.enter(Phase::Shedding);
-        let mut changed = self.shed(scene);
+        let mut changed = if self.sheds(input) { self.shed(scene) } else { Vec::new() };
         observer.enter(Phase::Space);
         let selection = Selection::new(&scene.plant, input.chosen);
         self.take_in_strokes(scene, input, &selection);
@@ -205,6 +205,13 @@ impl Growth {
         space.forget_moves();
     }
 
+    /// Whether a step judges the branches. One that only a hand guides does not: nothing but what is drawn grows in it, so
+    /// that a crown would lose branches and get none.
+    pub(crate) fn sheds(&self, input: &StepInput) -> bool {
+        let mut strokes = self.guides.keys().chain(input.pieces.iter().map(|piece| &piece.stroke));
+        input.autonomous || strokes.any(|stroke| stroke.is_of_programme())
+    }
+
     /// Sheds what does not pay; returns the nodes that went.
     fn shed(&mut self, scene: &mut Scene) -> Vec<Vec3> {
         let mut condemned = shedding::condemned(&scene.plant, &self.canopy, &self.parameters);
@@ -228,8 +235,8 @@ impl Growth {
         nodes
     }
 
-    /// Which axes may be shed: not those that lead a stroke or a lasso, nor those born since somebody began to draw, nor what bears
-    /// either. Whether what was drawn by hand pays is asked once growth has come to rest.
+    /// Which axes may be shed: not those that lead a stroke or a lasso, nor those born since somebody began to draw, nor
+    /// those to be kept, nor what bears any of them.
     pub(crate) fn spares(&self, plant: &Plant) -> impl Fn(&AxisId) -> bool + use<> {
         let mut spared = BTreeSet::new();
         let limbs = self.enclosures.iter().flat_map(|one| one.limbs.iter().flatten());
@@ -237,17 +244,28 @@ impl Growth {
         let by_hand = self.guides.iter().filter(|(stroke, _)| !stroke.is_of_programme());
         let enclosed = self.enclosures.iter().map(|one| one.first_born);
         let first_born = by_hand.map(|(_, guide)| guide.first_born).chain(enclosed).min();
-        let is_young = |&axis: &AxisId| {
-            plant.axes().first(axis).zip(first_born).is_some_and(|(first, born)| first >= born)
+        let is_drawn = |&axis: &AxisId| {
+            let Some(first) = plant.axes().first(axis) else { return false };
+            first_born.is_some_and(|born| first >= born) || self.keeps(plant, first)
         };
-        let young = (0..plant.axis_count()).map(AxisId::new).filter(is_young);
-        for drawn in leaders.chain(young) {
+        let drawn = (0..plant.axis_count()).map(AxisId::new).filter(is_drawn);
+        for drawn in leaders.chain(drawn) {
             let mut axis = Some(drawn);
             while let Some(bearing) = axis.filter(|&axis| spared.insert(axis)) {
                 axis = plant.axes().bearer(bearing).map(|bearer| plant.metamers().axis(bearer));
             }
         }
         move |axis| !spared.contains(axis)
+    }
+
+    /// Whether an axis that begins with this metamer is one of those to be kept.
+    fn keeps(&self, plant: &Plant, first: MetamerId) -> bool {
+        if self.kept.is_empty() {
+            return false;
+        }
+        let birth = plant.birth(first);
+        let ended_before = self.kept.partition_point(|&(_, upto)| upto < birth);
+        self.kept.get(ended_before).is_some_and(|&(after, _)| after < birth)
     }
 
     /// E, turned towards the light as far as phototropism has it.

@@ -78,7 +78,11 @@ pub enum Place {
 
 /// A file cannot be read; the message ends a sentence.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{}{what}", place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default())]
+#[error(
+    "{}{what}{}",
+    place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default(),
+    allowed.as_ref().map(|allowed| format!("; allowed: {allowed}")).unwrap_or_default()
+)]
 pub struct Fault {
     /// What kind.
     pub kind: FaultKind,
@@ -86,6 +90,8 @@ pub struct Fault {
     pub place: Option<Place>,
     /// What is wrong.
     pub what: String,
+    /// What is allowed there, where that is less than any file of the format.
+    pub allowed: Option<String>,
 }
 
 impl fmt::Display for Place {
@@ -112,16 +118,16 @@ pub fn read_wood(format: WoodFormat, bytes: &[u8], options: &WoodOptions) -> Res
 }
 
 fn malformed(place: Option<Place>, what: impl Into<String>) -> Fault {
-    Fault { kind: FaultKind::Malformed, place, what: what.into() }
+    Fault { kind: FaultKind::Malformed, place, what: what.into(), allowed: None }
 }
 
-fn out_of_range(place: Option<Place>, what: impl Into<String>) -> Fault {
-    Fault { kind: FaultKind::OutOfRange, place, what: what.into() }
+fn out_of_range(place: Option<Place>, what: impl Into<String>, allowed: impl Into<String>) -> Fault {
+    Fault { kind: FaultKind::OutOfRange, place, what: what.into(), allowed: Some(allowed.into()) }
 }
 
 fn too_many(place: Option<Place>, options: &WoodOptions) -> Fault {
-    let what = format!("it has more than {} nodes", options.nodes);
-    Fault { kind: FaultKind::TooMany, place, what }
+    let (what, allowed) = ("it has too many nodes".into(), Some(format!("up to {} nodes", options.nodes)));
+    Fault { kind: FaultKind::TooMany, place, what, allowed }
 }
 
 /// A number as text, which must be finite.
@@ -132,7 +138,7 @@ fn number(text: &str, place: Place, name: &str) -> Result<f64, Fault> {
     if read.is_finite() {
         return Ok(read);
     }
-    Err(out_of_range(Some(place), format!("{name} is {read}; allowed: finite numbers")))
+    Err(out_of_range(Some(place), format!("{name} is {read}"), "finite numbers"))
 }
 
 /// As much of a text as a message tells again.

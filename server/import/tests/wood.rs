@@ -93,8 +93,13 @@ fn bad_cylinders_are_named_by_line_and_column() {
         ),
         (RTWIG.replace("1,0,20,30,5,", "1,3,20,30,5,"), FaultKind::Malformed, Place::Line(2), "bears itself"),
         (RTWIG.replace("\"1\",1,0", "1,0"), FaultKind::Malformed, Place::Line(2), "12 cells"),
-        (RTWIG.replace("20.6", "2e9"), FaultKind::OutOfRange, Place::Line(3), "m from the first trunk"),
-        (RTWIG.replace("20.6", "1e300"), FaultKind::OutOfRange, Place::Line(3), "m from the first trunk"),
+        (RTWIG.replace("20.6", "2e9"), FaultKind::OutOfRange, Place::Line(3), "too far from the first trunk"),
+        (
+            RTWIG.replace("20.6", "1e300"),
+            FaultKind::OutOfRange,
+            Place::Line(3),
+            "too far from the first trunk",
+        ),
         (
             "name,height,dbh\noak,12,0.4\n".into(),
             FaultKind::Malformed,

@@ -11,7 +11,7 @@ mod changes;
 
 use std::ops::Range;
 
-use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, make_room};
+use espalier_plant::{AxisId, Columns, Condition, MetamerId, Plant, Widths, reserve};
 use glam::Vec3;
 
 pub use self::changes::Changes;
@@ -319,11 +319,11 @@ impl RingTable {
 
     fn append(&mut self, pass: &Pass<'_>, rows: Range<usize>, generation: u32) {
         let new = pass.plant.columns(rows.clone());
-        make_room(&mut self.links, rows.len());
-        make_room(&mut self.axes, rows.len());
-        make_room(&mut self.ends, rows.len());
-        make_room(&mut self.tips, rows.len());
-        make_room(&mut self.looks, rows.len());
+        reserve(&mut self.links, rows.len());
+        reserve(&mut self.axes, rows.len());
+        reserve(&mut self.ends, rows.len());
+        reserve(&mut self.tips, rows.len());
+        reserve(&mut self.looks, rows.len());
         self.links.extend(rows.clone().map(|row| pass.link(row)));
         self.axes.extend_from_slice(new.axis);
         self.ends.extend_from_slice(new.end);

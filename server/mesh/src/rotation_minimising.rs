@@ -1,5 +1,5 @@
-//! Frames along a curve that do not twist around it: each is turned by the least rotation that takes one tangent to the
-//! next. A step that leaves askew, as at the foot of a branch, does not disturb them.
+//! Normals along a curve that do not twist around it (a rotation-minimising frame): each is turned by the least rotation
+//! that takes one tangent to the next. A step that leaves askew, as at the foot of a branch, does not disturb them.
 
 use glam::{Quat, Vec3};
 
@@ -10,7 +10,7 @@ pub(crate) fn normals(tangents: impl IntoIterator<Item = Vec3>, first: Vec3) -> 
     let mut last: Option<(Vec3, Vec3)> = None;
     for tangent in tangents {
         let carried = last.map_or(first, |(t, normal)| Quat::from_rotation_arc(t, tangent) * normal);
-        // Rounding tilts the frame a little each time; it is set upright before the tilt adds up.
+        // Rounding tilts the normal a little each time; it is set upright before the tilt adds up.
         let normal = carried
             .reject_from_normalized(tangent)
             .try_normalize()
@@ -38,7 +38,7 @@ mod tests {
 
     #[test]
     fn helix_turns_back_by_its_torsion() {
-        // On a helix of radius 1 and rise 1 a turn (in radians) torsion is 1/2: the frame falls behind the
+        // On a helix of radius 1 and rise 1 a turn (in radians) torsion is 1/2: the normal falls behind the
         // curve's own normal by 1/2 radian per unit of length, and a unit of angle is √2 long.
         let place = |i: u32| {
             let angle = i as f32 * 0.01;

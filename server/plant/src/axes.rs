@@ -3,9 +3,9 @@
 use glam::Vec3;
 
 use crate::{
+    capacity::reserve,
     deaths::Deaths,
     id::{AxisId, MetamerId},
-    room::make_room,
 };
 
 /// Axes as parallel columns; each is the bud at its tip and the metamers behind it.
@@ -33,14 +33,14 @@ impl Axes {
         id
     }
 
-    /// Makes room for another row and more.
+    /// Reserves capacity for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        make_room(&mut self.bearer, 1);
-        make_room(&mut self.first, 1);
-        make_room(&mut self.last, 1);
-        make_room(&mut self.direction, 1);
-        make_room(&mut self.order, 1);
+        reserve(&mut self.bearer, 1);
+        reserve(&mut self.first, 1);
+        reserve(&mut self.last, 1);
+        reserve(&mut self.direction, 1);
+        reserve(&mut self.order, 1);
     }
 
     /// The axis that will be laid down next.

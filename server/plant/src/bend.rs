@@ -1,8 +1,9 @@
 //! Bending and stretching a branch by a few touches (TreeSketch §3.3; PriMo, Botsch et al. 2006).
 //!
 //! The path from the base internode to the end of the branch is a chain of rigid prisms with elastic joints.
-//! Touches pull at nodes, and the pose is the one of least energy. It is sought from the pose before, but the
-//! energy knows only the rest shape: wherever the touches have been, brought back they bring the branch back.
+//! Touches pull at nodes, and the prisms go where their energy is least. They start from where they were, but
+//! the energy knows only the rest shape: wherever the touches have been, brought back they bring the branch
+//! back.
 
 mod chain;
 mod energy;
@@ -15,7 +16,7 @@ use glam::{DQuat, DVec3, Quat, Vec3};
 pub use self::state::BendState;
 use self::{
     chain::{Chain, Place},
-    energy::{Energy, Pose, Pull, Step},
+    energy::{Energy, Prism, Pull, Step},
 };
 use crate::motion::Motion;
 
@@ -36,7 +37,7 @@ const REST: f64 = 1e-7;
 #[derive(Clone, Debug)]
 pub struct Bend {
     chain: Chain,
-    poses: Vec<Pose>,
+    prisms: Vec<Prism>,
     /// Touched nodes with where each is pulled, from the base upwards.
     targets: Vec<(usize, DVec3)>,
 }
@@ -49,8 +50,8 @@ impl Bend {
     /// If there is not one node more than there are radii, or no radius.
     pub fn new(nodes: &[Vec3], radii: &[f32], stretch: f32) -> Self {
         let chain = Chain::new(nodes, radii, stretch);
-        let poses = chain.rest();
-        Self { chain, poses, targets: Vec::new() }
+        let prisms = chain.rest();
+        Self { chain, prisms, targets: Vec::new() }
     }
 
     /// One event of a pointer: pulls the far ends of these internodes of the path to these places. Touches that
@@ -85,7 +86,7 @@ impl Bend {
 
     /// The elastic energy with that of the touches' springs, in units of what doubles the branch's length.
     pub fn energy(&self) -> f64 {
-        energy::of(&self.chain, &self.pulls(), &self.poses)
+        energy::of(&self.chain, &self.pulls(), &self.prisms)
     }
 
     fn motion(&self, internode: usize) -> Motion {
@@ -94,7 +95,7 @@ impl Bend {
         let to = self.place(end, from);
         let to = if to.distance(from) < REST * self.chain.length() { from } else { to };
         let Place { prism, share } = self.chain.middle(internode);
-        let (rotation, next) = (self.poses[prism].rotation, self.poses.get(prism + 1));
+        let (rotation, next) = (self.prisms[prism].rotation, self.prisms.get(prism + 1));
         let rotation = next.map_or(rotation, |next| between(rotation, next.rotation, share));
         let turned = 2.0 * rotation.xyz().length();
         let rotation = if turned < REST { Quat::IDENTITY } else { rotation.as_quat().normalize() };
@@ -103,7 +104,7 @@ impl Bend {
 
     /// Where a node of the rest shape is now.
     fn place(&self, at: Place, node: DVec3) -> DVec3 {
-        let moved = |prism: usize| self.poses[prism].apply(node - self.chain.centre(prism));
+        let moved = |prism: usize| self.prisms[prism].apply(node - self.chain.centre(prism));
         if at.share == 0.0 { moved(at.prism) } else { moved(at.prism).lerp(moved(at.prism + 1), at.share) }
     }
 
@@ -112,16 +113,16 @@ impl Bend {
     }
 
     fn solve(&mut self, steps: u32) {
-        if self.poses.len() < 2 {
+        if self.prisms.len() < 2 {
             return;
         }
         let pulls = self.pulls();
         self.leave_a_worse_shape_than_rest(&pulls);
-        let mut now = Energy::new(&self.chain, &pulls, &self.poses);
+        let mut now = Energy::new(&self.chain, &pulls, &self.prisms);
         for _ in 0..steps {
             let Some(step) = now.step() else { break };
-            let Some((energy, poses)) = self.descend(&pulls, &now, &step) else { break };
-            (now, self.poses) = (energy, poses);
+            let Some((energy, prisms)) = self.descend(&pulls, &now, &step) else { break };
+            (now, self.prisms) = (energy, prisms);
             let is_small = |step: &Step| {
                 step.turn.length() < TOLERANCE && step.shift.length() < TOLERANCE * self.chain.length()
             };
@@ -132,18 +133,18 @@ impl Bend {
     }
 
     /// As much of a step as lowers the energy. None if nothing is to be gained any more.
-    fn descend(&self, pulls: &[Pull], now: &Energy, step: &[Step]) -> Option<(Energy, Vec<Pose>)> {
+    fn descend(&self, pulls: &[Pull], now: &Energy, step: &[Step]) -> Option<(Energy, Vec<Prism>)> {
         let slope = now.slope(step);
         let turn = step.iter().map(|step| step.turn.length()).fold(0.0, f64::max);
         let mut share = if turn > MOST_TURN { MOST_TURN / turn } else { 1.0 };
         for _ in 0..TRIES {
-            let mut poses = self.poses.clone();
-            for (pose, step) in poses[1..].iter_mut().zip(step) {
-                *pose = pose.moved(share * step.shift, share * step.turn);
+            let mut prisms = self.prisms.clone();
+            for (prism, step) in prisms[1..].iter_mut().zip(step) {
+                *prism = prism.moved(share * step.shift, share * step.turn);
             }
-            let energy = Energy::new(&self.chain, pulls, &poses);
+            let energy = Energy::new(&self.chain, pulls, &prisms);
             if energy.value <= now.value {
-                return Some((energy, poses));
+                return Some((energy, prisms));
             }
             // The lowest point of the parabola through both energies that starts with this slope.
             let beyond_line = energy.value - now.value - share * slope;
@@ -156,9 +157,9 @@ impl Bend {
     /// asked for than that, it goes on from rest.
     fn leave_a_worse_shape_than_rest(&mut self, pulls: &[Pull]) {
         let rest = self.chain.rest();
-        let energy = |poses: &[Pose]| energy::of(&self.chain, pulls, poses);
-        if energy(&rest) < energy(&self.poses) {
-            self.poses = rest;
+        let energy = |prisms: &[Prism]| energy::of(&self.chain, pulls, prisms);
+        if energy(&rest) < energy(&self.prisms) {
+            self.prisms = rest;
         }
     }
 }

@@ -3,10 +3,10 @@
 use glam::Vec3;
 
 use crate::{
+    capacity::reserve,
     deaths::Deaths,
     given_radius::GivenRadii,
     id::{AxisId, MetamerId},
-    room::make_room,
 };
 
 /// Light and vigor of a metamer: written by whatever grows the plant, read by whatever draws it.
@@ -65,16 +65,16 @@ impl Metamers {
         id
     }
 
-    /// Makes room for another row and more.
+    /// Reserves capacity for another row and more.
     #[cold]
     fn reserve(&mut self) {
-        make_room(&mut self.parent, 1);
-        make_room(&mut self.axis, 1);
-        make_room(&mut self.end, 1);
-        make_room(&mut self.normal, 1);
-        make_room(&mut self.tips, 1);
-        make_room(&mut self.condition, 1);
-        make_room(&mut self.lateral, 1);
+        reserve(&mut self.parent, 1);
+        reserve(&mut self.axis, 1);
+        reserve(&mut self.end, 1);
+        reserve(&mut self.normal, 1);
+        reserve(&mut self.tips, 1);
+        reserve(&mut self.condition, 1);
+        reserve(&mut self.lateral, 1);
     }
 
     /// Cuts the columns off at a row and returns the rest.

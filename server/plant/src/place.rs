@@ -43,7 +43,7 @@ impl Plant {
             return Ok(Vec::new());
         }
         self.swap(&mut placed);
-        if let Err(error) = self.check_frames(&placed.metamers) {
+        if let Err(error) = self.check_orientations(&placed.metamers) {
             self.swap(&mut placed);
             return Err(error);
         }
@@ -81,8 +81,8 @@ impl Plant {
         Ok(())
     }
 
-    /// Checks the frames of these metamers, which are in birth order, and of all that stand on them.
-    fn check_frames(&self, placed: &[MetamerId]) -> Result<(), BadColumns> {
+    /// Checks the orientations of these metamers, which are in birth order, and of all that stand on them.
+    fn check_orientations(&self, placed: &[MetamerId]) -> Result<(), BadColumns> {
         let Some(first) = placed.first().map(|first| first.index()) else { return Ok(()) };
         let mut is_placed = vec![false; self.metamer_count() - first];
         for id in placed {

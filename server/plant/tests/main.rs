@@ -18,7 +18,7 @@ enum Event {
     /// Copies a branch onto another node, and cuts the original off if the last is set.
     Graft(u16, u16, bool),
     Width(u16, Option<u8>),
-    /// Scales a branch about its foot and turns its frames over, by whole columns.
+    /// Scales a branch about its foot and turns it over, by whole columns.
     Place(u16, u8),
     /// Gives radii to some wood and what follows it, or takes them away, and lets a bud grow with one.
     Give(u16, Option<u8>),

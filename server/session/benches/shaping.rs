@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use espalier_plant::MetamerId;
 use espalier_proto::{Action, Diameter, List, Position, Share, Steps, Touches, UnitRotation};
-use espalier_session::Document;
+use espalier_session::{Document, Principal};
 use glam::{Quat, Vec3};
 use support::{Cost, Followed, Percentiles, report, sample};
 
@@ -27,7 +27,9 @@ fn bench() {
 /// Pointer events of a bend whose path has a thousand internodes.
 fn bend_events() {
     let mut document = Document::new(1);
-    let mut apply = |action: Action| document.apply("bench", &action.into()).expect("the action can be done");
+    let mut apply = |action: Action| {
+        document.apply(&Principal::visitor(), &action.into()).expect("the action can be done")
+    };
     apply(Action::StrokeBegin { stroke: 1, bud: None });
     for part in 0..20 {
         let samples: Vec<_> =
@@ -47,7 +49,7 @@ fn bend_events() {
         touches: Touches::try_from(touches).expect("two rows"),
         stretch: Share::nearest(0.1),
     };
-    document.apply("bench", &begin.into()).expect("it is a path");
+    document.apply(&Principal::visitor(), &begin.into()).expect("it is a path");
     let mut costs = Vec::new();
     for event in 0..240 {
         let angle = 0.02 * event as f32;
@@ -55,12 +57,16 @@ fn bend_events() {
         let targets = vec![Position::nearest(place + shift), Position::nearest(between + 0.3 * shift)];
         let targets = List::try_from(targets).expect("two places");
         let begun = Instant::now();
-        document.apply("bench", &Action::BendMove { bend: 1, targets }.into()).expect("it is in progress");
+        document
+            .apply(&Principal::visitor(), &Action::BendMove { bend: 1, targets }.into())
+            .expect("it is in progress");
         costs.push(begun.elapsed());
     }
     println!("bend event, {length} internodes, ms    {}", Percentiles::of_milliseconds(costs.into_iter()));
     let begun = Instant::now();
-    document.apply("bench", &Action::BendEnd { bend: 1 }.into()).expect("it stays in the world");
+    document
+        .apply(&Principal::visitor(), &Action::BendEnd { bend: 1 }.into())
+        .expect("it stays in the world");
     println!("bend let go, {length} internodes, ms   {:.2}", 1e3 * begun.elapsed().as_secs_f64());
 }
 

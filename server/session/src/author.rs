@@ -1,13 +1,13 @@
-//! Authors: clients that have sent commands, known by their keys across connections (`CM1`, `CM5`).
+//! Authors: principals that have sent commands, known across connections (`CM1`, `CM5`).
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
 
-use crate::io::ClientId;
+use crate::{io::ClientId, principal::Principal};
 
-/// At most so many keys are remembered; the one unused longest is forgotten first.
+/// At most so many are remembered; the one unused longest is forgotten first.
 pub(crate) const MAX_AUTHORS: usize = 4096;
 
-/// What is remembered of a client key.
+/// What is remembered of an author.
 #[derive(Debug, Default)]
 pub(crate) struct Author {
     /// Its connection, while it has one.
@@ -25,17 +25,17 @@ pub(crate) struct Author {
     pub(crate) strokes_end_at: Option<u64>,
 }
 
-/// All authors by key.
+/// All authors.
 #[derive(Debug, Default)]
 pub(crate) struct Authors {
-    by_key: BTreeMap<Arc<str>, Author>,
+    known: BTreeMap<Principal, Author>,
     /// Whether commands were taken before this session was loaded.
     restored: bool,
 }
 
 impl Authors {
-    /// Those of a session loaded from disk: the highest durable id and its entry, by key.
-    pub(crate) fn restored(durable: &BTreeMap<Arc<str>, LastCommand>) -> Self {
+    /// Those of a session loaded from disk: the highest durable id of each and its entry.
+    pub(crate) fn restored(durable: &BTreeMap<Principal, LastCommand>) -> Self {
         let known = |last: &LastCommand| Author {
             taken: last.id,
             durable: last.id,
@@ -44,43 +44,44 @@ impl Authors {
             ..Author::default()
         };
         Self {
-            by_key: durable.iter().map(|(key, last)| (Arc::clone(key), known(last))).collect(),
+            known: durable.iter().map(|(author, last)| (author.clone(), known(last))).collect(),
             restored: true,
         }
     }
 
-    /// The author with this key.
-    pub(crate) fn get(&self, key: &str) -> Option<&Author> {
-        self.by_key.get(key)
+    /// What is known of this principal.
+    pub(crate) fn get(&self, principal: &Principal) -> Option<&Author> {
+        self.known.get(principal)
     }
 
-    /// The author with this key.
-    pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Author> {
-        self.by_key.get_mut(key)
+    /// What is known of this principal.
+    pub(crate) fn get_mut(&mut self, principal: &Principal) -> Option<&mut Author> {
+        self.known.get_mut(principal)
     }
 
-    /// The author with this key, new if need be.
-    pub(crate) fn enter(&mut self, key: &Arc<str>) -> &mut Author {
+    /// This principal as an author, new if need be.
+    pub(crate) fn enter(&mut self, principal: &Principal) -> &mut Author {
         let forgot_refusals = self.restored;
-        self.by_key.entry(Arc::clone(key)).or_insert_with(|| Author { forgot_refusals, ..Author::default() })
+        self.known.entry(principal.clone()).or_insert_with(|| Author { forgot_refusals, ..Author::default() })
     }
 
     /// All of them.
-    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (&Arc<str>, &mut Author)> {
-        self.by_key.iter_mut()
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = (&Principal, &mut Author)> {
+        self.known.iter_mut()
     }
 
-    /// The connection with this key is closed. Forgets keys without commands, and beyond the limit those unused longest.
-    pub(crate) fn leave(&mut self, key: &str) {
-        let Some(author) = self.by_key.get_mut(key) else { return };
+    /// The connection of this author is closed. Forgets who gave no command, and beyond the limit those unused longest.
+    pub(crate) fn leave(&mut self, principal: &Principal) {
+        let Some(author) = self.known.get_mut(principal) else { return };
         author.client = None;
         if author.taken == 0 {
-            self.by_key.remove(key);
-        } else if self.by_key.len() > MAX_AUTHORS {
-            let absent = self.by_key.iter().filter(|(_, author)| author.client.is_none());
-            let quietest = absent.min_by_key(|(_, author)| author.last_entry).map(|(key, _)| Arc::clone(key));
-            if let Some(key) = quietest {
-                self.by_key.remove(&key);
+            self.known.remove(principal);
+        } else if self.known.len() > MAX_AUTHORS {
+            let absent = self.known.iter().filter(|(_, author)| author.client.is_none());
+            let quietest =
+                absent.min_by_key(|(_, author)| author.last_entry).map(|(author, _)| author.clone());
+            if let Some(quietest) = quietest {
+                self.known.remove(&quietest);
             }
         }
     }
@@ -96,14 +97,18 @@ pub(crate) struct LastCommand {
 }
 
 /// Notes a command as its author's last; the map is bounded like [`Authors`].
-pub(crate) fn note_last(last: &mut BTreeMap<Arc<str>, LastCommand>, key: &Arc<str>, command: LastCommand) {
+pub(crate) fn note_last(
+    last: &mut BTreeMap<Principal, LastCommand>,
+    author: &Principal,
+    command: LastCommand,
+) {
     if command.id > 0 {
-        last.insert(Arc::clone(key), command);
+        last.insert(author.clone(), command);
     }
     if last.len() > MAX_AUTHORS {
-        let quietest = last.iter().min_by_key(|(_, command)| command.entry).map(|(key, _)| Arc::clone(key));
-        if let Some(key) = quietest {
-            last.remove(&key);
+        let quietest = last.iter().min_by_key(|(_, command)| command.entry).map(|(author, _)| author.clone());
+        if let Some(quietest) = quietest {
+            last.remove(&quietest);
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::{
     io::ClientId,
     prediction::{Cancelled, Prediction},
     principal::Principal,
+    rights::Access,
     to_proto::Held,
     window::Window,
 };
@@ -13,6 +14,8 @@ use crate::{
 /// One connection.
 #[derive(Debug, Default)]
 pub(crate) struct Client {
+    /// What it may do.
+    pub(crate) access: Access,
     /// Control messages sent and not yet written to the socket (`FL3`).
     pub(crate) unread: usize,
     /// Of those, how many are to be written until it has had the notices; none if it is sent none.
@@ -25,6 +28,8 @@ pub(crate) struct Client {
 #[derive(Debug)]
 pub(crate) struct ConnectedClient {
     pub(crate) principal: Principal,
+    /// The command up to which it knows that all is done (`CM11`).
+    pub(crate) done: u32,
     pub(crate) window: Window,
     pub(crate) view: View,
     pub(crate) watch: Watch,

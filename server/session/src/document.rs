@@ -18,6 +18,7 @@ mod strokes;
 mod tests;
 mod transplanting;
 mod travelling;
+mod variation;
 mod widths;
 
 use std::{collections::VecDeque, sync::Arc};
@@ -39,7 +40,7 @@ use self::{
     strokes::OpenStrokes,
 };
 pub use self::{
-    bytes::{DocumentError, MAX_METAMER_BUDGET},
+    bytes::{DocumentError, MAX_METAMER_BUDGET, plain},
     transplanting::TransplantError,
 };
 pub(crate) use self::{
@@ -48,7 +49,7 @@ pub(crate) use self::{
     obstacles::ObstaclesMark,
     pruning::prune as prune_simulation,
 };
-use crate::{cause::Cause, form, schedule::GrowthSchedule};
+use crate::{cause::Cause, form, principal::Principal, schedule::GrowthSchedule};
 
 /// A scene, the generators that grow it, and every operation done so far.
 ///
@@ -134,7 +135,7 @@ impl Document {
     }
 
     /// Takes a command on; the steps it needs become pending. Nothing changes if it is refused.
-    pub fn begin(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
+    pub fn begin(&mut self, author: &Principal, command: &Command) -> Result<(), Problem> {
         while self.advance() {}
         let Command { action, gesture } = command;
         self.take_on(Cause { author, gesture: *gesture }, action)?;
@@ -144,6 +145,9 @@ impl Document {
 
     fn take_on(&mut self, cause: Cause<'_>, action: &Action) -> Result<(), Problem> {
         let author = cause.author;
+        if keeps_set(action) {
+            self.require_sets()?;
+        }
         match action {
             Action::StrokeBegin { stroke, bud } => self.begin_stroke(cause, *stroke, *bud),
             Action::StrokeMove { stroke, samples } => {
@@ -192,14 +196,14 @@ impl Document {
     }
 
     /// Takes a command on and runs all its steps.
-    pub fn apply(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
+    pub fn apply(&mut self, author: &Principal, command: &Command) -> Result<(), Problem> {
         self.begin(author, command)?;
         while self.advance() {}
         Ok(())
     }
 
     /// The strokes an author has begun and not ended.
-    pub fn open_strokes(&self, author: &str) -> Vec<u32> {
+    pub fn open_strokes(&self, author: &Principal) -> Vec<u32> {
         self.strokes.of(author)
     }
 
@@ -238,11 +242,6 @@ impl Document {
     /// The plants.
     pub fn plant(&self) -> &Plant {
         self.simulation.plant()
-    }
-
-    /// The scene and what grows it, to be copied.
-    pub(crate) fn simulation(&self) -> &Simulation<Generators> {
-        &self.simulation
     }
 
     /// The plant with the looks of the present, for whoever draws it.
@@ -306,6 +305,21 @@ impl Document {
     fn wood(&self, field: &str, row: u32) -> Result<MetamerId, Problem> {
         wood_of(self.plant(), field, row)
     }
+}
+
+/// Whether it leaves a set of parameters, looks or obstacles in the history.
+fn keeps_set(action: &Action) -> bool {
+    matches!(
+        action,
+        Action::SetParameters { .. }
+            | Action::SetProgramme { .. }
+            | Action::FollowProgramme { .. }
+            | Action::SetAppearance { .. }
+            | Action::PlaceObstacle { .. }
+            | Action::MoveObstacle { .. }
+            | Action::ReshapeObstacle { .. }
+            | Action::RemoveObstacle { .. }
+    )
 }
 
 fn wood_of(plant: &Plant, field: &str, row: u32) -> Result<MetamerId, Problem> {

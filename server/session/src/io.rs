@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use espalier_proto::{Command, PlacedObstacle, Problem, version::CloseCode};
 
-use crate::{prediction::PredictionRun, principal::Principal, work::Work};
+use crate::{prediction::PredictionRun, principal::Principal, rights::Access, work::Work};
 
 /// Names one connection; the shell numbers them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,8 +21,8 @@ pub struct ActId(pub u64);
 /// Something happened.
 #[derive(Debug)]
 pub enum Input {
-    /// A socket opened.
-    Connected(ClientId),
+    /// A socket opened, of somebody who may do this.
+    Connected(ClientId, Access),
     /// A text message came.
     Text(ClientId, String),
     /// A binary message came; there are none from clients, so it is answered with a problem.
@@ -44,7 +44,7 @@ pub enum Input {
     Predicted(Box<PredictionRun>),
     /// Someone outside wants the document as it is (to save it, to export it).
     Read(ReadId),
-    /// Someone outside wants something done (an uploaded mesh placed).
+    /// Someone outside who may edit wants something done (an uploaded mesh placed).
     Act(ActId, Principal, Box<Command>),
     /// The time asked for by `WakeAt` has come.
     Woken,

@@ -1,9 +1,6 @@
 //! The journal as the session sees it: one batch on the way, the next one gathering (`CM2`).
 
-use std::{
-    collections::{BTreeMap, VecDeque},
-    sync::Arc,
-};
+use std::collections::{BTreeMap, VecDeque};
 
 use crate::{io::JournalEntry, principal::Principal};
 
@@ -17,8 +14,8 @@ pub(crate) struct Journal {
     /// The last number known to be durable.
     durable: u64,
     gathering: Vec<JournalEntry>,
-    /// Client and id of every entry that is not durable yet, in order, with the length of its text.
-    waiting: VecDeque<(Arc<str>, u32, usize)>,
+    /// Author and id of every entry that is not durable yet, in order, with the length of its text.
+    waiting: VecDeque<(Principal, u32, usize)>,
     waiting_bytes: usize,
 }
 
@@ -51,21 +48,16 @@ impl Journal {
     }
 
     /// Whether this command is on its way to the disk.
-    pub(crate) fn is_waiting(&self, client: &str, id: u32) -> bool {
-        self.waiting.iter().any(|(key, waiting, _)| &**key == client && *waiting == id)
+    pub(crate) fn is_waiting(&self, author: &Principal, id: u32) -> bool {
+        self.waiting.iter().any(|(of, waiting, _)| of == author && *waiting == id)
     }
 
     /// Gives the next number to a command.
-    pub(crate) fn append(&mut self, client: &Arc<str>, id: u32, command: String) -> u64 {
+    pub(crate) fn append(&mut self, author: &Principal, id: u32, command: String) -> u64 {
         self.last += 1;
-        self.waiting.push_back((Arc::clone(client), id, command.len()));
+        self.waiting.push_back((author.clone(), id, command.len()));
         self.waiting_bytes += command.len();
-        self.gathering.push(JournalEntry {
-            number: self.last,
-            principal: Principal::named(client),
-            id,
-            command,
-        });
+        self.gathering.push(JournalEntry { number: self.last, principal: author.clone(), id, command });
         self.last
     }
 
@@ -78,15 +70,15 @@ impl Journal {
         Some(std::mem::take(&mut self.gathering))
     }
 
-    /// Entries up to `through` are durable; the highest id of each client that is so since.
-    pub(crate) fn made_durable(&mut self, through: u64) -> BTreeMap<Arc<str>, u32> {
+    /// Entries up to `through` are durable; the highest id of each author that is so since.
+    pub(crate) fn made_durable(&mut self, through: u64) -> BTreeMap<Principal, u32> {
         let mut acknowledged = BTreeMap::new();
         while self.durable < through.min(self.handed) {
-            let Some((client, id, bytes)) = self.waiting.pop_front() else { break };
+            let Some((author, id, bytes)) = self.waiting.pop_front() else { break };
             self.durable += 1;
             self.waiting_bytes -= bytes;
             if id > 0 {
-                acknowledged.insert(client, id);
+                acknowledged.insert(author, id);
             }
         }
         acknowledged

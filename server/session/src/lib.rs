@@ -29,12 +29,12 @@ mod window;
 mod work;
 
 pub use command_script::{ScriptError, read_commands};
-pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError};
+pub use document::{Document, DocumentError, Figures, MAX_METAMER_BUDGET, TransplantError, plain};
 pub use form::read_command;
 pub use io::{ActId, ClientId, Input, JournalEntry, Output, ReadDocument, ReadId};
 pub use prediction::PredictionRun;
 pub use principal::Principal;
-pub use rights::{Access, Rights, forbidden};
+pub use rights::{Access, forbidden};
 pub use schematic::schematic;
 pub use session::Session;
 pub use snapshot::RestoreError;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use espalier_growth::{Obstacle as Solid, ObstacleError, Shape as Space, TriangleMesh};
 pub use espalier_proto::Mesh;
 use espalier_proto::{
-    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose as WirePose, Position, Problem, Reason,
-    Shape, UnitRotation,
+    Obstacle as WireObstacle, PlacedObstacle, PlacedShape, Pose, Position, Problem, Reason, Shape,
+    UnitRotation,
 };
 use glam::{Quat, Vec3};
 
@@ -40,9 +40,10 @@ pub enum Form {
     },
 }
 
-/// Where an obstacle stands.
+/// Where an obstacle stands: a pose whose rotation has length 1 exactly. Made so once, for a second time might change its last
+/// bit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
+pub struct Placement {
     /// Where its own origin lies.
     pub position: Vec3,
     /// How it is turned, of unit length.
@@ -53,7 +54,7 @@ pub struct Pose {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
     pub(crate) form: Form,
-    pub(crate) pose: Pose,
+    pub(crate) placement: Placement,
 }
 
 /// An obstacle in the scene.
@@ -67,19 +68,19 @@ impl Obstacle {
     /// An obstacle as it came over the wire, if growth can make one of it (`LM6`).
     pub(crate) fn of(wire: &WireObstacle) -> Result<Self, Problem> {
         let form = Form::of(&wire.shape).map_err(|problem| problem.within("obstacle.shape"))?;
-        Self::new(form, Pose::from(&wire.pose))
+        Self::new(form, Placement::from(&wire.pose))
     }
 
     /// A form in its place, if growth can make an obstacle of it.
-    pub(crate) fn new(form: Form, pose: Pose) -> Result<Self, Problem> {
-        let obstacle = Self { form, pose };
+    pub(crate) fn new(form: Form, placement: Placement) -> Result<Self, Problem> {
+        let obstacle = Self { form, placement };
         obstacle.solid().map_err(|error| unfit("shape", &error))?;
         Ok(obstacle)
     }
 
     /// The obstacle as growth sees it.
     pub(crate) fn solid(&self) -> Result<Solid, ObstacleError> {
-        let Pose { position, rotation } = self.pose;
+        let Placement { position, rotation } = self.placement;
         Solid::new(match &self.form {
             Form::Box { size } => Space::Box { centre: position, half_extents: *size * 0.5, rotation },
             Form::Sphere { radius } => Space::Sphere { centre: position, radius: *radius },
@@ -99,7 +100,7 @@ impl Obstacle {
 
 impl Standing {
     pub(crate) fn to_proto(&self) -> PlacedObstacle {
-        let Obstacle { form, pose } = &self.obstacle;
+        let Obstacle { form, placement } = &self.obstacle;
         let shape = match form {
             Form::Box { size } => PlacedShape::Box { size: size.to_array() },
             Form::Sphere { radius } => PlacedShape::Sphere { radius: *radius },
@@ -110,16 +111,16 @@ impl Standing {
                 scale: *scale,
             },
         };
-        let pose = WirePose {
-            position: Position::nearest(pose.position),
-            rotation: UnitRotation::nearest(pose.rotation),
+        let pose = Pose {
+            position: Position::nearest(placement.position),
+            rotation: UnitRotation::nearest(placement.rotation),
         };
         PlacedObstacle { id: self.id, shape, pose }
     }
 }
 
-impl From<&WirePose> for Pose {
-    fn from(wire: &WirePose) -> Self {
+impl From<&Pose> for Placement {
+    fn from(wire: &Pose) -> Self {
         Self { position: wire.position.get(), rotation: wire.rotation.get() }
     }
 }

@@ -15,7 +15,10 @@ const VISITOR: &str = "outside";
 pub struct Principal(Arc<str>);
 
 impl Principal {
-    /// The client with this key, if that is one: 8 to 64 letters, digits, `-` and `_`.
+    /// What a client key is.
+    pub const KEYS: &str = "8 to 64 letters, digits, - and _";
+
+    /// The client with this key, if that is one ([`Principal::KEYS`]).
     pub fn client(key: &str) -> Option<Self> {
         let allowed = |byte: u8| byte.is_ascii_alphanumeric() || OF_KEYS.contains(&byte);
         ((8..=64).contains(&key.len()) && key.bytes().all(allowed)).then(|| Self(key.into()))
@@ -31,14 +34,14 @@ impl Principal {
         if text == VISITOR { Some(Self::visitor()) } else { Self::client(text) }
     }
 
-    /// The name in which commands are done; no two principals share one.
-    pub(crate) fn name(&self) -> &Arc<str> {
+    /// The name that documents and snapshots keep of a principal; no two share one.
+    pub(crate) fn name(&self) -> &str {
         &self.0
     }
 
-    /// Of a name that [`Principal::name`] gave.
-    pub(crate) fn named(name: &Arc<str>) -> Self {
-        Self(Arc::clone(name))
+    /// The principal of whom a document or a snapshot keeps this name.
+    pub(crate) fn named(name: &str) -> Self {
+        Self(name.into())
     }
 }
 

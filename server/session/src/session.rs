@@ -29,7 +29,7 @@ use crate::{
     journal::Journal,
     obstacle::Mesh,
     prediction::Prediction,
-    rights::Rights,
+    principal::Principal,
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
     window::MAX_UNREAD,
@@ -55,6 +55,8 @@ pub struct Session {
     acts: Vec<Act>,
     /// The newest frame and the rows the table has since.
     newest: (u32, u32),
+    /// The journal entry through which all is done, as of the last slice of work.
+    done: u64,
     figures: Figures,
     leaves: u32,
     parameters: ParameterValues,
@@ -68,7 +70,6 @@ pub struct Session {
     /// Predictions that are being made.
     predictions: usize,
     upkeep: Upkeep,
-    rights: Rights,
     /// What everybody here is notified of.
     notices: Vec<Notice>,
     failed: bool,
@@ -151,8 +152,8 @@ impl Session {
             document.stop_at(stops.end_of(number));
             // Under the same simulation, what the document refuses now it refused the first time as well; under a
             // later one a row may be gone, and the notice of a replayed tail says so (OP2).
-            let _refused_again = document.apply(principal.name(), &command);
-            note_last(&mut last_commands, principal.name(), LastCommand { id, entry: number });
+            let _refused_again = document.apply(&principal, &command);
+            note_last(&mut last_commands, &principal, LastCommand { id, entry: number });
         }
         Ok(Self::with_document(name.into(), epoch, document, through, last, last_commands))
     }
@@ -180,7 +181,7 @@ impl Session {
         document: Document,
         snapshotted: u64,
         last: u64,
-        last_commands: BTreeMap<Arc<str>, LastCommand>,
+        last_commands: BTreeMap<Principal, LastCommand>,
     ) -> Self {
         let mut authors = Authors::default();
         if last > 0 {
@@ -199,6 +200,7 @@ impl Session {
             reads: Vec::new(),
             acts: Vec::new(),
             newest: (work.sequence, work.table.rows() as u32),
+            done: work.done_through(),
             figures: work.document.figures(),
             leaves: work.table.leaves(),
             parameters: work.document.parameters(),
@@ -211,7 +213,6 @@ impl Session {
             predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
-            rights: Rights::default(),
             notices: Vec::new(),
             failed: false,
             outputs: VecDeque::new(),
@@ -224,23 +225,18 @@ impl Session {
         self.upkeep.keep_through(self.journal.last());
     }
 
-    /// Asks these rights from now on, for everybody who comes and for each command.
-    pub fn guard(&mut self, rights: Rights) {
-        self.rights = rights;
-    }
-
     /// Something happened at this time, in milliseconds of a clock that never goes back.
     pub fn handle(&mut self, now: u64, input: Input) {
         self.now = self.now.max(now);
         if self.failed {
-            if let Input::Connected(client) = input {
+            if let Input::Connected(client, _) = input {
                 self.outputs.push_back(Output::Close(client, CloseCode::InternalError, LOST.into()));
             }
             return;
         }
         self.start_clocks();
         match input {
-            Input::Connected(client) => self.connect(client),
+            Input::Connected(client, access) => self.connect(client, access),
             Input::Text(client, text) => self.read(client, &text),
             Input::Binary(client) => self.read_binary(client),
             Input::Disconnected(client) => self.forget(client),
@@ -304,7 +300,7 @@ impl Session {
     }
 
     /// Who has said hello and is still here, once for each client.
-    pub fn people(&self) -> impl Iterator<Item = &crate::Principal> {
+    pub fn people(&self) -> impl Iterator<Item = &Principal> {
         self.clients
             .values()
             .filter_map(|client| client.connected.as_ref())

@@ -2,13 +2,14 @@
 
 mod format_1;
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
 
 use espalier_proto::Problem;
 
 use crate::{
     author::LastCommand,
     document::{Container, Document, DocumentError, Reader, SESSION, Writer},
+    principal::Principal,
 };
 
 /// Why a session cannot be loaded.
@@ -44,21 +45,21 @@ pub(crate) struct Snapshot {
     /// The last journal entry in it.
     pub(crate) through: u64,
     /// The last command of each author up to there.
-    pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
+    pub(crate) last_commands: BTreeMap<Principal, LastCommand>,
     pub(crate) document: Document,
 }
 
 /// Writes a snapshot.
 pub(crate) fn to_bytes(
     through: u64,
-    last_commands: &BTreeMap<Arc<str>, LastCommand>,
+    last_commands: &BTreeMap<Principal, LastCommand>,
     document: &Document,
 ) -> Vec<u8> {
     let mut session = Writer::default();
     session.u64(through);
     session.u32(last_commands.len() as u32);
-    for (key, last) in last_commands {
-        session.text(key);
+    for (author, last) in last_commands {
+        session.text(author.name());
         session.u32(last.id);
         session.u64(last.entry);
     }
@@ -81,14 +82,14 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Snapshot, RestoreError> {
 }
 
 /// What the section of a session holds: the last entry, and the last command of each author.
-type Progress = (u64, BTreeMap<Arc<str>, LastCommand>);
+type Progress = (u64, BTreeMap<Principal, LastCommand>);
 
 fn read_session(reader: &mut Reader<'_>) -> Result<Progress, DocumentError> {
     reader.up_to(1)?;
     let through = reader.u64()?;
     let last_commands = reader.list(|r| {
-        let key = Arc::from(r.text()?);
-        Ok((key, LastCommand { id: r.u32()?, entry: r.u64()? }))
+        let author = Principal::named(r.text()?);
+        Ok((author, LastCommand { id: r.u32()?, entry: r.u64()? }))
     })?;
     Ok((through, last_commands.into_iter().collect()))
 }

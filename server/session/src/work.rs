@@ -13,6 +13,7 @@ use crate::{
     document::{Document, DrawnInVain},
     io::{ActId, ClientId, ReadDocument, ReadId},
     prediction::{PredictionRun, Question},
+    principal::Principal,
     snapshot,
     stops::Stops,
     to_proto::{self, Held},
@@ -30,8 +31,8 @@ const SLICE_COMMANDS: u32 = 64;
 pub(crate) struct Order {
     /// Its journal entry.
     pub(crate) number: u64,
-    /// The key of the client it is done for.
-    pub(crate) author: Arc<str>,
+    /// For whom it is done.
+    pub(crate) author: Principal,
     /// The author's number; 0 where the session acts for it.
     pub(crate) id: u32,
     /// What to do, and the gesture it is part of.
@@ -52,7 +53,7 @@ pub(crate) struct CatchUp {
 /// A command the document refused.
 #[derive(Debug)]
 pub(crate) struct Refusal {
-    pub(crate) author: Arc<str>,
+    pub(crate) author: Principal,
     pub(crate) id: u32,
     pub(crate) problem: Problem,
 }
@@ -60,7 +61,7 @@ pub(crate) struct Refusal {
 /// Something that a client drew, and that came to nothing.
 #[derive(Debug)]
 pub(crate) struct Unheard {
-    pub(crate) author: Arc<str>,
+    pub(crate) author: Principal,
     pub(crate) hint: Hint,
 }
 
@@ -105,7 +106,7 @@ pub struct Work {
     /// The last journal entry the document has taken on.
     pub(crate) applied: u64,
     /// The last command of each author up to there.
-    pub(crate) last_commands: BTreeMap<Arc<str>, LastCommand>,
+    pub(crate) last_commands: BTreeMap<Principal, LastCommand>,
     pub(crate) orders: VecDeque<Order>,
     /// Where growth that was begun before certain entries ends (`ST1`).
     pub(crate) stops: Stops,
@@ -118,7 +119,7 @@ pub struct Work {
     /// Whether a command is still being done.
     pub(crate) busy: bool,
     /// Whose command was taken on last, and its number.
-    doing: Option<(Arc<str>, u32)>,
+    doing: Option<(Principal, u32)>,
     /// The frame with all rows, kept while it is current: clients often join at the same time.
     complete: Option<(u32, Arc<[u8]>)>,
     /// The poses that were reported last.
@@ -134,7 +135,7 @@ impl Work {
         mut document: Document,
         epoch: u32,
         applied: u64,
-        last_commands: BTreeMap<Arc<str>, LastCommand>,
+        last_commands: BTreeMap<Principal, LastCommand>,
     ) -> Self {
         // Hints of replayed entries are for clients that are gone.
         document.take_drawn_in_vain();
@@ -183,6 +184,11 @@ impl Work {
         std::mem::take(&mut self.report)
     }
 
+    /// The journal entry through which all is done, with the growth that came of it.
+    pub(crate) fn done_through(&self) -> u64 {
+        self.applied.saturating_sub(u64::from(self.busy))
+    }
+
     /// Whether there is something to run.
     pub(crate) fn is_needed(&self) -> bool {
         self.busy
@@ -227,7 +233,7 @@ impl Work {
         self.stops.forget_through(order.number);
         self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
-        self.doing = Some((Arc::clone(&order.author), order.id));
+        self.doing = Some((order.author.clone(), order.id));
         let begun = self.document.begin(&order.author, &order.command);
         if let Some(act) = order.act {
             let placed = begun.clone().map(|()| self.document.obstacles().pop());
@@ -244,14 +250,14 @@ impl Work {
         let Some((author, id)) = &self.doing else { return };
         for DrawnInVain { stroke, reason, place } in self.document.take_drawn_in_vain() {
             let hint = Hint { id: *id, stroke, reason, position: Position::nearest(place) };
-            self.report.unheard.push(Unheard { author: Arc::clone(author), hint });
+            self.report.unheard.push(Unheard { author: author.clone(), hint });
         }
     }
 
     /// Between two commands the document is whole: now it can be read.
     fn hand_out(&mut self) {
         for question in self.questions.drain(..) {
-            let simulation = self.document.simulation().clone();
+            let simulation = self.document.fork();
             self.report.runs.push(PredictionRun::new(question, simulation, self.style.clone(), self.epoch));
         }
         if self.snapshot_wanted {

@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 use espalier_growth::{Observer, Phase};
 use espalier_mesh::{RingTable, Style};
 use espalier_proto::{Command, Problem};
-use espalier_session::{Document, delta, style_options};
+use espalier_session::{Document, Principal, delta, style_options};
 
 use super::stats::{self, PhaseSeconds, Stats};
+use crate::recipe::{Gardener, GrowError};
 
 /// A document and what it has cost so far.
 #[derive(Debug)]
@@ -53,19 +54,14 @@ impl Bench {
         self
     }
 
-    /// The document.
-    pub fn document(&self) -> &Document {
-        &self.document
-    }
-
     /// The document, to draw.
     pub fn document_mut(&mut self) -> &mut Document {
         &mut self.document
     }
 
     /// Does a command with all its steps; after each step a client would get a delta.
-    pub fn act(&mut self, author: &str, command: &Command) -> Result<(), Problem> {
-        self.document.begin(author, command)?;
+    pub fn apply(&mut self, command: &Command) -> Result<(), Problem> {
+        self.document.begin(&Principal::visitor(), command)?;
         self.follow();
         loop {
             let (began, before) = (Instant::now(), self.document.plant().step());
@@ -143,6 +139,16 @@ impl Bench {
     }
 }
 
+impl Gardener for Bench {
+    fn document(&self) -> &Document {
+        &self.document
+    }
+
+    fn act(&mut self, command: &Command) -> Result<(), GrowError> {
+        Ok(self.apply(command)?)
+    }
+}
+
 /// Adds up the time spent in each phase of a step.
 #[derive(Debug, Default)]
 struct Stopwatch {
@@ -179,9 +185,7 @@ mod tests {
 
     fn grown(steps: u32) -> Bench {
         let mut bench = Bench::new(Document::new(3));
-        bench
-            .act("me", &Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into())
-            .unwrap();
+        bench.apply(&Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into()).unwrap();
         bench
     }
 
@@ -199,7 +203,7 @@ mod tests {
     #[test]
     fn without_deltas_the_same_grows() {
         let mut alone = Bench::new(Document::new(3)).unfollowed();
-        alone.act("me", &Action::Grow { steps: Steps::nearest(12), until: None, bud: None }.into()).unwrap();
+        alone.apply(&Action::Grow { steps: Steps::nearest(12), until: None, bud: None }.into()).unwrap();
         let (alone, followed) = (alone.stats(), grown(12).stats());
         assert_eq!((alone.delta_bytes, alone.seconds.delta), (0, 0.0));
         assert!(followed.delta_bytes > 0 && followed.seconds.delta > 0.0);
@@ -231,10 +235,10 @@ mod tests {
     fn going_back_in_time_is_no_step() {
         let mut bench = grown(5);
         let hash = bench.stats().plant_hash;
-        bench.act("me", &Action::Ungrow { steps: Steps::nearest(2) }.into()).unwrap();
+        bench.apply(&Action::Ungrow { steps: Steps::nearest(2) }.into()).unwrap();
         assert_eq!(bench.stats().steps, 5);
         assert_ne!(bench.stats().plant_hash, hash);
-        bench.act("me", &Action::Redo {}.into()).unwrap();
+        bench.apply(&Action::Redo {}.into()).unwrap();
         assert_eq!(bench.stats().plant_hash, hash);
     }
 
@@ -242,7 +246,7 @@ mod tests {
     fn a_refused_action_changes_nothing() {
         let mut bench = Bench::new(Document::new(1));
         let hash = bench.stats().plant_hash;
-        assert!(bench.act("me", &Action::Undo {}.into()).is_err());
+        assert!(bench.apply(&Action::Undo {}.into()).is_err());
         assert_eq!(bench.stats().plant_hash, hash);
     }
 }

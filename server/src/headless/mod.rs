@@ -6,30 +6,28 @@ mod stats;
 
 use std::{
     fs,
-    io::{self, BufWriter, Read, Write},
+    io::{self, Read, Write},
     path::{Path, PathBuf},
     time::Instant,
 };
 
-use espalier_export::ExportError;
 use espalier_growth::{DEFAULT_METAMER_BUDGET, species::Species};
-use espalier_proto::{Action, Command, Problem, Steps};
+use espalier_proto::{Action, Problem, Steps};
 use espalier_session::{Document, ScriptError, read_commands};
+use espalier_settings::ParametersPatch;
 
 use self::bench::Bench;
 pub use self::species::species;
 use crate::{
-    cli::{self, Export, Grow, Replay, Results, SEED, Seeds, Start},
+    cli::{self, Grow, NoFormat, Replay, Results, SEED, Start},
     document,
-    export_options::{ExportOptions, NotOfFormat},
+    export_options::NotOfFormat,
     import as imports,
+    output::OutputError,
     pool::SimulationPool,
+    progress::Bar,
+    recipe::{GrowError, Recipe, SeedRange},
 };
-
-/// Commands of a script and of `grow` are done in this name.
-const AUTHOR: &str = "command-line";
-/// A tree that adds nothing in so many steps will not add anything any more.
-const PATIENCE: u32 = 50;
 
 /// The command could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -57,33 +55,23 @@ pub enum HeadlessError {
     #[error("A parameter cannot be set: {0}.")]
     Parameters(Problem),
     /// The result cannot be written.
-    #[error("The export {} cannot be written: {cause}.", path.display())]
-    Write {
-        /// Which file.
-        path: PathBuf,
-        /// Why not.
-        cause: io::Error,
-    },
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// Standard output has no ending.
+    #[error(transparent)]
+    NoFormat(#[from] NoFormat),
     /// The format has no such option.
     #[error("The export cannot be done: {0}.")]
     Options(#[from] NotOfFormat),
-    /// The result does not fit its format.
-    #[error("The export failed: {0}.")]
-    Export(#[from] ExportError),
-    /// The tree does not get that large.
-    #[error("The tree stopped growing with {alive} of {wanted} metamers.")]
-    Stalled {
-        /// Living metamers reached.
-        alive: u32,
-        /// Living metamers asked for.
-        wanted: u32,
-    },
-    /// Many trees would be written to one file.
-    #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
-    OneName,
+    /// The tree cannot be grown.
+    #[error(transparent)]
+    Grow(#[from] GrowError),
     /// The tree cannot grow on.
     #[error("The tree cannot grow on: {0}.")]
     Growth(Problem),
+    /// Many trees would be written to one file.
+    #[error("The export of several seeds needs {SEED} in its name, as in oak-{SEED}.glb.")]
+    OneName,
     /// The threads cannot be made.
     #[error("The simulation's threads cannot be started: {0}.")]
     Pool(#[from] rayon::ThreadPoolBuildError),
@@ -101,7 +89,7 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
         let mut bench =
             bench(started(options.seed, &options.start, DEFAULT_METAMER_BUDGET)?, &options.results);
         for (line, command) in &script {
-            bench.act(AUTHOR, command).map_err(|problem| ScriptError {
+            bench.apply(command).map_err(|problem| ScriptError {
                 name: name.clone(),
                 line: *line,
                 problem: Box::new(problem),
@@ -116,51 +104,42 @@ pub fn replay(options: &Replay) -> Result<(), HeadlessError> {
 pub fn grow(options: &Grow) -> Result<(), HeadlessError> {
     check(&options.results)?;
     let pool = SimulationPool::new(options.results.threads)?;
-    let Some(Seeds(seeds)) = &options.seeds else {
+    let Some(SeedRange(seeds)) = &options.seeds else {
         return finish(grown(options, options.seed, &pool)?, options.species, &options.results);
     };
     let name = options.results.export.as_ref().map(|export| export.path.to_string_lossy().into_owned());
     if name.as_ref().is_some_and(|name| !name.contains(SEED)) {
         return Err(HeadlessError::OneName);
     }
+    let bar = Bar::of(seeds.clone().count(), "trees");
     for seed in seeds.clone() {
         let mut results = options.results.clone();
         if let (Some(export), Some(name)) = (&mut results.export, &name) {
             export.path = name.replace(SEED, &seed.to_string()).into();
         }
-        finish(grown(options, seed, &pool)?, options.species, &results)?;
+        let bench = grown(options, seed, &pool)?;
+        bar.aside(|| finish(bench, options.species, &results))?;
+        bar.step();
     }
     Ok(())
 }
 
 /// One tree.
 fn grown(options: &Grow, seed: u32, pool: &SimulationPool) -> Result<Bench, HeadlessError> {
-    pool.block_on(|| {
+    let patches = options.start.parameters.iter();
+    let recipe = Recipe {
+        // All at once: weights that are changed one by one do not sum to 1 in between.
+        parameters: patches.fold(ParametersPatch::default(), |all, patch| all.patched(patch)),
+        steps: options.steps,
+        metamers: options.metamers,
         // Dead metamers count as well, and how many will die is not known before.
-        let mut bench = match options.species {
-            Some(species) => {
-                let budget = Start { parameters: Vec::new(), budget: options.start.budget };
-                let mut bench = bench(started(seed, &budget, u32::MAX)?, &options.results);
-                species::raise(&mut bench, species, &options.start.parameters)?;
-                bench
-            }
-            None => bench(started(seed, &options.start, u32::MAX)?, &options.results),
-        };
-        let wanted = options.metamers.unwrap_or(0);
-        // One operation for undo, however many steps it takes.
-        let step = Command {
-            gesture: Some(1),
-            ..Action::Grow { steps: Steps::LEAST, until: None, bud: None }.into()
-        };
-        let (mut most, mut idle) = (0, 0);
-        while bench.document().metamers() < wanted {
-            let alive = bench.document().metamers();
-            (most, idle) = if alive > most { (alive, 0) } else { (most, idle + 1) };
-            let stalled = HeadlessError::Stalled { alive, wanted };
-            if idle == PATIENCE || bench.act(AUTHOR, &step).is_err() {
-                return Err(stalled);
-            }
-        }
+        budget: options.start.budget.unwrap_or(u32::MAX),
+        ..options.species.map(Recipe::of).unwrap_or_default()
+    };
+    pool.block_on(|| {
+        let seedling = recipe.seedling(seed).map_err(HeadlessError::Parameters)?;
+        let mut bench = bench(seedling, &options.results);
+        recipe.grow(&mut bench)?;
         Ok(bench)
     })
 }
@@ -178,6 +157,7 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
         parameters: options.start.parameters.clone(),
         metamers: budget,
     };
+    let bar = Bar::turning("making a tree of the file");
     let bench = SimulationPool::new(options.results.threads)?.block_on(|| {
         let made = imports::document(&bytes, &import);
         let mut document = made.map_err(|cause| HeadlessError::Import { path, cause })?;
@@ -185,16 +165,21 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
         let mut bench = bench(document, &options.results);
         if let Some(steps) = options.grow.map(Steps::nearest) {
             let grow = Action::Grow { steps, until: None, bud: None }.into();
-            bench.act(AUTHOR, &grow).map_err(HeadlessError::Growth)?;
+            bench.apply(&grow).map_err(HeadlessError::Growth)?;
         }
         Ok::<_, HeadlessError>(bench)
     })?;
+    drop(bar);
     finish(bench, None, &options.results)
 }
 
 /// Whether the export can be done, before anything grows.
-fn check(results: &Results) -> Result<(), NotOfFormat> {
-    results.export.as_ref().map_or(Ok(()), |export| results.options.check(export.row.options))
+fn check(results: &Results) -> Result<(), HeadlessError> {
+    if let Some(target) = results.target()? {
+        results.options.check(target.row.options)?;
+        target.check()?;
+    }
+    Ok(())
 }
 
 /// A seedling as the options want it.
@@ -209,29 +194,6 @@ fn started(seed: u32, start: &Start, budget: u32) -> Result<Document, HeadlessEr
 fn bench(document: Document, results: &Results) -> Bench {
     let bench = Bench::new(document);
     if results.no_deltas { bench.unfollowed() } else { bench }
-}
-
-/// Writes a file beside its place and moves it there when it is whole.
-fn write(
-    document: &mut Document,
-    species: Option<&'static Species>,
-    Export { path, row }: &Export,
-    options: &ExportOptions,
-) -> Result<(), HeadlessError> {
-    let failed = |cause| HeadlessError::Write { path: path.clone(), cause };
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let mut file = tempfile::Builder::new();
-    #[cfg(unix)]
-    file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = file.tempfile_in(folder).map_err(failed)?;
-    let mut out = BufWriter::new(file);
-    match document::write(document, species, row.format, options, &mut out) {
-        Err(ExportError::Write(kind)) => return Err(failed(kind.into())),
-        written => written?,
-    }
-    let file = out.into_inner().map_err(|error| failed(error.into_error()))?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
@@ -249,13 +211,19 @@ fn finish(
     results: &Results,
 ) -> Result<(), HeadlessError> {
     let mut stats = bench.stats();
-    if let Some(export) = &results.export {
+    let target = results.target()?;
+    if let Some(target) = &target {
         let begun = Instant::now();
-        write(bench.document_mut(), species, export, &results.options)?;
+        target.write(|out| {
+            document::write(bench.document_mut(), species, target.row.format, &results.options, out)
+        })?;
         stats.exported(begun.elapsed());
     }
     let text = if results.stats.is_some() { stats.to_json() } else { stats.summary() };
     // A reader that has gone, as `head` may, is no error of ours.
-    let _ = writeln!(io::stdout(), "{text}");
+    let _ = match target {
+        Some(target) if target.is_stdout() => writeln!(io::stderr(), "{text}"),
+        _ => writeln!(io::stdout(), "{text}"),
+    };
     Ok(())
 }

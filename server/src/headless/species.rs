@@ -4,13 +4,10 @@ use std::{fs, io::Write, path::Path};
 
 use espalier_export::picture::{self, Cell};
 use espalier_growth::species::{self, Species};
-use espalier_proto::Action;
-use espalier_session::script;
-use espalier_settings::ParametersPatch;
 use rayon::prelude::*;
 
-use super::{AUTHOR, HeadlessError, bench::Bench};
-use crate::{cli, pool::SimulationPool, portrait::portrait};
+use super::HeadlessError;
+use crate::{cli, output::OutputError, pool::SimulationPool, portrait::portrait, progress::Bar};
 
 /// Pixels of one picture of the sheet, and pictures in a row.
 const CELL: (usize, usize) = (300, 310);
@@ -42,28 +39,11 @@ pub fn species(options: &cli::Species) -> Result<(), HeadlessError> {
     }
 }
 
-/// Grows a tree through its species' programme; the patches hold at every age.
-pub(super) fn raise(
-    bench: &mut Bench,
-    species: &Species,
-    patches: &[ParametersPatch],
-) -> Result<(), HeadlessError> {
-    // All at once: weights that are changed one by one do not sum to 1 in between.
-    let parameters = patches.iter().fold(ParametersPatch::default(), |all, patch| all.patched(patch));
-    let by_hand = Action::SetParameters { parameters };
-    for action in script(species) {
-        let grows = matches!(action, Action::Grow { .. });
-        for action in grows.then(|| by_hand.clone()).into_iter().chain([action]) {
-            bench.act(AUTHOR, &action.into()).map_err(HeadlessError::Parameters)?;
-        }
-    }
-    Ok(())
-}
-
 /// All species at their age, as a PNG file.
 fn sheet(seed: u32) -> Result<Vec<u8>, HeadlessError> {
+    let bar = Bar::of(species::all().len(), "species");
     let cells: Result<Vec<Cell>, HeadlessError> =
-        species::all().par_iter().map(|species| cell(species, seed)).collect();
+        species::all().par_iter().map(|species| cell(species, seed).inspect(|_| bar.step())).collect();
     Ok(picture::sheet(&cells?, COLUMNS).png())
 }
 
@@ -76,5 +56,5 @@ fn cell(species: &Species, seed: u32) -> Result<Cell, HeadlessError> {
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), HeadlessError> {
-    fs::write(path, bytes).map_err(|cause| HeadlessError::Write { path: path.to_owned(), cause })
+    Ok(fs::write(path, bytes).map_err(|cause| OutputError::Write { path: path.to_owned(), cause })?)
 }

@@ -1,12 +1,13 @@
 //! The addresses of the API: what is asked for at each, how it is answered, and what its description says.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, collections::BTreeMap};
 
 use axum::{
-    extract::{DefaultBodyLimit, Path, State},
+    extract::State,
     routing::{MethodRouter, delete, get, patch, post, put},
 };
 use espalier_proto::{
+    access::{Admitted, AuditEvent, Entrance, ListedUser, LogIn, Me, Redeem},
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
@@ -15,28 +16,29 @@ use espalier_proto::{
     obstacle::PlacedObstacle,
     schematic::Schematic,
     species::Species,
-    version::{MAX_GLB_BYTES, MAX_WOOD_BYTES},
+    thumbnail::MAX_THUMBNAIL_BYTES,
+    version::{KEPT_DAYS, MAX_GLB_BYTES, MAX_WOOD_BYTES},
 };
 use espalier_settings::ParameterValues;
 use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
-    Shared, collections, description, description::About, exports, imports, obstacles, schematic, sessions,
-    species, trees, versions,
+    Shared, audit, collections, description, description::About, entry, exports, failure, failure::Path,
+    imports, jobs, obstacles, schematic, sessions, species, trees, versions,
 };
 use crate::{
-    authority::Action,
+    access::Action,
     document::{FORMATS, FormatRow},
     export_options::ExportOptions,
 };
 
 /// A note of 2000 characters, with room for the rest of the request.
 const MAX_SAID_BODY: usize = 32 * 1024;
-/// A thumbnail of 192 KiB as base64, with room for the rest of the request.
-const MAX_TREE_BODY: usize = 264 * 1024;
+/// A thumbnail as base64, with room for the rest of the request.
+const MAX_TREE_BODY: usize = MAX_THUMBNAIL_BYTES.div_ceil(3) * 4 + 8 * 1024;
 /// Uploads of obstacles at once: each holds a file and its triangles.
 const MAX_UPLOADS: usize = 2;
-/// Files at once that become trees: a document may unpack to 2.7 GB.
+/// Files at once that become trees: a section of a document may unpack to 2 GB.
 const MAX_IMPORTS: usize = 1;
 /// Exports made at once: each holds a scene of its own.
 const MAX_EXPORTS: usize = 1;
@@ -45,22 +47,36 @@ const MAX_PICTURES: usize = 1;
 /// Schematics grown at once; each takes some milliseconds.
 const MAX_SCHEMATICS: usize = 4;
 
+/// How the list of what was done calls the taking of a tree.
+const EXPORT: &str = "export";
+
 /// An address of the API.
 pub(super) struct Route {
     /// Method and path, in which `{session}` and `{tree}` name what is asked for.
     pub address: Cow<'static, str>,
-    pub action: Action,
+    /// What is asked for; nothing where whoever is not let in yet may come.
+    pub action: Option<Action>,
     pub answer: MethodRouter<Shared>,
+    /// How the list of what was done calls it, if it is noted there.
+    pub noted: Option<&'static str>,
     pub about: About,
+}
+
+impl Route {
+    /// It is noted on the list of what was done.
+    fn noted(mut self, noted: &'static str) -> Self {
+        self.noted = Some(noted);
+        self
+    }
 }
 
 fn route(
     address: impl Into<Cow<'static, str>>,
-    action: Action,
+    action: impl Into<Option<Action>>,
     answer: MethodRouter<Shared>,
     about: About,
 ) -> Route {
-    Route { address: address.into(), action, answer, about }
+    Route { address: address.into(), action: action.into(), answer, noted: None, about }
 }
 
 /// The path of an address.
@@ -68,7 +84,20 @@ pub(super) fn path_of(address: &str) -> &str {
     address.split_once(' ').map_or(address, |(_, path)| path)
 }
 
-/// The socket. Who comes there is known by the hello, so nothing is asked before.
+/// The methods that an address which is read takes.
+const READ: &str = "GET, HEAD";
+
+/// The methods of each path in the list, as `Allow` has them; all other paths of the server are read.
+pub(super) fn methods() -> impl Fn(&str) -> String + Clone {
+    let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for Route { address, .. } in routes().into_iter().chain(downloads()) {
+        let method = address.split(' ').next().map(|method| if method == "GET" { READ } else { method });
+        all.entry(path_of(&address).into()).or_default().extend(method.map(str::to_owned));
+    }
+    move |path| all.get(path).map_or_else(|| READ.to_owned(), |methods| methods.join(", "))
+}
+
+/// The socket, where a page is told by the close why it may not come in.
 pub(super) const SOCKET: &str = "GET /api/v1/sessions/{session}/socket";
 
 /// What the description says of the socket.
@@ -88,7 +117,7 @@ pub(super) fn downloads() -> Vec<Route> {
             .asks::<ExportOptions>()
             .among(row.options)
             .gives_file(row.media_type);
-        route(address, Action::TakeTree, answer.layer(exports.clone()), about)
+        route(address, Action::TakeTree, answer.layer(exports.clone()), about).noted(EXPORT)
     };
     FORMATS.iter().map(take).collect()
 }
@@ -96,39 +125,50 @@ pub(super) fn downloads() -> Vec<Route> {
 /// The rest of the API, but for the socket.
 pub(super) fn routes() -> Vec<Route> {
     let at_once = GlobalConcurrencyLimitLayer::new;
-    let body = DefaultBodyLimit::max;
+    let body = failure::body_limit;
     vec![
-        route("GET /api/v1/openapi.json", Action::SeeSpecies, get(description::show), About::new("The description of this API (OpenAPI 3.1).").gives_file("application/json")),
-        route("GET /api/v1/formats", Action::SeeSpecies, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),
+        route("POST /api/v1/redeem", None, post(entry::redeem), About::new("Come in by an invitation (AC3); the answer sets a cookie.").takes::<Redeem>().gives::<Admitted>(200)),
+        route("GET /api/v1/entry", None, get(entry::entrance), About::new("What one can come in by.").gives::<Entrance>(200)),
+        route("POST /api/v1/login", None, post(entry::log_in), About::new("Come in with a password (AC9); the answer sets a cookie.").takes::<LogIn>().gives::<Admitted>(200)),
+        route("POST /api/v1/logout", None, post(entry::log_out), About::new("Be let in no longer by the cookie of the request, which goes.").gives_nothing()),
+        route("GET /api/v1/me", Action::Look, get(entry::me), About::new("Who asks, and what they may do (AC8).").gives::<Me>(200)),
+        route("GET /api/v1/users", Action::SeePeople, get(entry::users), About::new("Who can log in, by name.").gives::<Vec<ListedUser>>(200)),
+        route("GET /api/v1/audit", Action::SeePeople, get(audit::list), About::new("What was done and by whom, newest first (AC10).").asks::<audit::Page>().gives::<Vec<AuditEvent>>(200)),
+        route("GET /api/v1/openapi.json", Action::Look, get(description::show), About::new("The description of this API (OpenAPI 3.1).").gives_file("application/json")),
+        route("GET /api/v1/formats", Action::Look, get(exports::formats), About::new("What a tree can be downloaded as (EX1).").gives::<Vec<ExportFormat>>(200)),
         route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
-        route("POST /api/v1/sessions", Action::BeginSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
+        route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
         route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
-        route("GET /api/v1/sessions/{session}/obstacles/{id}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
-        route("GET /api/v1/species", Action::SeeSpecies, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
-        route("GET /api/v1/species/{slug}/picture", Action::SeeSpecies, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
-        route("POST /api/v1/schematic", Action::DrawSchematic, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
+        route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
+        route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
+        route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
+        route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow).layer(body(MAX_SAID_BODY)), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)),
+        route("GET /api/v1/jobs/{job}", Action::GrowTrees, get(jobs::find), About::new("How far a job is, and its files so far (JB2).").gives::<jobs::JobNow>(200)),
+        route("DELETE /api/v1/jobs/{job}", Action::GrowTrees, delete(jobs::give_up), About::new("Give a job up; its files go (JB4).").gives_nothing()),
+        route("GET /api/v1/jobs/{job}/results/{seed}", Action::GrowTrees, get(jobs::result), About::new("A file of a job (JB3).").gives_parts("application/octet-stream")),
+        route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
         route("POST /api/v1/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
         route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_IMPORTS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
-        route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new("Delete a tree; it can be taken back for 30 days (LB6).").gives_nothing().revised()),
-        route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()),
+        route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
+        route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()).noted("undelete"),
         route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy).layer(body(MAX_SAID_BODY)), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)),
         route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
-        route("GET /api/v1/tags", Action::ListTrees, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
-        route("GET /api/v1/authors", Action::ListTrees, get(collections::authors), About::new("Who saved trees last, by name.").gives::<Vec<TreeAuthor>>(200)),
-        route("GET /api/v1/collections", Action::ListTrees, get(collections::list), About::new("All collections, by name.").gives::<Vec<TreeCollection>>(200)),
+        route("GET /api/v1/tags", Action::SeeLibrary, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
+        route("GET /api/v1/authors", Action::SeeLibrary, get(collections::authors), About::new("Who saved trees last, by name.").gives::<Vec<TreeAuthor>>(200)),
+        route("GET /api/v1/collections", Action::SeeLibrary, get(collections::list), About::new("All collections, by name.").gives::<Vec<TreeCollection>>(200)),
         route("POST /api/v1/collections", Action::ChangeCollections, post(collections::add), About::new("Make a collection.").takes::<NewCollection>().gives::<TreeCollection>(201)),
-        route("PATCH /api/v1/collections/{id}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
-        route("DELETE /api/v1/collections/{id}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
+        route("PATCH /api/v1/collections/{collection}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
+        route("DELETE /api/v1/collections/{collection}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
         route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
         route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()),
-        route("PATCH /api/v1/trees/{tree}/versions/{number}", Action::ChangeTree, patch(versions::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()),
-        route("POST /api/v1/trees/{tree}/versions/{number}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()),
-        route("GET /api/v1/trees/{tree}/versions/{number}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_file("application/octet-stream")),
-        route("GET /api/v1/trees/{tree}/versions/{number}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
+        route("PATCH /api/v1/trees/{tree}/versions/{version}", Action::ChangeTree, patch(versions::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()),
+        route("POST /api/v1/trees/{tree}/versions/{version}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()).noted("restore"),
+        route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
+        route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
     ]
 }

@@ -26,6 +26,11 @@ pub(super) async fn page(headers: HeaderMap) -> Response {
     answer("/index.html", &headers)
 }
 
+/// The page on which the API is read and tried.
+pub(super) async fn api_page(headers: HeaderMap) -> Response {
+    answer("/api.html", &headers)
+}
+
 /// Any other file.
 pub(super) async fn file(uri: Uri, headers: HeaderMap) -> Response {
     answer(uri.path(), &headers)
@@ -33,7 +38,7 @@ pub(super) async fn file(uri: Uri, headers: HeaderMap) -> Response {
 
 fn answer(path: &str, headers: &HeaderMap) -> Response {
     let Ok(index) = FILES.binary_search_by(|file| file.path.cmp(path)) else {
-        return Failure::none_such("address").into_response();
+        return Failure::no_address().into_response();
     };
     let file = &FILES[index];
     let mut response = Response::new(Body::empty());
@@ -102,6 +107,11 @@ mod tests {
         let etag = page.headers()[header::ETAG].to_str().unwrap().to_owned();
         let again = get("/index.html", Some((header::IF_NONE_MATCH, &format!("\"other\", W/{etag}"))));
         assert_eq!(again.status(), StatusCode::NOT_MODIFIED);
+    }
+
+    #[test]
+    fn the_page_of_the_api_is_embedded() {
+        assert_eq!(get("/api.html", None).headers()[header::CONTENT_TYPE], "text/html; charset=utf-8");
     }
 
     #[test]

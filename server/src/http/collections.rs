@@ -1,22 +1,17 @@
 //! The library: collections, tags, favourites, and who saved trees.
 
-use axum::{
-    Extension, Json,
-    extract::{Path, State},
-    http::StatusCode,
-    response::IntoResponse,
-};
+use axum::{Extension, Json, extract::State, http::StatusCode, response::IntoResponse};
 use espalier_proto::library::{ChangeCollection, NewCollection, TreeAuthor, TreeCollection, TreeTag};
 use espalier_session::Principal;
 
 use super::{
     Shared,
-    failure::{Body, Failure},
-    text,
+    failure::{Body, Failure, Path},
 };
 use crate::{
     name,
-    store::{Collection, CollectionChange, Finding, StoreError},
+    store::{Collection, CollectionChange, Finding, Missing},
+    text,
 };
 
 pub(super) async fn list(State(shared): State<Shared>) -> Result<Json<Vec<TreeCollection>>, Failure> {
@@ -30,7 +25,7 @@ pub(super) async fn add(
 ) -> Result<impl IntoResponse, Failure> {
     let (id, name) = (name::unguessable(), text::name("name", &new.name)?);
     let new = Collection { id, name, parent: new.parent, trees: 0 };
-    shared.store.add_collection(new.clone()).await.map_err(|error| missing("parent", error))?;
+    shared.store.add_collection(new.clone()).await?;
     Ok((StatusCode::CREATED, Json(to_proto(new))))
 }
 
@@ -43,19 +38,16 @@ pub(super) async fn change(
         name: change.name.map(|name| text::name("name", &name)).transpose()?,
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
     };
-    let changed = shared.store.change_collection(&id, change).await;
+    shared.store.change_collection(&id, change).await?;
     let found = shared.store.collections().await?.into_iter().find(|collection| collection.id == id);
-    let found = found.ok_or_else(|| Failure::no_collection("id"))?;
-    // It is there, so it is the parent that is not.
-    changed.map_err(|error| missing("parent", error))?;
-    Ok(Json(to_proto(found)))
+    Ok(Json(to_proto(found.ok_or(Missing::Collection)?)))
 }
 
 pub(super) async fn delete(
     State(shared): State<Shared>,
     Path(id): Path<String>,
 ) -> Result<StatusCode, Failure> {
-    shared.store.delete_collection(&id).await.map_err(|error| missing("id", error))?;
+    shared.store.delete_collection(&id).await?;
     Ok(StatusCode::NO_CONTENT)
 }
 
@@ -85,11 +77,6 @@ pub(super) async fn unlike(
 ) -> Result<StatusCode, Failure> {
     shared.store.set_favourite(&principal.to_string(), &tree, false).await?;
     Ok(StatusCode::NO_CONTENT)
-}
-
-/// What is not there is the collection that a field names.
-fn missing(field: &str, error: StoreError) -> Failure {
-    if matches!(error, StoreError::NotFound) { Failure::no_collection(field) } else { error.into() }
 }
 
 fn to_proto(collection: Collection) -> TreeCollection {

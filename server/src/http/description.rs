@@ -8,7 +8,7 @@ use schemars::{JsonSchema, SchemaGenerator, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
 use super::addresses::{SOCKET, about_socket, downloads, routes};
-use crate::http::guard::CLIENT;
+use crate::access::{Action, cookie};
 
 /// Writes a type's schema into a generator.
 type SchemaOf = fn(&mut SchemaGenerator) -> Value;
@@ -72,6 +72,11 @@ impl About {
         self.answers(200, Content::File(media_type))
     }
 
+    /// The answer is a file, or a part of it (`RG1`).
+    pub fn gives_parts(self, media_type: &'static str) -> Self {
+        self.gives_file(media_type).answers(206, Content::File(media_type))
+    }
+
     /// The answer has no body.
     pub fn gives_nothing(self) -> Self {
         self.answers(204, Content::Nothing)
@@ -107,10 +112,10 @@ impl About {
 }
 
 /// All addresses in the order of the list, each with what is said of it.
-fn all() -> Vec<(String, About)> {
-    let listed =
-        routes().into_iter().chain(downloads()).map(|route| (route.address.into_owned(), route.about));
-    listed.chain([(SOCKET.to_owned(), about_socket())]).collect()
+fn all() -> Vec<(String, Option<Action>, About)> {
+    let listed = routes().into_iter().chain(downloads());
+    let listed = listed.map(|route| (route.address.into_owned(), route.action, route.about));
+    listed.chain([(SOCKET.to_owned(), Some(Action::JoinSession), about_socket())]).collect()
 }
 
 /// The description's text.
@@ -120,7 +125,7 @@ fn document() -> String {
     let mut generator = settings.into_generator();
     let problem = schema_of::<Problem>(&mut generator);
     let mut paths = Map::new();
-    for (address, about) in all() {
+    for (address, _, about) in all() {
         let (method, path) = address.split_once(' ').unwrap_or(("GET", &address));
         let operation = operation(method, path, &about, &mut generator);
         let at = paths.entry(path).or_insert_with(|| json!({}));
@@ -132,7 +137,7 @@ fn document() -> String {
         "openapi": "3.1.0",
         "info": { "title": "Espalier", "version": env!("CARGO_PKG_VERSION"), "description": description },
         "servers": [{ "url": "/" }],
-        "security": [{}, { "client": [] }],
+        "security": [{}, { "device": [] }, { "token": [] }],
         "paths": paths,
         "components": {
             "schemas": generator.take_definitions(true),
@@ -140,12 +145,15 @@ fn document() -> String {
                 "description": "What is wrong: code, field, what is allowed there, and a sentence.",
                 "content": { "application/json": { "schema": problem } },
             } },
-            "securitySchemes": { "client": {
-                "type": "apiKey",
-                "in": "header",
-                "name": CLIENT.as_str(),
-                "description": "The key of a client (AU1).",
-            } },
+            "securitySchemes": {
+                "device": {
+                    "type": "apiKey",
+                    "in": "cookie",
+                    "name": cookie::NAME,
+                    "description": "A device that was invited (AC3); behind the name stand `-` and the port of the address, if it has one. Nothing is needed at the machine itself (AC1).",
+                },
+                "token": { "type": "http", "scheme": "bearer", "description": "A token of a program (AC6)." },
+            },
         },
     });
     // Plain values always have a JSON form.
@@ -178,11 +186,7 @@ fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGene
         .skip(1)
         .step_by(2)
         .map(|name| {
-            let kind = if name == "number" || name == "id" && path.contains("obstacles") {
-                "integer"
-            } else {
-                "string"
-            };
+            let kind = if ["version", "obstacle", "seed"].contains(&name) { "integer" } else { "string" };
             json!({ "name": name, "in": "path", "required": true, "schema": { "type": kind } })
         })
         .collect();
@@ -192,6 +196,12 @@ fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGene
         parameters.push(
             json!({ "name": "If-Match", "in": "header", "description": description, "schema": schema }),
         );
+    }
+    if about.gives.iter().any(|(status, _)| *status == 206) {
+        let schema = json!({ "type": "string" });
+        let description = "A part of the file, as bytes=FROM-TO (RG1).";
+        parameters
+            .push(json!({ "name": "Range", "in": "header", "description": description, "schema": schema }));
     }
     for (name, mut schema, is_required) in about.options(generator) {
         let description = schema.as_object_mut().and_then(|schema| schema.remove("description"));
@@ -265,8 +275,9 @@ mod tests {
     /// The table of `PROTOCOL.md`: what each address does, takes and gives.
     fn table() -> String {
         let mut generator = SchemaGenerator::default();
-        let mut table = "| address | does | body; query | answer |\n|---|---|---|---|\n".to_owned();
-        for (address, about) in all() {
+        let mut table =
+            "| address | does | least role | body; query | answer |\n|---|---|---|---|---|\n".to_owned();
+        for (address, action, about) in all() {
             let given = about.gives.iter().map(|&(status, content)| match (status, content) {
                 (status, Content::Nothing) => status.to_string(),
                 (200, content) => named(content, &mut generator),
@@ -278,7 +289,8 @@ mod tests {
             let taken = about.takes.map(|taken| named(taken, &mut generator));
             let taken = taken.into_iter().chain(Some(options).filter(|all| !all.is_empty()));
             let taken = taken.collect::<Vec<_>>().join("; ");
-            table += &format!("| `{address}` | {} | {taken} | {given} |\n", about.does);
+            let role = action.map_or("anybody", |action| action.least().name());
+            table += &format!("| `{address}` | {} | {role} | {taken} | {given} |\n", about.does);
         }
         table
     }

@@ -13,8 +13,8 @@ use std::{
 use axum::{
     Json,
     body::{Body, Bytes},
-    extract::{Path, State},
-    http::header,
+    extract::State,
+    http::{HeaderName, header},
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
@@ -27,7 +27,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     Shared,
-    failure::{Failure, Query},
+    failure::{Failure, Path, Query},
     sessions::open,
 };
 use crate::{
@@ -91,7 +91,9 @@ pub(super) async fn progress(
     Path((_, ticket)): Path<(String, String)>,
 ) -> Result<Json<ExportProgress>, Failure> {
     let found = shared.progresses.lock().get(&ticket).cloned();
-    let found = found.ok_or_else(|| Failure::none_such("export"))?;
+    let found = found.ok_or_else(|| {
+        Failure::none_such("export", "ticket", "the ticket of an export that is being made")
+    })?;
     let written = found.written.load(Ordering::Relaxed);
     let expected = found.expected.load(Ordering::Relaxed).max(written);
     Ok(Json(ExportProgress { written, expected }))
@@ -114,7 +116,9 @@ pub(super) async fn take(
     let (pieces, to_send) = mpsc::channel(WAITING);
     let pool = shared.pool.clone();
     tokio::task::spawn_blocking(move || {
-        let file = make(&document.bytes, row, &options, &progress, |written| Spool::new(pool, stop, written));
+        let file = make(&document.bytes, row, &options, &progress, |written| {
+            Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
+        });
         drop((document, held));
         let (file, length) = match file {
             Ok(file) => file,
@@ -132,15 +136,29 @@ pub(super) async fn take(
         }
         Err(_) => return Err(crate::pool::Panicked.into()),
     };
-    let headers = [
-        (header::CONTENT_TYPE, row.media_type.to_owned()),
-        (header::CONTENT_LENGTH, length.to_string()),
-        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"tree.{}\"", row.ending)),
-    ];
+    let headers = headers(row, &format!("tree.{}", row.ending));
+    let size = [(header::CONTENT_LENGTH, length.to_string())];
     let pieces = stream::unfold((to_send, gone), |(mut to_send, gone)| async move {
         to_send.recv().await.map(|piece| (piece, (to_send, gone)))
     });
-    Ok((headers, Body::from_stream(pieces)).into_response())
+    Ok((headers, size, Body::from_stream(pieces)).into_response())
+}
+
+/// What is said of a file that is sent.
+pub(super) fn headers(row: &FormatRow, name: &str) -> [(HeaderName, String); 2] {
+    [
+        (header::CONTENT_TYPE, row.media_type.to_owned()),
+        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"{name}\"")),
+    ]
+}
+
+/// What is read, as the body of an answer.
+pub(super) fn body_of(file: impl Read + Send + 'static) -> Body {
+    let (pieces, to_send) = mpsc::channel(WAITING);
+    tokio::task::spawn_blocking(move || send(file, &pieces));
+    Body::from_stream(stream::unfold(to_send, |mut to_send| async move {
+        to_send.recv().await.map(|piece| (piece, to_send))
+    }))
 }
 
 fn make(
@@ -172,7 +190,7 @@ fn send(mut file: impl Read, pieces: &mpsc::Sender<io::Result<Bytes>>) {
     }
 }
 
-fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
+pub(super) fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {
     let allowed = if row.options.is_empty() { "no option".to_owned() } else { row.options.join(", ") };
     let message = format!("The export cannot be done: {error}; allowed: {allowed}.");
     Problem::new(Reason::NoSuchOption, message).at(error.0, allowed)

@@ -1,24 +1,31 @@
 //! What went wrong, as a status and a [`Problem`]; causes go to the log and nowhere else.
 
+use std::fmt;
+
 use axum::{
-    Json,
+    Extension, Json,
     body::Bytes,
-    extract::{FromRequest, FromRequestParts, Request, rejection::BytesRejection},
-    http::{HeaderMap, StatusCode, header, request::Parts},
+    extract::{
+        self, DefaultBodyLimit, FromRequest, FromRequestParts, Request, path::ErrorKind,
+        rejection::PathRejection,
+    },
+    http::{HeaderMap, HeaderValue, StatusCode, header, request::Parts},
+    middleware::Next,
     response::{IntoResponse, Response},
 };
 use espalier_proto::{Problem, ProblemCode, Reason, reading};
 use serde::de::DeserializeOwned;
 
 use crate::{
+    access::{self, Unknown},
     live::{Ended, OpenError},
     pool::Panicked,
-    store::StoreError,
+    store::{Missing, StoreError},
 };
 
 /// A request that could not be done.
 #[derive(Debug, PartialEq, Eq)]
-pub(super) struct Failure {
+pub struct Failure {
     status: StatusCode,
     problem: Problem,
 }
@@ -28,40 +35,53 @@ impl Failure {
         Problem::new(reason, sentence).into()
     }
 
-    /// There is no such thing at this address.
-    pub(super) fn none_such(what: &str) -> Self {
-        Self::new(Reason::NoneSuch, format!("There is no such {what}."))
+    pub(super) fn status(&self) -> StatusCode {
+        self.status
+    }
+
+    /// There is no such thing as `field` names; `allowed` there is what is.
+    pub(super) fn none_such(what: &str, field: &str, allowed: &str) -> Self {
+        Problem::new(Reason::NoneSuch, format!("There is no such {what}.")).at(field, allowed).into()
+    }
+
+    pub(super) fn no_address() -> Self {
+        Self::none_such("address", "path", "one of those in /api/v1/openapi.json")
+    }
+
+    /// The address takes these methods, and not the one that was tried.
+    pub(super) fn wrong_method(allowed: &str) -> Self {
+        let sentence = format!("This address does not take this method; allowed: {allowed}.");
+        Problem::new(Reason::WrongMethod, sentence).at("method", allowed).into()
     }
 
     pub(super) fn no_tree(more: &str) -> Self {
-        Self::new(Reason::NoTree, format!("There is no such tree{more}."))
+        let problem = Problem::new(Reason::NoTree, format!("There is no such tree{more}."));
+        problem.at(Missing::Tree.field(), "the identifier of a tree in the library").into()
     }
 
-    /// No collection has the identifier in this field.
-    pub(super) fn no_collection(field: &str) -> Self {
-        let problem = Problem::new(Reason::NoCollection, "There is no such collection.");
-        problem.at(field, "the identifier of a collection").into()
+    pub(super) fn no_version() -> Self {
+        Self::none_such("version", Missing::Version.field(), "the number of a version of the tree")
     }
 
     pub(super) fn no_session() -> Self {
-        Self::new(Reason::NoSession, "There is no such session.")
+        let problem = Problem::new(Reason::NoSession, "There is no such session.");
+        problem.at("session", "the name of a session").into()
     }
 
-    /// A file of which so many bytes are taken did not arrive.
-    pub(super) fn unread(rejection: &BytesRejection, most: usize) -> Self {
-        if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-            let allowed = format!("{} MiB", most >> 20);
-            let problem = Problem::new(Reason::LargeFile, format!("The file is larger than {allowed}."));
-            return problem.at("body", allowed).into();
-        }
-        Problem::new(Reason::FileCutOff, "The file did not arrive whole.").at("body", "a whole file").into()
+    /// What is wrong, where asking again is of no use.
+    pub(super) fn final_problem(self) -> Result<Problem, Self> {
+        if self.status.is_client_error() { Ok(self.problem) } else { Err(self) }
     }
 }
 
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
         let status = match (problem.reason, problem.code) {
-            (Reason::Forbidden, _) => StatusCode::FORBIDDEN,
+            (Reason::Forbidden | Reason::OtherSite, _) => StatusCode::FORBIDDEN,
+            (Reason::WrongMethod, _) => StatusCode::METHOD_NOT_ALLOWED,
+            (Reason::TooOften, _) => StatusCode::TOO_MANY_REQUESTS,
+            (Reason::NotLetIn | Reason::WrongPassword, _) => StatusCode::UNAUTHORIZED,
+            (Reason::UnknownHost, _) => StatusCode::MISDIRECTED_REQUEST,
             (Reason::LargeFile | Reason::LargeRequest | Reason::LargeThumbnail, _) => {
                 StatusCode::PAYLOAD_TOO_LARGE
             }
@@ -77,16 +97,30 @@ impl From<Problem> for Failure {
     }
 }
 
+impl From<Unknown> for Failure {
+    fn from(unknown: Unknown) -> Self {
+        match unknown {
+            Unknown::NotLetIn => access::not_let_in().into(),
+            Unknown::Twofold => Problem::new(Reason::Malformed, "The request has a token and a cookie.")
+                .at("authorization", "a token, or a cookie, and not both")
+                .into(),
+            Unknown::Store(error) => error.into(),
+        }
+    }
+}
+
 impl From<StoreError> for Failure {
     fn from(error: StoreError) -> Self {
         match error {
-            StoreError::NotFound => return Self::no_tree(" or version"),
+            StoreError::NotFound(missing) => return missing.into(),
             StoreError::Stale => {
                 let sentence = "Somebody else has changed the tree meanwhile; look at it and try again.";
-                return Self::new(Reason::Stale, sentence);
+                let problem = Problem::new(Reason::Stale, sentence);
+                return problem.at(header::IF_MATCH.as_str(), "the ETag of the tree as it is now").into();
             }
             StoreError::Cycle => {
-                return Self::new(Reason::CollectionInItself, "A collection cannot lie in itself.");
+                let problem = Problem::new(Reason::CollectionInItself, "A collection cannot lie in itself.");
+                return problem.at("parent", "a collection that does not lie in this one").into();
             }
             StoreError::Gone(_) => {
                 tracing::error!(%error, "the store failed");
@@ -100,6 +134,20 @@ impl From<StoreError> for Failure {
         tracing::error!(%error, "the store failed");
         let sentence = "The server cannot use its database now; nothing was changed. Is its disk full?";
         Self::new(Reason::DatabaseFailed, sentence)
+    }
+}
+
+impl From<Missing> for Failure {
+    fn from(missing: Missing) -> Self {
+        match missing {
+            Missing::Tree => Self::no_tree(""),
+            Missing::Version => Self::no_version(),
+            Missing::User => Self::none_such("user", missing.field(), "the name of somebody who can log in"),
+            Missing::Collection | Missing::Parent => {
+                let problem = Problem::new(Reason::NoCollection, "There is no such collection.");
+                problem.at(missing.field(), "the identifier of a collection").into()
+            }
+        }
     }
 }
 
@@ -134,7 +182,73 @@ impl From<Panicked> for Failure {
 
 impl IntoResponse for Failure {
     fn into_response(self) -> Response {
-        (self.status, Json(self.problem)).into_response()
+        let mut response = (self.status, Json(self.problem)).into_response();
+        if self.status == StatusCode::UNAUTHORIZED {
+            // How a program comes in; a page has a cookie.
+            response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
+        }
+        response
+    }
+}
+
+/// The most bytes that the body of a request may have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MostBytes(usize);
+
+impl Default for MostBytes {
+    /// What is taken where no [`body_limit`] is set.
+    fn default() -> Self {
+        Self(2 << 20)
+    }
+}
+
+impl fmt::Display for MostBytes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(bytes) = self;
+        if bytes % (1 << 20) == 0 {
+            write!(f, "{} MiB", bytes >> 20)
+        } else {
+            write!(f, "{} KiB", bytes >> 10)
+        }
+    }
+}
+
+/// Refuses bodies with more bytes; the refusal says how many are taken.
+pub(super) fn body_limit(most: usize) -> (DefaultBodyLimit, Extension<MostBytes>) {
+    (DefaultBodyLimit::max(most), Extension(MostBytes(most)))
+}
+
+/// The field of a problem with a body as a whole.
+const BODY: &str = "body";
+
+/// The bytes of a body; `large` and `cut_off` are why they are refused.
+async fn arrived<S: Send + Sync>(
+    request: Request,
+    state: &S,
+    what: &str,
+    [large, cut_off]: [Reason; 2],
+) -> Result<Bytes, Failure> {
+    let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
+    Bytes::from_request(request, state).await.map_err(|rejection| {
+        let problem = if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
+            Problem::new(large, format!("The {what} is larger than {most}.")).at(BODY, most.to_string())
+        } else {
+            Problem::new(cut_off, format!("The {what} did not arrive whole."))
+                .at(BODY, format!("a whole {what}"))
+        };
+        problem.into()
+    })
+}
+
+/// The body of a request as a file, or a problem where it did not arrive.
+#[derive(Debug)]
+pub(super) struct File(pub(super) Bytes);
+
+impl<S: Send + Sync> FromRequest<S> for File {
+    type Rejection = Failure;
+
+    async fn from_request(request: Request, state: &S) -> Result<Self, Failure> {
+        arrived(request, state, "file", [Reason::LargeFile, Reason::FileCutOff]).await.map(Self)
     }
 }
 
@@ -150,17 +264,12 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
             let problem = Problem::new(Reason::Malformed, "The request must be application/json.");
             return Err(problem.at("content-type", "application/json").into());
         }
-        let bytes = Bytes::from_request(request, state).await.map_err(|rejection| -> Failure {
-            if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-                let problem = Problem::new(Reason::LargeRequest, "The request is too large.");
-                return problem.at("body", "a smaller body").into();
-            }
-            Problem::new(Reason::Malformed, "The request cannot be read: it did not arrive whole.")
-                .at("body", "a whole body")
-                .into()
-        })?;
-        // Bytes that are no text are no JSON, and the reader says so.
-        Ok(Self(reading::from_json(&String::from_utf8_lossy(&bytes))?))
+        let bytes = arrived(request, state, "request", [Reason::LargeRequest, Reason::Malformed]).await?;
+        let text =
+            str::from_utf8(&bytes).map_err(|_| reading::unexpected(BODY, "no text", "JSON in UTF-8"))?;
+        // A problem with no part of the body is one with all of it.
+        let named = |problem: Problem| Problem { field: problem.field.or(Some(BODY.into())), ..problem };
+        Ok(Self(reading::from_json(text).map_err(named)?))
     }
 }
 
@@ -182,8 +291,40 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
     }
 }
 
+/// What stands in the path of an address where its row has names, or a problem that says what is wrong with it.
+#[derive(Debug)]
+pub(super) struct Path<T>(pub(super) T);
+
+impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Path<T> {
+    type Rejection = Failure;
+
+    async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Failure> {
+        let named = extract::Path::<Vec<(String, String)>>::from_request_parts(parts, state).await;
+        let names = named.map_err(|rejection| unread_path(&[], rejection))?.0;
+        let read = extract::Path::<T>::from_request_parts(parts, state).await;
+        read.map(|path| Self(path.0)).map_err(|rejection| unread_path(&names, rejection))
+    }
+}
+
+fn unread_path(names: &[(String, String)], rejection: PathRejection) -> Failure {
+    let PathRejection::FailedToDeserializePathParams(error) = rejection else { return Failure::no_address() };
+    let at = |index: usize| names.get(index).map(|(name, _)| name.clone());
+    let (field, found, expected) = match error.into_kind() {
+        ErrorKind::InvalidUtf8InPathParam { key } => (Some(key), "no text".into(), reading::ENCODED),
+        ErrorKind::ParseErrorAtIndex { index, value, expected_type } => (at(index), value, expected_type),
+        ErrorKind::ParseError { value, expected_type } => (at(0), value, expected_type),
+        _ => return Failure::no_address(),
+    };
+    field.map_or_else(Failure::no_address, |field| reading::unexpected(&field, &found, expected).into())
+}
+
+/// Refuses a path that cannot be read, before anybody else looks at it.
+pub(super) async fn legible(_: Path<Vec<(String, String)>>, request: Request, next: Next) -> Response {
+    next.run(request).await
+}
+
 pub(super) async fn unknown_route() -> Failure {
-    Failure::none_such("address")
+    Failure::no_address()
 }
 
 #[cfg(test)]
@@ -210,9 +351,9 @@ mod tests {
             .route("/import", post(ask::<Upload>))
     }
 
-    async fn answer(address: &str, body: String) -> (StatusCode, Value) {
+    async fn answer(address: &str, body: impl Into<Bytes>) -> (StatusCode, Value) {
         let request = Request::post(address).header(header::CONTENT_TYPE, "application/json; charset=utf-8");
-        let response = router().oneshot(request.body(Bytes::from(body)).unwrap()).await.unwrap();
+        let response = router().oneshot(request.body(body.into()).unwrap()).await.unwrap();
         let status = response.status();
         let bytes = axum::body::to_bytes(response.into_body(), usize::MAX).await.unwrap();
         (status, serde_json::from_slice(&bytes).unwrap_or_default())
@@ -227,7 +368,7 @@ mod tests {
             ("/list", Value::Null),
             ("/list?limit=5", Value::Null),
             ("/import?name=5&format=mtg&unit=0.5&internode_length=1", Value::Null),
-            ("/import?name=A+tall%20tree&format=true", Value::Null),
+            ("/import?name=A+tall%20tree&format=MTG", Value::Null),
         ] {
             let (status, said) = answer(address, body.to_string()).await;
             assert_eq!(status, StatusCode::OK, "{address}: {said}");
@@ -236,9 +377,21 @@ mod tests {
 
     #[tokio::test]
     async fn what_is_no_json_is_said_to_be_none() {
-        for text in ["", "{", "seed=1"] {
-            let (status, problem) = answer("/sessions", text.into()).await;
-            assert_eq!((status, problem["allowed"].as_str()), (StatusCode::BAD_REQUEST, Some("JSON")));
+        for (text, allowed) in [
+            (&b""[..], "JSON"),
+            (b"{", "JSON"),
+            (b"seed=1", "JSON"),
+            (b"\"x\"", "an object"),
+            (b"null", "an object"),
+            (b"{\"name\":\"\xff\"}", "JSON in UTF-8"),
+        ] {
+            let (status, problem) = answer("/tree", text).await;
+            let found = ["field", "allowed"].map(|name| problem[name].as_str());
+            assert_eq!(
+                (status, found),
+                (StatusCode::BAD_REQUEST, [Some("body"), Some(allowed)]),
+                "{problem}"
+            );
         }
         let request = Request::post("/sessions").body(Bytes::from("{}")).unwrap();
         assert_eq!(router().oneshot(request).await.unwrap().status(), StatusCode::BAD_REQUEST);

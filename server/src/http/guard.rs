@@ -1,11 +1,10 @@
-//! What holds for every request: where it may come from, who asks, how long it may take, what the browser may do with
-//! the answer.
+//! What holds for every request: who asks, how long it may take, what the browser may do with the answer.
 
 use std::time::Duration;
 
 use axum::{
-    extract::{RawPathParams, Request, State},
-    http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header},
+    extract::{FromRequestParts, RawPathParams, Request, State},
+    http::{HeaderMap, HeaderName, HeaderValue, header, request::Parts},
     middleware::Next,
     response::{IntoResponse, Response},
 };
@@ -13,8 +12,11 @@ use axum::{
 use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
 
-use super::failure::Failure;
-use crate::authority::{Action, Authority, Object};
+use super::{Shared, audit, failure::Failure};
+use crate::{
+    access::{Action, Caller, Object, Peer},
+    store::Library,
+};
 
 /// The key of the client that asks, as in its hello.
 pub(super) const CLIENT: HeaderName = HeaderName::from_static("espalier-client");
@@ -60,94 +62,107 @@ pub(super) async fn time_limit(request: Request, next: Next) -> Response {
 }
 
 /// What is asked for at an address.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Asked {
-    pub(super) authority: Authority,
+    pub(super) shared: Shared,
     pub(super) action: Action,
+    /// How the list of what was done calls it, if it is noted there.
+    pub(super) noted: Option<&'static str>,
+}
+
+/// What a request names.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Named<'a> {
+    /// Nothing but the server.
+    Server,
+    /// The session of this name.
+    Session(&'a str),
+    /// The saved tree with this identifier.
+    Tree(&'a str),
 }
 
 /// Finds out who asks, and whether they may do what this address does to what it names.
 pub(super) async fn ask(
-    State(asked): State<Asked>,
+    State(Asked { shared, action, noted }): State<Asked>,
     params: RawPathParams,
-    mut request: Request,
+    request: Request,
     next: Next,
 ) -> Response {
-    let principal = match principal(request.headers()) {
-        Ok(principal) => principal,
-        Err(problem) => return Failure::from(problem).into_response(),
+    let (mut parts, body) = request.into_parts();
+    let caller = match Caller::from_request_parts(&mut parts, &shared).await {
+        Ok(caller) => caller,
+        Err(failure) => return failure.into_response(),
     };
-    let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
-    let object = named("session").map(Object::Session).or_else(|| named("tree").map(Object::Tree));
-    if !(asked.authority)(&principal, asked.action, object.unwrap_or(Object::Server)) {
-        return Failure::from(espalier_session::forbidden()).into_response();
+    let note = noted.map(|noted| {
+        let object = params.iter().map(|(_, value)| value).collect::<Vec<_>>().join("/");
+        (noted, object, audit::called(&caller), parts.extensions.get::<Peer>().copied())
+    });
+    let asked = async {
+        let named = |name| params.iter().find(|(other, _)| *other == name).map(|(_, value)| value);
+        let named = named("session").map(Named::Session).or_else(|| named("tree").map(Named::Tree));
+        shared.ask(&caller, action, named.unwrap_or(Named::Server)).await?;
+        Ok::<_, Failure>(principal(&parts.headers)?)
+    };
+    let response = match asked.await {
+        Ok(principal) => {
+            parts.extensions.insert(caller);
+            parts.extensions.insert(principal);
+            next.run(Request::from_parts(parts, body)).await
+        }
+        Err(failure) => failure.into_response(),
+    };
+    if let Some((noted, object, who, peer)) = note {
+        shared.note(who, peer, noted, Some(object), audit::outcome(response.status())).await;
     }
-    request.extensions_mut().insert(principal);
-    next.run(request).await
+    response
+}
+
+impl FromRequestParts<Shared> for Caller {
+    type Rejection = Failure;
+
+    async fn from_request_parts(parts: &mut Parts, shared: &Shared) -> Result<Self, Failure> {
+        if let Some(caller) = parts.extensions.get::<Self>() {
+            return Ok(caller.clone());
+        }
+        let peer = parts.extensions.get::<Peer>().copied();
+        Ok(Self::of(&parts.headers, peer, shared.trusts_local, &*shared.store).await?)
+    }
+}
+
+impl Shared {
+    /// Whether somebody may do something to what a request names, in its address or in its body.
+    pub(super) async fn ask(&self, caller: &Caller, action: Action, named: Named<'_>) -> Result<(), Failure> {
+        let tree;
+        let object = match named {
+            Named::Server => Object::Server,
+            Named::Tree(id) => Object::Tree(id),
+            // To whom all trees are open it is the same which one it is.
+            Named::Session(_) if caller.only_tree().is_none() => Object::Loose,
+            Named::Session(name) => {
+                tree = self.store.tree_of(name).await?;
+                tree.as_ref().map_or(Object::Loose, |tree| Object::Tree(&tree.id))
+            }
+        };
+        if caller.may(action, object) { Ok(()) } else { Err(espalier_session::forbidden().into()) }
+    }
 }
 
 fn principal(headers: &HeaderMap) -> Result<Principal, Problem> {
     let Some(key) = headers.get(CLIENT) else { return Ok(Principal::visitor()) };
     key.to_str().ok().and_then(Principal::client).ok_or_else(|| {
         Problem::new(Reason::Malformed, "The request cannot be read: its client key is none.")
-            .at(CLIENT.as_str(), "8 to 64 letters, digits, - and _")
+            .at(CLIENT.as_str(), Principal::KEYS)
     })
-}
-
-/// Another site's page may neither open a socket (browsers allow that across sites) nor change anything here.
-pub(super) async fn same_origin(request: Request, next: Next) -> Response {
-    let reads = matches!(*request.method(), Method::GET | Method::HEAD) && !is_upgrade(request.headers());
-    if reads || is_same_origin(request.headers()) {
-        return next.run(request).await;
-    }
-    (StatusCode::FORBIDDEN, "This request comes from another site.").into_response()
-}
-
-fn is_upgrade(headers: &HeaderMap) -> bool {
-    headers.contains_key(header::UPGRADE)
-}
-
-/// Programs that are no browsers send no origin, and nobody can make them act against their will.
-fn is_same_origin(headers: &HeaderMap) -> bool {
-    let Some(origin) = headers.get(header::ORIGIN) else { return true };
-    let (Ok(origin), Some(Ok(host))) = (origin.to_str(), headers.get(header::HOST).map(HeaderValue::to_str))
-    else {
-        return false;
-    };
-    let origin = origin.strip_prefix("http://").or_else(|| origin.strip_prefix("https://"));
-    origin.is_some_and(|origin| origin.eq_ignore_ascii_case(host))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn allowed(origin: Option<&'static str>, host: &'static str) -> bool {
-        let mut headers = HeaderMap::new();
-        headers.insert(header::HOST, HeaderValue::from_static(host));
-        if let Some(origin) = origin {
-            headers.insert(header::ORIGIN, HeaderValue::from_static(origin));
-        }
-        is_same_origin(&headers)
-    }
-
     #[test]
     fn a_client_key_that_is_none_is_named_with_what_is_allowed() {
         let headers = HeaderMap::from_iter([(CLIENT, HeaderValue::from_static("seven_7"))]);
         let problem = principal(&headers).expect_err("it is too short");
         assert_eq!((problem.field.as_deref(), problem.allowed.is_some()), (Some("espalier-client"), true));
-    }
-
-    #[test]
-    fn only_the_same_host_and_port_may_connect() {
-        assert!(allowed(Some("http://192.168.1.7:7700"), "192.168.1.7:7700"));
-        assert!(allowed(Some("https://trees.example"), "trees.example"));
-        assert!(allowed(Some("https://Trees.example"), "trees.example"));
-        assert!(allowed(None, "trees.example"));
-        assert!(!allowed(Some("http://192.168.1.7:8080"), "192.168.1.7:7700"));
-        assert!(!allowed(Some("https://evil.example"), "trees.example"));
-        assert!(!allowed(Some("https://trees.example.evil"), "trees.example"));
-        assert!(!allowed(Some("null"), "trees.example"));
-        assert!(!allowed(Some("file://"), ""));
     }
 }

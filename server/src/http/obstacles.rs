@@ -2,19 +2,22 @@
 
 use axum::{
     Extension, Json,
-    body::Bytes,
-    extract::{Path, State, rejection::BytesRejection},
+    extract::State,
     http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
 use espalier_import::{ImportError, Limits};
 use espalier_proto::{
     Action, Mesh, Obstacle, Pose, Position, Problem, Reason, Scale, Shape, UnitRotation,
-    version::{MAX_GLB_BYTES, MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
+    version::{MAX_MESH_TRIANGLES, MAX_MESH_VERTICES},
 };
 use espalier_session::Principal;
 
-use super::{Shared, failure::Failure, sessions};
+use super::{
+    Shared,
+    failure::{Failure, File, Path},
+    sessions,
+};
 
 /// What the mesh of an upload may have (`LM6`).
 const LIMITS: Limits = Limits { vertices: MAX_MESH_VERTICES, triangles: MAX_MESH_TRIANGLES };
@@ -24,9 +27,8 @@ pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
     Path(session): Path<String>,
-    body: Result<Bytes, BytesRejection>,
+    File(file): File,
 ) -> Result<impl IntoResponse, Failure> {
-    let file = body.map_err(|rejection| Failure::unread(&rejection, MAX_GLB_BYTES))?;
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
     let mesh = shared.pool.run(move || mesh_of(&file)).await?;
@@ -48,22 +50,33 @@ pub(super) async fn mesh(
     Path((session, obstacle)): Path<(String, u32)>,
 ) -> Result<Response, Failure> {
     let session = sessions::open(&shared, &session).await?;
-    let mesh = session.mesh(obstacle).await?.ok_or_else(|| Failure::none_such("mesh"))?;
+    let mesh = session.mesh(obstacle).await?;
+    let mesh =
+        mesh.ok_or_else(|| Failure::none_such("mesh", "obstacle", "the id of an obstacle that is a mesh"))?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
 }
 
-/// Why a file cannot be an obstacle.
+/// What a file must be to be read at all.
+const GLTF: &str = "glTF 2.0 as .glb, or as .gltf with its buffers inside";
+
+/// Why a file cannot be an obstacle, and what one must have.
 fn no_obstacle(error: &ImportError) -> Problem {
-    let (reason, cause) = match error {
-        ImportError::NotGltf(_) => (Reason::NotGltf, None),
-        ImportError::Version(version) => (Reason::GltfVersion, Some(version.clone())),
-        ImportError::ExternalBuffer(_) => (Reason::GltfBuffers, None),
-        ImportError::Unsupported(what) => (Reason::GltfNeeds, Some(what.clone())),
-        ImportError::Damaged(_) | ImportError::NotFinite => (Reason::GltfDamaged, None),
-        ImportError::Empty => (Reason::EmptyMesh, None),
-        ImportError::TooLarge(_) => (Reason::LargeMesh, None),
+    let gltf = || GLTF.to_owned();
+    let (reason, allowed, cause) = match error {
+        ImportError::NotGltf(_) => (Reason::NotGltf, gltf(), None),
+        ImportError::Version(version) => (Reason::GltfVersion, gltf(), Some(version.clone())),
+        ImportError::ExternalBuffer(_) => (Reason::GltfBuffers, gltf(), None),
+        ImportError::Unsupported(what) => {
+            (Reason::GltfNeeds, format!("{GLTF}, without {what}"), Some(what.clone()))
+        }
+        ImportError::Damaged(_) | ImportError::NotFinite => (Reason::GltfDamaged, gltf(), None),
+        ImportError::Empty => (Reason::EmptyMesh, "at least one triangle".to_owned(), None),
+        ImportError::TooLarge(Limits { vertices, triangles }) => {
+            (Reason::LargeMesh, format!("up to {triangles} triangles and {vertices} vertices"), None)
+        }
     };
-    Problem { cause, ..Problem::new(reason, format!("The file cannot be an obstacle: {error}.")) }
+    let problem = Problem::new(reason, format!("The file cannot be an obstacle: {error}."));
+    Problem { cause, ..problem.at("body", allowed) }
 }
 
 /// The triangles of a file.

@@ -1,34 +1,41 @@
 //! Sessions: making one, its socket.
 
+use std::{future::pending, time::Duration};
+
 use axum::{
     Extension, Json,
     extract::{
-        Path, State, WebSocketUpgrade,
+        State, WebSocketUpgrade,
         ws::{WebSocket, rejection::WebSocketUpgradeRejection},
     },
-    http::StatusCode,
+    http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
-    Reason,
+    Problem, Reason,
     library::{NewSession, SessionCreated, SessionTree},
     version::CloseCode,
 };
-use espalier_session::{DocumentError, Principal, RestoreError, Session};
+use espalier_session::{Access, DocumentError, Principal, RestoreError, Session};
+
+use tokio::time::interval;
 
 use super::{
     Shared,
-    failure::{Body, Failure},
+    failure::{Body, Failure, Path},
+    guard::Named,
     trees,
 };
 use crate::{
     SIMULATION_VERSION,
-    authority::{Action, Object},
-    live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle, Sessions},
+    access::{self, Action, Caller},
+    live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle},
     name,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
 };
 
+/// How often it is looked whether somebody is still let in.
+const LOOKING: Duration = Duration::from_secs(1);
 /// Bytes read from a socket at once.
 const READ_BUFFER: usize = 8 * 1024;
 /// Frames are written one at a time, so this only has to hold the largest one.
@@ -37,14 +44,18 @@ const MAX_WRITE_BUFFER: usize = espalier_proto::frame::MAX_BODY_BYTES + 1024 * 1
 pub(super) async fn create(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Body(new): Body<NewSession>,
 ) -> Result<impl IntoResponse, Failure> {
+    if new.tree.is_none() || new.template {
+        shared.ask(&caller, Action::BeginSession, Named::Server).await?;
+    }
     let Some(tree) = new.tree else {
         let seed = new.seed.unwrap_or_else(rand::random);
         let snapshot = Session::seedling(seed, shared.metamer_budget);
         return Ok((StatusCode::CREATED, begin(&shared, &principal, seed, snapshot, None).await?));
     };
-    shared.ask(&principal, Action::OpenTree, Object::Tree(&tree))?;
+    shared.ask(&caller, Action::OpenTree, Named::Tree(&tree)).await?;
     let stored = trees::stored(&shared, &tree).await?;
     if stored.deleted_at.is_some() {
         return Err(Failure::no_tree(" any more: it was deleted, and can be taken back"));
@@ -119,14 +130,24 @@ pub(super) async fn find(
 pub(super) async fn socket(
     State(shared): State<Shared>,
     Path(name): Path<String>,
+    caller: Result<Caller, Failure>,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Response {
     let upgrade = match upgrade {
         Ok(upgrade) => upgrade,
-        Err(rejection) => return rejection.into_response(),
+        Err(rejection) => {
+            let problem =
+                Problem::new(Reason::Malformed, format!("This is the address of a WebSocket: {rejection}."));
+            return Failure::from(problem.at(header::UPGRADE.as_str(), "websocket")).into_response();
+        }
     };
     let Some(place) = shared.sessions.place() else {
         return Failure::new(Reason::ManyPeople, "Too many people are here already.").into_response();
+    };
+    let admitted = match admit(&shared, caller, &name).await.map_err(Failure::final_problem) {
+        Ok(admitted) => Ok(admitted),
+        Err(Ok(problem)) => Err(problem),
+        Err(Err(failure)) => return failure.into_response(),
     };
     upgrade
         .read_buffer_size(READ_BUFFER)
@@ -134,13 +155,33 @@ pub(super) async fn socket(
         .max_frame_size(REFUSED_MESSAGE_BYTES)
         .max_write_buffer_size(MAX_WRITE_BUFFER)
         .on_upgrade(async move |socket| {
-            shared.sessions.run_socket(place, connect(socket, &shared.sessions, &name)).await;
+            let connected = async {
+                match admitted {
+                    Ok(admitted) => connect(socket, &shared, &name, admitted).await,
+                    Err(problem) => {
+                        live::turn_away(socket, CloseCode::CannotOpen, &problem.in_close()).await;
+                    }
+                }
+            };
+            shared.sessions.run_socket(place, connected).await;
         })
 }
 
-async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
-    let (code, sentence) = match sessions.open(name).await {
-        Ok(Some(session)) => return live::serve(socket, session).await,
+/// What somebody may do in a session that they may join.
+async fn admit(
+    shared: &Shared,
+    caller: Result<Caller, Failure>,
+    session: &str,
+) -> Result<(Caller, Access), Failure> {
+    let caller = caller?;
+    shared.ask(&caller, Action::JoinSession, Named::Session(session)).await?;
+    let edits = shared.ask(&caller, Action::EditSession, Named::Session(session)).await;
+    Ok((caller, if edits.is_ok() { Access::Edit } else { Access::Look }))
+}
+
+async fn connect(socket: WebSocket, shared: &Shared, name: &str, (caller, access): (Caller, Access)) {
+    let (code, sentence) = match shared.sessions.open(name).await {
+        Ok(Some(session)) => return live::serve(socket, session, access, let_out(shared, &caller)).await,
         Ok(None) => (CloseCode::UnknownSession, "There is no such session."),
         Err(OpenError::Stopping) => (CloseCode::GoingAway, "The server is stopping."),
         Err(error) => {
@@ -157,6 +198,19 @@ async fn connect(socket: WebSocket, sessions: &Sessions, name: &str) {
     live::turn_away(socket, code, sentence).await;
 }
 
+/// Waits until somebody is let in no longer, and says so (`AC4`).
+async fn let_out(shared: &Shared, caller: &Caller) -> String {
+    if !caller.is_revocable() {
+        return pending().await;
+    }
+    let mut ticks = interval(LOOKING);
+    // A database that cannot be read lets nobody out.
+    while caller.is_current(&*shared.store).await.unwrap_or(true) {
+        ticks.tick().await;
+    }
+    access::not_let_in().in_close()
+}
+
 /// What was saved of a tree.
 pub(super) async fn saved_document(
     shared: &Shared,
@@ -164,7 +218,8 @@ pub(super) async fn saved_document(
     version: u32,
 ) -> Result<TreeDocument, Failure> {
     match shared.store.document(tree, version).await {
-        Ok(document) => document.ok_or_else(|| Failure::none_such("version")),
+        Ok(Some(document)) => Ok(document),
+        Ok(None) => Err(trees::stored(shared, tree).await.err().unwrap_or_else(Failure::no_version)),
         Err(StoreError::Damaged(what)) => Err(unreadable(tree, &what)),
         Err(error) => Err(error.into()),
     }
@@ -182,7 +237,7 @@ async fn planted(shared: &Shared, tree: &str, version: u32) -> Result<Vec<u8>, F
     })
 }
 
-fn unreadable(tree: &str, error: &dyn std::fmt::Display) -> Failure {
+pub(super) fn unreadable(tree: &str, error: &dyn std::fmt::Display) -> Failure {
     tracing::error!(tree, %error, "a saved tree cannot be read");
     Failure::new(Reason::TreeDamaged, format!("The tree cannot be read: {error}."))
 }

@@ -2,7 +2,7 @@
 
 use axum::{
     Json,
-    extract::{Path, State},
+    extract::State,
     http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, Response},
 };
@@ -10,7 +10,10 @@ use espalier_growth::species;
 use espalier_proto::{Reason, species::Species};
 use espalier_session::wire_species;
 
-use super::{Shared, failure::Failure};
+use super::{
+    Shared,
+    failure::{Failure, Path},
+};
 
 /// A picture changes only as the program does, and a client that asks again gets 304 at once.
 const CACHE: &str = "public, max-age=3600";
@@ -29,7 +32,8 @@ pub(super) async fn picture(
         tracing::error!(slug, %error, "a species cannot be drawn");
         Failure::new(Reason::NotDrawn, "The picture cannot be drawn.")
     })?;
-    let print = print.ok_or_else(|| Failure::none_such("species"))?;
+    let print =
+        print.ok_or_else(|| Failure::none_such("species", "slug", "the slug of one of /api/v1/species"))?;
     let headers = [(header::ETAG, print.tag.clone()), (header::CACHE_CONTROL, CACHE.to_owned())];
     let known = asked.get(header::IF_NONE_MATCH).and_then(|tags| tags.to_str().ok());
     let is_known = known.is_some_and(|tags| tags.split(',').any(|tag| tag.trim() == print.tag));

@@ -2,12 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use axum::{
-    Extension, Json,
-    extract::{Path, State},
-    http::StatusCode,
-    response::IntoResponse,
-};
+use axum::{Extension, Json, extract::State, http::StatusCode, response::IntoResponse};
 use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, Reason,
@@ -20,19 +15,20 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Body, Failure, Query},
+    failure::{Body, Failure, Path, Query},
+    guard::Named,
     revision::{self, Expected},
-    text,
-    time::{Time, now},
     versions::{self, Said, Saving},
 };
 use crate::{
-    authority::{Action, Object},
+    access::{Action, Caller},
     name,
     store::{
-        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoreError, StoredTree, TreeChange,
-        TreePlace, TreeQuery,
+        Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoredTree, TreeChange, TreePlace,
+        TreeQuery,
     },
+    text::{self, Name},
+    time::{Time, now},
 };
 
 /// Trees in one answer.
@@ -54,7 +50,7 @@ pub(super) struct Page {
     deleted: bool,
     /// Those that new trees are begun with, or the others.
     template: Option<bool>,
-    /// Up to 8 words, each found anywhere in the name, a tag, the note or the species.
+    /// Up to 8 words of up to 80 characters, each found anywhere in the name, a tag, the note or the species; `oak|ash` where either is.
     #[serde(default)]
     q: String,
     /// Up to 8 tags with commas between; a tree has all of them.
@@ -68,7 +64,7 @@ pub(super) struct Page {
     /// The short name of a species.
     species: Option<String>,
     /// Who saved it last.
-    author: Option<String>,
+    author: Option<Name>,
     /// Only those that whoever asks saved last.
     #[serde(default)]
     mine: bool,
@@ -100,7 +96,7 @@ enum Order {
 }
 
 impl Page {
-    fn query(self, principal: &Principal) -> Result<TreeQuery, Problem> {
+    fn query(self, principal: &Principal, caller: &Caller) -> Result<TreeQuery, Problem> {
         let words: Vec<String> = self.q.split_whitespace().map(str::to_owned).collect();
         let tags = self.tags.split(',').map(str::trim).filter(|tag| !tag.is_empty());
         let tags: Vec<String> = tags.map(str::to_owned).collect();
@@ -111,6 +107,20 @@ impl Page {
                 return Err(Problem { reason: Reason::ManyWords, ..problem });
             }
         }
+        for word in words.iter().flat_map(|word| word.split('|')).filter(|word| !word.is_empty()) {
+            text::name("q", word)?;
+        }
+        for tag in &tags {
+            text::name("tags", tag)?;
+        }
+        let (least, most) = (self.min_metamers.unwrap_or(0), self.max_metamers.unwrap_or(u32::MAX));
+        if most < least {
+            return Err(Problem::out_of_range(
+                "max_metamers",
+                most,
+                format!("min_metamers, {least}, or more"),
+            ));
+        }
         let whoever = || Some(principal.to_string());
         Ok(TreeQuery {
             is_deleted: self.deleted,
@@ -119,10 +129,11 @@ impl Page {
             tags,
             collection: self.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
             favourites_of: self.favourite.then(whoever).flatten(),
+            only: caller.only_tree().map(str::to_owned),
             species: self.species,
-            author: self.author,
+            author: self.author.map(String::from),
             saved_by: self.mine.then(whoever).flatten(),
-            metamers: self.min_metamers.unwrap_or(0)..=self.max_metamers.unwrap_or(u32::MAX),
+            metamers: least..=most,
             saved_from: self.saved_from.map(|time| time.0),
             saved_before: self.saved_before.map(|time| time.0),
             sort: match self.sort {
@@ -141,9 +152,10 @@ impl Page {
 pub(super) async fn list(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Query(page): Query<Page>,
 ) -> Result<Json<TreePage>, Failure> {
-    let query = page.query(&principal)?;
+    let query = page.query(&principal, &caller)?;
     let trees = shared.store.trees(&query).await?;
     let last = trees.last().filter(|_| trees.len() == query.limit as usize);
     let next = last.map(|tree| write_place(&query.place_of(tree)));
@@ -192,21 +204,24 @@ pub(super) async fn find(
 pub(super) async fn save(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Body(save): Body<SaveTree>,
 ) -> Result<impl IntoResponse, Failure> {
     let name = text::name("name", &save.name)?;
     let SaveTree { session, note, author, thumbnail, .. } = save;
-    let version = versions::read(&shared, &principal, Saving { session, note, author, thumbnail }).await?;
+    let version =
+        versions::read(&shared, &caller, &principal, Saving { session, note, author, thumbnail }).await?;
     Ok((StatusCode::CREATED, add(&shared, &principal, name, version).await?))
 }
 
 pub(super) async fn copy(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(id): Path<String>,
     Body(copy): Body<CopyTree>,
 ) -> Result<impl IntoResponse, Failure> {
-    shared.ask(&principal, Action::SaveTree, Object::Server)?;
+    shared.ask(&caller, Action::SaveTree, Named::Server).await?;
     let name = text::name("name", &copy.name)?;
     let said = Said::parse(copy.author.as_deref(), copy.note.as_deref())?;
     let version = match copy.version {
@@ -245,14 +260,7 @@ pub(super) async fn change(
         collection: change.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
         ..TreeChange::default()
     };
-    let collection = change.collection.clone().flatten();
-    let changed = shared.store.change_tree(&id, expected, change).await;
-    if let (Err(StoreError::NotFound), Some(wanted)) = (&changed, collection)
-        && shared.store.collections().await?.iter().all(|collection| collection.id != wanted)
-    {
-        return Err(Failure::no_collection("collection"));
-    }
-    changed?;
+    shared.store.change_tree(&id, expected, change).await?;
     answer(&shared, &principal, &id).await
 }
 

@@ -1,10 +1,12 @@
 //! The library: versions of a tree.
 
+use std::io::Cursor;
+
 use axum::{
     Extension, Json,
-    extract::{Path, State},
-    http::{HeaderName, StatusCode, header},
-    response::IntoResponse,
+    extract::State,
+    http::{HeaderMap, HeaderName, StatusCode, header},
+    response::{IntoResponse, Response},
 };
 use espalier_proto::{
     Problem,
@@ -17,16 +19,19 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Body, Failure, Query},
+    failure::{Body, Failure, Path, Query},
+    guard::Named,
+    ranges,
     revision::{self, Expected},
-    sessions, text,
-    time::now,
+    sessions,
     trees::{self, limit_of},
 };
 use crate::{
     SIMULATION_VERSION,
-    authority::{Action, Object},
+    access::{Action, Caller},
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
+    text,
+    time::now,
 };
 
 /// Versions in one answer.
@@ -67,13 +72,14 @@ pub(super) struct Saving {
 /// What a session holds now, as a version to be saved.
 pub(super) async fn read(
     shared: &Shared,
+    caller: &Caller,
     principal: &Principal,
     saving: Saving,
 ) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
     let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose()?;
     let said = Said::parse(author.as_deref(), note.as_deref())?;
-    shared.ask(principal, Action::TakeTree, Object::Session(&session))?;
+    shared.ask(caller, Action::TakeTree, Named::Session(&session)).await?;
     let read = sessions::open(shared, &session).await?.read().await?;
     let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
     let saved = Saved { document, metamers: read.metamers, species: read.species, thumbnail };
@@ -105,12 +111,13 @@ pub(super) fn new(principal: &Principal, said: Said, contents: Contents) -> NewV
 pub(super) async fn save(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
+    caller: Caller,
     Path(tree): Path<String>,
     Expected(expected): Expected,
     Body(save): Body<SaveVersion>,
 ) -> Result<impl IntoResponse, Failure> {
     let SaveVersion { session, note, author, thumbnail } = save;
-    let version = read(&shared, &principal, Saving { session, note, author, thumbnail }).await?;
+    let version = read(&shared, &caller, &principal, Saving { session, note, author, thumbnail }).await?;
     add(&shared, &tree, expected, version).await
 }
 
@@ -155,28 +162,32 @@ pub(super) async fn change(
 async fn version_of(shared: &Shared, tree: &str, number: u32) -> Result<TreeVersion, Failure> {
     let found = shared.store.versions(tree, 1, Some(number.saturating_add(1))).await?.pop();
     let found = found.filter(|version| version.number == number);
-    found.map(|version| to_proto(tree, version)).ok_or_else(|| Failure::none_such("version"))
+    found.map(|version| to_proto(tree, version)).ok_or_else(Failure::no_version)
 }
 
 pub(super) async fn document(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
-) -> Result<impl IntoResponse, Failure> {
+    asked: HeaderMap,
+) -> Result<Response, Failure> {
     let document = sessions::saved_document(&shared, &tree, number).await?;
-    let headers = [
+    let said = [
         (header::CONTENT_TYPE, "application/octet-stream"),
         (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.espalier\""),
         FOR_GOOD,
     ];
-    Ok((headers, document.bytes))
+    let length = document.bytes.len() as u64;
+    ranges::answer(&asked, said, Cursor::new(document.bytes), length)
 }
 
 pub(super) async fn thumbnail(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
 ) -> Result<impl IntoResponse, Failure> {
-    let picture =
-        shared.store.thumbnail(&tree, number).await?.ok_or_else(|| Failure::none_such("picture"))?;
+    let Some(picture) = shared.store.thumbnail(&tree, number).await? else {
+        trees::stored(&shared, &tree).await?;
+        return Err(Failure::none_such("picture", "version", "the number of a version that has a picture"));
+    };
     let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
     Ok((headers, picture.bytes))
 }

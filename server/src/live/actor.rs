@@ -9,8 +9,8 @@ use std::{
 
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
-    ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId, Session,
-    Work,
+    Access, ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId,
+    Session, Work,
 };
 use espalier_settings::ParameterValues;
 use tokio::{
@@ -22,7 +22,6 @@ use tokio_util::sync::CancellationToken;
 use super::outbox::{Outbox, Outgoing};
 use crate::{
     SIMULATION_VERSION,
-    authority::{self, Authority},
     pool::SimulationPool,
     store::{AnyStore, Lease, NewSnapshot, Store},
 };
@@ -36,7 +35,7 @@ const LAST_WRITES: Duration = Duration::from_secs(8);
 
 #[derive(Debug)]
 pub(super) enum Request {
-    Join(Outbox, oneshot::Sender<ClientId>),
+    Join(Outbox, Access, oneshot::Sender<ClientId>),
     Text(ClientId, String),
     Binary(ClientId),
     /// So many control messages have gone out.
@@ -88,9 +87,9 @@ impl SessionHandle {
         self.requests.send(request).await.map_err(|_| Ended)
     }
 
-    pub(super) async fn join(&self, outbox: Outbox) -> Result<ClientId, Ended> {
+    pub(super) async fn join(&self, outbox: Outbox, access: Access) -> Result<ClientId, Ended> {
         let (answer, answered) = oneshot::channel();
-        self.send(Request::Join(outbox, answer)).await?;
+        self.send(Request::Join(outbox, access, answer)).await?;
         answered.await.map_err(|_| Ended)
     }
 
@@ -135,12 +134,11 @@ impl SessionHandle {
     }
 }
 
-/// Everything a session needs from its surroundings.
+/// Everything a session needs from the server.
 #[derive(Clone, Debug)]
 pub(super) struct Services {
     pub(super) store: Arc<AnyStore>,
     pub(super) pool: SimulationPool,
-    pub(super) authority: Authority,
     pub(super) stop: CancellationToken,
     pub(super) started: Instant,
 }
@@ -178,11 +176,10 @@ enum End {
 impl Actor {
     pub(super) fn new(
         name: String,
-        mut session: Session,
+        session: Session,
         lease: Lease,
         services: Services,
     ) -> (Self, SessionHandle) {
-        session.guard(authority::over(services.authority, &name));
         let (sender, requests) = mpsc::channel(MAILBOX);
         let (task, tasks) = mpsc::unbounded_channel();
         let handle = SessionHandle { requests: sender, gone: CancellationToken::new() };
@@ -285,13 +282,13 @@ impl Actor {
 
     fn requested(&mut self, request: Request) -> Option<Input> {
         Some(match request {
-            Request::Join(outbox, answer) => {
+            Request::Join(outbox, access, answer) => {
                 let client = ClientId(self.next_client);
                 // Where nobody takes the number, nobody would disconnect it.
                 answer.send(client).ok()?;
                 self.next_client += 1;
                 self.clients.insert(client, outbox);
-                Input::Connected(client)
+                Input::Connected(client, access)
             }
             Request::Text(client, text) => Input::Text(client, text),
             Request::Binary(client) => Input::Binary(client),

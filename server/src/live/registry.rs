@@ -17,7 +17,6 @@ use super::{
     restoring::{self, OpenError},
 };
 use crate::{
-    authority::Authority,
     pool::{Panicked, SimulationPool},
     store::{AnyStore, Store},
 };
@@ -41,14 +40,9 @@ struct Inner {
 }
 
 impl Sessions {
-    /// None are loaded yet. Each asks the authority who may join and edit it. When `stop` is cancelled all of them end.
-    pub fn new(
-        store: Arc<AnyStore>,
-        pool: SimulationPool,
-        authority: Authority,
-        stop: CancellationToken,
-    ) -> Self {
-        let services = Services { store, pool, authority, stop, started: Instant::now() };
+    /// None are loaded yet. When `stop` is cancelled all of them end.
+    pub fn new(store: Arc<AnyStore>, pool: SimulationPool, stop: CancellationToken) -> Self {
+        let services = Services { store, pool, stop, started: Instant::now() };
         Self(Arc::new(Inner {
             services,
             slots: Mutex::default(),

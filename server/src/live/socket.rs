@@ -1,13 +1,13 @@
 //! One WebSocket: what it says goes to its session, what the session says goes out.
 
-use std::{error::Error, pin::pin, time::Duration};
+use std::{error::Error, future::pending, pin::pin, time::Duration};
 
 use axum::{
     body::Bytes,
     extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket},
 };
 use espalier_proto::version::{CloseCode, MAX_MESSAGE_BYTES};
-use espalier_session::ClientId;
+use espalier_session::{Access, ClientId};
 use futures_util::{
     SinkExt, StreamExt,
     stream::{SplitSink, SplitStream},
@@ -33,18 +33,30 @@ const LAST_WORDS: Duration = Duration::from_secs(2);
 /// How long the other side may take to answer a close.
 const CLOSING: Duration = Duration::from_secs(2);
 
-/// Connects a socket with a session until one of them ends.
-pub async fn serve(socket: WebSocket, session: SessionHandle) {
+/// Connects a socket with a session, where it may do this, until one of them ends; or until it may not go on, for the
+/// reason that `let_out` gives.
+pub async fn serve(
+    socket: WebSocket,
+    session: SessionHandle,
+    access: Access,
+    let_out: impl Future<Output = String>,
+) {
     let (outbox, outgoings) = outbox::lane();
     let closing = outgoings.closing.clone();
-    let Ok(client) = session.join(outbox).await else {
+    let Ok(client) = session.join(outbox, access).await else {
         return turn_away(socket, CloseCode::GoingAway, "The session is being put away; come back.").await;
     };
     let (sink, stream) = socket.split();
     let mut reading = pin!(read(stream, &session, client, &closing));
     {
         let mut writing = pin!(write(sink, outgoings, &session, client));
+        let watching = async {
+            let sentence = let_out.await;
+            closing.decide(Farewell { code: CloseCode::CannotOpen, sentence });
+            pending::<()>().await;
+        };
         tokio::select! {
+            () = watching => {}
             () = &mut reading => {}
             () = &mut writing => {
                 // The close frame is sent. What the client still sends is read, so that it can read the frame.
@@ -86,7 +98,7 @@ async fn read(
             Err(error) if is_too_long(&error) => {
                 refuse_size(closing);
                 // Nothing more can be read from this connection; the writing side ends it.
-                return std::future::pending().await;
+                return pending().await;
             }
             Err(_) => return,
         };

@@ -1,13 +1,17 @@
 //! What every store must do, as tests: `contract::all(make)` runs them on stores that `make` gives, each empty.
 
+mod audit;
 mod finding;
 mod library;
+mod passes;
+mod users;
 
 use std::{collections::BTreeSet, ops::RangeInclusive};
 
 use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
+use self::audit::events_are_listed_newest_first;
 use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
@@ -19,10 +23,18 @@ use self::library::{
     trees_are_listed_newest_first, trees_come_back_whole, versions_are_restored_and_copied,
     what_is_deleted_comes_back_whole, what_was_deleted_long_ago_goes,
 };
-use super::{Damage, Finding, Lease, Library, NewSession, NewSnapshot, Store, StoreError, StoredSession};
+use self::passes::{
+    a_pass_for_a_tree_goes_with_it, one_of_those_who_take_a_pass_has_it, passes_are_listed_by_kind,
+    passes_let_in_until_they_expire,
+};
+use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
+use super::{
+    Audit, Damage, Finding, Lease, Library, NewSession, NewSnapshot, Passes, Store, StoreError,
+    StoredSession, Users,
+};
 
 /// A store whose rows a test can damage.
-pub trait Breakable: Store + Library + Finding {
+pub trait Breakable: Store + Library + Finding + Passes + Users + Audit {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -68,6 +80,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         versions_are_covered,
         a_session_row_is_covered,
         notices_are_kept_until_somebody_has_had_them,
+        sessions_go_that_nobody_enters,
         trees_are_listed_newest_first,
         pages_hold_each_tree_once,
         trees_come_back_whole,
@@ -82,6 +95,13 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         searching_is_looking_into_every_text,
         every_order_goes_page_by_page,
         filters_hold_at_once,
+        passes_let_in_until_they_expire,
+        one_of_those_who_take_a_pass_has_it,
+        passes_are_listed_by_kind,
+        a_pass_for_a_tree_goes_with_it,
+        a_name_is_one_person,
+        a_login_has_the_role_of_its_user,
+        events_are_listed_newest_first,
         a_closed_store_takes_nothing,
     );
 }
@@ -325,6 +345,37 @@ async fn notices_are_kept_until_somebody_has_had_them(store: &impl Store) {
     assert_eq!(load(store).await.notices, [damaged, regrown]);
     store.forget_notices(&lease).await.unwrap();
     assert_eq!(load(store).await.notices, []);
+}
+
+async fn sessions_go_that_nobody_enters(store: &(impl Store + Library)) {
+    const LONG_AGO: &str = "2000";
+    const LATER: &str = "9999";
+    let named = |name: &str, snapshot| NewSession { name: name.into(), ..oak(snapshot) };
+    let lease = with_oak(store).await;
+    store.append(&lease, 3, &entries(1..=2)).await.unwrap();
+    let mut ash = tree("ash", "2026");
+    ash.version.session = Some(("oak".into(), 2));
+    store.add_tree(ash).await.unwrap();
+    for (name, snapshot) in [("unsaved", None), ("imported", Some(b"scan".as_slice())), ("seedling", None)] {
+        store.create_session(named(name, snapshot)).await.unwrap();
+    }
+    let unsaved = store.acquire("unsaved").await.unwrap();
+    store.append(&unsaved, 3, &entries(1..=1)).await.unwrap();
+    store.release(unsaved).await;
+    let is_there = async |name| store.has_session(name).await.unwrap();
+
+    assert_eq!(store.purge_sessions(LONG_AGO, LONG_AGO, 9).await.unwrap(), 0, "all were entered since");
+    assert_eq!(store.purge_sessions(LATER, LONG_AGO, 9).await.unwrap(), 1);
+    assert!(!is_there("seedling").await, "nothing was ever done to it");
+    assert!(is_there("oak").await, "somebody is in it");
+    store.release(lease).await;
+    assert_eq!(store.purge_sessions(LATER, LONG_AGO, 9).await.unwrap(), 1);
+    assert!(!is_there("oak").await);
+    assert_eq!(store.tree("ash").await.unwrap().unwrap().session, None, "the tree stays, in no session");
+    assert!(is_there("unsaved").await && is_there("imported").await, "they are in no version");
+    assert_eq!(store.purge_sessions(LATER, LATER, 1).await.unwrap(), 1, "so many at most");
+    assert_eq!(store.purge_sessions(LATER, LATER, 9).await.unwrap(), 1);
+    while store.shrink().await.unwrap() {}
 }
 
 async fn a_closed_store_takes_nothing(store: &impl Store) {

@@ -60,7 +60,7 @@ pub struct TreeQuery {
     pub is_deleted: bool,
     /// Those that are templates, or those that are not.
     pub is_template: Option<bool>,
-    /// What names, tags, notes and species have, each anywhere in one of them.
+    /// What names, tags, notes and species have, each anywhere in one of them; of a word with bars, any part of it.
     pub words: Vec<String>,
     /// Tags they have.
     pub tags: Vec<String>,
@@ -68,6 +68,8 @@ pub struct TreeQuery {
     pub collection: Option<Option<String>>,
     /// Those that somebody likes best.
     pub favourites_of: Option<String>,
+    /// This one alone.
+    pub only: Option<String>,
     /// The short name of their species.
     pub species: Option<String>,
     /// How whoever saved them last wanted to be called.
@@ -97,6 +99,7 @@ impl Default for TreeQuery {
             tags: Vec::new(),
             collection: None,
             favourites_of: None,
+            only: None,
             species: None,
             author: None,
             saved_by: None,

@@ -3,7 +3,7 @@
 use unicode_normalization::{UnicodeNormalization, char::is_combining_mark};
 
 /// A text without the difference of large and small letters, and without accents.
-pub(super) fn folded(text: &str) -> String {
+pub fn folded(text: &str) -> String {
     let plain = |text: &str| -> String { text.nfkd().filter(|letter| !is_combining_mark(*letter)).collect() };
     // Some letters have their accents only once they are small.
     plain(&plain(text).to_lowercase())
@@ -15,9 +15,24 @@ pub(super) fn searched(name: &str, tags: &[String], note: &str, species: Option<
     folded(&parts.collect::<Vec<_>>().join("\n"))
 }
 
+/// What a searched word is found by, folded: itself, or any of its parts between bars.
+pub(super) fn alternatives(word: &str) -> Vec<String> {
+    let parts: Vec<String> = word.split('|').filter(|part| !part.is_empty()).map(folded).collect();
+    if parts.is_empty() { vec![folded(word)] } else { parts }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn bars_part_what_a_word_is_found_by() {
+        for (word, expected) in
+            [("Oak", vec!["oak"]), ("Eiche|Öl|", vec!["eiche", "ol"]), ("|", vec!["|"]), ("||", vec!["||"])]
+        {
+            assert_eq!(alternatives(word), expected, "{word}");
+        }
+    }
 
     #[test]
     fn case_and_accents_make_no_difference() {

@@ -41,6 +41,11 @@ impl Leases {
         }
     }
 
+    /// Whether somebody may write to a session now.
+    pub(super) fn is_held(&self, session: &str) -> bool {
+        self.granted().epochs.contains_key(session)
+    }
+
     pub(super) fn check(&self, lease: &Lease) -> Result<(), StoreError> {
         if self.granted().epochs.get(&lease.session) == Some(&lease.epoch) {
             Ok(())

@@ -1,6 +1,8 @@
 //! The library: trees, each with the versions that were saved of it.
 
+use espalier_growth::SIMULATION_VERSION;
 pub use espalier_proto::thumbnail::Picture;
+use espalier_session::Document;
 
 use super::{StoreError, TreeQuery};
 
@@ -105,6 +107,15 @@ pub enum Contents {
     },
 }
 
+impl Contents {
+    /// Takes the document out of what is new, for a store that keeps documents apart.
+    pub(super) fn take_document(&mut self) -> Option<TreeDocument> {
+        let Self::New(saved) = self else { return None };
+        let simulation_version = saved.document.simulation_version;
+        Some(TreeDocument { simulation_version, bytes: std::mem::take(&mut saved.document.bytes) })
+    }
+}
+
 /// A document with what lists tell of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Saved {
@@ -116,6 +127,21 @@ pub struct Saved {
     pub species: Option<String>,
     /// Its picture.
     pub thumbnail: Option<Picture>,
+}
+
+impl Saved {
+    /// A document without a picture.
+    pub fn of(document: &Document) -> Self {
+        Self {
+            metamers: document.metamers(),
+            species: document.species(),
+            document: TreeDocument {
+                simulation_version: SIMULATION_VERSION,
+                bytes: document.to_saved_bytes(),
+            },
+            thumbnail: None,
+        }
+    }
 }
 
 /// What of a tree is to be changed.

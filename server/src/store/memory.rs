@@ -1,21 +1,27 @@
 //! The model of a store: what the contract means, in the plainest way. It forgets all when it is dropped.
 
+mod audit;
 mod finding;
 mod library;
+mod passes;
+mod users;
 
 use std::{
     collections::{BTreeMap, BTreeSet},
     sync::{Mutex, MutexGuard, PoisonError},
+    time::SystemTime,
 };
 
 use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Collection, Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Store, StoreError, StoredSession,
+    Collection, Damage, Event, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Pass, Store, StoreError,
+    StoredSession, User,
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
+use crate::access::SecretHash;
 
 /// A store in memory.
 #[derive(Debug, Default)]
@@ -32,6 +38,11 @@ struct Kept {
     collections: BTreeMap<String, Collection>,
     /// Principals and trees.
     favourites: BTreeSet<(String, String)>,
+    passes: Vec<(SecretHash, Pass)>,
+    /// By their numbers.
+    events: BTreeMap<u64, Event>,
+    /// By their folded names.
+    users: BTreeMap<String, User>,
 }
 
 #[derive(Debug)]
@@ -44,6 +55,14 @@ struct Session {
     /// The tree it belongs to, and its version.
     tree: Option<(String, u32)>,
     saved_through: u64,
+    entered_at: String,
+}
+
+impl Session {
+    fn is_saved(&self) -> bool {
+        let is_untouched = self.row.last_entry == 0 && self.row.last_snapshot.is_none();
+        self.row.last_entry <= self.saved_through && (self.tree.is_some() || is_untouched)
+    }
 }
 
 impl MemoryStore {
@@ -79,8 +98,13 @@ impl MemoryStore {
         let session = kept.sessions.get_mut(&lease.session).ok_or_else(unknown)?;
         let changed = change(session)?;
         session.row = session.row.clone().sealed(&lease.session);
+        session.entered_at = now();
         Ok(changed)
     }
+}
+
+fn now() -> String {
+    humantime::format_rfc3339_millis(SystemTime::now()).to_string()
 }
 
 fn unknown() -> StoreError {
@@ -93,7 +117,7 @@ impl Store for MemoryStore {
         if kept.sessions.contains_key(&new.name) {
             return Err(StoreError::Damaged("there is such a session".into()));
         }
-        let row = SessionRow::new(&new);
+        let row = SessionRow::new(&new, new.snapshot.is_some());
         let snapshot = |bytes| SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes);
         let snapshots = new.snapshot.map(snapshot).into_iter().collect();
         if let Some((tree, version)) = &new.tree
@@ -103,7 +127,8 @@ impl Store for MemoryStore {
             tree.session = Some(new.name.clone());
         }
         let (tree, saved_through) = (new.tree, 0);
-        let session = Session { row, journal: Vec::new(), snapshots, aside: 0, tree, saved_through };
+        let (journal, aside, entered_at) = (Vec::new(), 0, now());
+        let session = Session { row, journal, snapshots, aside, tree, saved_through, entered_at };
         kept.sessions.insert(new.name, session);
         Ok(())
     }
@@ -113,6 +138,9 @@ impl Store for MemoryStore {
     }
 
     async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
+        if let Some(session) = self.kept().sessions.get_mut(session) {
+            session.entered_at = now();
+        }
         Ok(self.leases.acquire(session))
     }
 
@@ -217,6 +245,27 @@ impl Store for MemoryStore {
             }
             Ok(())
         })
+    }
+
+    async fn purge_sessions(&self, saved: &str, unsaved: &str, limit: u32) -> Result<u64, StoreError> {
+        let mut kept = self.writing()?;
+        let mut due: Vec<_> = kept.sessions.iter().collect();
+        due.retain(|(name, session)| {
+            let before = if session.is_saved() { saved } else { unsaved };
+            session.entered_at.as_str() < before && !self.leases.is_held(name)
+        });
+        due.sort_by_key(|(_, session)| session.entered_at.clone());
+        let names: Vec<String> = due.into_iter().map(|(name, _)| name.clone()).take(limit as usize).collect();
+        for name in &names {
+            kept.sessions.remove(name);
+            let trees = kept.trees.values_mut().filter(|tree| tree.session.as_ref() == Some(name));
+            trees.for_each(|tree| tree.session = None);
+        }
+        Ok(names.len() as u64)
+    }
+
+    async fn shrink(&self) -> Result<bool, StoreError> {
+        self.writing().map(|_| false)
     }
 
     async fn check_place(&self) -> Result<(), StoreError> {

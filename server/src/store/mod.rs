@@ -1,8 +1,9 @@
 //! What is kept: sessions with their journals and snapshots, and the library of trees.
 //!
-//! [`Store`], [`Library`] and [`Finding`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
+//! [`Store`], [`Library`], [`Finding`], [`Passes`], [`Users`] and [`Audit`] are the interface. Whatever implements it passes the tests of `contract.rs`; SQLite is the first that
 //! does, the model in `memory.rs` the second. The rest of the server knows [`AnyStore`] alone.
 
+mod audit;
 #[cfg(test)]
 mod contract;
 mod finding;
@@ -11,27 +12,35 @@ mod lease;
 mod library;
 #[cfg(test)]
 mod memory;
+mod passes;
 mod seal;
 mod sqlite;
+mod users;
 
 use std::{collections::BTreeSet, error::Error};
 
 use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
-#[cfg(test)]
+use crate::access::SecretHash;
+
 pub use self::{
-    contract::{Breakable, tree},
-    memory::MemoryStore,
-};
-pub use self::{
+    audit::{Audit, Event, MOST_EVENTS},
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
+    folding::folded,
     lease::Lease,
     library::{
         Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoredTree,
         StoredVersion, TreeChange, TreeDocument,
     },
-    sqlite::{CareError, OpenError, Report, SqliteStore, backup, check, restore},
+    passes::{Pass, PassKind, Passes},
+    sqlite::{CareError, LibraryFile, OpenError, Report, SqliteStore, backup, check, restore},
+    users::{User, UserChange, Users},
+};
+#[cfg(test)]
+pub use self::{
+    contract::{Breakable, tree},
+    memory::MemoryStore,
 };
 
 /// Snapshots kept of each session: the last one, and one before it should the last be damaged.
@@ -78,6 +87,13 @@ pub trait Store {
     /// Keeps a snapshot, and drops the entries that no kept snapshot needs for its replay.
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError>;
 
+    /// Gives up for good so many sessions at most that nobody holds: those that are saved and that nobody has entered
+    /// since a time, the others where nobody has since another. Times are as those of saved trees. Says how many.
+    async fn purge_sessions(&self, saved: &str, unsaved: &str, limit: u32) -> Result<u64, StoreError>;
+
+    /// Gives the medium some of what is deleted back, in a step that keeps nobody waiting; whether there is more.
+    async fn shrink(&self) -> Result<bool, StoreError>;
+
     /// Whether what is written still gets where it was; else every write fails, and no session opens.
     async fn check_place(&self) -> Result<(), StoreError>;
 
@@ -113,21 +129,52 @@ pub enum StoreError {
         /// The one that was to follow.
         found: u64,
     },
-    /// There is no such tree or version.
-    #[error("there is no such tree or version")]
-    NotFound,
+    /// What is asked for, or was to be named, is not there.
+    #[error("there is no such {}", .0.field())]
+    NotFound(Missing),
     /// A tree is at another revision than was expected.
     #[error("the tree has changed meanwhile")]
     Stale,
     /// A collection was to lie in itself.
     #[error("a collection cannot lie in itself")]
     Cycle,
+    /// Somebody goes by the name already.
+    #[error("somebody goes by that name already")]
+    Taken,
     /// What is written would be lost: where it went is not there any more.
     #[error("the database file has been moved, deleted or replaced ({0})")]
     Gone(String),
     /// The store has been closed; the server is stopping.
     #[error("the store is closed")]
     Closed,
+}
+
+/// What is not there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Missing {
+    /// A tree, or it is deleted.
+    Tree,
+    /// A version of a tree that is there.
+    Version,
+    /// A collection.
+    Collection,
+    /// The collection in which another one was to lie.
+    Parent,
+    /// Somebody who logs in.
+    User,
+}
+
+impl Missing {
+    /// The field by which requests name it.
+    pub fn field(self) -> &'static str {
+        match self {
+            Self::Tree => "tree",
+            Self::Version => "version",
+            Self::Collection => "collection",
+            Self::Parent => "parent",
+            Self::User => "name",
+        }
+    }
 }
 
 impl StoreError {
@@ -138,9 +185,10 @@ impl StoreError {
             Self::Damaged(_) => "its database is damaged",
             Self::Later(_) => "a newer program wrote to its database",
             Self::Fenced | Self::OutOfOrder { .. } => "the session has been taken over",
-            Self::NotFound => "it is not there",
+            Self::NotFound(_) => "it is not there",
             Self::Stale => "it has changed meanwhile",
             Self::Cycle => "a collection cannot lie in itself",
+            Self::Taken => "somebody goes by that name already",
             Self::Gone(_) => "its database file has been moved, deleted or replaced",
             Self::Closed => "it is stopping",
         }
@@ -287,6 +335,14 @@ impl Store for AnyStore {
         delegate!(self.keep_snapshot(lease, snapshot))
     }
 
+    async fn purge_sessions(&self, saved: &str, unsaved: &str, limit: u32) -> Result<u64, StoreError> {
+        delegate!(self.purge_sessions(saved, unsaved, limit))
+    }
+
+    async fn shrink(&self) -> Result<bool, StoreError> {
+        delegate!(self.shrink())
+    }
+
     async fn check_place(&self) -> Result<(), StoreError> {
         delegate!(self.check_place())
     }
@@ -384,5 +440,67 @@ impl Finding for AnyStore {
 
     async fn set_favourite(&self, principal: &str, tree: &str, is_one: bool) -> Result<(), StoreError> {
         delegate!(self.set_favourite(principal, tree, is_one))
+    }
+}
+
+impl Passes for AnyStore {
+    async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
+        delegate!(self.add_pass(hash, pass))
+    }
+
+    async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
+        delegate!(self.pass(hash, now))
+    }
+
+    async fn passes(&self, kind: PassKind, now: &str) -> Result<Vec<Pass>, StoreError> {
+        delegate!(self.passes(kind, now))
+    }
+
+    async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError> {
+        delegate!(self.extend_pass(id, expires_at))
+    }
+
+    async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
+        delegate!(self.take_pass(id))
+    }
+
+    async fn purge_passes(&self, now: &str) -> Result<(), StoreError> {
+        delegate!(self.purge_passes(now))
+    }
+}
+
+impl Users for AnyStore {
+    async fn add_user(&self, user: User) -> Result<(), StoreError> {
+        delegate!(self.add_user(user))
+    }
+
+    async fn user(&self, name: &str) -> Result<Option<User>, StoreError> {
+        delegate!(self.user(name))
+    }
+
+    async fn users(&self) -> Result<Vec<User>, StoreError> {
+        delegate!(self.users())
+    }
+
+    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
+        delegate!(self.change_user(name, change))
+    }
+
+    async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.remove_user(name))
+    }
+}
+
+impl Audit for AnyStore {
+    async fn note(&self, event: Event) -> Result<(), StoreError> {
+        delegate!(self.note(event))
+    }
+
+    async fn events(&self, limit: u32, before: Option<u64>) -> Result<Vec<(u64, Event)>, StoreError> {
+        delegate!(self.events(limit, before))
+    }
+
+    async fn purge_events(&self, before: &str) -> Result<(), StoreError> {
+        delegate!(self.purge_events(before))
     }
 }

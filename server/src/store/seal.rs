@@ -54,12 +54,12 @@ pub(super) struct SnapshotRow {
 }
 
 impl SessionRow {
-    pub(super) fn new(new: &NewSession) -> Self {
+    pub(super) fn new(new: &NewSession, has_snapshot: bool) -> Self {
         let row = Self {
             seed: new.seed,
             simulation_version: new.simulation_version,
             last_entry: 0,
-            last_snapshot: new.snapshot.as_ref().map(|_| 0),
+            last_snapshot: has_snapshot.then_some(0),
             notices: None,
             written_by: None,
             checksum: None,
@@ -190,6 +190,11 @@ impl SnapshotRow {
     pub(super) fn seal(session: &str, through: u64, simulation_version: u32, bytes: Vec<u8>) -> Self {
         let checksum = Some(snapshot_sum(session, simulation_version, through, &bytes));
         Self { through, bytes, checksum, simulation_version }
+    }
+
+    /// The same for a store that keeps the bytes elsewhere.
+    pub(super) fn without_bytes(self) -> Self {
+        Self { bytes: Vec::new(), ..self }
     }
 
     pub(super) fn is_whole(&self, session: &str) -> bool {

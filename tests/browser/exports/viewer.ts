@@ -2,6 +2,8 @@ import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import type { Browser } from "playwright-core";
 import { build } from "vite";
+import { FINAL } from "../gallery/player";
+import type { Shot } from "./shot";
 
 /** What three.js found in a file. */
 export interface Found {
@@ -12,6 +14,9 @@ export interface Found {
   readonly triangles: number;
   readonly textures: number;
 }
+
+/** Pixels drawn for each one of the picture, along each side, as for those of the page. */
+const DETAIL = FINAL.oversampling;
 
 /** The client's own copy of three.js. */
 const three = dirname(
@@ -42,8 +47,8 @@ export class Viewer {
     return new Viewer(browser, chunk.code);
   }
 
-  async see(file: Buffer, width: number, height: number): Promise<{ found: Found; picture: Buffer }> {
-    const page = await this.browser.newPage({ viewport: { width, height } });
+  async see(file: Buffer, width: number, height: number, shot: Shot): Promise<{ found: Found; picture: Buffer }> {
+    const page = await this.browser.newPage({ viewport: { width, height }, deviceScaleFactor: DETAIL });
     try {
       const address = "http://viewer.test/";
       await page.route(`${address}**`, (route) =>
@@ -53,7 +58,7 @@ export class Viewer {
       );
       await page.goto(address);
       await page.addScriptTag({ content: this.script });
-      const found = (await page.evaluate("show('/tree.glb')")) as Found;
+      const found = (await page.evaluate(`show("/tree.glb", ${JSON.stringify(shot)})`)) as Found;
       return { found, picture: await page.screenshot() };
     } finally {
       await page.close();

@@ -91,10 +91,11 @@ describe.each(["light", "dark"] as const)("in the %s theme", (theme) => {
   });
 
   it("nor against any tool at work", async () => {
-    const { tablet } = await workshop.stem(TABLET);
+    const stem = await workshop.stem(TABLET);
+    const { tablet } = stem;
     await wear(tablet, theme);
     const found: string[] = [];
-    await atWork(tablet, async (where) => void found.push(...(await findings(tablet, where, "main"))));
+    await atWork(stem, async (where) => void found.push(...(await findings(tablet, where, "main"))));
     expect(found).toEqual([]);
   });
 
@@ -232,9 +233,9 @@ describe.each([
 });
 
 it("a finger finds every control of the tools at work 44 pixels wide and high", async () => {
-  const { tablet } = await workshop.stem(TABLET);
+  const stem = await workshop.stem(TABLET);
   const found: string[] = [];
-  await atWork(tablet, async (where) => void found.push(...(await small(tablet, where))));
+  await atWork(stem, async (where) => void found.push(...(await small(stem.tablet, where))));
   expect(found).toEqual([]);
 });
 

@@ -131,9 +131,9 @@ test.each(Object.entries(SCREENS))("trees are searched, filtered, starred and ta
   const star = page.getByRole("button", { name: "Favourite: Apple" });
   await star.tap();
   await page.locator(".card-star[aria-pressed=true]").waitFor();
+  await page.getByRole("button", { name: /^Filters/ }).tap();
   await page.getByRole("button", { name: "Favourites", exact: true }).tap();
   await listed(tablet, "favourites", ["Apple"]);
-  await page.getByRole("button", { name: /^Filters/ }).tap();
   await page.locator(".filter-tags").getByRole("button", { name: /^old/ }).tap();
   await page.getByText("Nothing fits all of this: Tag: old, Favourites.").waitFor();
   await tablet.show(`library-filters-${name}`);
@@ -151,6 +151,29 @@ test.each(Object.entries(SCREENS))("trees are searched, filtered, starred and ta
   await tablet.untilReady();
   await open(tablet);
   await page.getByText(/^Nothing fits all of this: By Ann/).waitFor();
+});
+
+test.each([
+  ["upright", 390, 844, 0.3],
+  ["that lies", 844, 390, 0.5],
+])("on a phone %s the glass is for the trees", async (_, width, height, most) => {
+  const tablet = await library({ width, height, detail: DETAIL }, ["Pear", "Apple"]);
+  const { page } = tablet;
+  const card = await tablet.boxOf(page.locator(".card").first());
+  expect(card.y / height, "the bars above the first tree").toBeLessThan(most);
+  expect(await misses(tablet, "the library", "dialog")).toEqual([]);
+  await tablet.show(`library-phone-${width}`);
+  await page.getByRole("button", { name: "Filters", exact: true }).tap();
+  await page.getByLabel("Order").selectOption("By name");
+  await listed(tablet, "in another order", ["Apple", "Pear"]);
+  expect(await misses(tablet, "the filters", ".finder")).toEqual([]);
+  await page.getByRole("button", { name: "Filters", exact: true }).tap();
+  await page.getByLabel("Order").waitFor({ state: "hidden" });
+  await page.getByRole("button", { name: "Select", exact: true }).tap();
+  await page.getByRole("button", { name: "Select Pear" }).tap();
+  expect(await misses(tablet, "chosen trees", ".selection-bar")).toEqual([]);
+  const bar = await tablet.boxOf(page.locator(".selection-bar"));
+  expect(bar.height / height, "what is done with them").toBeLessThan(0.3);
 });
 
 test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", async (name, screen) => {
@@ -202,7 +225,13 @@ test.each(Object.entries(SCREENS))("trees are dragged into collections: %s", asy
   await page.locator(".drag-ghost[data-over=false]").waitFor();
   await tablet.touch("touchEnd", []);
   await page.getByText("Drop trees on a collection to move them.").waitFor();
-  await page.getByRole("button", { name: "Done", exact: true }).tap();
+  const end = page.getByRole("button", { name: "Done", exact: true });
+  for (const to of [1e6, 0]) {
+    await page.locator(".sheet").evaluate((sheet, to) => sheet.scrollTo(0, to), to);
+    const { y, height } = (await end.boundingBox())!;
+    expect(y > 0 && y + height < screen.height, "what ends choosing is in sight").toBe(true);
+  }
+  await end.tap();
 
   await choose(tablet, `the collection ${wood}`, "Rename");
   await page.getByLabel(`New name of the collection ${wood}`).fill(`Forest ${name}`);

@@ -14,10 +14,13 @@ const LEAVES = 12;
 export class Glass {
   readonly page: Page;
   readonly #touch: CDPSession;
+  /** Whether fingers touch it; else a mouse stands in for the only one. */
+  readonly touches: boolean;
 
-  protected constructor(page: Page, touch: CDPSession) {
+  protected constructor(page: Page, touch: CDPSession, touches: boolean) {
     this.page = page;
     this.#touch = touch;
+    this.touches = touches;
   }
 
   /** Moves as many fingers as there are paths, from each path's begin to its end; all touch down and lift together. */
@@ -72,8 +75,14 @@ export class Glass {
     }
   }
 
-  /** One real touch event with all fingers that are down. */
+  /** One real touch event with all fingers that are down, or what the mouse does in their place. */
   async touch(type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Point[]): Promise<void> {
+    if (!this.touches) {
+      const { mouse } = this.page;
+      for (const { x, y } of fingers.slice(0, 1)) await mouse.move(x, y);
+      if (type !== "touchMove") await (type === "touchStart" ? mouse.down() : mouse.up());
+      return;
+    }
     const touchPoints = fingers.map(({ x, y }, id) => ({ x, y, id, radiusX: 8, radiusY: 8, force: 0.5 }));
     const answer = this.#touch.send("Input.dispatchTouchEvent", { type, touchPoints });
     await atMost(TOUCHED, answer);

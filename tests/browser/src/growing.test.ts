@@ -2,9 +2,8 @@ import { expect, test } from "vitest";
 import { pickSpecies } from "./by-hand";
 import { SMALL } from "./screens";
 import type { Tablet } from "./tablet";
-import { seedling } from "./visits";
 import { middle, way } from "./ways";
-import { Workshop } from "./workshop";
+import { seedling, Workshop } from "./workshop";
 
 const workshop = Workshop.withItsOwnServer();
 const { server } = workshop;
@@ -91,42 +90,24 @@ test("a stroke that is stopped is over, though the finger goes on", async () => 
   await tablet.touch("touchEnd", []);
 });
 
-/** Draws by one move of a brush, so that the tree is young still. */
-const brushAt = (stroke: number) => [
-  { kind: "stroke_begin", stroke },
-  { kind: "stroke_move", stroke, samples: [{ position: [0, 8, 0], radius: 6 }] },
-  { kind: "stroke_end", stroke },
-];
-
-test("who draws on a young pine is told that it sheds, once", async () => {
+test("what is drawn on a young pine stays when it grows, and goes where shedding is set by hand", async () => {
   const { tablet, address } = await workshop.fresh(SMALL);
   await pickSpecies(tablet, "scots-pine");
-  const sentence = tablet.page.locator("[data-shedding]");
-  expect(await sentence.count(), "nothing is drawn yet").toBe(0);
-  await workshop.act(address, brushAt(1));
-  await sentence.waitFor();
-  const drawn = await tablet.untilQuiet();
-  expect(await sentence.textContent()).toMatch(/sheds much of what you drew with its next step, until age 10/);
-  await workshop.act(address, [{ kind: "grow", steps: 1 }]);
-  await sentence.waitFor({ state: "detached" });
-  const { metamers, step } = await tablet.untilQuiet();
-  expect(metamers, "what it says is so").toBeLessThan(drawn.metamers / 2);
-  await workshop.act(address, brushAt(2));
-  await tablet.until("it was drawn on", (facts) => facts.step > step);
+  // By one move of a brush, so that the tree is young still.
+  await workshop.act(address, [
+    { kind: "stroke_begin", stroke: 1 },
+    { kind: "stroke_move", stroke: 1, samples: [{ position: [0, 8, 0], radius: 6 }] },
+    { kind: "stroke_end", stroke: 1 },
+  ]);
+  const drawn = await tablet.until("it is drawn", (facts) => facts.metamers > 50);
   await tablet.untilQuiet();
-  expect(await sentence.count(), "it was there to be read").toBe(0);
-});
-
-test("a young pine can keep its branches", async () => {
-  const { tablet, address } = await workshop.fresh(SMALL);
-  await pickSpecies(tablet, "scots-pine");
-  await workshop.act(address, brushAt(1));
-  const keep = tablet.page.getByRole("button", { name: "Keep branches", exact: true });
-  await keep.waitFor();
-  const { metamers, step } = await tablet.untilQuiet();
-  await keep.tap();
-  await keep.waitFor({ state: "detached" });
-  await workshop.act(address, [{ kind: "grow", steps: 1 }]);
-  await tablet.until("it grows on", (facts) => facts.step > step);
-  expect((await tablet.untilQuiet()).metamers).toBeGreaterThan(0.9 * metamers);
+  const grown = async () => {
+    const before = await tablet.untilQuiet();
+    await workshop.act(address, [{ kind: "grow", steps: 1 }]);
+    await tablet.until("it grows on", (facts) => facts.step > before.step);
+    return (await tablet.untilQuiet()).metamers;
+  };
+  expect(await grown()).toBeGreaterThan(0.9 * drawn.metamers);
+  await workshop.act(address, [{ kind: "set_parameters", parameters: { shedding_threshold: 0.9 } }]);
+  expect(await grown()).toBeLessThan(drawn.metamers / 2);
 });

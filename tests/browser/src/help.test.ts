@@ -1,9 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { SMALL } from "./screens";
 import type { Tablet } from "./tablet";
-import { seedling } from "./visits";
 import { middle, way } from "./ways";
-import { Workshop } from "./workshop";
+import { seedling, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 
@@ -59,13 +58,13 @@ describe("a first run", () => {
       // A sheet that has just gone keeps the keys to itself until the next frame.
       await tablet.frames();
       await page.keyboard.press("Shift+?");
-      const help = page.getByRole("dialog");
+      const help = page.getByRole("dialog", { name: "How to draw a tree", exact: true });
       await help.getByRole("searchbox").fill(query);
       await help
         .getByRole("button", { name: `Show: ${topic}`, exact: true })
         .first()
         .tap();
-      await help.getByRole("searchbox").waitFor({ state: "detached" });
+      await help.waitFor({ state: "detached" });
     };
     // Who reads English may know the German word.
     await shown("Bibliothek", "Library");

@@ -28,8 +28,13 @@ async function grown(screen: Screen): Promise<Tablet> {
   await tablet.untilQuiet();
   await tablet.page.evaluate(async () => {
     const session = location.pathname.slice(location.pathname.lastIndexOf("/") + 1);
-    const body = JSON.stringify({ session, name: "A tree that was saved" });
-    await fetch("/api/v1/trees", { method: "POST", headers: { "content-type": "application/json" }, body });
+    const headers = { "content-type": "application/json" };
+    const post = async (address: string, body: object) =>
+      (await fetch(address, { method: "POST", headers, body: JSON.stringify(body) })).json();
+    const { id } = await post("/api/v1/trees", { session, name: "A tree that was saved" });
+    await post(`/api/v1/trees/${id}/versions`, { session });
+    const gone = await post("/api/v1/trees", { session, name: "A tree that was deleted" });
+    await fetch(`/api/v1/trees/${gone.id}`, { method: "DELETE" });
   });
   return tablet;
 }
@@ -65,12 +70,30 @@ async function lookIntoLibrary(tablet: Tablet, look: (where: string, within: str
   await page.getByRole("radio", { name: "Templates", exact: true }).check();
   await page.getByRole("region", { name: "Species" }).waitFor();
   await look("the sections", ".library-bar");
+  await page.getByRole("radio", { name: "Deleted", exact: true }).check();
+  await page.getByText("A tree that was deleted").first().waitFor();
+  await look("deleted trees", "dialog");
   await page.getByRole("radio", { name: "Trees", exact: true }).check();
   await unfold();
-  await menu.getByRole("button", { name: "Versions (1)" }).click();
-  await page.locator("[data-version='1']").waitFor();
+  await menu.getByRole("button", { name: "Versions (2)" }).click();
+  for (const number of [1, 2]) await page.getByLabel(`Compare version ${number}`).check();
   await tablet.untilSettled();
   await look("versions", "dialog");
+  await page.getByRole("button", { name: "Compare", exact: true }).click();
+  await page.getByRole("region", { name: "Compare" }).waitFor();
+  await tablet.untilSettled();
+  await look("two versions side by side", "dialog");
+}
+
+/** What can be chosen of each format. */
+async function lookAtFormats(tablet: Tablet, look: (where: string, within: string) => Promise<void>): Promise<void> {
+  const formats = tablet.page.locator('input[name="format"]');
+  await formats.nth(1).waitFor({ state: "attached" });
+  for (let i = 0; i < (await formats.count()); i += 1) {
+    await formats.nth(i).check();
+    await tablet.untilSettled();
+    await look(`format ${i + 1} of downloads`, "dialog");
+  }
 }
 
 test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", async ({ screen }) => {
@@ -129,6 +152,8 @@ test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", a
     await tablet.untilSettled();
     await look(sheet, "dialog");
     if (sheet === "Library") await lookIntoLibrary(tablet, look);
+    // A mouse needs no larger controls than a finger.
+    if (sheet === "Download" && tablet.touches) await lookAtFormats(tablet, look);
     await page.keyboard.press("Escape");
     await page.getByRole("dialog").waitFor({ state: "detached" });
   }
@@ -137,9 +162,9 @@ test.each(CASES)("every control is hit where it is drawn: $name, by $pointer", a
   expect(found).toEqual([]);
 });
 
-test.each(Object.entries(SCREENS))(
-  "every control is hit where it is drawn when a tree is left: %s",
-  async (_, screen) => {
+test.each(CASES)(
+  "every control is hit where it is drawn when a tree is left: $name, by $pointer",
+  async ({ screen }) => {
     const { tablet, address } = await workshop.fresh(screen);
     const { page } = tablet;
     const found: string[] = [];
@@ -165,9 +190,13 @@ test.each(Object.entries(SCREENS))(
   },
 );
 
-test("every control is hit where it is drawn while tools are at work", async () => {
-  const { tablet } = await workshop.stem(SCREENS.landscape);
-  const found: string[] = [];
-  await atWork(tablet, async (where) => void found.push(...(await misses(tablet, where, ".workspace", false))));
-  expect(found).toEqual([]);
-});
+test.each(CASES)(
+  "every control is hit where it is drawn while tools are at work: $name, by $pointer",
+  async ({ screen }) => {
+    const stem = await workshop.stem(screen);
+    const found: string[] = [];
+    const look = async (where: string) => void found.push(...(await misses(stem.tablet, where, ".workspace", false)));
+    await atWork(stem, look);
+    expect(found).toEqual([]);
+  },
+);

@@ -15,15 +15,14 @@ export async function misses(tablet: Tablet, where: string, within = "body", pre
   try {
     if (count === 0) faults.push(`${where}: no control in ${within}`);
     for (let i = 0; i < count; i++) {
-      const { control, x, y, missed } = await tablet.page.evaluate(aim, { i, reach: tablet.touches ? TARGET : 0 });
+      const aimed = await tablet.page.evaluate(aim, { i, reach: tablet.touches ? TARGET : 0 });
+      // A note that has had its time.
+      if (aimed === null) continue;
+      const { control, x, y, missed } = aimed;
       faults.push(...missed.map((fault) => `${where}: ${control}: ${fault}`));
       if (!press) continue;
-      if (tablet.touches) {
-        await tablet.touch("touchStart", [{ x, y }]);
-        await tablet.touch("touchEnd", []);
-      } else {
-        await tablet.page.mouse.click(x, y);
-      }
+      await tablet.touch("touchStart", [{ x, y }]);
+      await tablet.touch("touchEnd", []);
       const hit = await tablet.page.evaluate(() => globalThis.hits?.pressed ?? "nothing that the page is told of");
       if (hit !== "") faults.push(`${where}: ${control}: a press at ${x}, ${y} hits ${hit}`);
     }
@@ -89,10 +88,11 @@ function collect(within: string): number {
   return controls.length;
 }
 
-/** In the page: brings a control into view, says where its middle is, and what lies over it there or within reach. */
+/** In the page: brings a control into view, says where its middle is, and what lies over it there or within reach; null if it is gone. */
 function aim({ i, reach }: { i: number; reach: number }) {
   const hits = globalThis.hits!;
   const control = hits.controls[i]!;
+  if (!control.isConnected) return null;
   const isOption = control instanceof HTMLInputElement && ["radio", "checkbox"].includes(control.type);
   // What is drawn of an option is its label.
   const drawn = (isOption && control.closest("label")) || control;

@@ -36,7 +36,19 @@ export class Server extends RunningServer {
   port = 0;
   /** Where it keeps what it keeps. */
   readonly folder = mkdtempSync(join(tmpdir(), "espalier-browser-"));
+  /** All that it has printed since it was started. */
+  printed = "";
   #child: ChildProcess | null = null;
+
+  /** `options` are more ones of the program's. */
+  constructor(readonly options: readonly string[] = []) {
+    super();
+  }
+
+  /** The file it keeps everything in. */
+  get database(): string {
+    return join(this.folder, "trees.db");
+  }
 
   get address(): string {
     return `http://127.0.0.1:${this.port}`;
@@ -44,19 +56,15 @@ export class Server extends RunningServer {
 
   /** Starts it, on the same port as before if there was one. */
   async start(): Promise<void> {
-    const database = join(this.folder, "trees.db");
-    const child = spawn(
-      program,
-      ["serve", "--host", "127.0.0.1", "--port", String(this.port), "--database", database],
-      { stdio: ["ignore", "pipe", "pipe"] },
-    );
+    const where = ["--host", "127.0.0.1", "--port", String(this.port), "--database", this.database];
+    const child = spawn(program, ["serve", ...where, ...this.options], { stdio: ["ignore", "pipe", "pipe"] });
     this.#child = child;
-    let printed = "";
+    this.printed = "";
     this.port = await new Promise<number>((resolve, reject) => {
-      const timer = setTimeout(() => reject(new Error(`the server printed no address:\n${printed}`)), GUARD);
+      const timer = setTimeout(() => reject(new Error(`the server printed no address:\n${this.printed}`)), GUARD);
       const read = (chunk: Buffer) => {
-        printed += chunk.toString();
-        const port = /http:\/\/[^\s/]*:(\d+)/.exec(printed)?.[1];
+        this.printed += chunk.toString();
+        const port = /http:\/\/[^\s/]*:(\d+)/.exec(this.printed)?.[1];
         if (port) {
           clearTimeout(timer);
           resolve(Number(port));
@@ -65,7 +73,7 @@ export class Server extends RunningServer {
       child.stdout.on("data", read);
       child.stderr.on("data", read);
       child.on("error", reject);
-      child.on("exit", (code) => reject(new Error(`the server ended with ${code}:\n${printed}`)));
+      child.on("exit", (code) => reject(new Error(`the server ended with ${code}:\n${this.printed}`)));
     });
     await until("the server answers", async () => {
       const health = await fetch(`${this.address}/health`).catch(() => null);

@@ -353,7 +353,7 @@ test("what a tool can be told has a name, help, a typed value and a reset", asyn
   await workshop.act(address, [{ kind: "grow", steps: 12 }]);
   await tablet.until("it grows", ({ lastStep }) => lastStep > 0);
   await tablet.untilQuiet();
-  const told = page.locator(".tool-options");
+  const options = page.locator(".tool-options");
   for (const [tool, name, usual, typed, taken] of [
     ["Bend", "Stretch", "30", "70,4", "70"],
     ["Prune", "Darker than", "0", "99", "60"],
@@ -362,9 +362,9 @@ test("what a tool can be told has a name, help, a typed value and a reset", asyn
     const [slider, box] = [page.getByLabel(name, { exact: true }), page.getByLabel(`${name}: value`)];
     const reset = page.getByLabel(`Reset ${name}`);
     expect([await box.inputValue(), await reset.count()], name).toEqual([usual, 0]);
-    const help = told.locator(`[id="${await slider.getAttribute("aria-describedby")}"]`);
+    const help = options.locator(`[id="${await slider.getAttribute("aria-describedby")}"]`);
     expect(await help.isVisible(), `the help of ${name} is folded`).toBe(false);
-    await told.getByRole("button", { name: new RegExp(`^${name}`) }).tap();
+    await options.getByRole("button", { name: new RegExp(`^${name}`) }).tap();
     // And unfolds.
     await help.waitFor({ state: "visible" });
     expect((await help.textContent())!.length).toBeGreaterThan(30);

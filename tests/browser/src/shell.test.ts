@@ -3,9 +3,8 @@ import type { Box } from "./picture";
 import { COARSE, PHONE, type Screen, SMALL } from "./screens";
 import { until } from "./server";
 import type { Tablet } from "./tablet";
-import { seedling } from "./visits";
 import { middle, way } from "./ways";
-import { Workshop } from "./workshop";
+import { seedling, Workshop } from "./workshop";
 
 const workshop = Workshop.forThisFile();
 

@@ -46,6 +46,19 @@ test("a page without a graphics card says why its picture is coarse, once", asyn
   expect(await line.count(), "who has read it is not told again").toBe(0);
 });
 
+test("a large tree says so as it opens, and its picture comes to rest", async () => {
+  const { tablet, address } = await workshop.fresh({ ...WATCHED, detail: 0.2 });
+  await workshop.act(address, [{ kind: "grow", steps: 30 }]);
+  await tablet.until("it is large", ({ metamers }) => metamers > 10_000);
+  await tablet.page.evaluate(() => {
+    localStorage.setItem("espalier.slowness-read", "false");
+    localStorage.setItem("espalier.whole-picture", "false");
+  });
+  await tablet.page.reload();
+  await tablet.page.locator('[data-slowness="cardless"]').waitFor();
+  await tablet.untilStill();
+});
+
 /** Asks for the errors of WebGL after every call that may make one from now on. */
 async function watchErrors({ page }: Tablet): Promise<() => Promise<string[]>> {
   await page.evaluate(() => {

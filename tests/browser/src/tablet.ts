@@ -48,7 +48,7 @@ export class Tablet extends Glass {
   readonly #screen: Screen;
 
   private constructor(context: BrowserContext, page: Page, touch: CDPSession, darkroom: Darkroom, screen: Screen) {
-    super(page, touch);
+    super(page, touch, screen.mouse !== true);
     this.#context = context;
     this.#darkroom = darkroom;
     this.#screen = screen;
@@ -70,6 +70,9 @@ export class Tablet extends Glass {
       // And that the processor draws.
       if (localStorage.getItem("espalier.slowness-read") === null)
         localStorage.setItem("espalier.slowness-read", "true");
+      // However long it takes: a picture is the same on every machine.
+      if (localStorage.getItem("espalier.whole-picture") === null)
+        localStorage.setItem("espalier.whole-picture", "true");
     });
     if (!watched) await context.addInitScript(lookAway, { canvas: CANVAS, unseen: UNSEEN });
     await withClient(context);
@@ -78,11 +81,6 @@ export class Tablet extends Glass {
     await page.goto(address);
     await tablet.untilReady();
     return tablet;
-  }
-
-  /** Whether it is used with fingers, and not with a mouse. */
-  get touches(): boolean {
-    return this.#screen.mouse !== true;
   }
 
   async close(): Promise<void> {
@@ -144,11 +142,19 @@ export class Tablet extends Glass {
   }
 
   async tap(label: string): Promise<void> {
-    await this.page.getByLabel(label, { exact: true }).first().tap();
+    await this.press(this.page.getByLabel(label, { exact: true }).first());
+  }
+
+  /** Presses a control with a finger, or with the mouse where there is one. */
+  async press(control: Locator): Promise<void> {
+    await (this.touches ? control.tap() : control.click());
   }
 
   /** Takes up a tool by what its button is called. */
   async take(button: Tool): Promise<void> {
+    // On narrow glass the tools are folded.
+    const folded = this.page.getByRole("button", { name: /^All tools/, expanded: false });
+    if ((await folded.count()) > 0) await this.press(folded);
     await this.tap(button);
     await this.until(`“${button}” is at hand`, ({ tool }) => tool === TOOLS[button]);
   }

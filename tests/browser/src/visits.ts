@@ -1,17 +1,10 @@
-import type { Locator } from "playwright-core";
 import { until } from "./server";
 import type { Tab, Tablet } from "./tablet";
 import { loop, type Point, way } from "./ways";
-import { SEED } from "./workshop";
+import type { Stem } from "./workshop";
 
 export const PANELS = ["Architecture", "Brush", "Leaves", "Branches", "Background", "Scene"];
 export const SHEETS = ["Save", "Library", "Share", "Download", "Settings", "Help"];
-
-/** Where the seedling stands on the glass. */
-export async function seedling(tablet: Tablet): Promise<Point> {
-  const { x, y, width, height } = await tablet.boxOf(tablet.page.locator(".seedling").first());
-  return { x: x + width / 2, y: y + 0.9 * height };
-}
 
 /** Pulls down a panel. */
 export async function pullDown(tablet: Tablet, panel: string): Promise<void> {
@@ -66,40 +59,35 @@ export async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part)
   await tablet.untilSettled();
 }
 
-/** A place on the stem that was sketched. */
-const onStem = (y: number): Point => ({ x: SEED.x, y });
-
-/** Where a limb ends that is drawn from it, and a way across that limb. */
-const LIMB: Point = { x: 800, y: 520 };
-const ACROSS: readonly Point[] = way({ x: 700, y: 440 }, { x: 760, y: 620 });
-
 /** Puts each tool to work on a stem, beginning with the brush, and stops on the way to look. */
-export async function atWork(tablet: Tablet, look: (where: string) => Promise<void>): Promise<void> {
+export async function atWork({ tablet, at }: Stem, look: (where: string) => Promise<void>): Promise<void> {
   const { page } = tablet;
   const escaped = async (where: string) => {
     await look(where);
     await page.keyboard.press("Escape");
   };
-  await under(tablet, way(onStem(620), LIMB), () => look("a stroke under way"));
+  await under(tablet, way(at(0, 130), at(203, 230)), () => look("a stroke under way"));
   await tablet.untilQuiet();
 
   await tablet.take("Lasso");
-  const outline = loop({ x: 800, y: 350 }, { x: 90, y: 90 }).slice(0, 30);
+  const middle = at(203, 400);
+  const radius = at(293, 400).x - middle.x;
+  const outline = loop(middle, { x: radius, y: radius }).slice(0, 30);
   await under(tablet, outline, () => escaped("an outline under way"));
   await tablet.take("Plant a seed");
   await look("Plant a seed");
 
   await tablet.take("Bend");
-  await tablet.tapAt(onStem(600));
+  await tablet.tapAt(at(0, 150));
   await page.getByLabel("Let go of the base").waitFor();
-  await under(tablet, way(onStem(440), { x: 720, y: 480 }), () => look("a bend under way"));
+  await under(tablet, way(at(0, 310), at(123, 270)), () => look("a bend under way"));
   await tablet.untilQuiet();
   await tablet.tap("Undo");
   await tablet.untilQuiet();
 
   await tablet.take("Width");
   await look("Width");
-  await tablet.tapAt(onStem(580));
+  await tablet.tapAt(at(0, 170));
   await page.getByLabel("Diameter in internodes").waitFor();
   await look("a width chosen");
 
@@ -107,25 +95,27 @@ export async function atWork(tablet: Tablet, look: (where: string) => Promise<vo
   await page.getByLabel("Darker than: value").fill("60");
   await page.keyboard.press("Enter");
   await page.locator(".tool-options .danger").waitFor();
-  for (const name of await page.locator(".tool-options .field-name").all()) await name.tap();
+  // On a phone what is about to be cut hides the other options.
+  for (const name of await page.locator(".tool-options .field-name:visible").all()) await tablet.press(name);
   await look("what is dark");
-  await page.getByLabel("Reset Darker than").tap();
-  await under(tablet, ACROSS, () => escaped("a cut under way"));
+  await tablet.tap("Reset Darker than");
+  const across = way(at(103, 310), at(163, 130));
+  await under(tablet, across, () => escaped("a cut under way"));
   await page.getByLabel("What if?", { exact: true }).check();
-  await tablet.swipe([ACROSS]);
+  await tablet.swipe([across]);
   await page.getByRole("region", { name: "Prediction" }).waitFor();
-  await page.locator(".prediction .field-name").tap();
+  await tablet.press(page.locator(".prediction .field-name"));
   await look("a prediction");
-  await page.getByRole("button", { name: "Discard" }).tap();
+  await tablet.press(page.getByRole("button", { name: "Discard" }));
   // The view goes back to where it was.
   await tablet.until("it is discarded", ({ ghost }) => ghost === "");
   await tablet.untilStill();
 
   await tablet.take("Branch");
-  await tablet.tapAt({ x: 745, y: 542 });
+  await tablet.tapAt(at(148, 208));
   await page.getByRole("toolbar", { name: "This branch" }).waitFor();
   await look("a branch held");
-  await page.getByRole("button", { name: "Copy" }).tap();
+  await tablet.press(page.getByRole("button", { name: "Copy" }));
   await look("a copy to be placed");
 }
 
@@ -138,8 +128,7 @@ async function under(tablet: Tablet, path: readonly Point[], look: () => Promise
 
 /** Presses a button of the tool bar, in its menu where it is folded. */
 export async function press(tablet: Tablet, name: string): Promise<void> {
-  const push = (button: Locator) => (tablet.touches ? button.tap() : button.click());
   const button = tablet.page.locator(".tool-bar").getByRole("button", { name, exact: true });
-  if ((await button.count()) === 0) await push(tablet.page.getByRole("button", { name: "More", exact: true }));
-  await push(button);
+  if ((await button.count()) === 0) await tablet.press(tablet.page.getByRole("button", { name: "More", exact: true }));
+  await tablet.press(button);
 }

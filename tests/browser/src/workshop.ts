@@ -8,6 +8,9 @@ import { theBrowser, theServer } from "./shared";
 import { Tablet } from "./tablet";
 import { type Point, way } from "./ways";
 
+/** A place so many pixels to the right of the seedling and above it on a tablet on its side; nearer on narrow glass. */
+export type Place = (right: number, up: number) => Point;
+
 /** Where the first seed stands in a fresh view on a tablet on its side. */
 export const SEED: Point = { x: 597, y: 750 };
 
@@ -20,6 +23,20 @@ export interface Opened {
 /** One on which something has grown. */
 export interface Grown extends Opened {
   readonly metamers: number;
+}
+
+/** One with a slender stem, and places about it. */
+export interface Stem extends Grown {
+  readonly at: Place;
+}
+
+/** So far a place about the seedling lies at most from it to the side, in pixels. */
+const ASIDE = 320;
+
+/** Where the seedling stands on the glass. */
+export async function seedling(tablet: Tablet): Promise<Point> {
+  const { x, y, width, height } = await tablet.boxOf(tablet.page.locator(".seedling").first());
+  return { x: x + width / 2, y: y + 0.9 * height };
 }
 
 /** A server, a browser and tablets for the tests of one file. */
@@ -97,15 +114,18 @@ export class Workshop<At extends RunningServer = RunningServer> {
     return { tablet, address, metamers };
   }
 
-  /** One on which a slender stem was sketched up to a height on the glass, so that places on it can be found again. */
-  async stem(screen?: Screen, top = 400): Promise<Grown> {
+  /** One on which a slender stem was sketched 350 pixels high, so that places on it can be found again. */
+  async stem(screen?: Screen): Promise<Stem> {
     const { tablet, address } = await this.fresh(screen);
     await tablet.page.getByLabel("Brush radius", { exact: true }).focus();
     await tablet.page.keyboard.press("Home");
-    await tablet.swipe([way(SEED, { x: SEED.x, y: top })]);
+    const seed = await seedling(tablet);
+    const scale = Math.min(1, seed.x / ASIDE);
+    const at: Place = (right, up) => ({ x: seed.x + scale * right, y: seed.y - scale * up });
+    await tablet.swipe([way(at(0, 0), at(0, 350))]);
     const { metamers } = await tablet.untilQuiet();
     expect(metamers).toBeGreaterThan(5);
-    return { tablet, address, metamers };
+    return { tablet, address, metamers, at };
   }
 
   async #start(): Promise<void> {

@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 use espalier_proto::{Action, Command};
-use espalier_session::{Document, Session, read_command};
+use espalier_session::{Document, Principal, Session, read_command};
 
 use crate::{METAMERS, SEED, command};
 
@@ -20,7 +20,7 @@ pub fn read(bytes: &[u8]) -> bool {
     assert_eq!(again.as_ref().ok(), Some(&hash), "{again:?}");
     document.set_metamer_budget(METAMERS);
     let all = |document: &mut Document, command: &Command| {
-        (0..OPERATIONS).take_while(|_| document.apply("someone", command).is_ok()).count()
+        (0..OPERATIONS).take_while(|_| document.apply(&Principal::visitor(), command).is_ok()).count()
     };
     all(&mut document, &Action::Undo {}.into());
     all(&mut document, &Action::Redo {}.into());
@@ -51,7 +51,7 @@ fn own() -> Vec<Vec<u8>> {
     document.set_metamer_budget(METAMERS);
     for line in command::lines() {
         // Some are refused by a tree so small.
-        let _ = read_command(line).and_then(|command| document.apply("someone", &command));
+        let _ = read_command(line).and_then(|command| document.apply(&Principal::visitor(), &command));
     }
     // What is being drawn or bent cannot be kept.
     document.end_gestures();

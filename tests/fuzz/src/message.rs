@@ -1,6 +1,6 @@
 //! What a client sends to a session, from its first message on.
 
-use espalier_session::{ClientId, Input, JournalEntry, Output, Session};
+use espalier_session::{Access, ClientId, Input, JournalEntry, Output, Session};
 
 use crate::{METAMERS, SEED, command};
 
@@ -14,7 +14,7 @@ pub fn read(bytes: &[u8]) -> bool {
     let snapshot = Session::seedling(SEED, METAMERS);
     let Ok(session) = Session::restore("fuzzed", 1, Some(&snapshot), SEED, []) else { return false };
     let mut house = House { session, journal: Vec::new(), slices: 0, is_open: true };
-    house.handle(Input::Connected(CLIENT));
+    house.handle(Input::Connected(CLIENT, Access::Edit));
     for message in bytes.split(|&byte| byte == b'\n') {
         if !house.is_open {
             return false;

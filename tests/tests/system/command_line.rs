@@ -264,6 +264,18 @@ fn many_seeds_are_many_files() {
 }
 
 #[test]
+fn an_export_to_standard_output_leaves_it_to_the_file() {
+    let grown =
+        program::run(&["grow", "--steps", "4", "--export", "-", "--format", "mtg", "--stats", "json"]);
+    assert_eq!(grown.code, 0, "{}", grown.stderr);
+    assert!(grown.stdout.starts_with("CODE"), "{}", grown.stdout);
+    assert!(grown.stderr.contains("\"metamers_alive\""), "{}", grown.stderr);
+    let several =
+        program::run(&["grow", "--steps", "1", "--seeds", "1-2", "--export", "-", "--format", "mtg"]);
+    assert!(several.code == 2 && several.stderr.contains("{seed}"), "{}", several.stderr);
+}
+
+#[test]
 fn species_are_told_as_json() {
     let finished = program::run(&["species", "--json"]);
     let all: Vec<Value> = serde_json::from_str(&finished.stdout).expect("JSON");

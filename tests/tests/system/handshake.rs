@@ -45,6 +45,30 @@ async fn hs1_anything_but_a_hello_first_closes_4001() {
 }
 
 #[tokio::test]
+async fn hs1_a_bad_hello_is_told_its_field() {
+    let (server, _scratch) = server();
+    let session = server.new_session(1);
+    // As long as a reason can be, and longer.
+    let [long, wide] = ["x".repeat(200), "ö".repeat(200)];
+    for (key, more, reason) in [
+        (
+            "browser-1",
+            json!({ "sap": 1 }),
+            "malformed: sap is no known field; allowed: protocol, client, resume",
+        ),
+        ("short", json!({}), "malformed: client is short; allowed: 8 to 64 letters, digits, - and _"),
+        (&long, json!({}), &format!("malformed: client is {}", "x".repeat(102))),
+        (&wide, json!({}), &format!("malformed: client is {}", "ö".repeat(51))),
+    ] {
+        let mut hello = json!({ "type": "hello", "protocol": 1, "client": key });
+        hello.as_object_mut().expect("an object").extend(more.as_object().expect("an object").clone());
+        let mut socket = client::open(server.port(), &session).await;
+        socket.send(Message::text(hello.to_string())).await.expect("it is short");
+        assert_eq!(client::close(&mut socket).await, Some((4001, reason.to_owned())));
+    }
+}
+
+#[tokio::test]
 async fn hs1_silence_closes_4001() {
     let (server, _scratch) = server();
     let session = server.new_session(1);

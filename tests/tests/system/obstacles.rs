@@ -65,11 +65,11 @@ async fn ob3_obstacles_reach_everybody_and_survive_a_crash() {
     let rows = &first.table.rows;
     assert!(rows.iter().all(|row| row.position[0] <= 384), "something grew through the wall");
     assert!(rows.iter().any(|row| row.position[0] < -384), "nothing grew on the free side");
-    let (told, form) = (first.obstacles.clone(), first.table.form());
+    let (obstacles, form) = (first.obstacles.clone(), first.table.form());
     let server = server.kill_and_restart();
     first.reconnect(server.port()).await;
     first.until("the list comes again", |client| !client.obstacles.is_empty()).await;
-    assert_eq!(first.obstacles, told);
+    assert_eq!(first.obstacles, obstacles);
     first.until_form(&form).await;
     first.send(json!({ "kind": "remove_obstacle", "id": 1 })).await;
     first.send(json!({ "kind": "undo" })).await;

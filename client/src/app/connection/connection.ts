@@ -1,5 +1,5 @@
-import { FrameKind } from "../../wire/envelope";
 import type { ClientMessage, Command, Problem, ServerMessage } from "../../wire/generated";
+import { FrameKind } from "../../wire/generated";
 import type { Clock } from "../page/clock";
 import {
   type AsideHead,

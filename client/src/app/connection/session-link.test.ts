@@ -30,10 +30,13 @@ function storage(): Storage {
   } as unknown as Storage;
 }
 
-function setUp(path = "/", { last = null as string | null, store = storage(), begun = false } = {}) {
+function setUp(
+  path = "/",
+  { last = null as string | null, store = storage(), begun = false, onlyTree = null as string | null } = {},
+) {
   const sockets: { address: string; socket: FakeSocket }[] = [];
   const clock = new Virtual();
-  const location = { pathname: path, protocol: "https:", host: "trees", reload: vi.fn() };
+  const location = { pathname: path, protocol: "https:", host: "trees", reload: vi.fn(), replace: vi.fn() };
   const visit = (_: unknown, __: string, to?: string | URL | null) => {
     location.pathname = String(to);
   };
@@ -71,6 +74,7 @@ function setUp(path = "/", { last = null as string | null, store = storage(), be
     hindrance,
     dark: () => false,
     lastSession,
+    onlyTree: async () => onlyTree,
     begun: () => begun,
     events,
   });
@@ -109,6 +113,47 @@ describe("the session a page opens with", () => {
     clock.pass(2000);
     await vi.waitFor(() => expect(link.session.peek()).toBe("late"));
     expect(hindrance.peek()).toBeNull();
+  });
+
+  it("AC2: is asked for at the door by whoever is not let in", async () => {
+    const refused = { code: "refused", reason: "not-let-in", message: "Ask for the code." };
+    vi.stubGlobal("fetch", async () => new Response(JSON.stringify(refused), { status: 401 }));
+    const first = setUp();
+    await first.link.start();
+    expect([first.location.replace.mock.calls, first.hindrance.peek()]).toEqual([[["/pair"]], null]);
+    const named = setUp("/s/oak");
+    await named.link.start();
+    named.newest().end(CloseCode.CannotOpen, "not-let-in: Ask for the code.");
+    expect(named.location.replace).toHaveBeenCalledWith("/pair?to=%2Fs%2Foak");
+  });
+
+  it("AC5: is that of the only tree for a guest, whatever was open before", async () => {
+    const asked: string[] = [];
+    vi.stubGlobal("fetch", async (path: string, { body = "" }: { body?: string }) => {
+      asked.push(`${path} ${body}`);
+      const forbidden = { code: "refused", reason: "forbidden", message: "You may not do this here." };
+      return body.includes("ash")
+        ? new Response(JSON.stringify({ session: "oak" }), { status: 201 })
+        : new Response(JSON.stringify(forbidden), { status: 403 });
+    });
+    for (const last of [null, "elm"]) {
+      const { link, hindrance, location } = setUp("/", { last, onlyTree: "ash" });
+      await link.start();
+      expect([link.session.peek(), location.pathname, hindrance.peek()]).toEqual(["oak", "/s/oak", null]);
+    }
+    expect(asked.filter((one) => one.includes("ash"))).toEqual(Array(2).fill('/api/v1/sessions {"tree":"ash"}'));
+  });
+
+  it("AC5: is none for whoever may only look at trees, and is not asked for again and again", async () => {
+    const refused = { code: "refused", reason: "forbidden", message: "You may not do this here." };
+    vi.stubGlobal("fetch", async () => new Response(JSON.stringify(refused), { status: 403 }));
+    const { link, hindrance, clock } = setUp();
+    await link.start();
+    clock.pass(60_000);
+    expect([hindrance.peek(), link.session.peek()]).toEqual(["only-look", null]);
+    const guest = setUp("/", { onlyTree: "ash" });
+    await guest.link.start();
+    expect([guest.hindrance.peek(), guest.link.refusal.peek()]).toEqual(["cannot-open", "You may not do this here."]);
   });
 
   it("is not put in place of one that was opened meanwhile", async () => {

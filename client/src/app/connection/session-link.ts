@@ -3,11 +3,12 @@ import type { Frame } from "../../wire/frame";
 import type { Command, NewSession, SessionCreated } from "../../wire/generated";
 import type { AsideServerFrame } from "../../wire/server-frame";
 import { decodeServerFrame } from "../../wire/server-frame";
+import { askToEnter } from "../entry/ask-to-enter";
 import type { Clock } from "../page/clock";
 import type { Hindrance } from "../page/hindrance";
 import type { PageEvents } from "../page/page-life";
 import { explained } from "../problems/explained";
-import { turnedAway } from "../requests/request";
+import { RequestFailed, turnedAway } from "../requests/request";
 import { leaveRecord, newClientKey, takeRecord } from "./client-record";
 import { Connection, type ConnectionEvents, type Socket } from "./connection";
 import type { Phase, StopReason } from "./connection-core";
@@ -41,7 +42,7 @@ export interface SessionEvents
 
 /** The part of the browser's page that is used; tests bring their own. */
 export interface Page {
-  readonly location: Pick<Location, "pathname" | "protocol" | "host" | "reload">;
+  readonly location: Pick<Location, "pathname" | "protocol" | "host" | "reload" | "replace">;
   readonly history: Pick<History, "pushState" | "replaceState">;
   /** What lives as long as the tab. */
   readonly store: Storage;
@@ -57,6 +58,8 @@ export interface SessionLinkOptions {
   readonly dark: () => boolean;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
+  /** The only tree that whoever is here may see; null where there is none, so that they choose one. */
+  readonly onlyTree: () => Promise<string | null>;
   /** Whether there is something on the page already. */
   readonly begun: () => boolean;
   readonly events: SessionEvents;
@@ -98,8 +101,15 @@ export class SessionLink implements PageEvents {
         page.history.replaceState(null, "", pathOf(session));
         this.#open(session);
       }
-    } catch {
+    } catch (error) {
       if (this.session.peek() !== null) {
+        return;
+      }
+      if (error instanceof RequestFailed && askToEnter(error.problem, page.location)) {
+        return;
+      }
+      if (isForbidden(error)) {
+        await this.#land();
         return;
       }
       hindrance.value = "no-server";
@@ -146,6 +156,27 @@ export class SessionLink implements PageEvents {
     return "opened";
   }
 
+  /** Comes in where somebody may who may begin nothing: to their only tree, or where trees are chosen. */
+  async #land(): Promise<void> {
+    const { page, hindrance, onlyTree } = this.#options;
+    const tree = await onlyTree();
+    if (this.session.peek() !== null) {
+      return;
+    }
+    if (tree === null) {
+      hindrance.value = "only-look";
+      return;
+    }
+    try {
+      const { session } = await createSession({ tree });
+      page.history.replaceState(null, "", pathOf(session));
+      this.#open(session);
+    } catch (error) {
+      this.refusal.value = await explained(error);
+      hindrance.value = "cannot-open";
+    }
+  }
+
   get connected(): boolean {
     return this.phase.peek() === "connected";
   }
@@ -168,11 +199,6 @@ export class SessionLink implements PageEvents {
   /** The number the next command gets, which no other operation of this client has. */
   get next(): number {
     return this.#connection?.next ?? 1;
-  }
-
-  /** The highest number that is answered at present; `settled` follows after all listeners have run. */
-  get answered(): number {
-    return this.#connection?.settled ?? 0;
   }
 
   /** How many commands of a kind are not answered. */
@@ -255,7 +281,10 @@ export class SessionLink implements PageEvents {
           events.settled(settled);
         },
         cannotOpen: async (text) => {
-          this.refusal.value = await explained(turnedAway(text));
+          const turned = turnedAway(text);
+          if (!askToEnter(turned.problem, page.location)) {
+            this.refusal.value = await explained(turned);
+          }
         },
         reload: () => {
           if (mayReload(page.store, Date.now())) {
@@ -302,4 +331,8 @@ export class SessionLink implements PageEvents {
       this.#options.events.parted();
     }
   }
+}
+
+function isForbidden(error: unknown): boolean {
+  return error instanceof RequestFailed && error.problem.reason === "forbidden";
 }

@@ -93,6 +93,7 @@ describe("help", () => {
       ["new", "start over", "von vorn"],
       ["leaves", "autumn", "Herbst"],
       ["settings", "dark mode", "Dunkelmodus"],
+      ["api", "script", "Entwickler"],
     ];
     for (const [id, english, german] of names) {
       language.value = "en";

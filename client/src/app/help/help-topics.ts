@@ -14,7 +14,8 @@ export type Subject =
   | { readonly sheet: SheetName }
   | { readonly tool: ToolName; readonly control?: Control }
   | { readonly place: PlaceName }
-  | { readonly tour: true };
+  | { readonly tour: true }
+  | { readonly page: string };
 
 /** A control of a panel or of a tool, and the section it is folded into. */
 export interface Control {
@@ -90,6 +91,7 @@ const WHOLE = [
   ["share", { sheet: "share" }],
   ["download", { sheet: "download" }],
   ["install"],
+  ["api", { page: "/api" }],
   ["settings", { sheet: "settings" }],
   ["help", { tour: true }],
 ] as const satisfies Named<string>;

@@ -43,7 +43,7 @@ describe("saving the next version", () => {
     expect(asked.filter((one) => one.startsWith("POST")).length).toBe(2);
   });
 
-  it("a version that somebody saved meanwhile is told, and goes before only if one wants it", async () => {
+  it("a version that somebody saved meanwhile is named, and goes before only if one wants it", async () => {
     const { state } = serve(oak);
     const belonging = (await belongingOf("s"))!;
     state.tree = { ...oak, version: 4, revision: 6, author: "Ann" };

@@ -1,9 +1,11 @@
 import { describe, expect, it } from "vitest";
 import type { ExportFormat } from "../../wire/generated";
-import { bytesExpected, FIRST_CHOICE, isExportChoice, optionsOf } from "./export-choice";
+import { FIRST_CHOICE, isExportChoice, optionsOf } from "./export-choice";
 
 const GLB: ExportFormat = {
   ending: "glb",
+  label: ["Model", "Modell"],
+  text: ["Wood and leaves.", "Holz und Blätter."],
   options: ["lod", "quantised", "author"],
   bytes: [1000, 10, 20],
   levels: [1, 0.5, 0.1, 0],
@@ -19,14 +21,6 @@ describe("a choice", () => {
       ["author", "Ada"],
     ]);
     expect([...optionsOf(FIRST_CHOICE, GLB)]).toEqual([]);
-  });
-
-  it("is about as large as the format says", () => {
-    const tree = { metamers: 100, leaves: 10 };
-    expect(bytesExpected(GLB, new Map(), tree)).toBe(2200);
-    expect(bytesExpected(GLB, new Map([["quantised", "true"]]), tree)).toBe(1550);
-    expect(bytesExpected(GLB, new Map([["lod", "set"]]), tree)).toBeCloseTo(2920);
-    expect(bytesExpected(GLB, new Map([["lod", "3"]]), tree)).toBe(1000);
   });
 
   it("that something else was kept as is none", () => {

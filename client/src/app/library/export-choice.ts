@@ -46,21 +46,3 @@ export function optionsOf(choice: ExportChoice, format: ExportFormat): ReadonlyM
   ];
   return new Map(all.filter(([name, value]) => value !== "" && format.options.includes(name)));
 }
-
-/** About how many bytes the file of a tree has. */
-export function bytesExpected(
-  format: ExportFormat,
-  options: ReadonlyMap<string, string>,
-  tree: { readonly metamers: number; readonly leaves: number },
-): number {
-  const [least, metamer, leaf] = format.bytes;
-  const lod = options.get("lod") ?? "0";
-  const level = lod === "set" ? format.levels.reduce((sum, share) => sum + share) : (format.levels[Number(lod)] ?? 1);
-  let [wood, leaves] = [1, 1];
-  for (const name of options.keys()) {
-    const [ofWood, ofLeaves] = format.shares[name] ?? [1, 1];
-    [wood, leaves] = [wood * ofWood, leaves * ofLeaves];
-  }
-  const frames = Number(options.get("frames") ?? 1);
-  return least * frames + level * (tree.metamers * metamer * wood + tree.leaves * leaf * leaves);
-}

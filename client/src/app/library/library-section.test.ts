@@ -19,6 +19,7 @@ async function section(name: SectionName = "trees", wanted: Wanted = ANYTHING) {
   };
   const section = new LibrarySection({
     name,
+    species: () => [],
     api: {
       listTrees: async () => ({ items: all }),
       changeTree: async (id, change) => ({ ...answer("change", id), ...change }),
@@ -64,7 +65,7 @@ describe("a section", () => {
     expect([ids(), said[0]?.text], "what is done can be taken back").toEqual([["c"], "2 trees are deleted"]);
   });
 
-  it("what fails is told, and so is what was done before", async () => {
+  it("what fails is named, and so is what was done before", async () => {
     const { section: here, all, said, server, ids } = await section();
     server.failsAt = "b";
     await here.remove(all);

@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import { type ChangeTree, MAX_NAME_CHARACTERS, type SavedTree } from "../../wire/generated";
+import { type ChangeTree, MAX_NAME_CHARACTERS, type SavedTree, type Species } from "../../wire/generated";
 import type { SectionName } from "../page/layout";
 import type { ToastAction } from "../page/toasts";
 import { sentence } from "../problems/plain-words";
@@ -24,6 +24,8 @@ export interface SectionOptions {
     "listTrees" | "changeTree" | "copyTree" | "deleteTree" | "undeleteTree" | "setFavourite"
   >;
   readonly wanted: () => Wanted;
+  /** Those that the server is known to have. */
+  readonly species: () => readonly Species[];
   readonly said: () => Said;
   readonly show: (text: string, action?: ToastAction) => void;
 }
@@ -42,7 +44,11 @@ export class LibrarySection {
     this.name = options.name;
     this.#options = options;
     this.pages = new Pages(
-      (limit, after) => options.api.listTrees(limit, after, { ...asked(options.wanted()), ...LISTED[options.name] }),
+      (limit, after) =>
+        options.api.listTrees(limit, after, {
+          ...asked(options.wanted(), options.species()),
+          ...LISTED[options.name],
+        }),
       ({ id }) => id,
     );
   }

@@ -1,12 +1,13 @@
 import type { Signal } from "@preact/signals";
+import { MAX_THUMBNAIL_BYTES } from "../../wire/generated";
 import type { Stage } from "../view/stage";
 import { type Belonging, type Saving, saveNext } from "./belonging";
 import { saveTree } from "./library-api";
 import type { Trees } from "./trees";
 import type { UnsavedTrees } from "./unsaved-trees";
 
-/** A picture larger than this would be refused; the limit is 192 KiB. */
-const MAX_PICTURE = 190 * 1024;
+/** Characters of the largest picture that is not refused, as base64. */
+const MAX_PICTURE = Math.ceil(MAX_THUMBNAIL_BYTES / 3) * 4;
 
 /** The parts of a page that saving concerns. */
 export interface SavedFrom {
@@ -55,7 +56,7 @@ async function picture(stage: Pick<Stage, "thumbnail">): Promise<{ thumbnail?: s
     if (thumbnail === undefined) {
       return {};
     }
-    if (thumbnail.length <= MAX_PICTURE) {
+    if (thumbnail.length - thumbnail.indexOf(",") - 1 <= MAX_PICTURE) {
       return { thumbnail };
     }
   }

@@ -1,7 +1,6 @@
+import { KEPT_DAYS } from "../../wire/generated";
 import { language } from "../words/say";
 
-/** How long a deleted tree can be taken back (`LB6`), in days. */
-const KEPT_DAYS = 30;
 const DAY = 86_400_000;
 
 const UNITS = [

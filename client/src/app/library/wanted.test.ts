@@ -21,7 +21,7 @@ describe("what is wanted", () => {
   it("is asked for in the words of the server", () => {
     expect(named(asked(ANYTHING))).toEqual([["sort", "newest"]]);
     expect(asked(all)).toMatchObject({
-      q: "oak  lake",
+      q: "oak lake",
       tags: "old,Red maple",
       collection: "wood",
       favourite: true,

@@ -1,4 +1,6 @@
+import type { Species } from "../../wire/generated";
 import { say } from "../words/say";
+import { inShortNames } from "./species-words";
 
 /** The orders in which trees are listed, the usual one first. */
 export const SORTS = ["newest", "oldest", "name", "largest", "smallest"] as const;
@@ -65,11 +67,11 @@ export function isWanted(value: unknown): boolean {
   );
 }
 
-/** The same in the words of the server. */
-export function asked(wanted: Wanted) {
+/** The same in the words of the server; words may also name some of these species. */
+export function asked(wanted: Wanted, species: readonly Species[] = []) {
   const [least, most] = SIZES[wanted.size];
   return {
-    q: wanted.words.trim() || undefined,
+    q: inShortNames(wanted.words.trim(), species) || undefined,
     tags: wanted.tags.join(",") || undefined,
     collection: wanted.collection ?? undefined,
     favourite: wanted.favourite || undefined,

@@ -44,6 +44,8 @@ export interface Settings {
   readonly treeNames: Signal<Readonly<Record<string, string>>>;
   /** Whether it was read that the picture is slow here. */
   readonly slownessRead: Signal<boolean>;
+  /** Whether the picture at rest is the whole one also where that takes long. */
+  readonly thorough: Signal<boolean>;
   /** What was downloaded last. */
   readonly exportChoice: Signal<ExportChoice>;
   /** The session to come back to. */
@@ -80,6 +82,7 @@ export function loadSettings(store: Storage): Settings {
     author: kept(store, "author", "", (value) => typeof value === "string"),
     treeNames: kept<Readonly<Record<string, string>>>(store, "tree-names", {}, isNames),
     slownessRead: kept(store, "slowness-read", false, (value) => typeof value === "boolean"),
+    thorough: kept(store, "whole-picture", false, (value) => typeof value === "boolean"),
     exportChoice: kept<ExportChoice>(store, "export", FIRST_CHOICE, isExportChoice),
     lastSession: kept<string | null>(store, "session", null, (value) => typeof value === "string"),
     unsavedTrees: kept<readonly UnsavedTree[]>(store, "unsaved", [], areUnsavedTrees),

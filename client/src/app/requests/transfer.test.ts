@@ -95,14 +95,14 @@ describe("exports", () => {
   });
 
   it("a picture is named after the tree, tells how far it is, and can be given up", async () => {
-    const told: (Progress | null)[] = [];
+    const notified: (Progress | null)[] = [];
     const given: string[] = [];
     const failures: unknown[] = [];
     const exports: Exports = new Exports({
       session: () => "s",
       photograph: async ({ width }, stop, tell) => {
         tell(0.5);
-        told.push(exports.picture.progress.peek());
+        notified.push(exports.picture.progress.peek());
         if (width === 1) exports.picture.cancel();
         if (width === 2) throw new Error("no memory");
         stop.throwIfAborted();
@@ -114,7 +114,7 @@ describe("exports", () => {
     await exports.png("Old oak", { width: 640, height: 480 });
     await exports.png("given up", { width: 1, height: 1 });
     await exports.png("too large", { width: 2, height: 1 });
-    expect(told[0]).toEqual({ bytes: 50, total: 100 });
+    expect(notified[0]).toEqual({ bytes: 50, total: 100 });
     expect(given).toEqual(["Old oak.png"]);
     expect(failures.map(String)).toEqual(["Error: This device could not make the picture. Try a smaller one."]);
   });

@@ -44,8 +44,8 @@ export function App({ studio }: { studio: Studio }) {
   const sheet = studio.layout.sheet.value;
   const shown = sheet === null ? null : SHEETS[sheet];
   const bare = studio.layout.bare.value;
-  const FileDrop = usePart(studio, FILE_DROP, true);
-  const panel = bare ? null : studio.layout.panel.value;
+  const FileDrop = usePart(studio, FILE_DROP, studio.rights.mayBegin);
+  const panel = bare || !studio.rights.mayChange.value ? null : studio.layout.panel.value;
   return (
     <div
       class="app"
@@ -63,7 +63,7 @@ export function App({ studio }: { studio: Studio }) {
       )}
       {shown === null && <ToastList studio={studio} />}
       <HeldName studio={studio} />
-      {FileDrop && <FileDrop studio={studio} />}
+      {FileDrop && studio.rights.mayBegin && <FileDrop studio={studio} />}
       {shown !== null && (
         <Sheet studio={studio} title={say(shown.title)} size={shown.size} key={sheet}>
           <PartView studio={studio} part={shown.part} height={shown.height} />
@@ -164,21 +164,22 @@ function Bars({ studio }: { studio: Studio }) {
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
   const TimelineStrip = usePart(studio, TIMELINE, isWorthShowing(studio.time.timeline.value));
   const Chips = usePart(studio, CHIPS, studio.document.value !== null);
+  const mayChange = studio.rights.mayChange.value;
   const isFirst = isFirstScreen(studio);
   const RecentTrees = usePart(studio, RECENT, isFirst);
   return (
     <>
       <ToolBar studio={studio} />
       <SideBar studio={studio} />
-      {Options && made && !predicted && <Options tool={made} page={studio} />}
+      {mayChange && Options && made && !predicted && <Options tool={made} page={studio} />}
       <Status studio={studio} />
       <Hint studio={studio} />
       <div class="foot">
         <RotationStrip studio={studio} />
-        {TimelineStrip && <TimelineStrip studio={studio} />}
+        {mayChange && TimelineStrip && <TimelineStrip studio={studio} />}
       </div>
       {TourCard && <TourCard studio={studio} />}
-      {RecentTrees && isFirst && <RecentTrees studio={studio} />}
+      {RecentTrees && isFirst && mayChange && <RecentTrees studio={studio} />}
       <div class="chips" role="status">
         {Chips && <Chips studio={studio} />}
       </div>

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Box } from "../../scene/camera/camera-pose";
+import type { Box } from "../../scene/camera/camera-view";
 import { GrowthFollower } from "./growth-follower";
 
 /** A tree of a height, in a view that shows up to some height. */

@@ -1,4 +1,4 @@
-import type { Box } from "../../scene/camera/camera-pose";
+import type { Box } from "../../scene/camera/camera-view";
 
 /** The view as growth is followed with it. */
 export interface FollowedView {

@@ -18,18 +18,9 @@ export const CHIPS = {
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
   "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
-  "chips.shedding": [
-    "This young tree sheds much of what you drew with its next step, until age {age}.",
-    "Dieser junge Baum wirft mit seinem nächsten Schritt vieles ab, was du gezeichnet hast, bis zum Alter {age}.",
-  ],
-  "chips.shedding.keep": ["Keep branches", "Äste behalten"],
-  "chips.shedding.keep.title": [
-    "Shed by hand as when it is grown up, whatever the programme has for young trees",
-    "Von Hand abwerfen lassen wie im Alter, was das Programm auch für junge Bäume vorsieht",
-  ],
   "chips.slow.cardless": [
-    "Without a graphics card the picture is coarse while it moves. If this device has one, turn on hardware acceleration in the browser's settings.",
-    "Ohne Grafikkarte ist das Bild grob, solange es sich bewegt. Hat dieses Gerät eine, dann schalte in den Einstellungen des Browsers die Hardwarebeschleunigung ein.",
+    "Without a graphics card the picture is coarse while it moves, and of a large tree also at rest; the settings can change that. If this device has one, turn on hardware acceleration in the browser's settings.",
+    "Ohne Grafikkarte ist das Bild grob, solange es sich bewegt, bei großen Bäumen auch in Ruhe; das lässt sich in den Einstellungen ändern. Hat dieses Gerät eine, dann schalte in den Einstellungen des Browsers die Hardwarebeschleunigung ein.",
   ],
   "chips.slow": [
     "This tree is large for this device: the picture is coarse while it moves.",

@@ -5,53 +5,6 @@ export const EXPORTS = {
     "What you see of the tree now, without the controls.",
     "Was du jetzt vom Baum siehst, ohne die Bedienung.",
   ],
-  "exports.glb": ["Model (glTF)", "Modell (glTF)"],
-  "exports.glb.text": [
-    "Wood, leaves, flowers and fruits with their textures, in metres, for Blender, game engines and browsers.",
-    "Holz, Blätter, Blüten und Früchte mit ihren Texturen, in Metern, für Blender, Spiele-Engines und Browser.",
-  ],
-  "exports.obj.zip": ["Model (OBJ)", "Modell (OBJ)"],
-  "exports.obj.zip.text": [
-    "The same triangles with materials and textures in a ZIP file, for programs that do not read glTF.",
-    "Dieselben Dreiecke mit Materialien und Texturen in einer ZIP-Datei, für Programme, die kein glTF lesen.",
-  ],
-  "exports.usda": ["Scene (USD, text)", "Szene (USD, Text)"],
-  "exports.usda.text": [
-    "The same triangles as USD in text, each material with one colour.",
-    "Dieselben Dreiecke als USD in Textform, jedes Material mit einer Farbe.",
-  ],
-  "exports.usdz": ["Scene (USDZ)", "Szene (USDZ)"],
-  "exports.usdz.text": [
-    "USD with its textures in one file, which tablets and film programs show.",
-    "USD mit seinen Texturen in einer Datei, die Tablets und Filmprogramme zeigen.",
-  ],
-  "exports.json": ["Skeleton (JSON)", "Skelett (JSON)"],
-  "exports.json.text": [
-    "Each internode with its place, thickness, order and birth, for programs of your own.",
-    "Jedes Internodium mit Ort, Dicke, Ordnung und Geburt, für eigene Programme.",
-  ],
-  "exports.mtg": ["Tree graph (MTG)", "Baumgraph (MTG)"],
-  "exports.mtg.text": ["Axes and internodes for OpenAlea.", "Achsen und Internodien für OpenAlea."],
-  "exports.csv": ["Cylinders (QSM)", "Zylinder (QSM)"],
-  "exports.csv.text": [
-    "Each internode as a cylinder, in the columns of TreeQSM.",
-    "Jedes Internodium als Zylinder, in den Spalten von TreeQSM.",
-  ],
-  "exports.ply": ["Point cloud (PLY)", "Punktwolke (PLY)"],
-  "exports.ply.text": [
-    "A million points of wood and leaves, each with what it lies on.",
-    "Eine Million Punkte auf Holz und Blättern, jeder mit dem, worauf er liegt.",
-  ],
-  "exports.png": ["Turntable (PNG)", "Drehbild (PNG)"],
-  "exports.png.text": [
-    "An animated picture that goes around the tree once, made by the server.",
-    "Ein bewegtes Bild, das einmal um den Baum geht, vom Server gemacht.",
-  ],
-  "exports.espalier": ["Document", "Dokument"],
-  "exports.espalier.text": [
-    "The whole tree with its history, to be opened in Espalier again.",
-    "Der ganze Baum mit seiner Geschichte, um ihn wieder in Espalier zu öffnen.",
-  ],
   "exports.lod": ["Detail", "Feinheit"],
   "exports.lod.0": ["Fine", "Fein"],
   "exports.lod.1": ["Medium", "Mittel"],

@@ -1,6 +1,6 @@
 /** Finding trees in the library: searches, filters, orders, tags and collections. */
 export const FINDING = {
-  "finding.search": ["Search names, tags and notes", "Namen, Tags und Notizen durchsuchen"],
+  "finding.search": ["Search names, tags, notes, species", "Namen, Tags, Notizen, Arten durchsuchen"],
   "finding.search.clear": ["Clear the search", "Suche leeren"],
   "finding.favourites": ["Favourites", "Favoriten"],
   "finding.filters": ["Filters", "Filter"],

@@ -214,8 +214,8 @@ export const HELP = {
   "help.topic.save.words": ["keep store backup", "sichern ablegen behalten Sicherung"],
   "help.topic.library": ["Library", "Bibliothek"],
   "help.topic.library.text": [
-    "Saved trees with all their versions, templates for new ones, and what was deleted in the last 30 days. Words, filters and / find them, and files open as trees. A finger held on trees selects several and drags them into collections; the menu of one has the rest",
-    "Gespeicherte Bäume mit allen Versionen, Vorlagen für neue, und was in den letzten 30 Tagen gelöscht wurde. Wörter, Filter und / finden sie, und Dateien öffnen sich als Bäume. Ein Finger, der auf Bäumen ruht, wählt mehrere aus und zieht sie in Sammlungen; das Menü eines Baums hat den Rest",
+    "Saved trees with all their versions, templates for new ones, and deleted trees that can still be taken back. Words, filters and / find them, and files open as trees. A finger held on trees selects several and drags them into collections; the menu of one has the rest",
+    "Gespeicherte Bäume mit allen Versionen, Vorlagen für neue, und gelöschte Bäume, die sich noch zurückholen lassen. Wörter, Filter und / finden sie, und Dateien öffnen sich als Bäume. Ein Finger, der auf Bäumen ruht, wählt mehrere aus und zieht sie in Sammlungen; das Menü eines Baums hat den Rest",
   ],
   "help.topic.library.words": [
     "open load saved unsaved gallery files recent my trees version history compare restore branch template duplicate undelete note search find filter sort tag favourite star collection folder move import scan mtg qsm",
@@ -245,6 +245,15 @@ export const HELP = {
     "Wo die Adresse mit https beginnt oder localhost nennt, kann der Browser Espalier auf den Startbildschirm legen, und die Seite öffnet sich auch ohne Server. Über einfaches http von einem anderen Gerät geht beides nicht.",
   ],
   "help.topic.install.words": ["offline home screen pwa https", "offline Startbildschirm App pwa https"],
+  "help.topic.api": ["For programs", "Für Programme"],
+  "help.topic.api.text": [
+    "Every address of the API, to be read and tried: trees, versions, downloads, species.",
+    "Jede Adresse der API zum Lesen und Ausprobieren: Bäume, Versionen, Downloads, Arten.",
+  ],
+  "help.topic.api.words": [
+    "api rest http script program developer openapi",
+    "API REST HTTP Skript Programm Entwickler OpenAPI",
+  ],
   "help.topic.settings": ["Settings", "Einstellungen"],
   "help.topic.settings.text": [
     "Language, light or dark, side of the tools, pen pressure, whether the view moves back for growth",

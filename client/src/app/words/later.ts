@@ -5,6 +5,7 @@ import { BRUSH } from "./brush";
 import { CHIPS } from "./chips";
 import { COLOURS } from "./colours";
 import { CONTROLS } from "./controls";
+import { ENTRY } from "./entry";
 import { EXPORTS } from "./exports";
 import { FINDING } from "./finding";
 import { HELP } from "./help";
@@ -35,6 +36,7 @@ export const LATER = {
   ...REFUSALS,
   ...SCENE,
   ...SHEETS,
+  ...ENTRY,
   ...EXPORTS,
   ...FINDING,
   ...LIBRARY,

@@ -4,6 +4,7 @@ export const LIBRARY = {
   "library.section.trees": ["Trees", "Bäume"],
   "library.section.templates": ["Templates", "Vorlagen"],
   "library.section.deleted": ["Deleted", "Gelöscht"],
+  "library.guest": ["You are invited to this tree.", "Du bist zu diesem Baum eingeladen."],
   "library.empty.trees": [
     "Nothing saved yet. Trees you save appear here.",
     "Noch nichts gespeichert. Gespeicherte Bäume erscheinen hier.",
@@ -13,8 +14,8 @@ export const LIBRARY = {
     "Noch keine Vorlagen. Das Menü eines Baums macht ihn dazu: Neue Bäume beginnen dann, wie er ist.",
   ],
   "library.empty.deleted": [
-    "Nothing was deleted. Trees you delete stay here for 30 days.",
-    "Nichts wurde gelöscht. Gelöschte Bäume bleiben 30 Tage lang hier.",
+    "Nothing was deleted. Trees you delete stay here for {days} days.",
+    "Nichts wurde gelöscht. Gelöschte Bäume bleiben {days} Tage lang hier.",
   ],
   "library.species": ["Species", "Arten"],
   "library.select": ["Select", "Auswählen"],

@@ -20,6 +20,13 @@ export const NOTICES = {
   ],
   "notices.unknown-session.way": ["Plant a new tree", "Neuen Baum pflanzen"],
   "notices.cannot-open": ["This tree cannot be opened", "Dieser Baum lässt sich nicht öffnen"],
+  "notices.only-look": ["Choose a tree", "Wähle einen Baum"],
+  "notices.only-look.text": [
+    "You are invited to look at the trees of this library, not to draw.",
+    "Du bist eingeladen, die Bäume dieser Bibliothek anzusehen, nicht zu zeichnen.",
+  ],
+  "notices.only-look.way": ["Open the library", "Bibliothek öffnen"],
+  "notices.looking-only": ["You may look, not draw", "Du darfst ansehen, nicht zeichnen"],
   "notices.version": ["This page is of another version", "Diese Seite hat eine andere Version"],
   "notices.version.text": [
     "The server and this page do not speak the same version, and loading it again did not help. Wait a minute, then reload.",

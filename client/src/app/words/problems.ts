@@ -8,6 +8,7 @@ const MISUNDERSTOOD = [
 /** What a server refuses, by its reasons; `{least}` and `{most}` are of what is allowed. */
 export const REFUSALS = {
   "problems.malformed": MISUNDERSTOOD,
+  "problems.wrong-method": MISUNDERSTOOD,
   "problems.file-cut-off": [
     "The file did not arrive whole; try again.",
     "Die Datei ist nicht ganz angekommen; versuche es noch einmal.",
@@ -83,6 +84,19 @@ export const REFUSALS = {
     "Das Bild für die Bibliothek ist zu groß; versuche es noch einmal.",
   ],
   "problems.forbidden": ["You may not do this here.", "Das darfst du hier nicht."],
+  "problems.not-let-in": [
+    "The server lets in whoever is invited or logs in. Load the page again to come in.",
+    "Der Server lässt ein, wer eingeladen ist oder sich anmeldet. Lade die Seite neu, um einzutreten.",
+  ],
+  "problems.wrong-password": ["The name or the password is wrong.", "Name oder Passwort stimmt nicht."],
+  "problems.other-site": [
+    "The server takes this for a page of another site. Open the page anew.",
+    "Der Server hält dies für eine Seite von anderswo. Öffne die Seite neu.",
+  ],
+  "problems.unknown-host": [
+    "The server is not known by the name in the address. Open it by a name it has, or give it this one with --host-name.",
+    "Der Server kennt den Namen in der Adresse nicht als seinen. Öffne ihn unter einem, den er hat, oder gib ihm diesen mit --host-name.",
+  ],
   "problems.number-taken": MISUNDERSTOOD,
   "problems.nothing-to-undo": ["There is nothing to undo.", "Es gibt nichts rückgängig zu machen."],
   "problems.nothing-to-redo": ["There is nothing to redo.", "Es gibt nichts zu wiederholen."],
@@ -116,6 +130,10 @@ export const REFUSALS = {
   "problems.tree-full": [
     "The tree has all the growth this document holds.",
     "Der Baum ist so groß, wie dieses Dokument es erlaubt.",
+  ],
+  "problems.stopped-growing": [
+    "The tree stopped growing before it was as large as asked for.",
+    "Der Baum hat aufgehört zu wachsen, bevor er so groß war wie gewünscht.",
   ],
   "problems.strokes-full": [
     "{most} strokes are being drawn already; let go of one first.",
@@ -182,6 +200,14 @@ export const REFUSALS = {
     "This collection is no longer in the library.",
     "Diese Sammlung ist nicht mehr in der Bibliothek.",
   ],
+  "problems.no-invitation": [
+    "This code was used already, is too old or is mistyped. Ask for another one.",
+    "Dieser Code ist schon benutzt, zu alt oder vertippt. Bitte um einen neuen.",
+  ],
+  "problems.too-often": [
+    "There were too many tries. The next one is possible in {least} s.",
+    "Das waren zu viele Versuche. Der nächste ist in {least} s möglich.",
+  ],
   "problems.no-session": [
     "This server does not know the tree of this link.",
     "Dieser Server kennt den Baum zu diesem Link nicht.",
@@ -217,6 +243,14 @@ export const REFUSALS = {
   "problems.late": ["The server took too long.", "Der Server hat zu lange gebraucht."],
   "problems.not-placed": ["The obstacle was not placed.", "Das Hindernis wurde nicht aufgestellt."],
   "problems.not-exported": ["The tree cannot be exported.", "Der Baum lässt sich nicht exportieren."],
+  "problems.jobs-full": [
+    "The server has enough to grow already; try again later.",
+    "Der Server hat schon genug zu züchten; versuche es später noch einmal.",
+  ],
+  "problems.jobs-disk-full": [
+    "There is no room on the server's disk for more trees that are grown on request.",
+    "Auf der Platte des Servers ist kein Platz für weitere Bäume, die auf Wunsch gezüchtet werden.",
+  ],
   "problems.not-drawn": ["This picture cannot be drawn.", "Dieses Bild lässt sich nicht zeichnen."],
 } as const satisfies Record<`problems.${Reason}`, readonly [string, string]>;
 

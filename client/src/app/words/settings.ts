@@ -9,7 +9,18 @@ export const SETTINGS = {
   "settings.side": ["Tools", "Werkzeuge"],
   "settings.side.left": ["Left", "Links"],
   "settings.side.right": ["Right", "Rechts"],
+  "settings.account.login": ["Logged in as {name} ({role})", "Angemeldet als {name} ({role})"],
+  "settings.account.device": ["Let in as {name} ({role})", "Eingelassen als {name} ({role})"],
+  "settings.account.leave": ["Log out", "Abmelden"],
+  "settings.role.viewer": ["may look", "darf ansehen"],
+  "settings.role.editor": ["may draw and save", "darf zeichnen und speichern"],
+  "settings.role.owner": ["may also delete", "darf auch löschen"],
+  "settings.role.admin": ["administrator", "verwaltet den Server"],
   "settings.names": ["Names on all buttons", "Namen an allen Knöpfen"],
   "settings.follow": ["Move back when growth leaves the picture", "Zurückgehen, wenn Wachstum das Bild verlässt"],
+  "settings.thorough": [
+    "The whole picture at rest, also where it takes long (without a graphics card)",
+    "Das ganze Bild in Ruhe, auch wenn es lange dauert (ohne Grafikkarte)",
+  ],
   "settings.pressure": ["Pen pressure widens the brush", "Stiftdruck verbreitert den Pinsel"],
 } as const;

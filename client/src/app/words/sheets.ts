@@ -65,16 +65,16 @@ export const SHEETS = {
   "sheets.download.size": ["Pixels", "Pixel"],
   "sheets.download.act": ["Download file", "Datei herunterladen"],
   "sheets.share.advice": [
-    "Whoever opens this link sees the same tree grow, and may draw on it.",
-    "Wer diesen Link öffnet, sieht denselben Baum wachsen und kann mitzeichnen.",
+    "Whoever is let in and opens this link sees the same tree grow, and draws on it if they may. On a device that was not invited, the page asks for the code first.",
+    "Wer eingelassen ist und diesen Link öffnet, sieht denselben Baum wachsen und zeichnet mit, wenn er darf. Auf einem Gerät, das nicht eingeladen ist, fragt die Seite zuerst nach dem Code.",
   ],
   "sheets.share.link": ["Link to this tree", "Link zu diesem Baum"],
   "sheets.share.copy": ["Copy link", "Link kopieren"],
   "sheets.share.copied": ["Link copied", "Link kopiert"],
   "sheets.share.marked": ["Copy the marked link", "Kopiere den markierten Link"],
   "sheets.share.only-here": [
-    "This link works on this machine only. For a tablet, open the network address the server printed when it started, and share from there.",
-    "Dieser Link gilt nur auf diesem Rechner. Öffne für ein Tablet die Netzadresse, die der Server beim Start gezeigt hat, und teile von dort.",
+    "This link works on this machine only. For a tablet, start the server with --host 0.0.0.0: it prints a link that lets the tablet in. Then share from there.",
+    "Dieser Link gilt nur auf diesem Rechner. Starte den Server für ein Tablet mit --host 0.0.0.0: Er zeigt einen Link, der das Tablet einlässt. Teile dann von dort.",
   ],
 } as const;
 

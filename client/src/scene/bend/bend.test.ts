@@ -4,7 +4,7 @@ import type { Vec3 } from "../vector";
 import { Bend } from "./bend";
 
 type Target = [internode: number, place: Vec3];
-type Pose = [internode: number, to: Vec3, rotation: [number, number, number, number]];
+type Motion = [internode: number, to: Vec3, rotation: [number, number, number, number]];
 
 /** A bend as the server computes it. */
 interface Sample {
@@ -12,8 +12,8 @@ interface Sample {
   stretch: number;
   nodes: Vec3[];
   radii: number[];
-  events: { targets: Target[]; poses: Pose[] }[];
-  relaxed: Pose[];
+  events: { targets: Target[]; motions: Motion[] }[];
+  relaxed: Motion[];
 }
 
 const file = new URL("../../../../server/plant/golden/bend.json", import.meta.url);
@@ -35,9 +35,9 @@ function bendOf(nodes: readonly Vec3[], stretch: number): Bend {
   return new Bend(nodes, new Float32Array(nodes.length - 1).fill(0.2), stretch);
 }
 
-function expectPoses(bend: Bend, poses: readonly Pose[], length: number): void {
+function expectMotions(bend: Bend, expected: readonly Motion[], length: number): void {
   const motions = bend.motions();
-  for (const [internode, to, rotation] of poses) {
+  for (const [internode, to, rotation] of expected) {
     const motion = motions[internode]!;
     expect(distance(motion.to, to) / length).toBeLessThan(1e-6);
     const cosine = rotation.reduce((sum, number, i) => sum + number * motion.rotation[i]!, 0);
@@ -48,12 +48,12 @@ function expectPoses(bend: Bend, poses: readonly Pose[], length: number): void {
 describe("a bend", () => {
   it.each(samples)("of $name goes as the server has it", ({ nodes, radii, stretch, events, relaxed }) => {
     const bend = new Bend(nodes, radii, stretch);
-    for (const { targets, poses } of events) {
+    for (const { targets, motions } of events) {
       bend.drag(targets);
-      expectPoses(bend, poses, lengthOf(nodes));
+      expectMotions(bend, motions, lengthOf(nodes));
     }
     bend.relax();
-    expectPoses(bend, relaxed, lengthOf(nodes));
+    expectMotions(bend, relaxed, lengthOf(nodes));
   });
 
   it("comes back when its touches are brought back", () => {

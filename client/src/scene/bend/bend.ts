@@ -1,7 +1,7 @@
 import type { Vec3 } from "../vector";
 import { Chain } from "./chain";
 import { Energy } from "./energy";
-import { POSE, rotate, turnBy } from "./pose";
+import { PRISM_SIZE, rotate, turnBy } from "./prism";
 import { type Pull, pullsOf, type Touch } from "./reach";
 
 /** How an internode of the path has moved: its quaternion, and where its far end is. */
@@ -21,11 +21,11 @@ const REST = 1e-7;
 
 /**
  * Solves a bend as `server/plant/src/bend.rs` does, in the client, so that the branch follows the
- * finger before the server answers. Both must give the same poses, which `server/plant/golden/bend.json` holds.
+ * finger before the server answers. Both must give the same motions, which `server/plant/golden/bend.json` holds.
  */
 export class Bend {
   private readonly chain: Chain;
-  private poses: Float64Array;
+  private prisms: Float64Array;
   private tried: Float64Array;
   private now: Energy;
   private next: Energy;
@@ -37,7 +37,7 @@ export class Bend {
    */
   constructor(nodes: readonly Vec3[], radii: ArrayLike<number>, stretch: number) {
     this.chain = new Chain(nodes, radii, stretch);
-    this.poses = this.chain.rest.slice();
+    this.prisms = this.chain.rest.slice();
     this.tried = this.chain.rest.slice();
     this.now = new Energy(this.chain);
     this.next = new Energy(this.chain);
@@ -74,18 +74,18 @@ export class Bend {
   }
 
   private rotation(internode: number): BendMotion["rotation"] {
-    const { poses } = this;
+    const { prisms } = this;
     const { prism, share } = this.chain.middle(internode);
-    const at = POSE * prism + 3;
-    let [x, y, z, w] = [poses[at]!, poses[at + 1]!, poses[at + 2]!, poses[at + 3]!];
+    const at = PRISM_SIZE * prism + 3;
+    let [x, y, z, w] = [prisms[at]!, prisms[at + 1]!, prisms[at + 2]!, prisms[at + 3]!];
     if (share !== 0) {
-      const to = at + POSE;
-      const dot = x * poses[to]! + y * poses[to + 1]! + z * poses[to + 2]! + w * poses[to + 3]!;
+      const to = at + PRISM_SIZE;
+      const dot = x * prisms[to]! + y * prisms[to + 1]! + z * prisms[to + 2]! + w * prisms[to + 3]!;
       const other = dot < 0 ? -share : share;
-      x += other * poses[to]! - share * x;
-      y += other * poses[to + 1]! - share * y;
-      z += other * poses[to + 2]! - share * z;
-      w += other * poses[to + 3]! - share * w;
+      x += other * prisms[to]! - share * x;
+      y += other * prisms[to + 1]! - share * y;
+      z += other * prisms[to + 2]! - share * z;
+      w += other * prisms[to + 3]! - share * w;
       const length = Math.sqrt(x * x + y * y + z * z + w * w);
       [x, y, z, w] = [x / length, y / length, z / length, w / length];
     }
@@ -110,19 +110,19 @@ export class Bend {
   private moved(prism: number, place: Vec3): number[] {
     const { centres } = this.chain;
     const arm = place.map((number, i) => number - centres[3 * prism + i]!);
-    rotate(this.poses, POSE * prism, arm, 0, arm, 0);
-    return arm.map((number, i) => number + this.poses[POSE * prism + i]!);
+    rotate(this.prisms, PRISM_SIZE * prism, arm, 0, arm, 0);
+    return arm.map((number, i) => number + this.prisms[PRISM_SIZE * prism + i]!);
   }
 
   private solve(steps: number): void {
     const { chain } = this;
     if (chain.prisms < 2) return;
     const pulls = pullsOf(chain, this.touches);
-    this.now.set(pulls, this.poses);
+    this.now.set(pulls, this.prisms);
     this.next.set(pulls, chain.rest);
     if (this.next.value < this.now.value) {
       [this.now, this.next] = [this.next, this.now];
-      this.poses.set(chain.rest);
+      this.prisms.set(chain.rest);
     }
     for (let i = 0; i < steps; i += 1) {
       const step = this.now.step();
@@ -137,14 +137,14 @@ export class Bend {
     for (let at = 0; at < step.length; at += 6) turn = Math.max(turn, length(step, at + 3));
     let share = turn > MOST_TURN ? MOST_TURN / turn : 1;
     for (let i = 0; i < TRIES; i += 1) {
-      for (let at = 0, pose = POSE; at < step.length; at += 6, pose += POSE) {
-        for (let k = 0; k < 3; k += 1) this.tried[pose + k] = this.poses[pose + k]! + share * step[at + k]!;
-        turnBy(this.poses, pose, share, step, at + 3, this.tried);
+      for (let at = 0, offset = PRISM_SIZE; at < step.length; at += 6, offset += PRISM_SIZE) {
+        for (let k = 0; k < 3; k += 1) this.tried[offset + k] = this.prisms[offset + k]! + share * step[at + k]!;
+        turnBy(this.prisms, offset, share, step, at + 3, this.tried);
       }
       this.next.set(pulls, this.tried);
       if (this.next.value <= this.now.value) {
         [this.now, this.next] = [this.next, this.now];
-        [this.poses, this.tried] = [this.tried, this.poses];
+        [this.prisms, this.tried] = [this.tried, this.prisms];
         return true;
       }
       const beyondLine = this.next.value - this.now.value - share * slope;

@@ -1,5 +1,5 @@
 import type { Vec3 } from "../vector";
-import { POSE } from "./pose";
+import { PRISM_SIZE } from "./prism";
 
 /** Where something stands between the middles of a prism (share 0) and the next one (share 1). */
 export interface Place {
@@ -22,7 +22,7 @@ export class Chain {
   readonly length: number;
   /** Where each prism stands at rest. */
   readonly centres: Float64Array;
-  /** The poses of rest. */
+  /** The prisms at rest. */
   readonly rest: Float64Array;
   /** Of each joint where it is, from the centre of the prism below (0 to 2) and of that above (3 to 5). */
   readonly arms: Float64Array;
@@ -46,15 +46,15 @@ export class Chain {
     for (let i = 2; i <= this.internodes; i += 1) this.alongs[i] = this.alongs[i - 1]! + this.distance(i - 1, i);
     this.length = this.alongs[this.internodes]! || 1;
     this.centres = new Float64Array(3 * this.prisms);
-    this.rest = new Float64Array(POSE * this.prisms);
+    this.rest = new Float64Array(PRISM_SIZE * this.prisms);
     for (let prism = 0; prism < this.prisms; prism += 1) {
       const from = this.node(this.first(prism));
       const to = this.node(this.last(prism) + 1);
       for (let i = 0; i < 3; i += 1) {
         this.centres[3 * prism + i] = 0.5 * (from[i]! + to[i]!);
-        this.rest[POSE * prism + i] = this.centres[3 * prism + i]!;
+        this.rest[PRISM_SIZE * prism + i] = this.centres[3 * prism + i]!;
       }
-      this.rest[POSE * prism + 6] = 1;
+      this.rest[PRISM_SIZE * prism + 6] = 1;
     }
     this.arms = new Float64Array(6 * (this.prisms - 1));
     this.weights = new Float64Array(2 * (this.prisms - 1));

@@ -1,9 +1,9 @@
 import type { Chain } from "./chain";
-import { POSE, rotate } from "./pose";
+import { PRISM_SIZE, rotate } from "./prism";
 import type { Pull } from "./reach";
 import { Tridiagonal } from "./tridiagonal";
 
-/** The energy of a pose, with its linear model: a joint costs gap · |a|² + turn · |R₁ − R₂|². */
+/** The energy of the prisms, with its linear model: a joint costs gap · |a|² + turn · |R₁ − R₂|². */
 export class Energy {
   value = 0;
   private readonly system: Tridiagonal;
@@ -14,8 +14,8 @@ export class Energy {
     this.system = new Tridiagonal(chain.prisms - 1);
   }
 
-  /** Takes the measure of a pose. */
-  set(pulls: readonly Pull[], poses: Float64Array): void {
+  /** Takes the measure of the prisms. */
+  set(pulls: readonly Pull[], prisms: Float64Array): void {
     const { chain, system, arms, away } = this;
     const { weights } = chain;
     system.clear();
@@ -23,16 +23,16 @@ export class Energy {
     for (let k = 0; k + 1 < chain.prisms; k += 1) {
       const gap = weights[2 * k]!;
       const turn = weights[2 * k + 1]!;
-      const pose = POSE * k;
-      rotate(poses, pose, chain.arms, 6 * k, arms, 0);
-      rotate(poses, pose + POSE, chain.arms, 6 * k + 3, arms, 3);
+      const offset = PRISM_SIZE * k;
+      rotate(prisms, offset, chain.arms, 6 * k, arms, 0);
+      rotate(prisms, offset + PRISM_SIZE, chain.arms, 6 * k + 3, arms, 3);
       for (let i = 0; i < 3; i += 1) {
-        away[i] = poses[pose + i]! + arms[i]! - poses[pose + POSE + i]! - arms[3 + i]!;
+        away[i] = prisms[offset + i]! + arms[i]! - prisms[offset + PRISM_SIZE + i]! - arms[3 + i]!;
       }
       this.value += gap * square(away);
       this.addDistance(k, gap, 1, -1);
-      const [ax, ay, az, aw] = [poses[pose + 3]!, poses[pose + 4]!, poses[pose + 5]!, poses[pose + 6]!];
-      const [bx, by, bz, bw] = [poses[pose + 10]!, poses[pose + 11]!, poses[pose + 12]!, poses[pose + 13]!];
+      const [ax, ay, az, aw] = [prisms[offset + 3]!, prisms[offset + 4]!, prisms[offset + 5]!, prisms[offset + 6]!];
+      const [bx, by, bz, bw] = [prisms[offset + 10]!, prisms[offset + 11]!, prisms[offset + 12]!, prisms[offset + 13]!];
       const x = -aw * bx + ax * bw - ay * bz + az * by;
       const y = -aw * by + ax * bz + ay * bw - az * bx;
       const z = -aw * bz - ax * by + ay * bx + az * bw;
@@ -41,7 +41,7 @@ export class Energy {
       system.addTurn(k, turn, x, y, z, w);
     }
     for (const pull of pulls) {
-      stand(pull, poses, arms, away);
+      stand(pull, prisms, arms, away);
       this.value += pull.weight * square(away);
       this.addDistance(pull.at.prism, pull.weight, 1 - pull.at.share, pull.at.share);
     }
@@ -78,14 +78,14 @@ export class Energy {
 }
 
 /** How a touched node stands: from the centres of both prisms, and from its target. */
-function stand(pull: Pull, poses: Float64Array, arms: Float64Array, away: Float64Array): void {
+function stand(pull: Pull, prisms: Float64Array, arms: Float64Array, away: Float64Array): void {
   const { prism, share } = pull.at;
-  const pose = POSE * prism;
-  rotate(poses, pose, pull.arms, 0, arms, 0);
-  if (share !== 0) rotate(poses, pose + POSE, pull.arms, 3, arms, 3);
+  const offset = PRISM_SIZE * prism;
+  rotate(prisms, offset, pull.arms, 0, arms, 0);
+  if (share !== 0) rotate(prisms, offset + PRISM_SIZE, pull.arms, 3, arms, 3);
   for (let i = 0; i < 3; i += 1) {
-    let place = poses[pose + i]! + arms[i]!;
-    if (share !== 0) place += share * (poses[pose + POSE + i]! + arms[3 + i]! - place);
+    let place = prisms[offset + i]! + arms[i]!;
+    if (share !== 0) place += share * (prisms[offset + PRISM_SIZE + i]! + arms[3 + i]! - place);
     away[i] = place - pull.target[i]!;
   }
 }

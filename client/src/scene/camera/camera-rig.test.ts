@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../../test/randoms";
-import { FIELD_OF_VIEW } from "./camera-pose";
 import { CameraRig, fitted } from "./camera-rig";
+import { FIELD_OF_VIEW } from "./camera-view";
 
 const tree = { min: [-10, 0, -8], max: [12, 30, 9] } as const;
 
@@ -11,7 +11,7 @@ function settle(rig: CameraRig) {
 
 describe("the camera", () => {
   it("shows 40 internodes of height at first", () => {
-    const { distance } = new CameraRig().pose;
+    const { distance } = new CameraRig().view;
     expect(2 * distance * Math.tan(FIELD_OF_VIEW / 2)).toBeCloseTo(40);
   });
 
@@ -28,8 +28,8 @@ describe("the camera", () => {
       if (what === 2) rig.zoom(0.5 + random(), a / 450, b / 450);
       rig.step(1 / 60);
       expect(rig.eye()[1]).toBeGreaterThan(0);
-      expect(Math.abs(rig.pose.target[0])).toBeLessThan(60);
-      expect(rig.pose.distance).toBeLessThan(250);
+      expect(Math.abs(rig.view.target[0])).toBeLessThan(60);
+      expect(rig.view.distance).toBeLessThan(250);
     }
     settle(rig);
     expect(rig.step(1 / 60)).toBe(false);
@@ -46,7 +46,7 @@ describe("the camera", () => {
       rig.step(1 / 60);
       rig.face();
       settle(rig);
-      expect(rig.pose.yaw / (2 * Math.PI)).toBeCloseTo(turns, 3);
+      expect(rig.view.yaw / (2 * Math.PI)).toBeCloseTo(turns, 3);
     }
   });
 
@@ -54,15 +54,15 @@ describe("the camera", () => {
     const rig = new CameraRig();
     rig.keep(tree);
     const seen = () => {
-      const { target, distance } = rig.pose;
+      const { target, distance } = rig.view;
       const half = Math.tan(FIELD_OF_VIEW / 2) * distance;
-      return [target[0] + 0.3 * half, target[1] + 0.2 * half * Math.cos(rig.pose.pitch)];
+      return [target[0] + 0.3 * half, target[1] + 0.2 * half * Math.cos(rig.view.pitch)];
     };
     const before = seen();
     rig.zoom(2, 0.3, 0.2);
     settle(rig);
     const after = seen();
-    expect(rig.pose.distance).toBeLessThan(40);
+    expect(rig.view.distance).toBeLessThan(40);
     expect(after[0]).toBeCloseTo(before[0]!, 3);
     expect(after[1]).toBeCloseTo(before[1]!, 3);
   });
@@ -70,10 +70,10 @@ describe("the camera", () => {
   it("drags the picture by as much as the fingers", () => {
     const rig = new CameraRig();
     rig.keep(tree);
-    const before = rig.pose.target[0];
+    const before = rig.view.target[0];
     rig.pan(100, 0, 800);
     settle(rig);
-    expect(before - rig.pose.target[0]).toBeCloseTo((100 / 800) * 40, 4);
+    expect(before - rig.view.target[0]).toBeCloseTo((100 / 800) * 40, 4);
   });
 
   it("goes back to where it was before it fitted something", () => {
@@ -81,13 +81,13 @@ describe("the camera", () => {
     rig.keep(tree);
     rig.zoom(3, 0.2, 0.1);
     settle(rig);
-    const before = structuredClone(rig.pose);
+    const before = structuredClone(rig.view);
     rig.fit(tree, 1.4);
     settle(rig);
-    expect(rig.pose.distance).toBeGreaterThan(before.distance);
+    expect(rig.view.distance).toBeGreaterThan(before.distance);
     rig.restore();
     settle(rig);
-    expect(rig.pose).toEqual(before);
+    expect(rig.view).toEqual(before);
   });
 
   it("stays with what it fitted, though nothing may be there yet", () => {
@@ -96,7 +96,7 @@ describe("the camera", () => {
     rig.fit({ min: [-40, 0, -40], max: [40, 60, 40] }, 0.45);
     rig.keep({ min: [-1, 0, -1], max: [1, 3, 1] });
     settle(rig);
-    expect(2 * rig.pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.45).toBeGreaterThan(80);
+    expect(2 * rig.view.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.45).toBeGreaterThan(80);
   });
 
   it("stays where the user has moved it meanwhile", () => {
@@ -105,17 +105,17 @@ describe("the camera", () => {
     rig.fit(tree, 1.4);
     rig.orbit(40, 0);
     settle(rig);
-    const moved = structuredClone(rig.pose);
+    const moved = structuredClone(rig.view);
     rig.restore();
     settle(rig);
-    expect(rig.pose).toEqual(moved);
+    expect(rig.view).toEqual(moved);
   });
 
   it("leaves room at the foot of the picture", () => {
     const rig = new CameraRig();
     rig.fit(tree, 1.4, 0.2);
     settle(rig);
-    const { target, distance } = rig.pose;
+    const { target, distance } = rig.view;
     const half = Math.tan(FIELD_OF_VIEW / 2) * distance;
     // The ground lies above the lowest fifth of what is seen, and the crown's top below the upper edge.
     expect(target[1] - half * 0.6).toBeLessThanOrEqual(0);
@@ -124,7 +124,7 @@ describe("the camera", () => {
 
   it("fits a wide tree into a tall picture", () => {
     const wide = { min: [-40, 0, 0], max: [40, 10, 0] } as const;
-    const pose = fitted(wide, 0.7, 0);
-    expect(2 * pose.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.7).toBeGreaterThan(80);
+    const view = fitted(wide, 0.7, 0);
+    expect(2 * view.distance * Math.tan(FIELD_OF_VIEW / 2) * 0.7).toBeGreaterThan(80);
   });
 });

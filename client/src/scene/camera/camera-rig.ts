@@ -1,5 +1,5 @@
 import type { Vec3 } from "../vector";
-import { type Box, type CameraPose, FIELD_OF_VIEW } from "./camera-pose";
+import { type Box, type CameraView, FIELD_OF_VIEW } from "./camera-view";
 import { Damper } from "./damper";
 import type { View } from "./view";
 import { frames, widened } from "./widening";
@@ -21,34 +21,34 @@ const SMALLEST_FIT = 20;
 /** An orbiting camera that follows its goal smoothly and never loses the tree or goes under the ground. */
 export class CameraRig {
   /** What is shown now. */
-  readonly pose: CameraPose;
-  private readonly goal: CameraPose;
+  readonly view: CameraView;
+  private readonly goal: CameraView;
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private readonly quick = dampers(HALF_LIFE);
   private readonly slow = dampers(EASE_HALF_LIFE);
   private easing = false;
   /** Where the goal was before the last `fit`, as long as the user has not moved the camera since. */
-  private before: CameraPose | null = null;
+  private before: CameraView | null = null;
   /** What `fit` showed; it may be about to grow there, and stays in reach until the user moves the camera. */
   private fittedBox: Box | null = null;
   /** Where the goal was before `widen`, as long as the user has not moved the camera since. */
-  private narrow: CameraPose | null = null;
+  private narrow: CameraView | null = null;
   /** How often the user has moved the camera. */
   moves = 0;
 
   constructor() {
     const distance = FIRST_HEIGHT / (2 * Math.tan(FIELD_OF_VIEW / 2));
-    this.pose = { target: [0, 0.42 * FIRST_HEIGHT, 0], yaw: 0, pitch: FIRST_PITCH, distance };
-    this.goal = structuredClone(this.pose);
+    this.view = { target: [0, 0.42 * FIRST_HEIGHT, 0], yaw: 0, pitch: FIRST_PITCH, distance };
+    this.goal = structuredClone(this.view);
   }
 
   /** Where the eye is. */
-  eye(pose: CameraPose = this.pose): Vec3 {
-    const level = pose.distance * Math.cos(pose.pitch);
+  eye(view: CameraView = this.view): Vec3 {
+    const level = view.distance * Math.cos(view.pitch);
     return [
-      pose.target[0] + level * Math.sin(pose.yaw),
-      pose.target[1] + pose.distance * Math.sin(pose.pitch),
-      pose.target[2] + level * Math.cos(pose.yaw),
+      view.target[0] + level * Math.sin(view.yaw),
+      view.target[1] + view.distance * Math.sin(view.pitch),
+      view.target[2] + level * Math.cos(view.yaw),
     ];
   }
 
@@ -103,10 +103,10 @@ export class CameraRig {
     this.before = structuredClone(this.goal);
     this.fittedBox = box;
     this.box = union(this.box, box);
-    const pose = fitted(box, aspect, this.goal.yaw);
-    pose.distance /= 1 - covered;
-    pose.target[1] -= covered * pose.distance * Math.tan(FIELD_OF_VIEW / 2);
-    Object.assign(this.goal, pose);
+    const view = fitted(box, aspect, this.goal.yaw);
+    view.distance /= 1 - covered;
+    view.target[1] -= covered * view.distance * Math.tan(FIELD_OF_VIEW / 2);
+    Object.assign(this.goal, view);
     this.easing = true;
     this.limit();
   }
@@ -138,20 +138,20 @@ export class CameraRig {
     this.limit();
   }
 
-  /** Shows the box at once, as a view wants it. */
-  look(box: Box, aspect: number, view: View): void {
+  /** Shows the box at once, as is wanted. */
+  look(box: Box, aspect: number, wanted: View): void {
     this.take();
     this.box = union(this.box, box);
-    const pose = fitted(box, aspect, (view.yaw * Math.PI) / 180);
-    pose.pitch = (view.pitch * Math.PI) / 180;
-    pose.distance /= view.zoom;
-    const half = pose.distance * Math.tan(FIELD_OF_VIEW / 2);
-    pose.target[0] -= view.right * half * Math.cos(pose.yaw);
-    pose.target[1] -= view.up * half;
-    pose.target[2] += view.right * half * Math.sin(pose.yaw);
-    Object.assign(this.goal, pose);
+    const view = fitted(box, aspect, (wanted.yaw * Math.PI) / 180);
+    view.pitch = (wanted.pitch * Math.PI) / 180;
+    view.distance /= wanted.zoom;
+    const half = view.distance * Math.tan(FIELD_OF_VIEW / 2);
+    view.target[0] -= wanted.right * half * Math.cos(view.yaw);
+    view.target[1] -= wanted.up * half;
+    view.target[2] += wanted.right * half * Math.sin(view.yaw);
+    Object.assign(this.goal, view);
     this.limit();
-    Object.assign(this.pose, structuredClone(this.goal));
+    Object.assign(this.view, structuredClone(this.goal));
   }
 
   /** Eases back to where the camera was before the last `fit`, unless the user has moved it since. */
@@ -167,28 +167,28 @@ export class CameraRig {
   /** Moves on by `seconds`; false once the goal is reached. */
   step(seconds: number): boolean {
     const by = this.easing ? this.slow : this.quick;
-    const { pose, goal } = this;
+    const { view, goal } = this;
     const range = goal.distance;
     for (const axis of [0, 1, 2] as const) {
-      pose.target[axis] = by.target[axis].step(pose.target[axis], goal.target[axis], seconds, range);
+      view.target[axis] = by.target[axis].step(view.target[axis], goal.target[axis], seconds, range);
     }
-    pose.yaw = by.yaw.step(pose.yaw, goal.yaw, seconds, 1);
-    pose.pitch = by.pitch.step(pose.pitch, goal.pitch, seconds, 1);
-    pose.distance = by.distance.step(pose.distance, goal.distance, seconds, range);
+    view.yaw = by.yaw.step(view.yaw, goal.yaw, seconds, 1);
+    view.pitch = by.pitch.step(view.pitch, goal.pitch, seconds, 1);
+    view.distance = by.distance.step(view.distance, goal.distance, seconds, range);
     // Each part of the way lies above the ground only if their sum is looked at.
-    pose.pitch = Math.max(pose.pitch, lowestPitch(pose));
+    view.pitch = Math.max(view.pitch, lowestPitch(view));
     if (this.arrived) this.easing = false;
     return !this.arrived;
   }
 
-  /** Whether the pose is the goal. */
+  /** Whether the view is the goal. */
   get arrived(): boolean {
-    const { pose, goal } = this;
+    const { view, goal } = this;
     return (
-      pose.yaw === goal.yaw &&
-      pose.pitch === goal.pitch &&
-      pose.distance === goal.distance &&
-      pose.target.every((value, axis) => value === goal.target[axis])
+      view.yaw === goal.yaw &&
+      view.pitch === goal.pitch &&
+      view.distance === goal.distance &&
+      view.target.every((value, axis) => value === goal.target[axis])
     );
   }
 
@@ -217,8 +217,8 @@ export class CameraRig {
   }
 }
 
-/** A pose that shows the whole box with some room around it. */
-export function fitted(box: Box, aspect: number, yaw: number): CameraPose {
+/** A view that shows the whole box with some room around it. */
+export function fitted(box: Box, aspect: number, yaw: number): CameraView {
   const height = Math.max(SMALLEST_FIT, box.max[1] - Math.min(0, box.min[1]));
   const width = Math.max(SMALLEST_FIT, box.max[0] - box.min[0], box.max[2] - box.min[2]);
   const half = Math.tan(FIELD_OF_VIEW / 2);
@@ -241,8 +241,8 @@ export function union(a: Box, b: Box): Box {
 }
 
 /** How far the eye may sink before it touches the ground. */
-function lowestPitch(pose: CameraPose): number {
-  return Math.asin(Math.min(1, Math.max(-1, (EYE_CLEARANCE - pose.target[1]) / pose.distance)));
+function lowestPitch(view: CameraView): number {
+  return Math.asin(Math.min(1, Math.max(-1, (EYE_CLEARANCE - view.target[1]) / view.distance)));
 }
 
 function size(box: Box): number {

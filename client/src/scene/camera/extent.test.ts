@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Box } from "./camera-pose";
+import type { Box } from "./camera-view";
 import { extent } from "./extent";
 
 const TREE: Box = { min: [-5, 0, -5], max: [5, 30, 5] };

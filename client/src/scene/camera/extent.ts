@@ -1,4 +1,4 @@
-import type { Box } from "./camera-pose";
+import type { Box } from "./camera-view";
 
 /** Obstacles this far beyond the tree, in internodes, still cast shadows; and further where the tree is larger. */
 const REACH = 40;

@@ -9,8 +9,8 @@ function sightFrom(yaw: number, pitch: number) {
   const sight = new Sight();
   sight.width = 800;
   sight.height = 600;
-  const pose = { target: [0, 10, 0] as [number, number, number], yaw, pitch, distance: 50 };
-  sight.aim(pose, new CameraRig().eye(pose));
+  const view = { target: [0, 10, 0] as [number, number, number], yaw, pitch, distance: 50 };
+  sight.aim(view, new CameraRig().eye(view));
   return sight;
 }
 
@@ -23,20 +23,20 @@ const views = [
 
 describe("sight", () => {
   it("a tile shows its part of the picture", () => {
-    const pose = { target: [0, 10, 0] as [number, number, number], yaw: 0.7, pitch: 0.2, distance: 50 };
-    const eye = new CameraRig().eye(pose);
+    const view = { target: [0, 10, 0] as [number, number, number], yaw: 0.7, pitch: 0.2, distance: 50 };
+    const eye = new CameraRig().eye(view);
     const sight = new Sight();
     const point: Vec3 = [3, 14, -5];
     const seen = () => new Vector3(...point).project(sight.camera);
-    sight.aim(pose, eye, 2);
+    sight.aim(view, eye, 2);
     const whole = seen();
     // In pixels of a picture of 2000 by 1000, and in those of the tile that begins at 800, 200.
     const [x, y] = [1000 * (1 + whole.x), 500 * (1 - whole.y)];
-    sight.aimAtTile(pose, eye, { width: 2000, height: 1000 }, { x: 800, y: 200, width: 500, height: 400 });
+    sight.aimAtTile(view, eye, { width: 2000, height: 1000 }, { x: 800, y: 200, width: 500, height: 400 });
     const part = seen();
     expect(250 * (1 + part.x)).toBeCloseTo(x - 800);
     expect(200 * (1 - part.y)).toBeCloseTo(y - 200);
-    sight.aim(pose, eye, 2);
+    sight.aim(view, eye, 2);
     expect(seen().x, "and is forgotten with the next view").toBeCloseTo(whole.x);
   });
 

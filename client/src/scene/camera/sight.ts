@@ -1,7 +1,7 @@
 import { Matrix4, PerspectiveCamera, Vector3 } from "three";
 import type { DrawingPlane } from "../../wire/generated";
 import type { Ray, Vec3 } from "../vector";
-import { type CameraPose, FIELD_OF_VIEW } from "./camera-pose";
+import { type CameraView, FIELD_OF_VIEW } from "./camera-view";
 import type { Projection } from "./picking";
 
 /** Ground seen from further off than this many times the eye's distance from the tree is too far to aim at. */
@@ -29,26 +29,26 @@ export class Sight {
   private pitch = 0;
   private distance = 1;
 
-  /** Puts the eye where a pose has it. */
-  aim(pose: CameraPose, eye: Vec3, aspect = this.width / this.height): void {
+  /** Puts the eye where a view has it. */
+  aim(view: CameraView, eye: Vec3, aspect = this.width / this.height): void {
     const { camera } = this;
-    this.pitch = pose.pitch;
-    this.distance = pose.distance;
+    this.pitch = view.pitch;
+    this.distance = view.distance;
     camera.aspect = aspect;
     // An eye just above the ground must not cut away the ground before its feet.
-    camera.near = Math.max(0.05, Math.min(0.02 * pose.distance, 1.5 * eye[1]));
+    camera.near = Math.max(0.05, Math.min(0.02 * view.distance, 1.5 * eye[1]));
     // The ground goes on as far as that, see `environment.ts`.
-    camera.far = pose.distance + Math.max(1500, 8 * pose.distance);
+    camera.far = view.distance + Math.max(1500, 8 * view.distance);
     camera.updateProjectionMatrix();
     camera.position.set(...eye);
-    camera.lookAt(...pose.target);
+    camera.lookAt(...view.target);
     camera.updateMatrixWorld();
     this.worldFromClip.multiplyMatrices(camera.matrixWorld, camera.projectionMatrixInverse);
   }
 
-  /** Puts the eye where a pose has it, for a tile of a picture of so many pixels. */
-  aimAtTile(pose: CameraPose, eye: Vec3, picture: PictureSize, tile: PictureSize & { x: number; y: number }): void {
-    this.aim(pose, eye, picture.width / picture.height);
+  /** Puts the eye where a view has it, for a tile of a picture of so many pixels. */
+  aimAtTile(view: CameraView, eye: Vec3, picture: PictureSize, tile: PictureSize & { x: number; y: number }): void {
+    this.aim(view, eye, picture.width / picture.height);
     const { camera } = this;
     const [across, down] = [picture.width / tile.width, picture.height / tile.height];
     // The tile's middle in the picture, from −1 to 1, goes to the middle of what is drawn.

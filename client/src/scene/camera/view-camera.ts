@@ -1,5 +1,5 @@
-import type { Box } from "./camera-pose";
 import { CameraRig } from "./camera-rig";
+import type { Box } from "./camera-view";
 import { Sight } from "./sight";
 import type { View } from "./view";
 
@@ -9,7 +9,7 @@ export interface ViewCameraOptions {
   readonly tree: () => Box;
   /** The same with the ghost beside it. */
   readonly shown: () => Box;
-  /** It is on its way to another pose. */
+  /** It is on its way to another view. */
   readonly stirred: () => void;
 }
 
@@ -102,7 +102,7 @@ export class ViewCamera {
 
   /** The eye, put where the camera stands now. */
   aimed(): Sight {
-    this.sight.aim(this.rig.pose, this.rig.eye());
+    this.sight.aim(this.rig.view, this.rig.eye());
     return this.sight;
   }
 

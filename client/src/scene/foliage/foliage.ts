@@ -1,6 +1,6 @@
 import type { Mesh } from "three";
 import { DEFAULT_APPEARANCE, type FlowerLook, type FruitLook, type LeafLook } from "../../wire/generated";
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 import type { Materials, Uniforms } from "../materials";
 import { FLOWERS } from "../painting/flowers";
 import { FRUITS } from "../painting/fruits";

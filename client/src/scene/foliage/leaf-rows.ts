@@ -1,5 +1,5 @@
 import { Mesh, type ShaderMaterial, type Vector2, type Vector4 } from "three";
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 import type { Uniforms } from "../materials";
 import type { Fineness } from "../rendering/fineness";
 import type { TreeTable } from "../table/tree-table";

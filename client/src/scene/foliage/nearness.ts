@@ -1,4 +1,4 @@
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 
 /** How far off a box begins, has its middle, and ends. */
 export interface Reach {

@@ -1,5 +1,5 @@
 import { Mesh, type ShaderMaterial, type Vector3 } from "three";
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 import { leafHash } from "../leaf-hash";
 import type { Uniforms } from "../materials";
 import { SPRIG_LEAVES } from "../painting/sprig-picture";

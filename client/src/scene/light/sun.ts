@@ -19,7 +19,7 @@ import {
   type WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 import { SHADE_FRAGMENT, SHADE_VERTEX } from "../glsl/shadow";
 import type { Uniforms } from "../materials";
 

@@ -75,9 +75,9 @@ export class TraitTexture {
 
   private reserve(rows: number): void {
     if (rows <= this.texels.length) return;
-    let room = this.texels.length;
-    while (room < rows) room *= 2;
-    this.texels = new Float32Array(room);
+    let capacity = this.texels.length;
+    while (capacity < rows) capacity *= 2;
+    this.texels = new Float32Array(capacity);
     this.firstStale = 0;
     this.texture.value.dispose();
     this.texture.value = this.allocate();

@@ -1,5 +1,5 @@
 import { FrontSide, GLSL3, Group, Quaternion, RawShaderMaterial, Vector2, Vector3, Vector4 } from "three";
-import type { Box } from "../camera/camera-pose";
+import type { Box } from "../camera/camera-view";
 import { LeafRows } from "../foliage/leaf-rows";
 import { BRANCH_FRAGMENT, BRANCH_VERTEX } from "../glsl/branch";
 import { LEAF_DEPTH_FRAGMENT, LEAF_FRAGMENT, LEAF_VERTEX } from "../glsl/leaf";
@@ -11,7 +11,7 @@ import type { Vec3 } from "../vector";
 import { Branches } from "../wood/branches";
 
 /** Where a ghost stands: what lies at `from` lies at `to`, turned about it by `turn` (x, y, z, w). */
-export interface GhostPose {
+export interface GhostPlacement {
   readonly turn: readonly [number, number, number, number];
   readonly from: Vec3;
   readonly to: Vec3;
@@ -26,7 +26,7 @@ export class Ghost {
   private readonly materials: RawShaderMaterial[];
   private readonly branches: Branches;
   private readonly leaves: LeafRows;
-  private readonly pose = { turn: new Quaternion(), from: new Vector3(), to: new Vector3() };
+  private readonly placement = { turn: new Quaternion(), from: new Vector3(), to: new Vector3() };
   private box: Box | null = null;
 
   constructor(shared: Uniforms) {
@@ -38,9 +38,9 @@ export class Ghost {
       // Both passes must meet the very same leaves, however they are looked at.
       uLeafLevel: { value: new Vector2(2, 1) },
       uLeafBand: { value: new Vector3(0, 0, 1) },
-      uGhostTurn: { value: this.pose.turn },
-      uGhostFrom: { value: this.pose.from },
-      uGhostTo: { value: this.pose.to },
+      uGhostTurn: { value: this.placement.turn },
+      uGhostFrom: { value: this.placement.from },
+      uGhostTo: { value: this.placement.to },
       uGhostTint: { value: PALE },
     };
     // The nearest surface is found first and then drawn alone: leaf behind leaf would add up to a solid crown.
@@ -80,7 +80,7 @@ export class Ghost {
 
   /** The box around it where it stands; its corners turned, so that it may be larger than need be. */
   bounds(): Box | null {
-    return this.box && carried(this.box, this.pose);
+    return this.box && carried(this.box, this.placement);
   }
 
   /** Shows these rows of a table, or all of them, in place of what was shown before. */
@@ -113,10 +113,10 @@ export class Ghost {
   }
 
   /** Places the ghost. */
-  place({ turn, from, to }: GhostPose): void {
-    this.pose.turn.set(...turn);
-    this.pose.from.set(...from);
-    this.pose.to.set(...to);
+  place({ turn, from, to }: GhostPlacement): void {
+    this.placement.turn.set(...turn);
+    this.placement.from.set(...from);
+    this.placement.to.set(...to);
   }
 
   hide(): void {
@@ -147,12 +147,15 @@ function* all(rows: number): Iterable<number> {
   for (let row = 0; row < rows; row += 1) yield row;
 }
 
-function carried({ min, max }: Box, pose: { turn: Quaternion; from: Vector3; to: Vector3 }): Box {
+function carried({ min, max }: Box, placement: { turn: Quaternion; from: Vector3; to: Vector3 }): Box {
   const low = new Vector3(Infinity, Infinity, Infinity);
   const high = low.clone().negate();
   for (let corner = 0; corner < 8; corner += 1) {
     const pick = (axis: 0 | 1 | 2) => ((corner >> axis) & 1 ? max : min)[axis];
-    const place = new Vector3(pick(0), pick(1), pick(2)).sub(pose.from).applyQuaternion(pose.turn).add(pose.to);
+    const place = new Vector3(pick(0), pick(1), pick(2))
+      .sub(placement.from)
+      .applyQuaternion(placement.turn)
+      .add(placement.to);
     low.min(place);
     high.max(place);
   }

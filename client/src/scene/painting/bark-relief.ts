@@ -68,7 +68,7 @@ export function barkTexels(kind: BarkKind, side = BARK_SIDE): BarkTexels {
   return { colours, relief };
 }
 
-/** The mean of each texel's surroundings, within `reach` texels across and along. */
+/** The mean of each texel's neighbourhood, within `reach` texels across and along. */
 function softened(heights: Float32Array, side: number, reach: number): Float32Array {
   const lines = new Float32Array(heights.length);
   const both = new Float32Array(heights.length);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { OPENING, QUALITIES, type Quality, QualityControl, REST_AFTER } from "./quality";
+import { openingOf, QUALITIES, type Quality, QualityControl, REST_AFTER } from "./quality";
 
 /** A device whose frames take a fixed time and one that goes with what they cost, shown at most 60 times a second. */
 interface Device {
@@ -170,13 +170,74 @@ describe("quality control", () => {
 
   it("a page opens modestly, and no movement pays for that", () => {
     const control = new QualityControl();
+    const opening = openingOf(false);
     control.open(0);
-    expect(control.quality).toBe(OPENING);
-    expect(OPENING.scale).toBeLessThan(1);
+    expect(control.quality).toBe(opening);
+    expect(opening.scale).toBeLessThan(1);
     for (const cost of [900, 700, 400, 300]) control.measured(cost);
-    expect(control.quality).toBe(OPENING);
+    expect(control.quality).toBe(opening);
     control.rest();
     expect(control.quality).toBe(QUALITIES[0]);
     expect(new Set(move(control, tablet, 1000, 5000))).toEqual(new Set([0]));
+  });
+});
+
+describe("the picture at rest of a device that is known to be slow", () => {
+  /** Opens a page there and lets it rest; gives the levels drawn at rest, one after the other. */
+  function rested(device: Device, control = new QualityControl(true)): number[] {
+    control.open(0);
+    expect(control.quality, "something is seen as soon as can be").toBe(QUALITIES[LAST]);
+    // The first frames also make everything ready.
+    control.measured(9 * duration(device, control.quality));
+    return rise(control, device);
+  }
+
+  function rise(control: QualityControl, device: Device): number[] {
+    control.rest();
+    const levels: number[] = [];
+    do {
+      levels.push(QUALITIES.indexOf(control.quality));
+      control.measured(duration(device, control.quality));
+    } while (control.rise());
+    return levels;
+  }
+
+  it("gets finer as far as it is drawn in time, and never coarser", () => {
+    const slow = { fixed: 100, whole: 12_000 };
+    const control = new QualityControl(true);
+    const levels = rested(slow, control);
+    expect(levels[0]).toBe(LAST);
+    expect(levels).toEqual([...new Set(levels)].sort((a, b) => b - a));
+    expect(levels.length).toBeGreaterThan(1);
+    for (const level of levels) expect(duration(slow, QUALITIES[level]!), `level ${level}`).toBeLessThan(5000);
+    expect(control.quality.scale, "as fine as time allows").toBeGreaterThan(QUALITIES[LAST]!.scale);
+    expect(control.rising).toBe(true);
+  });
+
+  it("stays as the page opened where even that takes long", () => {
+    expect(rested({ fixed: 0, whole: 200_000 })).toEqual([LAST]);
+  });
+
+  it("is the whole one where that does not take long, and then nothing more comes", () => {
+    const control = new QualityControl(true);
+    expect(rested({ fixed: 10, whole: 600 }, control)).toEqual([LAST, 0]);
+    expect(control.rising).toBe(false);
+    move(control, { fixed: 10, whole: 600 }, 2000, 5000);
+    expect(rise(control, { fixed: 10, whole: 600 }), "what is known is not tried again").toEqual([0]);
+  });
+
+  it("is the whole one at once where that is wished for", () => {
+    const control = new QualityControl(true);
+    control.thorough = true;
+    expect(rested({ fixed: 100, whole: 12_000 }, control)).toEqual([0]);
+  });
+
+  it("nobody waits for a better one once it moves", () => {
+    const control = new QualityControl(true);
+    control.open(0);
+    control.rest();
+    control.moved(10);
+    expect([control.rising, control.rise()]).toEqual([false, false]);
+    expect(control.quality).toBe(QUALITIES[LAST]);
   });
 });

@@ -46,8 +46,9 @@ export const QUALITIES: readonly [Quality, Quality, ...Quality[]] = [
 /** Samples of each pixel of a picture that is kept: of thumbnails and downloads. */
 export const PICTURE_SAMPLES = 4;
 const OPENING_LEVEL = 4;
-/** What a page opens with: something is to be seen soon, and the rest of it comes over that. */
-export const OPENING: Quality = QUALITIES[OPENING_LEVEL]!;
+const COARSEST = QUALITIES.length - 1;
+/** What a page opens with, on a device that is known to be slow or another: something is to be seen soon, and the rest of it comes over that. */
+export const openingOf = (weak: boolean): Quality => QUALITIES[weak ? COARSEST : OPENING_LEVEL]!;
 /** How long nothing moves before the whole quality comes back, in milliseconds. */
 export const REST_AFTER = 250;
 /** Frames that take longer than this are slow; a display that shows only 30 a second is not. */
@@ -59,6 +60,9 @@ const VERY_SLOW = 120;
 /** Quick frames in a row before a better picture is tried. */
 const TRUSTED = 45;
 const JUDGED = 3;
+/** On a slow device the first picture at rest takes about so long, in milliseconds, and a finer one that comes over it so long. */
+const SOON = 1200;
+const PATIENCE = 4000;
 
 /** Chooses the quality of frames while something moves, from how long they take. */
 export class QualityControl {
@@ -73,18 +77,24 @@ export class QualityControl {
   private opening = false;
   /** The best level this movement may use; a failed try is not repeated before the next rest. */
   private best = 0;
+  /** The level of the picture at rest: on a slow device one that it draws in time. */
+  private shown = 0;
+  /** How long a picture at rest of the whole quality should take; null while nothing tells. */
+  private whole: number | null = null;
+  /** Whether the picture at rest is the whole one however long that takes. */
+  thorough = false;
 
   /** Whether even the quickest frames of a movement were slow. */
   overtaxed = false;
 
   /** `weak` says that the device is known to be slow. */
-  constructor(weak = false) {
-    this.first = weak ? QUALITIES.length - 1 : 0;
+  constructor(private readonly weak = false) {
+    this.first = weak ? COARSEST : 0;
   }
 
   /** What the next frame is worth. */
   get quality(): Quality {
-    return QUALITIES[this.moving ? this.level : 0] ?? QUALITIES[0];
+    return QUALITIES[this.moving ? this.level : this.shown] ?? QUALITIES[0];
   }
 
   get resting(): boolean {
@@ -94,7 +104,7 @@ export class QualityControl {
   /** The first picture is about to be drawn. */
   open(now: number): void {
     this.moved(now);
-    this.level = OPENING_LEVEL;
+    this.level = QUALITIES.indexOf(openingOf(this.weak));
     this.opening = true;
   }
 
@@ -109,15 +119,21 @@ export class QualityControl {
     this.quickInRow = 0;
   }
 
-  /** A frame of the movement took this many milliseconds. */
+  /** Whether a finer picture at rest may come, as soon as it is known how long this one took. */
+  get rising(): boolean {
+    return !this.moving && this.shown > 0;
+  }
+
+  /** A frame of the movement, or one at rest, took this many milliseconds. */
   measured(duration: number): void {
+    if (this.rising) this.whole ??= duration / QUALITIES[this.shown]!.cost;
     if (!this.moving || this.opening) return;
     this.recent.push(duration);
     if (this.recent.length > JUDGED) this.recent.shift();
     this.quickInRow = duration <= QUICK ? this.quickInRow + 1 : 0;
     const cost = this.judged();
-    this.overtaxed ||= cost > SLOW && this.level === QUALITIES.length - 1;
-    if (cost > SLOW && this.level < QUALITIES.length - 1) {
+    this.overtaxed ||= cost > SLOW && this.level === COARSEST;
+    if (cost > SLOW && this.level < COARSEST) {
       this.best = Math.max(this.best, this.level + 1);
       this.go(this.quickEnough(cost));
     } else if (this.quickInRow >= TRUSTED && this.level > this.best) {
@@ -134,12 +150,36 @@ export class QualityControl {
   rest(): void {
     if (!this.moving) return;
     this.moving = false;
+    const learnt = !this.opening && this.recent.length > 0;
+    this.whole = learnt ? Math.min(...this.recent) / QUALITIES[this.level]!.cost : null;
+    this.shown = 0;
+    if (this.weak && !this.thorough) this.show(Math.min(this.level, this.finest(SOON)));
     if (this.opening) {
       this.opening = false;
       return;
     }
     // Where frames were quick throughout, the next movement may begin one better.
     this.first = Math.max(0, this.level - (this.quickInRow >= JUDGED ? 1 : 0));
+  }
+
+  /** Says whether a finer picture at rest is to be drawn than the one that is shown: one that does not take too long. */
+  rise(): boolean {
+    const finest = this.finest(PATIENCE);
+    if (!this.rising || finest >= this.shown) return false;
+    this.show(finest);
+    return true;
+  }
+
+  private show(level: number): void {
+    this.shown = level;
+    this.whole = null;
+  }
+
+  /** The finest level whose picture at rest should take no longer than this. */
+  private finest(milliseconds: number): number {
+    const { whole } = this;
+    const level = QUALITIES.findIndex(({ cost }) => whole !== null && whole * cost <= milliseconds);
+    return level < 0 ? COARSEST : level;
   }
 
   /** The middle of the last few durations: one frame that stumbles means nothing. */
@@ -153,7 +193,7 @@ export class QualityControl {
   private quickEnough(cost: number): number {
     const share = (level: number) => QUALITIES[level]!.cost / QUALITIES[this.level]!.cost;
     let level = this.level + 1;
-    while (level < QUALITIES.length - 1 && cost * share(level) > SLOW) level += 1;
+    while (level < COARSEST && cost * share(level) > SLOW) level += 1;
     return level;
   }
 

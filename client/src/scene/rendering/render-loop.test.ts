@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type { FrameFence } from "./frame-fence";
-import { QualityControl } from "./quality";
+import { QualityControl, REST_AFTER } from "./quality";
 import { RenderLoop } from "./render-loop";
 
 let frames: FrameRequestCallback[];
@@ -8,6 +8,7 @@ let now: number;
 const fence = { behind: vi.fn(() => false), set: vi.fn(), forget: vi.fn() };
 const draw = vi.fn(() => false);
 let loop: RenderLoop;
+let notified: boolean[];
 
 /** Lets time pass, and the browser call for a frame. */
 function frame(milliseconds = 16): void {
@@ -19,20 +20,27 @@ beforeEach(() => {
   vi.clearAllMocks();
   vi.useFakeTimers();
   frames = [];
+  notified = [];
   now = 0;
   vi.stubGlobal("requestAnimationFrame", (callback: FrameRequestCallback) => frames.push(callback));
   vi.stubGlobal("cancelAnimationFrame", () => {});
   vi.stubGlobal("window", globalThis);
   vi.spyOn(performance, "now").mockImplementation(() => now);
   fence.behind.mockReturnValue(false);
+  make(new QualityControl());
+});
+
+/** A loop whose picture at rest is another than those of its movements. */
+function make(control: QualityControl): void {
   loop = new RenderLoop(
     draw,
-    () => false,
-    () => {},
+    () => true,
+    (still) => notified.push(still),
     fence as unknown as FrameFence,
-    new QualityControl(),
+    control,
   );
-});
+}
+
 afterEach(() => {
   loop.dispose();
   vi.unstubAllGlobals();
@@ -82,4 +90,39 @@ it("frames that are waited for count as slow, and the next are quicker", () => {
   }
   expect(scales[0]).toBe(1);
   expect(scales.at(-1)).toBeLessThan(0.5);
+});
+
+it("a slow device draws a coarse picture at rest, and finer ones over it until they would take too long", () => {
+  const control = new QualityControl(true);
+  make(control);
+  const scales: number[] = [];
+  draw.mockImplementation(() => {
+    scales.push(control.quality.scale);
+    return false;
+  });
+  loop.open();
+  frame();
+  now += REST_AFTER;
+  vi.advanceTimersByTime(REST_AFTER);
+  for (let i = 0; i < 20 && frames.length > 0; i += 1) frame(8000 * control.quality.cost);
+  expect(frames).toEqual([]);
+  expect(scales).toEqual([...scales].sort((a, b) => a - b));
+  expect(scales[0]).toBe(0.4);
+  expect(scales.at(-1)).toBeGreaterThan(0.5);
+  expect(notified, "at rest once, when nothing more comes").toEqual([true]);
+});
+
+it("what moves meanwhile is drawn at once, without the finer picture", () => {
+  const control = new QualityControl(true);
+  make(control);
+  loop.open();
+  frame();
+  now += REST_AFTER;
+  vi.advanceTimersByTime(REST_AFTER);
+  frame();
+  expect(control.rising).toBe(true);
+  loop.stir();
+  frame(3000);
+  expect(control.resting).toBe(false);
+  expect(control.quality.scale).toBe(0.4);
 });

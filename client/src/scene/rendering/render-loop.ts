@@ -25,6 +25,8 @@ export class RenderLoop {
   private began: number | null = null;
   private restTimer = 0;
   private held = false;
+  /** Whether the next frame only waits for the picture at rest before it, to learn how long that took. */
+  private timing = false;
   private still = false;
   private disposed = false;
 
@@ -91,20 +93,30 @@ export class RenderLoop {
     const { control } = this;
     this.request = 0;
     if (this.began !== null) control.measured(began - Math.max(this.began, this.requested));
+    if (this.timing) {
+      this.timing = false;
+      if (control.rise()) this.asked = true;
+      if (!this.asked) {
+        this.began = null;
+        this.settle(true);
+        return;
+      }
+    }
     const step = this.lastRender === null ? FIRST_STEP : Math.max(0, (milliseconds - this.lastRender) / 1000);
     this.lastRender = null;
     const { asked } = this;
     this.asked = false;
     const goesOn = this.draw({ began, step, asked });
     this.fence.set(began);
-    // A frame at rest is followed by a pause, which tells nothing.
-    this.began = control.resting ? null : began;
+    // The whole picture at rest is followed by a pause, which tells nothing.
+    this.began = control.resting && !control.rising ? null : began;
     this.awaitRest();
-    if (!goesOn) {
+    this.timing = !goesOn && control.rising && this.request === 0;
+    if (!goesOn && !this.timing) {
       this.settle(control.resting && this.request === 0);
       return;
     }
-    this.lastRender = milliseconds;
+    if (goesOn) this.lastRender = milliseconds;
     this.schedule();
     this.requested = began;
   };

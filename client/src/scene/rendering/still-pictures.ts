@@ -1,6 +1,6 @@
 import type { WebGLRenderer } from "three";
-import type { CameraPose } from "../camera/camera-pose";
 import { fitted } from "../camera/camera-rig";
+import type { CameraView } from "../camera/camera-view";
 import type { PictureSize } from "../camera/sight";
 import type { ViewCamera } from "../camera/view-camera";
 import type { Vec3 } from "../vector";
@@ -25,14 +25,14 @@ export interface Sitting {
 /** A picture of the whole tree as a data URL of at most 192 KiB, too small for every detail. */
 export async function thumbnail(sitting: Sitting, width: number, height: number): Promise<string> {
   const { renderer, world, camera, sync, refine } = sitting;
-  const pose = fitted(world.table.bounds(), width / height, camera.rig.pose.yaw);
+  const view = fitted(world.table.bounds(), width / height, camera.rig.view.yaw);
   const passing = [world.brush.mesh, world.ghost.group].filter(({ visible }) => visible);
   for (const object of passing) object.visible = false;
   const { mode } = world;
   if (mode !== "lit") world.setMode("lit");
   sync();
-  camera.sight.aim(pose, camera.rig.eye(pose), width / height);
-  refine(height, PICTURE_SAMPLES, QUALITIES[1], pose.distance);
+  camera.sight.aim(view, camera.rig.eye(view), width / height);
+  refine(height, PICTURE_SAMPLES, QUALITIES[1], view.distance);
   if (world.shadow.isDue) world.drawShadow(renderer);
   const picture = encodePicture(renderer, width, height, () => drawScene(sitting));
   for (const object of passing) object.visible = true;
@@ -48,18 +48,18 @@ export async function picture(
   tell: (share: number) => void,
 ): Promise<Blob> {
   const { renderer, camera, sync } = sitting;
-  const [pose, eye] = [structuredClone(camera.rig.pose), camera.rig.eye()];
+  const [view, eye] = [structuredClone(camera.rig.view), camera.rig.eye()];
   sync();
-  return pictureInTiles({ renderer, ...size, stop, tell, draw: (tile) => drawTile(sitting, pose, eye, size, tile) });
+  return pictureInTiles({ renderer, ...size, stop, tell, draw: (tile) => drawTile(sitting, view, eye, size, tile) });
 }
 
-function drawTile(sitting: Sitting, pose: CameraPose, eye: Vec3, size: PictureSize, tile: Tile): void {
+function drawTile(sitting: Sitting, view: CameraView, eye: Vec3, size: PictureSize, tile: Tile): void {
   const { renderer, world, camera, screen, refine } = sitting;
   const brush = world.brush.mesh.visible;
   const shown = screen.size.clone();
   world.brush.mesh.visible = false;
-  camera.sight.aimAtTile(pose, eye, size, tile);
-  refine(size.height, PICTURE_SAMPLES, QUALITIES[0], pose.distance);
+  camera.sight.aimAtTile(view, eye, size, tile);
+  refine(size.height, PICTURE_SAMPLES, QUALITIES[0], view.distance);
   if (world.shadow.isDue) {
     const target = renderer.getRenderTarget();
     world.drawShadow(renderer);

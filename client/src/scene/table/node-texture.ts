@@ -31,7 +31,7 @@ export class NodeTexture {
     this.uniform = { value: this.allocate() };
   }
 
-  /** Makes room for `rows`. */
+  /** Reserves capacity for `rows`. */
   reserve(rows: number): void {
     const lines = Math.ceil(rows / CHUNK_ROWS);
     this.slots = grown(this.slots, lines * CHUNK_ROWS);

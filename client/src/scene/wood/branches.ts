@@ -240,10 +240,10 @@ export class Branches {
   }
 
   private welcome(table: TreeTable, row: number): void {
-    const room = table.parent.length;
-    this.level = grown(this.level, room);
-    this.slot = grown(this.slot, room);
-    this.endSlot = grown(this.endSlot, room);
+    const capacity = table.parent.length;
+    this.level = grown(this.level, capacity);
+    this.slot = grown(this.slot, capacity);
+    this.endSlot = grown(this.endSlot, capacity);
     this.level.fill(NOWHERE, this.known, row + 1);
     this.endSlot.fill(NOWHERE, this.known, row + 1);
     this.known = row + 1;

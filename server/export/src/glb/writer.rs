@@ -52,7 +52,7 @@ pub(super) struct Writer<'a> {
     /// Meshes that several nodes show, by their level of detail and number.
     pub(super) prototypes: BTreeMap<(u8, usize), usize>,
     /// Bytes left for the JSON before the binary part; it is written last.
-    room: usize,
+    capacity: usize,
     /// Bytes of the binary part.
     pub(super) written: usize,
     /// Bytes that its compressed views have when they are not.
@@ -60,18 +60,18 @@ pub(super) struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    /// Begins a file with so much room for its JSON; without room there is no binary part.
+    /// Begins a file with so much capacity for its JSON; without any there is no binary part.
     pub(super) fn new(
         out: &'a mut dyn Sink,
         asset: Asset,
         scale: f32,
         packing: Packing,
-        room: usize,
+        capacity: usize,
     ) -> Result<Self, ExportError> {
-        let room = room.next_multiple_of(4);
-        if room > 0 {
+        let capacity = capacity.next_multiple_of(4);
+        if capacity > 0 {
             std::io::copy(
-                &mut std::io::Read::take(std::io::repeat(b' '), (HEAD + room + BETWEEN) as u64),
+                &mut std::io::Read::take(std::io::repeat(b' '), (HEAD + capacity + BETWEEN) as u64),
                 &mut *out,
             )?;
         }
@@ -79,7 +79,7 @@ impl<'a> Writer<'a> {
             Root { asset, scenes: vec![Scene { name: "Scene", nodes: Vec::new() }], ..Root::default() };
         let (materials, open_nodes, prototypes) = Default::default();
         let (written, unpacked) = (0, 0);
-        Ok(Self { out, packing, scale, root, materials, open_nodes, prototypes, room, written, unpacked })
+        Ok(Self { out, packing, scale, root, materials, open_nodes, prototypes, capacity, written, unpacked })
     }
 
     /// Adds a node that stands at a place, below the one that is open; what follows is below it, until it is ended.
@@ -254,11 +254,11 @@ impl<'a> Writer<'a> {
             self.require("KHR_mesh_quantization");
         }
         let mut json = serde_json::to_vec(&self.root)?;
-        json.resize(self.room.max(json.len().next_multiple_of(4)), b' ');
-        let binary = if self.room == 0 { 0 } else { BETWEEN + self.written };
+        json.resize(self.capacity.max(json.len().next_multiple_of(4)), b' ');
+        let binary = if self.capacity == 0 { 0 } else { BETWEEN + self.written };
         let length = u32::try_from(HEAD + json.len() + binary).map_err(|_| ExportError::TooLarge)?;
-        debug_assert!(self.room == 0 || self.room == json.len(), "the JSON has too little room");
-        if self.room > 0 && json.len() > self.room {
+        debug_assert!(self.capacity == 0 || self.capacity == json.len(), "the JSON exceeds its capacity");
+        if self.capacity > 0 && json.len() > self.capacity {
             return Err(ExportError::TooLarge);
         }
         self.out.seek(SeekFrom::Start(0))?;

@@ -2,13 +2,13 @@
 
 use espalier_growth::species::{self, Species};
 use espalier_mesh::{Bodies, Grain, Style, Wood, checks, wood};
-use espalier_session::{Document, script, style_options};
+use espalier_session::{Document, Principal, script, style_options};
 
 /// A tree of a species at the end of its schedule.
 pub fn raised(species: &Species, seed: u32) -> Document {
     let mut document = Document::new(seed);
     for action in script(species) {
-        document.apply("gardener", &action.into()).expect("its schedule can be done");
+        document.apply(&Principal::visitor(), &action.into()).expect("its schedule can be done");
     }
     document
 }

@@ -1,6 +1,6 @@
 //! Where each metamer of a plant stands in the canopy.
 
-use espalier_plant::{MetamerId, make_room};
+use espalier_plant::{MetamerId, reserve};
 
 use super::NOWHERE;
 
@@ -26,10 +26,10 @@ impl Slots {
         if self.written.is_empty() { own } else { self.written.get(id.index()).copied().unwrap_or(NOWHERE) }
     }
 
-    /// Makes room for more.
+    /// Reserves capacity for more.
     pub(super) fn reserve(&mut self, more: usize) {
         if !self.written.is_empty() {
-            make_room(&mut self.written, more);
+            reserve(&mut self.written, more);
         }
     }
 

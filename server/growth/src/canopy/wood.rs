@@ -1,6 +1,6 @@
 //! Which metamer stands in each slot of the canopy, and where its parent stands.
 
-use espalier_plant::{MetamerId, Plant, make_room};
+use espalier_plant::{MetamerId, Plant, reserve};
 
 use super::NOWHERE;
 
@@ -26,10 +26,10 @@ impl Wood {
         Slotted { plant, written: &self.written }
     }
 
-    /// Makes room for more.
+    /// Reserves capacity for more.
     pub(super) fn reserve(&mut self, more: usize) {
         if !self.written.is_empty() {
-            make_room(&mut self.written, more);
+            reserve(&mut self.written, more);
         }
     }
 

@@ -105,7 +105,7 @@ impl Mask {
         squared_distance(self.width, &self.inside, f32::INFINITY, |inside| !inside)
     }
 
-    /// Keeps a frame of background, from which distances are measured.
+    /// Keeps a border of background, from which distances are measured.
     fn clear_margin(&mut self) {
         let width = self.width;
         let last = self.inside.len() / width - 1;

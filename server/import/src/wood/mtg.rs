@@ -141,8 +141,8 @@ impl Features {
             };
             let Some(value) = value else { return Ok(None) };
             if value < 0.0 || value.fract() != 0.0 || value > f64::from(u32::MAX - 1) {
-                let what = format!("{name} is {value}; allowed: whole numbers from 0");
-                return Err(out_of_range(Some(place(column)), what));
+                let what = format!("{name} is {value}");
+                return Err(out_of_range(Some(place(column)), what, "whole numbers from 0"));
             }
             Ok(Some(value as u32))
         };
@@ -155,8 +155,8 @@ impl Features {
         if let Some((column, factor)) = self.radius {
             radius = float(column, "the diameter")?.map(|thick| thick * factor);
             if let Some(thick) = radius.filter(|thick| *thick < 0.0) {
-                let what = format!("the radius is {thick}; allowed: 0 and more");
-                return Err(out_of_range(Some(place(column)), what));
+                let what = format!("the radius is {thick}");
+                return Err(out_of_range(Some(place(column)), what, "0 and more"));
             }
         }
         Ok(Values {

@@ -190,8 +190,9 @@ impl Joinery<'_> {
         // Nothing has grown in the step of the first seed.
         let birth = piece.birth.unwrap_or(below.birth).max(1);
         if birth < below.birth {
-            let what = format!("it was born in step {birth}, before what bears it ({})", below.birth);
-            return Err(out_of_range(Some(Place::Line(piece.line)), what));
+            let what = format!("it was born in step {birth}, before what bears it");
+            let allowed = format!("{} to {MAX_STEP}", below.birth);
+            return Err(out_of_range(Some(Place::Line(piece.line)), what, allowed));
         }
         let count = if piece.is_whole { 1.0 } else { start.distance(end).round().max(1.0) };
         let is_apart = start.distance(from) >= GAP;
@@ -223,8 +224,8 @@ impl Joinery<'_> {
             return Err(too_many(Some(Place::Line(piece.line)), self.options));
         }
         if node.birth > MAX_STEP {
-            let what = format!("it was born in step {}; allowed: 0 to {MAX_STEP}", node.birth);
-            return Err(out_of_range(Some(Place::Line(piece.line)), what));
+            let what = format!("it was born in step {}", node.birth);
+            return Err(out_of_range(Some(Place::Line(piece.line)), what, format!("0 to {MAX_STEP}")));
         }
         let number = self.nodes.len() as u32;
         self.axes[node.axis as usize].1 = number;
@@ -238,11 +239,10 @@ impl Joinery<'_> {
             return Ok(place.as_vec3());
         }
         let reach = extent * internode_length;
-        let what = format!(
-            "it lies more than {reach} m from the first trunk, which is as far as {extent} internodes of \
-             {internode_length} m reach; import it with longer internodes, or in another unit"
-        );
-        Err(out_of_range(Some(Place::Line(piece.line)), what))
+        let what =
+            "it lies too far from the first trunk; import it with longer internodes, or in another unit";
+        let allowed = format!("up to {reach} m, as far as {extent} internodes of {internode_length} m reach");
+        Err(out_of_range(Some(Place::Line(piece.line)), what, allowed))
     }
 
     /// The nodes in the order of their births; of those born together, in the order in which they were numbered.

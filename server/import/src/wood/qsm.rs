@@ -195,8 +195,8 @@ impl Table {
             }
             let read = float(column, name)?;
             if read.fract() != 0.0 || read.abs() > 1e15 {
-                let what = format!("{name} is {read}; allowed: whole numbers");
-                return Err(out_of_range(Some(place(column)), what));
+                let what = format!("{name} is {read}");
+                return Err(out_of_range(Some(place(column)), what, "whole numbers"));
             }
             Ok(Some(read as i64))
         };
@@ -211,16 +211,16 @@ impl Table {
             End::Along(columns, column) => {
                 let (along, far) = (vector(columns, axis)?, float(column, length)?);
                 if far < 0.0 {
-                    let what = format!("{length} is {far}; allowed: 0 and more");
-                    return Err(out_of_range(Some(place(column)), what));
+                    let what = format!("{length} is {far}");
+                    return Err(out_of_range(Some(place(column)), what, "0 and more"));
                 }
                 from + along * far
             }
         };
         let thick = float(self.radius, radius)?;
         if thick <= 0.0 {
-            let what = format!("{radius} is {thick}; allowed: more than 0");
-            return Err(out_of_range(Some(place(self.radius)), what));
+            let what = format!("{radius} is {thick}");
+            return Err(out_of_range(Some(place(self.radius)), what, "more than 0"));
         }
         let own = match self.id {
             Some(column) => whole(column, id.unwrap_or_default())?,

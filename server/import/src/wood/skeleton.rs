@@ -5,7 +5,7 @@ use espalier_settings::ParametersPatch;
 use glam::{DVec3, Vec3};
 use serde::Deserialize;
 
-use super::{Fault, FaultKind, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many};
+use super::{Fault, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many};
 
 /// What says how to read the rest.
 #[derive(Deserialize)]
@@ -120,7 +120,7 @@ fn second(file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
     let length = file.parameters.internode_length.unwrap_or(options.internode_length);
     if !(length.is_finite() && length > 0.0) {
         let place = Place::Member("parameters.internode_length".into());
-        return Err(out_of_range(Some(place), format!("it is {length}; allowed: more than 0")));
+        return Err(out_of_range(Some(place), format!("it is {length}"), "more than 0"));
     }
     let scale = as_written(length);
     let (mut nodes, mut widths) = (Vec::with_capacity(file.metamers.len()), Vec::new());
@@ -151,13 +151,13 @@ fn check(wood: &Wood, options: &WoodOptions) -> Result<(), Fault> {
         // Nothing has grown in the step of the first seed.
         let last = u32::from(node.parent.is_some()).max(before);
         if node.birth > MAX_STEP || node.birth < last {
-            let what =
-                format!("it is {}; allowed: {last}, the birth of the one before, to {MAX_STEP}", node.birth);
-            return Err(out_of_range(member(at, "birth"), what));
+            let allowed = format!("{last}, the birth of the one before, to {MAX_STEP}");
+            return Err(out_of_range(member(at, "birth"), format!("it is {}", node.birth), allowed));
         }
         before = node.birth;
         if node.axis as usize >= wood.axes.len() {
-            return Err(out_of_range(member(at, "axis"), format!("there is no axis {}", node.axis)));
+            let allowed = format!("numbers below {}, as many as there are axes", wood.axes.len());
+            return Err(out_of_range(member(at, "axis"), format!("there is no axis {}", node.axis), allowed));
         }
         let below = node.parent.map(|parent| wood.nodes[parent as usize].end);
         if below == Some(node.end) {
@@ -172,8 +172,8 @@ fn member(at: usize, name: &str) -> Option<Place> {
 }
 
 fn behind(at: u32, parent: u32) -> Fault {
-    let what = format!("it is {parent}; a metamer stands behind the one it grows from");
-    Fault { kind: FaultKind::OutOfRange, place: member(at as usize, "parent"), what }
+    let allowed = format!("numbers below {at}, for a metamer stands behind the one it grows from");
+    out_of_range(member(at as usize, "parent"), format!("it is {parent}"), allowed)
 }
 
 fn limit(count: usize, options: &WoodOptions) -> Result<(), Fault> {
@@ -189,8 +189,8 @@ fn within(at: u32, place: DVec3, options: &WoodOptions) -> Result<Vec3, Fault> {
     if place.is_finite() && place.abs().max_element() <= f64::from(options.extent) {
         return Ok(place.as_vec3());
     }
-    let what = format!("it lies more than {} internodes from the origin", options.extent);
-    Err(out_of_range(member(at as usize, "position"), what))
+    let allowed = format!("up to {} internodes on each axis", options.extent);
+    Err(out_of_range(member(at as usize, "position"), "it lies too far from the origin", allowed))
 }
 
 /// A radius or diameter in internodes; none where it is 0.
@@ -198,8 +198,7 @@ fn girth(at: u32, name: &str, metres: Option<f64>, scale: f64) -> Result<Option<
     let Some(metres) = metres else { return Ok(None) };
     let internodes = (metres / scale) as f32;
     if metres < 0.0 || !internodes.is_finite() {
-        let what = format!("it is {metres}; allowed: 0 and more");
-        return Err(out_of_range(member(at as usize, name), what));
+        return Err(out_of_range(member(at as usize, name), format!("it is {metres}"), "0 and more"));
     }
     Ok(Some(internodes).filter(|&internodes| internodes > 0.0))
 }

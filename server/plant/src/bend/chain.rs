@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use super::energy::Pose;
+use super::energy::Prism;
 
 /// Beyond so many internodes a prism stands for several of them, so that an event takes a finger no time.
 const MOST_PRISMS: usize = 300;
@@ -158,9 +158,9 @@ impl Chain {
         &self.joints
     }
 
-    /// The poses of rest.
-    pub fn rest(&self) -> Vec<Pose> {
-        self.centres.iter().map(|&centre| Pose { centre, rotation: DQuat::IDENTITY }).collect()
+    /// The prisms at rest.
+    pub fn rest(&self) -> Vec<Prism> {
+        self.centres.iter().map(|&centre| Prism { centre, rotation: DQuat::IDENTITY }).collect()
     }
 
     /// Where the far end of an internode is. That of the base moves no more than the base.

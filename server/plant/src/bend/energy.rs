@@ -1,4 +1,4 @@
-//! The energy of a pose, and the step that Gauss and Newton would take to lower it.
+//! The energy of prisms, and the step that Gauss and Newton would take to lower it.
 //!
 //! A joint costs gap·|a|² + turn·|R₁ - R₂|², where a is how far apart two prisms hold it and R are their
 //! rotations, all nine numbers of them: a turn by θ costs 8 sin²(θ/2) about any axis. (With PriMo's faces alone
@@ -14,7 +14,7 @@ use super::{
 
 /// Where a prism is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Pose {
+pub(super) struct Prism {
     pub centre: DVec3,
     pub rotation: DQuat,
 }
@@ -37,14 +37,14 @@ pub(super) struct Step {
     pub turn: DVec3,
 }
 
-/// The energy of a pose, with its linear model.
+/// The energy of prisms, with its linear model.
 #[derive(Debug)]
 pub(super) struct Energy {
     pub value: f64,
     system: Tridiagonal,
 }
 
-impl Pose {
+impl Prism {
     /// Where a place is that is seen from the centre at rest.
     pub fn apply(&self, arm: DVec3) -> DVec3 {
         self.centre + self.rotation * arm
@@ -61,23 +61,23 @@ impl Pose {
 }
 
 /// The energy alone.
-pub(super) fn of(chain: &Chain, pulls: &[Pull], poses: &[Pose]) -> f64 {
+pub(super) fn of(chain: &Chain, pulls: &[Pull], prisms: &[Prism]) -> f64 {
     let mut value = 0.0;
-    for (joint, pair) in chain.joints().iter().zip(poses.windows(2)) {
+    for (joint, pair) in chain.joints().iter().zip(prisms.windows(2)) {
         let gap = pair[0].apply(joint.below) - pair[1].apply(joint.above);
         value += joint.gap * gap.length_squared() + 8.0 * joint.turn * turned(pair).xyz().length_squared();
     }
     for pull in pulls {
-        value += pull.weight * Stance::of(chain, pull, poses).away.length_squared();
+        value += pull.weight * Stance::of(chain, pull, prisms).away.length_squared();
     }
     value
 }
 
 impl Energy {
-    pub fn new(chain: &Chain, pulls: &[Pull], poses: &[Pose]) -> Self {
-        let mut system = Tridiagonal::new(poses.len() - 1);
+    pub fn new(chain: &Chain, pulls: &[Pull], prisms: &[Prism]) -> Self {
+        let mut system = Tridiagonal::new(prisms.len() - 1);
         let mut value = 0.0;
-        for (k, (joint, pair)) in chain.joints().iter().zip(poses.windows(2)).enumerate() {
+        for (k, (joint, pair)) in chain.joints().iter().zip(prisms.windows(2)).enumerate() {
             let arms = [pair[0].rotation * joint.below, pair[1].rotation * joint.above];
             let gap = pair[0].centre + arms[0] - pair[1].centre - arms[1];
             value += joint.gap * gap.length_squared();
@@ -87,7 +87,7 @@ impl Energy {
             add_turn(&mut system, k, joint.turn, turned);
         }
         for pull in pulls {
-            let Stance { arms, away } = Stance::of(chain, pull, poses);
+            let Stance { arms, away } = Stance::of(chain, pull, prisms);
             value += pull.weight * away.length_squared();
             let shares = [1.0 - pull.at.share, pull.at.share];
             add_distance(&mut system, pull.at.prism, pull.weight, shares, arms, away);
@@ -124,14 +124,14 @@ struct Stance {
 }
 
 impl Stance {
-    fn of(chain: &Chain, pull: &Pull, poses: &[Pose]) -> Self {
+    fn of(chain: &Chain, pull: &Pull, prisms: &[Prism]) -> Self {
         let Place { prism, share } = pull.at;
-        let arm = |prism: usize| poses[prism].rotation * (pull.node - chain.centre(prism));
+        let arm = |prism: usize| prisms[prism].rotation * (pull.node - chain.centre(prism));
         let mut arms = [arm(prism), DVec3::ZERO];
-        let mut place = poses[prism].centre + arms[0];
+        let mut place = prisms[prism].centre + arms[0];
         if share != 0.0 {
             arms[1] = arm(prism + 1);
-            place = place.lerp(poses[prism + 1].centre + arms[1], share);
+            place = place.lerp(prisms[prism + 1].centre + arms[1], share);
         }
         Self { arms, away: place - pull.target }
     }
@@ -180,7 +180,7 @@ fn add_turn(system: &mut Tridiagonal, k: usize, weight: f64, turned: DQuat) {
 }
 
 /// The rotation that leads from the upper one of two prisms to the lower.
-fn turned(pair: &[Pose]) -> DQuat {
+fn turned(pair: &[Prism]) -> DQuat {
     pair[0].rotation * pair[1].rotation.conjugate()
 }
 
@@ -192,16 +192,16 @@ mod tests {
     use crate::bend::reach;
 
     /// A wound path and a touch at its end and between, with each prism moved a little by some amount.
-    fn disturbed(amount: f64) -> (Chain, Vec<Pull>, Vec<Pose>) {
+    fn disturbed(amount: f64) -> (Chain, Vec<Pull>, Vec<Prism>) {
         let node = |i: usize| Vec3::new(libm::sinf(0.5 * i as f32), i as f32, libm::cosf(0.3 * i as f32));
         let nodes: Vec<Vec3> = (0..=12).map(node).collect();
         let chain = Chain::new(&nodes, &[0.2; 12], 0.5);
         let pulls = reach::pulls(&chain, &[(6, chain.node(7)), (11, chain.node(12))]);
-        let mut poses = chain.rest();
-        for (pose, step) in poses[1..].iter_mut().zip(steps(amount)) {
-            *pose = pose.moved(step.shift, step.turn);
+        let mut prisms = chain.rest();
+        for (prism, step) in prisms[1..].iter_mut().zip(steps(amount)) {
+            *prism = prism.moved(step.shift, step.turn);
         }
-        (chain, pulls, poses)
+        (chain, pulls, prisms)
     }
 
     /// A different step for each prism.
@@ -214,29 +214,29 @@ mod tests {
 
     #[test]
     fn the_slope_is_that_of_the_energy() {
-        let (chain, pulls, poses) = disturbed(0.3);
+        let (chain, pulls, prisms) = disturbed(0.3);
         let steps = steps(1.0);
         let after = |share: f64| {
-            let mut poses = poses.clone();
-            for (pose, step) in poses[1..].iter_mut().zip(&steps) {
-                *pose = pose.moved(share * step.shift, share * step.turn);
+            let mut prisms = prisms.clone();
+            for (prism, step) in prisms[1..].iter_mut().zip(&steps) {
+                *prism = prism.moved(share * step.shift, share * step.turn);
             }
-            of(&chain, &pulls, &poses)
+            of(&chain, &pulls, &prisms)
         };
-        let slope = Energy::new(&chain, &pulls, &poses).slope(&steps);
+        let slope = Energy::new(&chain, &pulls, &prisms).slope(&steps);
         let measured = (after(1e-5) - after(-1e-5)) / 2e-5;
         assert!((slope - measured).abs() < 1e-7 * measured.abs(), "{slope} {measured}");
     }
 
     #[test]
     fn one_step_undoes_what_is_small() {
-        let (chain, pulls, mut poses) = disturbed(1e-4);
-        let before = Energy::new(&chain, &pulls, &poses);
-        for (pose, step) in poses[1..].iter_mut().zip(before.step().expect("nothing is singular")) {
-            *pose = pose.moved(step.shift, step.turn);
+        let (chain, pulls, mut prisms) = disturbed(1e-4);
+        let before = Energy::new(&chain, &pulls, &prisms);
+        for (prism, step) in prisms[1..].iter_mut().zip(before.step().expect("nothing is singular")) {
+            *prism = prism.moved(step.shift, step.turn);
         }
         // The rest is of the fourth order in what was small; a model with a wrong number in it leaves more.
-        let left = of(&chain, &pulls, &poses) / before.value;
+        let left = of(&chain, &pulls, &prisms) / before.value;
         assert!(left < 1e-6, "{left}");
     }
 }

@@ -3,10 +3,10 @@
 mod axis_continuity;
 mod birth_order;
 mod death_reaches_tips;
-mod finite_frames;
+mod orientations;
 mod tips_add_up;
 
-pub(crate) use self::finite_frames::{is_across, is_unit};
+pub(crate) use self::orientations::{is_across, is_unit};
 
 use crate::plant::Plant;
 
@@ -25,7 +25,7 @@ pub fn all(plant: &Plant) -> Result<(), Failure> {
     birth_order::check(plant)?;
     axis_continuity::check(plant)?;
     death_reaches_tips::check(plant)?;
-    finite_frames::check(plant)?;
+    orientations::check(plant)?;
     tips_add_up::check(plant)
 }
 

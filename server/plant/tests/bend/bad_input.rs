@@ -100,9 +100,9 @@ fn a_state_that_does_not_fit_is_refused() {
         change(&mut state);
         Bend::from_state(&state).is_none()
     };
-    assert!(broken(|state| state.poses.truncate(4)));
-    assert!(broken(|state| state.poses[3][5] = f64::NAN));
-    assert!(broken(|state| state.poses[3] = [0.0; 7]));
+    assert!(broken(|state| state.prisms.truncate(4)));
+    assert!(broken(|state| state.prisms[3][5] = f64::NAN));
+    assert!(broken(|state| state.prisms[3] = [0.0; 7]));
     assert!(broken(|state| state.nodes.truncate(4)));
     assert!(broken(|state| state.nodes[2].x = f32::INFINITY));
     assert!(broken(|state| (state.radii.clear(), state.nodes.truncate(1)).0));

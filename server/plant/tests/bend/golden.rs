@@ -1,4 +1,4 @@
-//! The client previews bends by itself: both must find the poses in `golden/bend.json`.
+//! The client previews bends by itself: both must find the motions in `golden/bend.json`.
 //!
 //! After a deliberate change: `UPDATE_GOLDEN=1 cargo test -p espalier-plant --test bend`.
 
@@ -35,7 +35,7 @@ fn sample(shape: &Shape, stretch: f32, legs: &[(u32, &[Way])]) -> Value {
             bend.drag(&targets);
             let touches: Vec<_> =
                 targets.iter().map(|&(touch, place)| json!([touch, place.to_array()])).collect();
-            events.push(json!({ "targets": touches, "poses": poses(&bend.motions()) }));
+            events.push(json!({ "targets": touches, "motions": sampled_motions(&bend.motions()) }));
         }
     }
     bend.relax();
@@ -45,12 +45,12 @@ fn sample(shape: &Shape, stretch: f32, legs: &[(u32, &[Way])]) -> Value {
         "nodes": shape.nodes.iter().map(|node| node.to_array()).collect::<Vec<_>>(),
         "radii": shape.radii,
         "events": events,
-        "relaxed": poses(&bend.motions()),
+        "relaxed": sampled_motions(&bend.motions()),
     })
 }
 
 /// Internode, where its end is, and its rotation.
-fn poses(motions: &[Motion]) -> Vec<Value> {
+fn sampled_motions(motions: &[Motion]) -> Vec<Value> {
     let every = motions.len().div_ceil(SAMPLED);
     let is_sampled = |i: usize| i.is_multiple_of(every) || i + 1 == motions.len();
     let sampled = motions.iter().enumerate().filter(|&(i, _)| is_sampled(i));

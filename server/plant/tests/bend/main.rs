@@ -2,6 +2,6 @@
 
 mod bad_input;
 mod golden;
-mod pose;
 mod reversal;
 mod shapes;
+mod solution;

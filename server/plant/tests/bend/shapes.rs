@@ -71,7 +71,7 @@ impl Shape {
         Bend::new(&self.nodes, &self.radii, stretch)
     }
 
-    /// Length of the wood above the base in a pose.
+    /// Length of the wood above the base in a bend.
     pub fn length_in(&self, motions: &[Motion]) -> f32 {
         motions.windows(2).map(|pair| pair[0].to.distance(pair[1].to)).sum()
     }

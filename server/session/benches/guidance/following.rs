@@ -2,7 +2,7 @@
 
 use espalier_plant::MetamerId;
 use espalier_proto::{Action, BrushRadius, Position, StrokeSample};
-use espalier_session::Document;
+use espalier_session::{Document, Principal};
 use glam::Vec3;
 
 use super::shapes;
@@ -41,8 +41,11 @@ pub fn drawn(mut document: Document, path: &[Vec3], radius: f32, pace: f32) -> (
     (document, before)
 }
 
-fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, pace: f32) {
-    let mut act = |action: Action| document.apply("finger", &action.into()).expect("a stroke can be drawn");
+/// Draws one stroke.
+pub fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, pace: f32) {
+    let mut act = |action: Action| {
+        document.apply(&Principal::visitor(), &action.into()).expect("a stroke can be drawn")
+    };
     act(Action::StrokeBegin { stroke, bud: None });
     let sample = |&position: &Vec3| StrokeSample {
         position: Position::nearest(position),
@@ -54,6 +57,13 @@ fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, pace
         act(Action::StrokeMove { stroke, samples: samples.try_into().expect("not too many") });
     }
     act(Action::StrokeEnd { stroke });
+}
+
+/// The ends of living metamers from this one on.
+pub fn nodes(document: &Document, from: usize) -> Vec<Vec3> {
+    let plant = document.plant();
+    let all = (from..plant.metamer_count()).map(MetamerId::new);
+    all.filter(|&id| plant.is_alive(id)).map(|id| plant.metamers().end(id)).collect()
 }
 
 /// The same path in points so far apart.
@@ -75,14 +85,11 @@ impl Followed {
     }
 
     pub fn of(document: &Document, before: usize, path: &[Vec3], radius: f32) -> Self {
-        let plant = document.plant();
-        let living =
-            |from| (from..plant.metamer_count()).map(MetamerId::new).filter(|&id| plant.is_alive(id));
-        let nodes: Vec<Vec3> = living(0).map(|id| plant.metamers().end(id)).collect();
+        let all = nodes(document, 0);
         let path = resampled(path, 0.25);
         let from_path = |place: Vec3| path.iter().map(|p| p.distance(place)).fold(f32::INFINITY, f32::min);
-        let is_near = |place: Vec3, reach: f32| nodes.iter().any(|node| node.distance(place) <= reach);
-        let grown: Vec<Vec3> = living(before).map(|id| plant.metamers().end(id)).collect();
+        let is_near = |place: Vec3, reach: f32| all.iter().any(|node| node.distance(place) <= reach);
+        let grown = nodes(document, before);
         let spilt = grown.iter().filter(|&&node| from_path(node) > radius + SPILT).count();
         let (low, high) = path.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), &p| {
             (low.min(p - radius), high.max(p + radius))

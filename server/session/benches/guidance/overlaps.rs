@@ -6,7 +6,7 @@ use espalier_mesh::{
 };
 use espalier_plant::MetamerId;
 use espalier_proto::{Action, Depth, Direction, DrawingPlane, PlanePoint, Position};
-use espalier_session::{Document, style_options};
+use espalier_session::{Document, Principal, style_options};
 use glam::{Vec2, Vec3};
 
 /// Edge of a pixel.
@@ -49,7 +49,7 @@ pub fn enclose(document: &mut Document, outline: &[Vec2]) {
         depth: Depth::MOST,
         bud: None,
     };
-    document.apply("finger", &lasso.into()).expect("a lasso can be drawn");
+    document.apply(&Principal::visitor(), &lasso.into()).expect("a lasso can be drawn");
 }
 
 impl Overlaps {

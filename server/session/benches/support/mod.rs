@@ -7,7 +7,7 @@ use std::{
 
 use espalier_mesh::{RingTable, Style};
 use espalier_proto::{Action, BrushRadius, Position, Steps, StrokeSample};
-use espalier_session::{Document, delta, style_options};
+use espalier_session::{Document, Principal, delta, style_options};
 use glam::Vec3;
 
 /// Runs a bench where the server simulates: on a thread of the pool. From outside, each task would first have to wake
@@ -15,8 +15,6 @@ use glam::Vec3;
 pub fn on_the_pool(bench: impl FnOnce() + Send) {
     rayon::scope(|_| bench());
 }
-
-const AUTHOR: &str = "bench";
 
 /// A document whose every change a client is told.
 #[derive(Clone, Debug)]
@@ -56,7 +54,7 @@ impl Followed {
     /// Does an action with all its steps, and tells the client once.
     pub fn act(&mut self, action: &Action) -> Cost {
         let begun = Instant::now();
-        self.document.apply(AUTHOR, &action.clone().into()).expect("the action can be done");
+        self.document.apply(&Principal::visitor(), &action.clone().into()).expect("the action can be done");
         let acted = Instant::now();
         self.sequence += 1;
         let changes = self.table.sync(self.document.portrait(), &self.style, self.sequence);

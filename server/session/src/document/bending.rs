@@ -5,17 +5,17 @@ use espalier_proto::{Position, Problem, Reason, Share};
 use glam::Vec3;
 
 use super::{Document, branches::said, history::Kind};
-use crate::cause::Cause;
+use crate::{cause::Cause, principal::Principal};
 
 /// Bends open at once (`LM7`).
-const MAX_OPEN: usize = 32;
+pub(super) const MAX_OPEN: usize = 32;
 /// Metamers of a path (`LM7`).
-const MAX_PATH: usize = 4096;
+pub(super) const MAX_PATH: usize = 4096;
 
 /// One bend between its begin and its end.
 #[derive(Clone, Debug)]
 pub(super) struct OpenBend {
-    pub author: String,
+    pub author: Principal,
     /// The author's number for it.
     pub number: u32,
     /// The document's own number for it.
@@ -40,12 +40,12 @@ pub(super) struct OpenBends {
 }
 
 impl OpenBends {
-    pub fn of(&self, author: &str) -> Vec<u32> {
-        self.open.iter().filter(|bend| bend.author == author).map(|bend| bend.number).collect()
+    pub fn of(&self, author: &Principal) -> Vec<u32> {
+        self.open.iter().filter(|bend| bend.author == *author).map(|bend| bend.number).collect()
     }
 
     /// Takes a bend out of people's hands.
-    pub fn close(&mut self, author: &str, number: u32) -> Result<OpenBend, Problem> {
+    pub fn close(&mut self, author: &Principal, number: u32) -> Result<OpenBend, Problem> {
         self.find(author, number).map(|index| self.open.remove(index))
     }
 
@@ -69,8 +69,8 @@ impl OpenBends {
         }
     }
 
-    fn find(&self, author: &str, number: u32) -> Result<usize, Problem> {
-        let index = self.open.iter().position(|bend| bend.number == number && bend.author == author);
+    fn find(&self, author: &Principal, number: u32) -> Result<usize, Problem> {
+        let index = self.open.iter().position(|bend| bend.number == number && bend.author == *author);
         index.ok_or_else(|| {
             let message =
                 format!("bend {number} is not in progress: it was never begun, or its branch is gone");
@@ -81,7 +81,7 @@ impl OpenBends {
 
 impl Document {
     /// The bends an author has begun and not ended.
-    pub fn open_bends(&self, author: &str) -> Vec<u32> {
+    pub fn open_bends(&self, author: &Principal) -> Vec<u32> {
         self.bends.of(author)
     }
 
@@ -126,7 +126,7 @@ impl Document {
         self.bends.begun = self.bends.begun.wrapping_add(1);
         let id = self.bends.begun;
         self.bends.open.push(OpenBend {
-            author: cause.author.to_owned(),
+            author: cause.author.clone(),
             number,
             id,
             path,

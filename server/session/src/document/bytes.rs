@@ -6,7 +6,9 @@ mod fields;
 mod format_4;
 mod gestures;
 mod growth;
+mod lengths;
 mod packing;
+mod plain;
 mod programmes;
 pub(super) mod sections;
 mod settings;
@@ -18,12 +20,12 @@ use std::{collections::VecDeque, sync::Arc};
 use espalier_growth::{Simulation, simulation_version};
 use espalier_plant::{Plant, PlantParts};
 
-pub use self::packing::MAX_METAMER_BUDGET;
 pub(crate) use self::{
     container::{Container, Section},
     fields::{Reader, Writer},
     sections::SESSION,
 };
+pub use self::{lengths::MAX_METAMER_BUDGET, plain::plain};
 use self::{
     sections::{Kind, Release},
     settings::Pool,

@@ -10,7 +10,7 @@ use espalier_proto::{Problem, Reason, version::MAX_FUTURES};
 
 use super::{
     Document,
-    history::{Before, History, Kind, Operation, Setting, StateMark, hash_operations},
+    history::{Before, History, Kind, MAX_SETS, Operation, Setting, StateMark, hash_operations, sets},
 };
 use crate::cause::Cause;
 
@@ -302,15 +302,29 @@ impl Document {
         Err(Problem::new(Reason::HistoryFull, message).at("kind", allowed))
     }
 
+    /// Whether one more set of parameters, looks or obstacles can be kept, if need be in place of futures.
+    pub(super) fn require_sets(&self) -> Result<(), Problem> {
+        if sets(&self.history.operations[..self.history.done]) < MAX_SETS {
+            return Ok(());
+        }
+        let message = format!(
+            "the history keeps {MAX_SETS} changes of parameters, looks and obstacles, and no more; undo something"
+        );
+        let allowed = format!("up to {MAX_SETS} changes of parameters, looks and obstacles");
+        Err(Problem::new(Reason::HistoryFull, message).at("kind", allowed))
+    }
+
     /// Forgets futures until all of them fit (`LM11`).
     pub(super) fn forget_futures(&mut self) {
         let places = |operations: &[Operation]| operations.iter().map(|op| u64::from(op.places)).sum::<u64>();
+        let most_sets = MAX_SETS - sets(&self.history.operations).min(MAX_SETS);
         loop {
             let futures = &self.futures.all;
             let held: u64 = futures.iter().map(|future| places(&future.operations)).sum();
             let fits = futures.len() <= MAX_FUTURES
                 && self.futures.metamers() <= MAX_METAMERS
-                && held + places(&self.history.operations) <= MAX_PLACES;
+                && held + places(&self.history.operations) <= MAX_PLACES
+                && futures.iter().map(|future| sets(&future.operations)).sum::<usize>() <= most_sets;
             if fits || futures.is_empty() {
                 return;
             }

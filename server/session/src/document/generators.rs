@@ -109,6 +109,11 @@ impl Generators {
         &self.schedule
     }
 
+    /// From now on growth does not shed what began in these steps.
+    pub(super) fn keep_what_began_in(&mut self, steps: Vec<(u32, u32)>) {
+        self.growth.keep_what_began_in(steps);
+    }
+
     /// The age of the plants.
     pub(crate) fn age(&self, scene: &Scene) -> u32 {
         scene.plant().growths().saturating_add(self.state.ahead)

@@ -1,14 +1,20 @@
 //! Growth of a document: what an action asks for becomes steps, and steps are run one by one.
 
-use espalier_growth::{Envelope, NoObserver, Observer, Plane, StepInput, StepOutcome, StrokeId};
+use espalier_growth::{Envelope, NoObserver, Observer, Plane, Simulation, StepInput, StepOutcome, StrokeId};
 use espalier_plant::MetamerId;
 use espalier_proto::{
     Age, Depth, DrawingPlane, PlanePoint, Problem, Reason, Steps, version::MAX_OUTLINE_STEPS,
 };
 use glam::{Vec2, Vec3};
 
-use super::{Document, branch_gone, generators::Step, hints::OpenLasso, history::Kind, strokes::OpenStroke};
-use crate::cause::Cause;
+use super::{
+    Document, branch_gone,
+    generators::{Generators, Step},
+    hints::OpenLasso,
+    history::Kind,
+    strokes::OpenStroke,
+};
+use crate::{cause::Cause, principal::Principal};
 
 /// Steps still to be run for an action taken on.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,8 +112,8 @@ impl Document {
             return;
         }
         let stroke = operations.iter().rev().find(|operation| operation.kind == Kind::Stroke);
-        let author = stroke.map(|stroke| stroke.author.clone()).unwrap_or_default();
-        self.record(Kind::Stroke, Cause::from(&*author));
+        let author = stroke.map_or_else(Principal::visitor, |stroke| stroke.author.clone());
+        self.record(Kind::Stroke, Cause::from(&author));
     }
 
     /// Steps still to be run; a lasso and a stroke that settles count as one each, for nobody knows.
@@ -220,7 +226,25 @@ impl Document {
 
     fn step(&mut self, step: &Step, observer: &mut impl Observer) -> StepOutcome {
         self.steps_begun = self.steps_begun.wrapping_add(1);
+        let kept = self.kept();
+        self.simulation.generator_mut().keep_what_began_in(kept);
         self.simulation.step(step, observer)
+    }
+
+    /// The steps in which wood began that is not to be shed: what was drawn, unless somebody has set by hand what is shed.
+    /// A programme gives the habit, and that does not take away what was drawn.
+    fn kept(&self) -> Vec<(u32, u32)> {
+        match self.simulation.generator().schedule().by_hand().shedding_threshold {
+            Some(_) => Vec::new(),
+            None => self.history.drawn(),
+        }
+    }
+
+    /// A copy of the simulation that goes on as the document would, for a prediction.
+    pub(crate) fn fork(&self) -> Simulation<Generators> {
+        let mut fork = self.simulation.clone();
+        fork.generator_mut().keep_what_began_in(self.kept());
+        fork
     }
 
     pub(super) fn is_stopped(&self) -> bool {

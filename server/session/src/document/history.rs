@@ -11,7 +11,10 @@ use super::{
     generators::GeneratorState,
     obstacles::{Standings, stand_alike},
 };
-use crate::{cause::Cause, schedule::GrowthSchedule};
+use crate::{cause::Cause, principal::Principal, schedule::GrowthSchedule};
+
+/// Changes of parameters, programmes, looks and obstacles that all lines of time may keep: each holds a set (`LM11`).
+pub(super) const MAX_SETS: usize = 100_000;
 
 /// What an operation was.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +62,11 @@ impl Kind {
         Self::Appearance,
     ];
 
+    /// Whether such an operation holds a set of parameters, looks or obstacles that no other holds.
+    fn has_set(self) -> bool {
+        matches!(self, Self::Parameters | Self::Appearance | Self::Obstacle)
+    }
+
     pub fn from_code(code: u8) -> Option<Self> {
         Self::ALL.get(usize::from(code)).copied()
     }
@@ -76,7 +84,7 @@ pub(super) struct Setting {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Operation {
     pub kind: Kind,
-    pub author: String,
+    pub author: Principal,
     pub gesture: Option<u32>,
     /// The step it started from.
     pub first: u32,
@@ -86,6 +94,11 @@ pub(super) struct Operation {
     pub after: Setting,
     /// Places of wood that it keeps because it moved them (`LM11`).
     pub places: u32,
+}
+
+/// Operations that hold a set of their own.
+pub(super) fn sets(operations: &[Operation]) -> usize {
+    operations.iter().filter(|operation| operation.kind.has_set()).count()
 }
 
 /// The edit made last, which another one of the same gesture may take the place of.
@@ -178,7 +191,7 @@ impl History {
         }
         self.operations.push(Operation {
             kind,
-            author: cause.author.to_owned(),
+            author: cause.author.clone(),
             gesture: cause.gesture,
             first: now,
             last: now,
@@ -296,10 +309,24 @@ impl History {
             && self.done == self.operations.len()
             && self.current().is_some_and(|last| {
                 kinds.contains(&last.kind)
-                    && last.author == cause.author
+                    && last.author == *cause.author
                     && last.gesture == cause.gesture
                     && last.last == now
             })
+    }
+
+    /// The steps of strokes and lassos in force: after the first, up to the second of each pair.
+    pub fn drawn(&self) -> Vec<(u32, u32)> {
+        let drawn = self.operations[..self.done].iter();
+        let drawn = drawn.filter(|operation| matches!(operation.kind, Kind::Stroke | Kind::Lasso));
+        let mut steps: Vec<(u32, u32)> = Vec::new();
+        for operation in drawn.filter(|operation| operation.first < operation.last) {
+            match steps.last_mut().filter(|(_, end)| *end == operation.first) {
+                Some((_, end)) => *end = operation.last,
+                None => steps.push((operation.first, operation.last)),
+            }
+        }
+        steps
     }
 
     /// How many operations are in force at a step; changes made at that very step are.

@@ -11,6 +11,7 @@ use super::{
     Document,
     history::{Kind, Operation},
 };
+use crate::principal::Principal;
 
 impl Document {
     /// The present line of time and all others (`TT1`).
@@ -73,7 +74,7 @@ impl Document {
 
 /// Client keys are secret, so people are sent as numbers.
 #[derive(Default)]
-struct People<'a>(BTreeMap<&'a str, u32>);
+struct People<'a>(BTreeMap<&'a Principal, u32>);
 
 impl<'a> People<'a> {
     fn name(&mut self, operations: &'a [Operation]) -> Vec<TimelineOperation> {
@@ -82,7 +83,7 @@ impl<'a> People<'a> {
 
     fn name_one(&mut self, operation: &'a Operation) -> TimelineOperation {
         let next = self.0.len() as u32;
-        let author = *self.0.entry(operation.author.as_str()).or_insert(next);
+        let author = *self.0.entry(&operation.author).or_insert(next);
         let kind = match operation.kind {
             Kind::Stroke => OperationKind::Stroke,
             Kind::Growth => OperationKind::Growth,

@@ -5,8 +5,7 @@ use std::{collections::BTreeMap, sync::Arc};
 use espalier_growth::Obstacle as Solid;
 use espalier_plant::hash::StableHash;
 use espalier_proto::{
-    Obstacle as WireObstacle, PlacedObstacle, Pose as WirePose, Problem, Reason, SimpleShape,
-    version::MAX_OBSTACLES,
+    Obstacle as WireObstacle, PlacedObstacle, Pose, Problem, Reason, SimpleShape, version::MAX_OBSTACLES,
 };
 
 use super::{
@@ -106,19 +105,14 @@ impl Document {
         Ok(())
     }
 
-    pub(super) fn move_obstacle(
-        &mut self,
-        cause: Cause<'_>,
-        id: u32,
-        pose: &WirePose,
-    ) -> Result<(), Problem> {
+    pub(super) fn move_obstacle(&mut self, cause: Cause<'_>, id: u32, pose: &Pose) -> Result<(), Problem> {
         let index = self.obstacles.find(id)?;
         let now = &self.obstacles.standing[index].obstacle;
-        let pose = pose.into();
-        if now.pose == pose {
+        let placement = pose.into();
+        if now.placement == placement {
             return Ok(());
         }
-        let moved = Obstacle::new(now.form.clone(), pose)?;
+        let moved = Obstacle::new(now.form.clone(), placement)?;
         let mut after = self.obstacles.standing.to_vec();
         after[index].obstacle = moved;
         self.change_obstacles(cause, after);
@@ -144,7 +138,7 @@ impl Document {
         if now.form == form {
             return Ok(());
         }
-        let reshaped = Obstacle::new(form, now.pose)?;
+        let reshaped = Obstacle::new(form, now.placement)?;
         let mut after = self.obstacles.standing.to_vec();
         after[index].obstacle = reshaped;
         self.change_obstacles(cause, after);
@@ -199,7 +193,7 @@ impl Document {
 pub(super) fn stand_alike(some: &Standings, others: &Standings) -> bool {
     let alike = |one: &Standing, other: &Standing| {
         let (a, b) = (&one.obstacle, &other.obstacle);
-        one.id == other.id && a.pose == b.pose && (a.mesh().is_some() || a.form == b.form)
+        one.id == other.id && a.placement == b.placement && (a.mesh().is_some() || a.form == b.form)
     };
     some.len() == others.len() && some.iter().zip(&**others).all(|(one, other)| alike(one, other))
 }

@@ -4,15 +4,15 @@ use espalier_growth::{BrushPiece, BrushSample, StepInput, StrokeId};
 use espalier_plant::{MetamerId, hash::StableHash};
 use espalier_proto::{Problem, Reason, StrokeSample};
 
-use crate::stroke_pieces::pieces;
+use crate::{principal::Principal, stroke_pieces::pieces};
 
 /// Strokes open at once; more fingers than this on one tree are a mistake or an attack.
-const MAX_OPEN: usize = 32;
+pub(super) const MAX_OPEN: usize = 32;
 
 /// One stroke between its begin and its end.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct OpenStroke {
-    pub author: String,
+    pub author: Principal,
     /// The author's number for it.
     pub number: u32,
     /// The document's own name for it.
@@ -36,11 +36,16 @@ impl OpenStrokes {
         self.open.is_empty()
     }
 
-    pub fn of(&self, author: &str) -> Vec<u32> {
-        self.open.iter().filter(|s| s.author == author).map(|s| s.number).collect()
+    pub fn of(&self, author: &Principal) -> Vec<u32> {
+        self.open.iter().filter(|s| s.author == *author).map(|s| s.number).collect()
     }
 
-    pub fn open(&mut self, author: &str, number: u32, chosen: Option<MetamerId>) -> Result<(), Problem> {
+    pub fn open(
+        &mut self,
+        author: &Principal,
+        number: u32,
+        chosen: Option<MetamerId>,
+    ) -> Result<(), Problem> {
         if self.find(author, number).is_some() {
             let message = format!("stroke {number} has begun already");
             return Err(Problem::new(Reason::NumberTaken, message)
@@ -53,7 +58,7 @@ impl OpenStrokes {
         }
         self.begun = self.begun.wrapping_add(1);
         self.open.push(OpenStroke {
-            author: author.to_owned(),
+            author: author.clone(),
             number,
             id: StrokeId(self.begun),
             chosen,
@@ -63,7 +68,7 @@ impl OpenStrokes {
     }
 
     /// Ends a stroke.
-    pub fn close(&mut self, author: &str, number: u32) -> Result<OpenStroke, Problem> {
+    pub fn close(&mut self, author: &Principal, number: u32) -> Result<OpenStroke, Problem> {
         let index = self.find(author, number).ok_or_else(|| unknown(number))?;
         Ok(self.open.remove(index))
     }
@@ -76,7 +81,7 @@ impl OpenStrokes {
     /// `longest` internodes.
     pub fn extend(
         &mut self,
-        author: &str,
+        author: &Principal,
         number: u32,
         samples: &[StrokeSample],
         longest: u32,
@@ -107,8 +112,8 @@ impl OpenStrokes {
         }
     }
 
-    fn find(&self, author: &str, number: u32) -> Option<usize> {
-        self.open.iter().position(|s| s.number == number && s.author == author)
+    fn find(&self, author: &Principal, number: u32) -> Option<usize> {
+        self.open.iter().position(|s| s.number == number && s.author == *author)
     }
 }
 
@@ -132,13 +137,13 @@ mod tests {
 
     fn extend(strokes: &mut OpenStrokes, xs: &[f32]) -> Vec<StepInput> {
         let samples: Vec<StrokeSample> = xs.iter().map(|&x| sample(x)).collect();
-        strokes.extend("a", 1, &samples, 4).expect("the stroke is open")
+        strokes.extend(&Principal::visitor(), 1, &samples, 4).expect("the stroke is open")
     }
 
     #[test]
     fn cm6_a_path_runs_a_step_per_shoot() {
         let mut strokes = OpenStrokes::default();
-        strokes.open("a", 1, None).expect("nothing is open");
+        strokes.open(&Principal::visitor(), 1, None).expect("nothing is open");
         assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
         assert_eq!(extend(&mut strokes, &[0.0]).len(), 1);
         assert_eq!(extend(&mut strokes, &[3.0, 9.0]).len(), 3);
@@ -148,7 +153,7 @@ mod tests {
     #[test]
     fn pieces_join_without_a_gap() {
         let mut strokes = OpenStrokes::default();
-        strokes.open("a", 1, None).expect("nothing is open");
+        strokes.open(&Principal::visitor(), 1, None).expect("nothing is open");
         extend(&mut strokes, &[0.0]);
         let steps = extend(&mut strokes, &[1.0, 2.5, 7.0, 7.0, 30.0]);
         let mut end = 0.0;

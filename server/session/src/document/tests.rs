@@ -20,6 +20,11 @@ use glam::{Quat, Vec2, Vec3};
 
 use super::*;
 
+/// Somebody of this name.
+fn who(name: &str) -> Principal {
+    Principal::named(name)
+}
+
 fn plain(action: Action) -> Command {
     action.into()
 }
@@ -46,7 +51,8 @@ fn sample(x: f32, y: f32, radius: f32) -> StrokeSample {
 
 /// A stroke from the ground up, with a crown.
 fn stroke(document: &mut Document, number: u32) {
-    let mut apply = |command: Command| document.apply("ann", &command).expect("the stroke is well formed");
+    let mut apply =
+        |command: Command| document.apply(&who("ann"), &command).expect("the stroke is well formed");
     apply(plain(Action::StrokeBegin { stroke: number, bud: None }));
     apply(plain(Action::StrokeMove {
         stroke: number,
@@ -62,7 +68,7 @@ fn stroke(document: &mut Document, number: u32) {
 fn grow(document: &mut Document, steps: u32, gesture: Option<u32>) {
     document
         .apply(
-            "ann",
+            &who("ann"),
             &in_gesture(gesture, Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }),
         )
         .expect("there is room to grow");
@@ -78,22 +84,22 @@ fn patch_in(gesture: Option<u32>, apical_control: f32) -> Command {
 }
 
 /// A tree with a few branches.
-fn tree() -> Document {
+pub(super) fn tree() -> Document {
     let mut document = Document::new(5);
     document
-        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(9), until: None, bud: None }))
+        .apply(&who("ann"), &plain(Action::Grow { steps: Steps::nearest(9), until: None, bud: None }))
         .expect("there is room");
     document
 }
 
 fn apply(document: &mut Document, action: &Command) {
-    document.apply("ann", action).unwrap_or_else(|problem| panic!("{action:?}: {problem}"));
+    document.apply(&who("ann"), action).unwrap_or_else(|problem| panic!("{action:?}: {problem}"));
 }
 
 /// The problem an action is refused with; nothing changes.
 fn problem(document: &mut Document, action: &Command) -> Problem {
     let before = document.hash();
-    let problem = document.apply("ann", action).expect_err("it is refused");
+    let problem = document.apply(&who("ann"), action).expect_err("it is refused");
     assert_eq!(document.hash(), before, "{action:?} is refused and changes something");
     assert!(problem.field.is_some() && problem.allowed.is_some(), "{action:?} names too little: {problem:?}");
     problem
@@ -140,11 +146,11 @@ fn undo_takes_back_whole_operations() {
     stroke(&mut document, 1);
     let after_stroke = document.plant().hash();
     grow(&mut document, 3, None);
-    document.apply("ann", &plain(Action::Undo {})).expect("there is growth to undo");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("there is growth to undo");
     assert_eq!(document.plant().hash(), after_stroke);
-    document.apply("ann", &plain(Action::Undo {})).expect("there is a stroke to undo");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("there is a stroke to undo");
     assert_eq!(document.plant().hash(), seedling);
-    let problem = document.apply("ann", &plain(Action::Undo {})).expect_err("nothing is left");
+    let problem = document.apply(&who("ann"), &plain(Action::Undo {})).expect_err("nothing is left");
     assert_eq!(problem.code, ProblemCode::Refused);
 }
 
@@ -152,18 +158,18 @@ fn undo_takes_back_whole_operations() {
 fn redo_restores_what_undo_took() {
     let mut document = Document::new(4);
     stroke(&mut document, 1);
-    document.apply("ann", &patch(0.55)).expect("0.55 is in range");
+    document.apply(&who("ann"), &patch(0.55)).expect("0.55 is in range");
     grow(&mut document, 3, None);
     let (hash, parameters) = (document.plant().hash(), document.parameters());
     for _ in 0..3 {
-        document.apply("ann", &plain(Action::Undo {})).expect("three operations were done");
+        document.apply(&who("ann"), &plain(Action::Undo {})).expect("three operations were done");
     }
     assert_eq!(document.parameters().apical_control, Document::new(4).parameters().apical_control);
     for _ in 0..3 {
-        document.apply("ann", &plain(Action::Redo {})).expect("three operations were undone");
+        document.apply(&who("ann"), &plain(Action::Redo {})).expect("three operations were undone");
     }
     assert_eq!((document.plant().hash(), document.parameters()), (hash, parameters));
-    assert!(document.apply("ann", &plain(Action::Redo {})).is_err());
+    assert!(document.apply(&who("ann"), &plain(Action::Redo {})).is_err());
 }
 
 #[test]
@@ -171,13 +177,17 @@ fn cm7_ungrow_goes_back_through_a_stroke_and_redo_returns() {
     let mut document = Document::new(4);
     stroke(&mut document, 1);
     let (step, hash) = (document.plant().step(), document.plant().hash());
-    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(2) })).expect("there are steps");
+    document
+        .apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::nearest(2) }))
+        .expect("there are steps");
     assert_eq!(document.plant().step(), step - 2);
-    document.apply("ann", &plain(Action::Redo {})).expect("the stroke was left in part");
+    document.apply(&who("ann"), &plain(Action::Redo {})).expect("the stroke was left in part");
     assert_eq!(document.plant().hash(), hash);
-    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1000) })).expect("there are steps");
+    document
+        .apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::nearest(1000) }))
+        .expect("there are steps");
     assert_eq!(document.plant().step(), 0);
-    assert!(document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).is_err());
+    assert!(document.apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::nearest(1) })).is_err());
 }
 
 #[test]
@@ -187,9 +197,9 @@ fn growth_of_one_gesture_is_one_operation() {
         grow(&mut document, 1, Some(7));
     }
     grow(&mut document, 1, Some(8));
-    document.apply("ann", &plain(Action::Undo {})).expect("one");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("one");
     assert_eq!(document.plant().step(), 4);
-    document.apply("ann", &plain(Action::Undo {})).expect("two");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("two");
     assert_eq!(document.plant().step(), 0);
 }
 
@@ -197,17 +207,19 @@ fn growth_of_one_gesture_is_one_operation() {
 fn every_step_back_shows() {
     let mut document = Document::new(4);
     let pencil = |x, y| plain(Action::StrokeMove { stroke: 1, samples: list(vec![sample(x, y, 0.0)]) });
-    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
-    document.apply("ann", &pencil(0.0, 0.0)).expect("open");
-    document.apply("ann", &pencil(0.0, 20.0)).expect("open");
+    document.apply(&who("ann"), &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
+    document.apply(&who("ann"), &pencil(0.0, 0.0)).expect("open");
+    document.apply(&who("ann"), &pencil(0.0, 20.0)).expect("open");
     for _ in 0..30 {
         // The finger rests: nothing is left to draw.
-        document.apply("ann", &pencil(0.0, 20.0)).expect("open");
+        document.apply(&who("ann"), &pencil(0.0, 20.0)).expect("open");
     }
-    document.apply("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
+    document.apply(&who("ann"), &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
     while document.plant().step() > 0 {
         let before = document.metamers();
-        document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).expect("there is a step");
+        document
+            .apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::nearest(1) }))
+            .expect("there is a step");
         assert!(document.metamers() < before, "step {} shows nothing", document.plant().step());
     }
 }
@@ -215,14 +227,14 @@ fn every_step_back_shows() {
 #[test]
 fn a_stroke_that_grows_nothing_is_no_operation() {
     let mut document = Document::new(4);
-    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
+    document.apply(&who("ann"), &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     document
         .apply(
-            "ann",
+            &who("ann"),
             &plain(Action::StrokeMove { stroke: 1, samples: list(vec![sample(500.0, 500.0, 3.0)]) }),
         )
         .expect("open");
-    document.apply("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
+    document.apply(&who("ann"), &plain(Action::StrokeEnd { stroke: 1 })).expect("open");
     assert!(!document.figures().can_undo);
 }
 
@@ -233,7 +245,7 @@ fn what_comes_to_nothing_leaves_redo_as_it_was() {
     grow(&mut document, 4, None);
     let grown = document.plant().hash();
     for back in [plain(Action::Undo {}), plain(Action::Ungrow { steps: Steps::nearest(2) })] {
-        document.apply("ann", &back).expect("there is growth to take back");
+        document.apply(&who("ann"), &back).expect("there is growth to take back");
         let (hash, timeline) = (document.hash(), document.timeline());
         let far = vec![sample(300.0, 300.0, 0.1)];
         for command in [
@@ -242,11 +254,11 @@ fn what_comes_to_nothing_leaves_redo_as_it_was() {
             plain(Action::StrokeEnd { stroke: 2 }),
         ] {
             document = Document::from_bytes(&document.to_bytes()).expect("its own bytes");
-            document.apply("ann", &command).expect("the stroke is well formed");
+            document.apply(&who("ann"), &command).expect("the stroke is well formed");
         }
         assert_eq!(document.timeline(), timeline, "nothing grew, so nothing lay ahead in vain");
         assert_ne!(document.hash(), hash, "strokes are counted, for they key their randomness");
-        document.apply("ann", &plain(Action::Redo {})).expect("what was undone is still ahead");
+        document.apply(&who("ann"), &plain(Action::Redo {})).expect("what was undone is still ahead");
         assert_eq!(document.plant().hash(), grown);
     }
 }
@@ -255,24 +267,28 @@ fn what_comes_to_nothing_leaves_redo_as_it_was() {
 fn parameters_as_they_are_keep_redo() {
     let mut document = Document::new(4);
     grow(&mut document, 3, None);
-    document.apply("ann", &plain(Action::Ungrow { steps: Steps::nearest(1) })).expect("there are steps");
-    document.apply("ann", &patch(document.parameters().apical_control)).expect("no change");
     document
-        .apply("ann", &plain(Action::SetParameters { parameters: ParametersPatch::default() }))
+        .apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::nearest(1) }))
+        .expect("there are steps");
+    document.apply(&who("ann"), &patch(document.parameters().apical_control)).expect("no change");
+    document
+        .apply(&who("ann"), &plain(Action::SetParameters { parameters: ParametersPatch::default() }))
         .expect("no change");
-    document.apply("ann", &plain(Action::Redo {})).expect("nothing was done since");
+    document.apply(&who("ann"), &plain(Action::Redo {})).expect("nothing was done since");
 }
 
 #[test]
 fn lifted_brushes_leave_operations_apart() {
     let mut document = Document::new(4);
-    document.apply("ann", &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
+    document.apply(&who("ann"), &plain(Action::StrokeBegin { stroke: 1, bud: None })).expect("new");
     let samples = vec![sample(0.0, 0.0, 0.0), sample(0.0, 9.0, 0.0)];
-    document.apply("ann", &plain(Action::StrokeMove { stroke: 1, samples: list(samples) })).expect("open");
+    document
+        .apply(&who("ann"), &plain(Action::StrokeMove { stroke: 1, samples: list(samples) }))
+        .expect("open");
     document.end_gestures();
     let step = document.plant().step();
     grow(&mut document, 2, None);
-    document.apply("bob", &plain(Action::Undo {})).expect("growth is an operation of its own");
+    document.apply(&who("bob"), &plain(Action::Undo {})).expect("growth is an operation of its own");
     assert_eq!(document.plant().step(), step);
 }
 
@@ -281,17 +297,20 @@ fn lm4_seeds_count_against_the_budget() {
     let mut document = Document::new(4);
     document.set_metamer_budget(2);
     document
-        .apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::X) }))
+        .apply(&who("ann"), &plain(Action::PlantSeed { position: Position::nearest(Vec3::X) }))
         .expect("one more fits");
     assert!(
-        document.apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::Z) })).is_err()
+        document
+            .apply(&who("ann"), &plain(Action::PlantSeed { position: Position::nearest(Vec3::Z) }))
+            .is_err()
     );
 }
 
 #[test]
 fn cm5_overlapping_strokes_are_one_operation() {
     let mut document = Document::new(4);
-    let mut apply = |author: &str, command: Command| document.apply(author, &command).expect("well formed");
+    let mut apply =
+        |author: &str, command: Command| document.apply(&who(author), &command).expect("well formed");
     apply("ann", plain(Action::StrokeBegin { stroke: 1, bud: None }));
     apply("bob", plain(Action::StrokeBegin { stroke: 1, bud: None }));
     apply(
@@ -317,16 +336,22 @@ fn cm5_overlapping_strokes_are_one_operation() {
 #[test]
 fn unknown_strokes_and_bad_seeds_are_refused() {
     let mut document = Document::new(4);
-    let problem = document.apply("ann", &plain(Action::StrokeEnd { stroke: 3 })).expect_err("never begun");
+    let problem =
+        document.apply(&who("ann"), &plain(Action::StrokeEnd { stroke: 3 })).expect_err("never begun");
     assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("stroke")));
-    document.apply("ann", &plain(Action::StrokeBegin { stroke: 3, bud: None })).expect("new");
+    document.apply(&who("ann"), &plain(Action::StrokeBegin { stroke: 3, bud: None })).expect("new");
     assert!(
-        document.apply("ann", &plain(Action::StrokeBegin { stroke: 3, bud: None })).is_err(),
+        document.apply(&who("ann"), &plain(Action::StrokeBegin { stroke: 3, bud: None })).is_err(),
         "begun twice"
     );
-    assert!(document.apply("bob", &plain(Action::StrokeEnd { stroke: 3 })).is_err(), "another's stroke");
     assert!(
-        document.apply("ann", &plain(Action::PlantSeed { position: Position::nearest(Vec3::Y) })).is_err()
+        document.apply(&who("bob"), &plain(Action::StrokeEnd { stroke: 3 })).is_err(),
+        "another's stroke"
+    );
+    assert!(
+        document
+            .apply(&who("ann"), &plain(Action::PlantSeed { position: Position::nearest(Vec3::Y) }))
+            .is_err()
     );
 }
 
@@ -349,8 +374,9 @@ fn every_parameter_refuses_beyond_its_ends() {
             let patch: ParametersPatch = serde_json::from_str(&json).expect("a patch");
             let mut document = Document::new(1);
             let before = document.hash();
-            let problem =
-                document.apply("ann", &plain(Action::SetParameters { parameters: patch })).expect_err(&json);
+            let problem = document
+                .apply(&who("ann"), &plain(Action::SetParameters { parameters: patch }))
+                .expect_err(&json);
             assert_eq!(problem.field, Some(format!("parameters.{name}")));
             assert!(problem.allowed.is_some());
             assert_eq!(document.hash(), before, "{name} changed something");
@@ -366,7 +392,7 @@ fn growth_beyond_the_budget_is_refused() {
     assert_eq!(document.pending_steps(), 0);
     assert_eq!(document.plant().metamer_count(), 300);
     let problem = document
-        .apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }))
+        .apply(&who("ann"), &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }))
         .expect_err("full");
     assert!(problem.message.contains("300"));
 }

@@ -10,7 +10,7 @@ use super::{
 use crate::cause::Cause;
 
 /// Width constraints in force at once (`LM12`): all of them are sent to everybody after each change.
-const MAX_WIDTHS: usize = 256;
+pub(super) const MAX_WIDTHS: usize = 256;
 
 impl Document {
     pub(super) fn set_width(

@@ -6,6 +6,7 @@ use super::Session;
 use crate::{
     io::{ActId, Output},
     principal::Principal,
+    rights::Access,
 };
 
 /// A command from outside whose answer is owed.
@@ -20,9 +21,9 @@ pub(super) struct Act {
 impl Session {
     /// Takes a command from outside into the order.
     pub(super) fn act(&mut self, id: ActId, principal: &Principal, command: Command) {
-        match self.check(principal, command) {
+        match self.check(Access::Edit, command) {
             Ok((command, text)) => {
-                let entry = self.accept(principal.name(), 0, command, text, Some(id));
+                let entry = self.accept(principal, 0, command, text, Some(id));
                 self.acts.push(Act { id, entry, outcome: None });
             }
             Err(problem) => self.outputs.push_back(Output::Acted { act: id, outcome: Err(problem) }),

@@ -1,6 +1,6 @@
 //! Commands: their numbers, their one order, their way to the disk (`CM`).
 
-use std::{collections::VecDeque, sync::Arc};
+use std::collections::VecDeque;
 
 use espalier_proto::{Action, Command, Problem, Reason, ServerMessage};
 
@@ -91,11 +91,11 @@ impl Session {
         id: u32,
         command: Result<Command, Problem>,
     ) {
-        let key = principal.name();
-        let author = self.authors.enter(key);
+        let access = self.clients.get(&client).map(|client| client.access).unwrap_or_default();
+        let author = self.authors.enter(principal);
         let next = author.taken.saturating_add(1);
         if id <= author.taken && id > 0 {
-            return self.take_again(client, principal, id, command);
+            return self.take_again(client, access, principal, id, command);
         }
         if id != next && !(author.forgot_refusals && id > next) {
             let message = format!("the command has number {id}, but the next one of this client is {next}");
@@ -104,9 +104,9 @@ impl Session {
         }
         author.taken = id;
         author.forgot_refusals = false;
-        match command.and_then(|command| self.check(principal, command)) {
+        match command.and_then(|command| self.check(access, command)) {
             Ok((command, text)) => {
-                self.accept(key, id, command, text, None);
+                self.accept(principal, id, command, text, None);
             }
             Err(problem) => self.send(client, &ServerMessage::Refused { id, problem }),
         }
@@ -116,19 +116,19 @@ impl Session {
     fn take_again(
         &mut self,
         client: ClientId,
+        access: Access,
         principal: &Principal,
         id: u32,
         command: Result<Command, Problem>,
     ) {
-        let key = principal.name();
-        let durable = self.authors.get(key).map_or(0, |author| author.durable);
+        let durable = self.authors.get(principal).map_or(0, |author| author.durable);
         if id <= durable {
             return self.send(client, &ServerMessage::Acknowledged { id: durable });
         }
-        if self.journal.is_waiting(key, id) {
+        if self.journal.is_waiting(principal, id) {
             return;
         }
-        let problem = match command.and_then(|command| self.check(principal, command)) {
+        let problem = match command.and_then(|command| self.check(access, command)) {
             Err(problem) => problem,
             Ok(_) => Problem::new(Reason::NumberTaken, format!("command {id} was refused before"))
                 .at("id", "a number that no command had"),
@@ -136,14 +136,10 @@ impl Session {
         self.send(client, &ServerMessage::Refused { id, problem });
     }
 
-    /// A command that its author may do, in good form, read back from the very text the journal will hold, so that a
+    /// A command that its author may give, in good form, read back from the very text the journal will hold, so that a
     /// replay cannot differ.
-    pub(super) fn check(
-        &self,
-        principal: &Principal,
-        mut command: Command,
-    ) -> Result<(Command, String), Problem> {
-        self.rights.ask(principal, Access::Edit)?;
+    pub(super) fn check(&self, access: Access, mut command: Command) -> Result<(Command, String), Problem> {
+        access.check_edit()?;
         form::check(&command.action)?;
         if let Action::Stop { .. } = command.action {
             command.action = self.stop_now();
@@ -172,18 +168,18 @@ impl Session {
     /// Gives a command its place in the order; the number of its journal entry.
     pub(super) fn accept(
         &mut self,
-        key: &Arc<str>,
+        principal: &Principal,
         id: u32,
         command: Command,
         text: String,
         act: Option<ActId>,
     ) -> u64 {
         let bytes = text.len();
-        let number = self.journal.append(key, id, text);
-        if let Some(author) = self.authors.get_mut(key) {
+        let number = self.journal.append(principal, id, text);
+        if let Some(author) = self.authors.get_mut(principal) {
             author.last_entry = number;
         }
-        self.queue.push(Order { number, author: Arc::clone(key), id, command, bytes, act });
+        self.queue.push(Order { number, author: principal.clone(), id, command, bytes, act });
         self.upkeep.last_command_at = self.now;
         self.upkeep.state_changed |= self.queue.least_steps() > 0;
         number
@@ -191,8 +187,8 @@ impl Session {
 
     /// Entries up to `through` are durable.
     pub(super) fn journaled(&mut self, through: u64) {
-        for (key, id) in self.journal.made_durable(through) {
-            let Some(author) = self.authors.get_mut(&key) else { continue };
+        for (principal, id) in self.journal.made_durable(through) {
+            let Some(author) = self.authors.get_mut(&principal) else { continue };
             author.durable = id;
             if let Some(client) = author.client {
                 self.send(client, &ServerMessage::Acknowledged { id });

@@ -29,6 +29,7 @@ impl Session {
             work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
+        self.done = work.done_through();
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }

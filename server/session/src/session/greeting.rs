@@ -1,10 +1,9 @@
 //! Clients that connect, resume and leave (`HS`, `RS1`).
 
-use std::sync::Arc;
-
 use espalier_proto::{
     ClientMessage, Resume, ServerMessage, Unreadable,
     frame::CHUNK_ROWS,
+    reading,
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use serde_json::Value;
@@ -21,11 +20,13 @@ use crate::{
 
 /// How long a client may take for its hello, in milliseconds (`HS1`).
 const HELLO_MS: u64 = 10_000;
+/// Why any other first message closes.
+const NO_HELLO: &str = "the first message must be a hello";
 
 impl Session {
-    pub(super) fn connect(&mut self, client: ClientId) {
+    pub(super) fn connect(&mut self, client: ClientId, access: Access) {
         self.forget(client);
-        self.clients.insert(client, Client::default());
+        self.clients.insert(client, Client { access, ..Client::default() });
         self.upkeep.hellos.push_back((self.now + HELLO_MS, client));
     }
 
@@ -35,18 +36,19 @@ impl Session {
                 self.close_version(client)
             }
             Ok(ClientMessage::Hello { client: key, resume, .. }) => match Principal::client(&key) {
-                Some(principal) => match self.rights.ask(&principal, Access::Join) {
-                    Ok(()) => self.welcome(client, principal, resume),
-                    Err(problem) => self.close(client, CloseCode::CannotOpen, &problem.in_close()),
-                },
+                Some(principal) => self.welcome(client, principal, resume),
                 None => {
-                    let sentence = "a client key has 8 to 64 letters, digits, hyphens and underscores";
-                    self.close(client, CloseCode::HelloExpected, sentence);
+                    let problem = reading::unexpected("client", &key, Principal::KEYS);
+                    self.close(client, CloseCode::HelloExpected, &problem.in_close());
                 }
             },
-            // The hello of another version may look different in all but its number.
-            Err(_) if states_another_version(text) => self.close_version(client),
-            _ => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),
+            Ok(_) => self.close(client, CloseCode::HelloExpected, NO_HELLO),
+            Err(Unreadable { problem, .. }) => match hello(text) {
+                // The hello of another version may look different in all but its number.
+                Some(Some(version)) if version != u64::from(PROTOCOL_VERSION) => self.close_version(client),
+                Some(_) => self.close(client, CloseCode::HelloExpected, &problem.in_close()),
+                None => self.close(client, CloseCode::HelloExpected, NO_HELLO),
+            },
         }
     }
 
@@ -56,21 +58,21 @@ impl Session {
     }
 
     fn welcome(&mut self, client: ClientId, principal: Principal, resume: Option<Resume>) {
-        let key = Arc::clone(principal.name());
-        if let Some(older) = self.authors.get(&key).and_then(|author| author.client) {
+        if let Some(older) = self.authors.get(&principal).and_then(|author| author.client) {
             self.close(older, CloseCode::Replaced, "the same client connected again");
         }
-        let author = self.authors.enter(&key);
+        let author = self.authors.enter(&principal);
         author.client = Some(client);
         author.strokes_end_at = None;
         let acknowledged = author.durable;
-        self.upkeep.overdue.remove(&key);
+        self.upkeep.overdue.remove(&principal);
         let resume = resume.filter(|resume| resume.epoch == self.epoch && is_consistent(resume));
         let resumed = resume.is_some();
         let view = View::Stale(resume.map_or(Held::Nothing, Held::Chunks));
         if let Some(client) = self.clients.get_mut(&client) {
             client.connected = Some(ConnectedClient {
                 principal,
+                done: 0,
                 window: Window::default(),
                 view,
                 watch: Watch::default(),
@@ -113,7 +115,7 @@ impl Session {
     pub(super) fn forget(&mut self, id: ClientId) {
         let Some(Client { connected: Some(connected), .. }) = self.clients.remove(&id) else { return };
         connected.prediction_view.cancel();
-        self.author_left(connected.principal.name(), id);
+        self.author_left(&connected.principal, id);
         self.upkeep.state_changed = true;
     }
 }
@@ -122,9 +124,9 @@ fn is_consistent(resume: &Resume) -> bool {
     (resume.rows as usize).div_ceil(CHUNK_ROWS) == resume.generations.len()
 }
 
-fn states_another_version(text: &str) -> bool {
-    let Ok(value) = serde_json::from_str::<Value>(text) else { return false };
-    let version = value.get("protocol").and_then(Value::as_u64);
-    value.get("type").and_then(Value::as_str) == Some("hello")
-        && version.is_some_and(|version| version != u64::from(PROTOCOL_VERSION))
+/// Of a hello that cannot be read, the version that it states, if it states any; nothing of other messages.
+fn hello(text: &str) -> Option<Option<u64>> {
+    let value: Value = serde_json::from_str(text).ok()?;
+    let is_hello = value.get("type").and_then(Value::as_str) == Some("hello");
+    is_hello.then(|| value.get("protocol").and_then(Value::as_u64))
 }

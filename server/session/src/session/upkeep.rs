@@ -1,9 +1,6 @@
 //! What happens by the clock: late hellos, strokes and bends left open, snapshots, news for everybody.
 
-use std::{
-    collections::{BTreeSet, VecDeque},
-    sync::Arc,
-};
+use std::collections::{BTreeSet, VecDeque};
 
 use espalier_proto::{Action, DocumentState, ServerMessage, version::CloseCode};
 
@@ -36,9 +33,9 @@ pub(super) struct Upkeep {
     /// When hellos are due; all have the same patience, so this is in order.
     pub(super) hellos: VecDeque<(u64, ClientId)>,
     /// When strokes of absent authors end, in order.
-    absences: VecDeque<(u64, Arc<str>)>,
+    absences: VecDeque<(u64, Principal)>,
     /// Authors whose strokes end as soon as the document is at home.
-    pub(super) overdue: BTreeSet<Arc<str>>,
+    pub(super) overdue: BTreeSet<Principal>,
     /// Whether figures differ from what was sent to clients.
     pub(super) state_changed: bool,
     /// What was sent to clients last.
@@ -143,25 +140,28 @@ impl Session {
         self.upkeep.last_command_at = self.now;
         let until = self.now + ABSENCE_MS;
         let Some(work) = &self.home else { return };
-        for (key, author) in self.authors.iter_mut() {
-            if !work.document.open_strokes(key).is_empty() || !work.document.open_bends(key).is_empty() {
+        for (principal, author) in self.authors.iter_mut() {
+            if !work.document.open_strokes(principal).is_empty()
+                || !work.document.open_bends(principal).is_empty()
+            {
                 author.strokes_end_at = Some(until);
-                self.upkeep.absences.push_back((until, Arc::clone(key)));
+                self.upkeep.absences.push_back((until, principal.clone()));
             }
         }
     }
 
     /// An author's connection is gone.
-    pub(super) fn author_left(&mut self, key: &Arc<str>, client: ClientId) {
+    pub(super) fn author_left(&mut self, principal: &Principal, client: ClientId) {
         let until = self.now + ABSENCE_MS;
-        let Some(author) = self.authors.get_mut(key).filter(|author| author.client == Some(client)) else {
+        let Some(author) = self.authors.get_mut(principal).filter(|author| author.client == Some(client))
+        else {
             return;
         };
         if author.taken > 0 {
             author.strokes_end_at = Some(until);
-            self.upkeep.absences.push_back((until, Arc::clone(key)));
+            self.upkeep.absences.push_back((until, principal.clone()));
         }
-        self.authors.leave(key);
+        self.authors.leave(principal);
     }
 
     /// The session is to be put away: what would take long ends, and what was done is kept.
@@ -173,7 +173,7 @@ impl Session {
         if self.state().pending_steps > 0 {
             let action = self.stop_now();
             if let Ok(text) = serde_json::to_string(&action) {
-                self.accept(Principal::visitor().name(), 0, action.into(), text, None);
+                self.accept(&Principal::visitor(), 0, action.into(), text, None);
             }
         }
         self.upkeep.keep_through(self.journal.last());
@@ -186,10 +186,10 @@ impl Session {
                 self.close(client, CloseCode::HelloExpected, "no hello came for 10 seconds");
             }
         }
-        while let Some(key) = pop_due(&mut self.upkeep.absences, self.now) {
-            let due = self.authors.get(&key).and_then(|author| author.strokes_end_at);
+        while let Some(principal) = pop_due(&mut self.upkeep.absences, self.now) {
+            let due = self.authors.get(&principal).and_then(|author| author.strokes_end_at);
             if due.is_some_and(|due| due <= self.now) {
-                self.upkeep.overdue.insert(key);
+                self.upkeep.overdue.insert(principal);
             }
         }
         self.let_go_of_overdue();
@@ -211,6 +211,28 @@ impl Session {
             self.upkeep.timeline_due = self.now + STATE_MS.max(text.len() as u64 / TIMELINE_BYTES_PER_MS);
             self.broadcast_text(&text);
         }
+        self.tell_who_is_done();
+    }
+
+    /// Tells those of whose commands nothing is left to do, once they have been told what came of them (`CM11`).
+    fn tell_who_is_done(&mut self) {
+        let upkeep = &self.upkeep;
+        if upkeep.state_changed || upkeep.widths_changed || upkeep.timeline_changed {
+            return;
+        }
+        let done = self.done.min(self.journal.durable());
+        let mut told = Vec::new();
+        for (&client, state) in &mut self.clients {
+            let Some(connected) = &mut state.connected else { continue };
+            let Some(author) = self.authors.get(&connected.principal) else { continue };
+            if author.taken > connected.done && author.last_entry <= done {
+                connected.done = author.taken;
+                told.push((client, author.taken));
+            }
+        }
+        for (client, id) in told {
+            self.send(client, &ServerMessage::Done { id });
+        }
     }
 
     /// Ends the strokes and bends of those who stayed away, once it is known which are open.
@@ -218,20 +240,20 @@ impl Session {
         let Some(work) = &self.home else { return };
         let orders = || work.orders.iter().chain(&self.queue.orders);
         let mut ends = Vec::new();
-        self.upkeep.overdue.retain(|key| {
-            if orders().any(|order| order.author == *key) {
+        self.upkeep.overdue.retain(|principal| {
+            if orders().any(|order| order.author == *principal) {
                 return true;
             }
-            let strokes = work.document.open_strokes(key).into_iter();
+            let strokes = work.document.open_strokes(principal).into_iter();
             let strokes = strokes.map(|stroke| Action::StrokeEnd { stroke });
-            let bends = work.document.open_bends(key).into_iter();
+            let bends = work.document.open_bends(principal).into_iter();
             let bends = bends.map(|bend| Action::BendEnd { bend });
-            ends.extend(strokes.chain(bends).map(|action| (Arc::clone(key), action)));
+            ends.extend(strokes.chain(bends).map(|action| (principal.clone(), action)));
             false
         });
-        for (key, action) in ends {
+        for (principal, action) in ends {
             let Ok(text) = serde_json::to_string(&action) else { continue };
-            self.accept(&key, 0, action.into(), text, None);
+            self.accept(&principal, 0, action.into(), text, None);
         }
     }
 

@@ -1,6 +1,6 @@
 //! Snapshots of the first released version, 0.1.0: a document behind a header of its own. Frozen.
 
-use std::{collections::BTreeMap, sync::Arc};
+use std::collections::BTreeMap;
 
 use flate2::Crc;
 
@@ -8,6 +8,7 @@ use super::{Progress, RestoreError, Snapshot};
 use crate::{
     author::LastCommand,
     document::{Document, DocumentError, Reader},
+    principal::Principal,
 };
 
 const MAGIC: &[u8] = b"ESPS";
@@ -44,7 +45,7 @@ fn read_header(reader: &mut Reader<'_>) -> Result<Progress, DocumentError> {
         let key =
             std::str::from_utf8(reader.slice(length.into())?).map_err(|_| DocumentError::NotADocument)?;
         let last = LastCommand { id: reader.u32()?, entry: reader.u64()? };
-        last_commands.insert(Arc::from(key), last);
+        last_commands.insert(Principal::named(key), last);
     }
     Ok((through, last_commands))
 }

@@ -5,7 +5,7 @@ use espalier_session::{ClientId, Input};
 use espalier_settings::{ParametersPatch, VigorModel};
 use serde_json::{Value, json};
 
-use crate::world::{World, grow};
+use crate::world::{World, grow, person};
 
 fn moved(stroke: u32, height: f32) -> Value {
     let sample = |part: u8| json!({ "position": [0.0, height + f32::from(part), 0.0], "radius": 3.0 });
@@ -207,9 +207,9 @@ fn cm5_strokes_end_30_s_after_their_client_left() {
     world.settle();
     world.leave(birch);
     world.pass(29_000);
-    assert_eq!(world.document().open_strokes("birch-01"), [4]);
+    assert_eq!(world.document().open_strokes(&person("birch-01")), [4]);
     world.pass(1_500);
-    assert!(world.document().open_strokes("birch-01").is_empty());
+    assert!(world.document().open_strokes(&person("birch-01")).is_empty());
     let last = world.disk.last().unwrap();
     assert_eq!((last.principal.to_string().as_str(), last.id), ("birch-01", 0));
     assert_eq!(last.command, r#"{"kind":"stroke_end","stroke":4}"#);
@@ -230,10 +230,10 @@ fn cm5_strokes_stay_open_for_who_returns() {
     world.pass(29_000);
     let birch = world.join("birch-01");
     world.pass(60_000);
-    assert_eq!(world.document().open_strokes("birch-01"), [4]);
+    assert_eq!(world.document().open_strokes(&person("birch-01")), [4]);
     world.command(birch, 2, json!({ "kind": "stroke_end", "stroke": 4 }));
     world.settle();
-    assert!(world.document().open_strokes("birch-01").is_empty());
+    assert!(world.document().open_strokes(&person("birch-01")).is_empty());
 }
 
 #[test]
@@ -245,9 +245,9 @@ fn cm5_a_restart_gives_the_absent_their_time_again() {
     world.crash();
     world.join("maple-01");
     world.pass(29_000);
-    assert_eq!(world.document().open_strokes("birch-01"), [4]);
+    assert_eq!(world.document().open_strokes(&person("birch-01")), [4]);
     world.pass(2_000);
-    assert!(world.document().open_strokes("birch-01").is_empty());
+    assert!(world.document().open_strokes(&person("birch-01")).is_empty());
 }
 
 #[test]
@@ -282,7 +282,7 @@ fn cm8_unknown_messages_are_answered() {
 }
 
 #[test]
-fn changed_parameters_are_told_to_all() {
+fn changed_parameters_are_sent_to_all() {
     let mut world = World::new();
     let birch = world.join("birch-01");
     let maple = world.join("maple-01");
@@ -290,11 +290,11 @@ fn changed_parameters_are_told_to_all() {
     world.command(birch, 1, json!({ "kind": "set_parameters", "parameters": patch }));
     world.settle();
     for client in [birch, maple] {
-        let told = world.peer(client).texts.iter().find_map(|text| match text {
+        let notified = world.peer(client).texts.iter().find_map(|text| match text {
             ServerMessage::Parameters { parameters } => Some(parameters.apical_control),
             _ => None,
         });
-        assert_eq!(told, Some(0.56));
+        assert_eq!(notified, Some(0.56));
     }
     assert_eq!(world.document().hash(), world.replayed_hash());
 }

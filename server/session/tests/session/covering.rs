@@ -2,7 +2,7 @@
 
 use espalier_growth::species;
 use espalier_proto::Action;
-use espalier_session::{Document, wire_species};
+use espalier_session::{Document, Principal, wire_species};
 use glam::Vec2;
 use rayon::prelude::*;
 
@@ -32,7 +32,7 @@ fn la1_seedlings_of_every_species_fill_an_outline() {
         let mut document = Document::new(seed);
         let programme = Some(wire_species(species).programme);
         document
-            .apply("finger", &Action::SetProgramme { programme, keep: false }.into())
+            .apply(&Principal::visitor(), &Action::SetProgramme { programme, keep: false }.into())
             .expect("it can be set");
         enclose(&mut document, &circle);
         let Overlaps { metamers, count, .. } = Overlaps::of(&mut document, &circle);

@@ -7,7 +7,7 @@ use espalier_session::{Document, Input, JournalEntry, Principal, ReadId, Restore
 use proptest::prelude::*;
 use serde_json::json;
 
-use crate::world::{SEED, World, grow};
+use crate::world::{SEED, World, grow, person};
 
 #[test]
 fn cm2_nothing_is_acknowledged_before_it_is_durable() {
@@ -349,7 +349,7 @@ fn a_clean_stop_leaves_no_tail() {
     world.disk.clear();
     world.crash();
     assert_eq!(world.document().hash(), hash, "the snapshot alone is enough");
-    assert_eq!(world.document().open_strokes("birch-01"), [1]);
+    assert_eq!(world.document().open_strokes(&person("birch-01")), [1]);
 }
 
 fn restart_and_compare(world: &mut World) {

@@ -148,8 +148,8 @@ fn fl4_the_state_is_told_at_most_every_50_ms() {
         world.peer(client).texts.iter().filter(|text| matches!(text, ServerMessage::State { .. })).count()
     };
     // The first one follows a rest.
-    let (mut told, mut last) = (states(&world), None);
-    let before = told;
+    let (mut seen, mut last) = (states(&world), None);
+    let before = seen;
     for ms in 0..1_000 {
         world.pass(1);
         if ms % 5 == 0 {
@@ -157,14 +157,14 @@ fn fl4_the_state_is_told_at_most_every_50_ms() {
             world.command(client, ms / 5 + 1, command);
         }
         let now = states(&world);
-        assert!(now <= told + 1, "two at once");
-        if now > told {
+        assert!(now <= seen + 1, "two at once");
+        if now > seen {
             let gap = last.map_or(50, |last| ms - last);
             assert!(gap >= 50, "another after {gap} ms");
-            (told, last) = (now, Some(ms));
+            (seen, last) = (now, Some(ms));
         }
     }
-    assert!(told - before > 10, "{} in a second in which the tree always changed", told - before);
+    assert!(seen - before > 10, "{} in a second in which the tree always changed", seen - before);
     world.settle();
     let state = world.peer(client).last_state().unwrap();
     assert_eq!(state.step, world.document().figures().step, "the last change is told as well");

@@ -28,19 +28,19 @@ fn tt4_a_future_that_is_taken_is_the_present_line_at_its_end() {
     let (mut world, ann, bob) = grown();
     let first = world.document().plant().hash();
     world.command(ann, 2, json!({ "kind": "go_to", "step": 5 }));
-    let (second, told) = then(&mut world, ann, 3, seed());
-    assert_eq!((told.line, told.last_step, lines(&told)), (1, 6, vec![0]));
+    let (second, found) = then(&mut world, ann, 3, seed());
+    assert_eq!((found.line, found.last_step, lines(&found)), (1, 6, vec![0]));
     // What lay ahead is a future under the number of its line, even where one stands amid that line.
     world.command(ann, 4, json!({ "kind": "go_to", "step": 3 }));
-    let (hash, told) = then(&mut world, ann, 5, json!({ "kind": "take_future", "future": 0 }));
-    assert_eq!((hash, told.line, told.step, told.last_step), (first, 0, 9, 9));
-    assert_eq!((lines(&told), told.futures[0].from, told.futures[0].steps), (vec![1], 5, 1));
-    let (hash, told) = then(&mut world, ann, 6, json!({ "kind": "take_future", "future": 1 }));
-    assert_eq!((hash, told.line, told.step, lines(&told)), (second, 1, 6, vec![0]));
+    let (hash, found) = then(&mut world, ann, 5, json!({ "kind": "take_future", "future": 0 }));
+    assert_eq!((hash, found.line, found.step, found.last_step), (first, 0, 9, 9));
+    assert_eq!((lines(&found), found.futures[0].from, found.futures[0].steps), (vec![1], 5, 1));
+    let (hash, found) = then(&mut world, ann, 6, json!({ "kind": "take_future", "future": 1 }));
+    assert_eq!((hash, found.line, found.step, lines(&found)), (second, 1, 6, vec![0]));
     // The present line is no future, and neither is a number that no line has.
     for (id, future) in [(7, 1), (8, 2), (9, u32::MAX)] {
-        let (hash, told) = then(&mut world, ann, id, json!({ "kind": "take_future", "future": future }));
-        assert_eq!((hash, told.line), (second, 1));
+        let (hash, found) = then(&mut world, ann, id, json!({ "kind": "take_future", "future": future }));
+        assert_eq!((hash, found.line), (second, 1));
         let (refused, problem) = world.peer(ann).refused().pop().expect("it is refused");
         assert_eq!(
             (refused, problem.code, problem.field.as_deref()),
@@ -63,18 +63,18 @@ fn tt5_lines_keep_their_numbers() {
     };
     for line in 1..4 {
         world.command(ann, next(), json!({ "kind": "go_to", "step": 9 - line }));
-        let (hash, told) = then(&mut world, ann, next(), seed());
-        assert_eq!((told.line, lines(&told).len()), (line, line as usize));
+        let (hash, found) = then(&mut world, ann, next(), seed());
+        assert_eq!((found.line, lines(&found).len()), (line, line as usize));
         hashes.push(hash);
     }
     for line in [0, 2, 1, 3, 0, 1] {
-        let (hash, told) = then(&mut world, ann, next(), json!({ "kind": "take_future", "future": line }));
-        assert_eq!((hash, told.line), (hashes[line as usize], line), "line {line}");
+        let (hash, found) = then(&mut world, ann, next(), json!({ "kind": "take_future", "future": line }));
+        assert_eq!((hash, found.line), (hashes[line as usize], line), "line {line}");
     }
-    let told = timeline(world.peer(ann));
+    let found = timeline(world.peer(ann));
     world.crash();
     let ann = world.join("birch-01");
-    assert_eq!(timeline(world.peer(ann)), told, "a restart changes none");
+    assert_eq!(timeline(world.peer(ann)), found, "a restart changes none");
 }
 
 #[test]
@@ -86,12 +86,12 @@ fn tt5_the_oldest_futures_are_forgotten_and_their_numbers_stay_unused() {
         world.command(ann, 3 + 2 * fork, seed());
     }
     world.settle();
-    let told = timeline(world.peer(ann));
-    assert_eq!(told.line, forks);
-    let mut kept = lines(&told);
+    let found = timeline(world.peer(ann));
+    assert_eq!(found.line, forks);
+    let mut kept = lines(&found);
     kept.sort_unstable();
     assert_eq!(kept, (3..forks).collect::<Vec<_>>(), "lines 0, 1 and 2 are the oldest");
-    let (_, told) = then(&mut world, ann, 2 + 2 * forks, json!({ "kind": "take_future", "future": 0 }));
-    assert_eq!(told.line, forks);
+    let (_, found) = then(&mut world, ann, 2 + 2 * forks, json!({ "kind": "take_future", "future": 0 }));
+    assert_eq!(found.line, forks);
     assert_eq!(world.peer(ann).refused().pop().map(|(_, problem)| problem.code), Some(ProblemCode::NotFound));
 }

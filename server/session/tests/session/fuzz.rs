@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use espalier_proto::{Action, ClientMessage, Steps};
-use espalier_session::{ClientId, Document, Input, ReadId, Session};
+use espalier_session::{ClientId, Document, Input, Principal, ReadId, Session};
 use espalier_settings::{Appearance, AppearancePatch, LeafLook, ParametersPatch};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -129,7 +129,10 @@ fn event() -> impl Strategy<Value = ClientEvent> {
 static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut document = Document::new(3);
     document
-        .apply("birch-01", &Action::Grow { steps: Steps::nearest(18), until: None, bud: None }.into())
+        .apply(
+            &Principal::visitor(),
+            &Action::Grow { steps: Steps::nearest(18), until: None, bud: None }.into(),
+        )
         .unwrap();
     Session::first_snapshot(&document.to_bytes(), 1_000_000).unwrap()
 });

@@ -4,7 +4,7 @@ use espalier_plant::{AxisId, MetamerId};
 use espalier_proto::{ProblemCode, ServerMessage};
 use serde_json::{Value, json};
 
-use crate::world::{World, grow};
+use crate::world::{World, grow, person};
 
 /// The x-y plane through the first seed.
 fn plane() -> Value {
@@ -206,7 +206,7 @@ fn sg1_a_row_that_is_not_there_is_refused() {
         assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::NotFound, Some("bud")));
     }
     assert_eq!(world.document().hash(), before);
-    assert!(world.document().open_strokes("birch-01").is_empty());
+    assert!(world.document().open_strokes(&person("birch-01")).is_empty());
 }
 
 #[test]

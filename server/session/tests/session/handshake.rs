@@ -2,6 +2,7 @@
 
 use espalier_proto::{ServerMessage, version::CloseCode};
 use espalier_session::Input;
+use serde_json::json;
 
 use crate::world::{World, grow};
 
@@ -12,6 +13,40 @@ fn hs1_other_first_messages_close() {
         let client = world.connect();
         world.text(client, text);
         assert_eq!(world.peer(client).closed, Some(CloseCode::HelloExpected), "{text}");
+    }
+}
+
+#[test]
+fn hs1_the_close_names_the_field_at_fault() {
+    let long = "x".repeat(300);
+    for (hello, reason) in [
+        (
+            json!({ "type": "hello", "protocol": 1, "client": "birch-01", "sap": 1 }),
+            "malformed: sap is no known field; allowed: protocol, client, resume",
+        ),
+        (
+            json!({ "type": "hello", "client": "birch-01" }),
+            "malformed: protocol is missing; allowed: a whole number from 0 to 4294967295",
+        ),
+        (json!({ "type": "hello", "protocol": 1, "client": 5 }), "malformed: client "),
+        (
+            json!({ "type": "hello", "protocol": 1, "client": "birch-01", "resume": { "epoch": 1 } }),
+            "malformed: resume.generations is missing; allowed: a list",
+        ),
+        (
+            json!({ "type": "hello", "protocol": 1, "client": "short" }),
+            "malformed: client is short; allowed: 8 to 64 letters, digits, - and _",
+        ),
+        (json!({ "type": "hello", "protocol": 1, "client": long }), "malformed: client is xxx"),
+        (json!({ "type": "ping", "nonce": 1 }), "the first message must be a hello"),
+        (json!("growl"), "the first message must be a hello"),
+    ] {
+        let mut world = World::new();
+        let client = world.connect();
+        world.text(client, &hello.to_string());
+        let peer = world.peer(client);
+        assert_eq!(peer.closed, Some(CloseCode::HelloExpected), "{hello}");
+        assert!(peer.farewell.starts_with(reason), "{hello}: {}", peer.farewell);
     }
 }
 

@@ -5,8 +5,11 @@
 
 use std::{fs, path::PathBuf};
 
+use espalier_plant::checks;
 use espalier_session::{Document, JournalEntry, Principal, Session, read_command};
 use serde_json::{Value, json};
+
+use crate::world::person;
 
 /// The releases that `tests/kept` has documents of.
 const RELEASES: [&str; 1] = ["0.1.0"];
@@ -27,6 +30,51 @@ fn kept_snapshots_open_travel_and_grow_on() {
     }
 }
 
+/// What the released program did at random, 32 times, and its own account of every place in the time of each document.
+#[test]
+fn kept_lives_travel_and_grow_on() {
+    for release in RELEASES {
+        let lives: Vec<Value> = serde_json::from_slice(&file(release, "lives/expected.json")).unwrap();
+        assert_eq!(lives.len(), 32);
+        let mut growing = 0;
+        for (number, expected) in lives.iter().enumerate() {
+            let name = format!("lives/{number:02}.document");
+            let mut document = Document::from_bytes(&file(release, &name)).unwrap();
+            assert_holds(&format!("{release}/{name}"), expected, &way_through(&document));
+            let read = Document::from_bytes(&document.to_bytes()).unwrap();
+            assert_eq!(read.hash(), document.hash(), "{name} in today's format");
+            let before = hash(&document);
+            let grow = read_command(r#"{"kind":"grow","steps":2}"#).unwrap();
+            // Some have come to their budget.
+            if document.apply(&Principal::visitor(), &grow).is_ok() {
+                assert_eq!(checks::all(document.plant()), Ok(()), "{name}");
+                growing += u32::from(hash(&document) != before);
+                apply(&mut document, r#"{"kind":"undo"}"#);
+            }
+            assert_eq!(hash(&document), before, "{name}: undoing new growth left something behind");
+        }
+        assert!(growing > 8, "only {growing} lives go on");
+    }
+}
+
+/// The plants at every place that a document can go to without growing.
+fn way_through(document: &Document) -> Value {
+    let account = account(document);
+    let plant = |place: &Value| place["plant"].clone();
+    let futures = account["futures"].as_array().unwrap().iter().map(|future| plant(&future["place"]));
+    let mut there = document.clone();
+    let undo = read_command(r#"{"kind":"undo"}"#).unwrap();
+    let undone =
+        std::iter::from_fn(|| there.apply(&Principal::visitor(), &undo).is_ok().then(|| hash(&there)));
+    json!({
+        "present": plant(&account["present"]),
+        "steps": account["steps"],
+        "futures": futures.collect::<Vec<_>>(),
+        "undone": undone.collect::<Vec<_>>(),
+        "redone": plant(&account["redone"]),
+    })
+}
+
 #[test]
 fn a_kept_journal_tail_is_replayed() {
     for release in RELEASES {
@@ -39,8 +87,7 @@ fn a_kept_journal_tail_is_replayed() {
         let mut by_hand = restored(&[]);
         for (index, entry) in entries.iter().enumerate() {
             // Some end what is not in progress.
-            let _refused =
-                by_hand.apply(&entry.principal.to_string(), &read_command(&entry.command).unwrap());
+            let _refused = by_hand.apply(&entry.principal, &read_command(&entry.command).unwrap());
             assert_eq!(restored(&entries[..=index]).hash(), by_hand.hash(), "{release}: {}", entry.command);
         }
         assert_ne!(by_hand.hash(), restored(&[]).hash(), "{release}: the tail does something");
@@ -134,8 +181,8 @@ fn account(document: &Document) -> Value {
         "redoes": redoes,
         "redone": place(&undone),
         "futures": futures,
-        "open_strokes": document.open_strokes("first-person-01"),
-        "open_bends": document.open_bends("second-person-2"),
+        "open_strokes": document.open_strokes(&person("first-person-01")),
+        "open_bends": document.open_bends(&person("second-person-2")),
         "widths": document.widths(),
         "obstacles": document.obstacles(),
         "parameters": document.parameters(),
@@ -175,7 +222,7 @@ fn hash(document: &Document) -> Value {
 fn repeat(document: &mut Document, command: &str) -> u32 {
     let command = read_command(command).unwrap();
     let mut count = 0;
-    while document.apply("reader", &command).is_ok() {
+    while document.apply(&Principal::visitor(), &command).is_ok() {
         count += 1;
         assert!(count < 1000, "{command:?} has no end");
     }
@@ -185,7 +232,9 @@ fn repeat(document: &mut Document, command: &str) -> u32 {
 fn apply(document: &mut Document, command: impl AsRef<str>) {
     let command = command.as_ref();
     let command = read_command(command).unwrap();
-    document.apply("reader", &command).unwrap_or_else(|problem| panic!("{command:?}: {problem}"));
+    document
+        .apply(&Principal::visitor(), &command)
+        .unwrap_or_else(|problem| panic!("{command:?}: {problem}"));
 }
 
 /// Growth goes on from the present and from the seedling, and can be undone to the very plant before it.

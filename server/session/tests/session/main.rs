@@ -8,6 +8,7 @@ mod covering;
 mod cutting;
 mod durability;
 mod filling;
+mod finishing;
 mod flow;
 #[expect(dead_code, reason = "the bench alone prints all columns")]
 #[path = "../../benches/guidance/following.rs"]

@@ -1,4 +1,4 @@
-//! `OB`: obstacles in the scene, told to everybody and undone like anything else.
+//! `OB`: obstacles in the scene, sent to everybody and undone like anything else.
 
 use espalier_proto::{Command, Mesh, PlacedObstacle, PlacedShape, ProblemCode, ServerMessage};
 use espalier_session::{ActId, Input, Principal};
@@ -37,8 +37,8 @@ fn mesh(mesh: &Mesh) -> Value {
     place(json!({ "kind": "mesh", "mesh": mesh.to_base64(), "scale": 2.0 }), at(0.0, 8.0, 0.0))
 }
 
-/// What a client was told last, if anything.
-fn told(world: &World, client: u64) -> Option<Vec<PlacedObstacle>> {
+/// What a client was notified of last, if anything.
+fn notified(world: &World, client: u64) -> Option<Vec<PlacedObstacle>> {
     world.peer(client).texts.iter().rev().find_map(|text| match text {
         ServerMessage::Obstacles { obstacles } => Some(obstacles.clone()),
         _ => None,
@@ -46,26 +46,26 @@ fn told(world: &World, client: u64) -> Option<Vec<PlacedObstacle>> {
 }
 
 fn ids(world: &World, client: u64) -> Vec<u32> {
-    told(world, client).unwrap_or_default().iter().map(|obstacle| obstacle.id).collect()
+    notified(world, client).unwrap_or_default().iter().map(|obstacle| obstacle.id).collect()
 }
 
 #[test]
-fn ob3_everybody_is_told_and_newcomers_too() {
+fn ob3_everybody_is_notified_and_newcomers_too() {
     let mut world = World::new();
     let (birch, maple) = (world.join("birch-01"), world.join("maple-01"));
     world.settle();
-    assert_eq!(told(&world, birch), None, "a welcome alone means none");
+    assert_eq!(notified(&world, birch), None, "a welcome alone means none");
     world.command(birch, 1, place(json!({ "kind": "box", "size": [2.0, 3.0, 4.0] }), at(5.0, 1.5, 0.0)));
     world.command(birch, 2, place(json!({ "kind": "plane" }), at(0.0, -1.0, 0.0)));
     world.command(birch, 3, mesh(&tetrahedron()));
     world.settle();
-    let list = told(&world, maple).unwrap();
+    let list = notified(&world, maple).unwrap();
     assert_eq!(list.iter().map(|obstacle| obstacle.id).collect::<Vec<_>>(), [1, 2, 3]);
     assert_eq!(list[0].shape, PlacedShape::Box { size: [2.0, 3.0, 4.0] });
     assert_eq!(json!(list[0].pose), at(5.0, 1.5, 0.0));
     assert_eq!(list[2].shape, PlacedShape::Mesh { vertices: 4, triangles: 4, scale: 2.0 });
     let aspen = world.join("aspen-01");
-    assert_eq!(told(&world, aspen), Some(list));
+    assert_eq!(notified(&world, aspen), Some(list));
     assert!(matches!(
         world.peer(aspen).texts[..3],
         [ServerMessage::Welcome { .. }, ServerMessage::Appearance { .. }, ServerMessage::Obstacles { .. }]
@@ -83,11 +83,11 @@ fn ob2_obstacles_are_undone_and_redone_like_growth() {
     world.command(client, 3, json!({ "kind": "move_obstacle", "id": 1, "pose": at(-9.0, 3.0, 0.0) }));
     world.command(client, 4, json!({ "kind": "remove_obstacle", "id": 1 }));
     world.settle();
-    assert_eq!(told(&world, client), Some(vec![]));
+    assert_eq!(notified(&world, client), Some(vec![]));
     let grown = world.document().plant().hash();
     world.command(client, 5, json!({ "kind": "undo" }));
     world.settle();
-    assert_eq!(json!(told(&world, client).unwrap()[0].pose), at(-9.0, 3.0, 0.0));
+    assert_eq!(json!(notified(&world, client).unwrap()[0].pose), at(-9.0, 3.0, 0.0));
     for id in 6..=8 {
         world.command(client, id, json!({ "kind": "undo" }));
     }
@@ -98,7 +98,7 @@ fn ob2_obstacles_are_undone_and_redone_like_growth() {
     }
     world.settle();
     assert_eq!(world.document().plant().hash(), grown);
-    assert_eq!(json!(told(&world, client).unwrap()[0].pose), at(9.0, 3.0, 0.0));
+    assert_eq!(json!(notified(&world, client).unwrap()[0].pose), at(9.0, 3.0, 0.0));
     assert_eq!(world.peer(client).refused(), []);
     assert_eq!(world.document().hash(), world.replayed_hash());
 }

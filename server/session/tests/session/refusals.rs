@@ -1,7 +1,7 @@
 //! Every refusal of a message names the field at fault and what is allowed there (`CM3`, `CM8`).
 
 use espalier_proto::{ClientMessage, Problem, Reason};
-use espalier_session::{Document, read_command};
+use espalier_session::{Document, Principal, read_command};
 use serde_json::{Value, json};
 
 use crate::obstacles::tetrahedron;
@@ -156,6 +156,25 @@ pub(crate) fn mistakes(sample: &Value) -> Vec<(String, String)> {
     mistakes
 }
 
+/// The sample with each object in it as a list of its values, in the order of their names and in the other, and of none.
+fn nameless(sample: &Value) -> Vec<String> {
+    let mut all = Vec::new();
+    ways(sample, &Way { name: String::new(), pointer: String::new() }, &mut all);
+    let lists = all.iter().filter_map(|Way { pointer, .. }| {
+        let Some(Value::Object(fields)) = sample.pointer(pointer) else { return None };
+        let values: Vec<Value> = fields.values().cloned().collect();
+        let reversed: Vec<Value> = values.iter().rev().cloned().collect();
+        Some([values, reversed, vec![]].map(|list| {
+            let mut copy = sample.clone();
+            if let Some(it) = copy.pointer_mut(pointer) {
+                *it = list.into();
+            }
+            copy.to_string()
+        }))
+    });
+    lists.flatten().collect()
+}
+
 #[derive(Debug, Default, PartialEq)]
 struct Count {
     refused: usize,
@@ -171,15 +190,15 @@ fn count(samples: &[Value], read: impl Fn(&str) -> Result<(), Problem>) -> Count
             let Err(problem) = read(&text) else { continue };
             count.refused += 1;
             let Problem { field, allowed, message, .. } = problem;
-            let told = format!("{text:.120} at {wanted}: {message:.200}");
+            let answer = format!("{text:.120} at {wanted}: {message:.200}");
             let field = field.unwrap_or_default();
             // One wrong value may make the whole wrong that it is part of, or its neighbour.
             let section = wanted.rsplit_once(['.', '[']).map_or(&*wanted, |(outer, _)| outer);
             if field.is_empty() || !field.starts_with(section) || !message.contains(&field) {
-                count.nameless.push(format!("{told} ({field})"));
+                count.nameless.push(format!("{answer} ({field})"));
             }
             if allowed.is_none_or(|allowed| allowed.is_empty() || !message.contains(&allowed)) {
-                count.without_range.push(told);
+                count.without_range.push(answer);
             }
         }
     }
@@ -211,6 +230,24 @@ fn cm3_every_refused_command_names_field_and_range() {
 fn cm8_every_refused_message_names_field_and_range() {
     let read = |text: &str| ClientMessage::from_json(text).map(drop).map_err(|unread| unread.problem);
     check(&count(&messages(), read), 150);
+}
+
+#[test]
+fn cm3_no_object_is_read_from_a_list() {
+    let refused = |text: &String, read: Result<(), Problem>| {
+        let problem = read.expect_err(text);
+        assert!(
+            problem.allowed.is_some_and(|allowed| !allowed.is_empty()),
+            "{text:.120}: {}",
+            problem.message
+        );
+    };
+    for text in commands().iter().flat_map(nameless) {
+        refused(&text, read_command(&text).map(drop));
+    }
+    for text in messages().iter().flat_map(nameless) {
+        refused(&text, ClientMessage::from_json(&text).map(drop).map_err(|unread| unread.problem));
+    }
 }
 
 /// What is refused for what the document is: what was done before, the command, and the field that it should name.
@@ -284,10 +321,12 @@ fn cm3_every_refusal_by_the_state_names_field_and_range() {
         document.set_metamer_budget(100);
         let read = |value: &Value| read_command(&value.to_string()).expect("it is in good form");
         for command in &before {
-            document.apply("ann", &read(command)).unwrap_or_else(|problem| panic!("{command}: {problem}"));
+            document
+                .apply(&Principal::visitor(), &read(command))
+                .unwrap_or_else(|problem| panic!("{command}: {problem}"));
         }
         let hash = document.hash();
-        let problem = document.apply("ann", &read(&refused)).expect_err("it is refused");
+        let problem = document.apply(&Principal::visitor(), &read(&refused)).expect_err("it is refused");
         assert_eq!((problem.reason, problem.field.as_deref()), (reason, Some(field)), "{refused}: {problem}");
         assert!(problem.allowed.is_some_and(|allowed| !allowed.is_empty()), "{refused}");
         assert_eq!(document.hash(), hash, "{refused} changes something");

@@ -82,6 +82,7 @@ fn cm10_what_the_server_says_keeps_to_the_schema() {
     let validator = Validator::of("ServerMessage");
     for message in [
         json!({ "type": "acknowledged", "id": 3 }),
+        json!({ "type": "done", "id": 3 }),
         json!({ "type": "refused", "id": 3, "problem": { "code": "refused", "reason": "no-room", "message": "no" } }),
         json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default() }),
         json!({ "type": "parameters", "parameters": espalier_settings::ParameterValues::default() }),

@@ -29,11 +29,11 @@ fn drag(x: f32) -> Value {
 }
 
 pub fn timeline(peer: &Peer) -> Timeline {
-    let told = peer.texts.iter().rev().find_map(|text| match text {
+    let notified = peer.texts.iter().rev().find_map(|text| match text {
         ServerMessage::Timeline(timeline) => Some(Timeline::clone(timeline)),
         _ => None,
     });
-    told.expect("TT1: it follows the welcome")
+    notified.expect("TT1: it follows the welcome")
 }
 
 fn widths(peer: &Peer) -> Option<Vec<WidthConstraint>> {
@@ -75,7 +75,7 @@ fn be5_while_a_branch_is_dragged_only_poses_travel() {
     world.command(ann, 8, json!({ "kind": "bend_end", "bend": 1 }));
     world.settle();
     for client in [ann, bob, carol] {
-        let over = world.peer(client).poses.last().expect("it is told");
+        let over = world.peer(client).poses.last().expect("it is over");
         assert_eq!((over.bend, over.motions.len()), (last.bend, 0));
         assert!(world.peer(client).frames.len() > usize::from(client == bob) * frames);
         world.assert_mirrored(client);
@@ -141,7 +141,7 @@ fn be4_a_bend_goes_on_after_a_crash() {
         assert_eq!(world.document().hash(), hash);
         let ann = world.join("birch-01");
         world.settle();
-        assert_eq!(world.peer(ann).poses.len(), 1, "the pose is told again");
+        assert_eq!(world.peer(ann).poses.len(), 1, "the pose is sent again");
         world.command(ann, 5, drag(3.0));
         world.command(ann, 6, json!({ "kind": "bend_end", "bend": 1 }));
         world.settle();
@@ -152,19 +152,19 @@ fn be4_a_bend_goes_on_after_a_crash() {
 }
 
 #[test]
-fn wi2_constraints_are_told_to_all_and_to_newcomers() {
+fn wi2_constraints_are_sent_to_all_and_to_newcomers() {
     let (mut world, ann, bob) = grown();
     let (row, _) = limb(&world);
     assert_eq!(widths(world.peer(bob)), None);
     let set = |diameter| json!({ "kind": "set_width", "row": row, "diameter": diameter, "gesture": Some(1) });
     world.command(ann, 2, set(Some(0.8)));
     world.settle();
-    let told = widths(world.peer(bob)).expect("it changed");
-    assert_eq!(told.iter().map(|width| (width.row, width.diameter)).collect::<Vec<_>>(), [(row, 0.8)]);
-    assert!((told[0].effective - 0.8).abs() < 0.05);
+    let notified = widths(world.peer(bob)).expect("it changed");
+    assert_eq!(notified.iter().map(|width| (width.row, width.diameter)).collect::<Vec<_>>(), [(row, 0.8)]);
+    assert!((notified[0].effective - 0.8).abs() < 0.05);
     world.assert_mirrored(bob);
     let carol = world.join("aspen-01");
-    assert_eq!(widths(world.peer(carol)), Some(told));
+    assert_eq!(widths(world.peer(carol)), Some(notified));
     world.command(ann, 3, json!({ "kind": "undo" }));
     world.settle();
     assert_eq!(widths(world.peer(carol)), Some(Vec::new()));
@@ -177,19 +177,19 @@ fn tt1_the_timeline_names_no_keys() {
     world.command(bob, 1, grow(1));
     world.command(ann, 2, grow(1));
     world.settle();
-    let told = timeline(world.peer(ann));
-    assert_eq!(told.operations.iter().map(|op| op.author).collect::<Vec<_>>(), [0, 1, 0]);
-    assert_eq!((told.step, told.last_step, told.done), (11, 11, 3));
+    let notified = timeline(world.peer(ann));
+    assert_eq!(notified.operations.iter().map(|op| op.author).collect::<Vec<_>>(), [0, 1, 0]);
+    assert_eq!((notified.step, notified.last_step, notified.done), (11, 11, 3));
     world.command(ann, 3, json!({ "kind": "go_to", "step": 4 }));
     world.command(ann, 4, json!({ "kind": "plant_seed", "position": [5.0, 0.0, 0.0] }));
     world.settle();
-    let told = timeline(world.peer(bob));
-    assert_eq!((told.step, told.futures.len(), told.futures[0].steps), (5, 1, 7));
+    let notified = timeline(world.peer(bob));
+    assert_eq!((notified.step, notified.futures.len(), notified.futures[0].steps), (5, 1, 7));
     let carol = world.join("aspen-01");
-    assert_eq!(timeline(world.peer(carol)), told);
+    assert_eq!(timeline(world.peer(carol)), notified);
     world.crash();
     let ann = world.join("birch-01");
-    assert_eq!(timeline(world.peer(ann)), told, "TT3: futures survive a restart");
+    assert_eq!(timeline(world.peer(ann)), notified, "TT3: futures survive a restart");
 }
 
 /// The rows of a ghost's table.

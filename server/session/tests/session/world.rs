@@ -8,8 +8,8 @@ use espalier_proto::{
     version::{CloseCode, PROTOCOL_VERSION},
 };
 use espalier_session::{
-    ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, ReadDocument, ReadId, Session,
-    Work,
+    Access, ActId, ClientId, Document, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument,
+    ReadId, Session, Work,
 };
 use serde_json::{Value, json};
 
@@ -26,6 +26,8 @@ pub struct Peer {
     pub ghosts: Vec<GhostFrame>,
     pub mirror: Mirror,
     pub closed: Option<CloseCode>,
+    /// Why it was closed.
+    pub farewell: String,
     /// Frames not yet answered with `received`: sequence and bytes.
     pub in_flight: Vec<(u32, usize)>,
     /// Kinds and sequences of other frames not yet answered.
@@ -161,9 +163,10 @@ impl World {
                 peer.mirror.apply(&frame);
                 peer.frames.push(frame);
             }
-            Output::Close(ClientId(id), code, _) => {
+            Output::Close(ClientId(id), code, reason) => {
                 let peer = self.peers.get_mut(&id).expect("a close goes to a connection that was made");
                 assert_eq!(peer.closed.replace(code), None, "a socket closes once");
+                peer.farewell = reason;
             }
             Output::Journal(entries) => {
                 assert!(self.writing.is_none(), "one batch at a time");
@@ -281,10 +284,14 @@ impl World {
     }
 
     pub fn connect(&mut self) -> u64 {
+        self.connect_with(Access::Edit)
+    }
+
+    pub fn connect_with(&mut self, access: Access) -> u64 {
         let id = self.next_client;
         self.next_client += 1;
         self.peers.insert(id, Peer::default());
-        self.handle(Input::Connected(ClientId(id)));
+        self.handle(Input::Connected(ClientId(id), access));
         id
     }
 
@@ -376,6 +383,15 @@ impl Peer {
         self.texts.iter().filter_map(id).collect()
     }
 
+    /// The numbers of `done`, each with the figures sent before it.
+    pub fn done(&self) -> Vec<(u32, DocumentState)> {
+        let notified = self.texts.iter().enumerate().filter_map(|(index, text)| match text {
+            ServerMessage::Done { id } => Some((*id, last_state(&self.texts[..index])?)),
+            _ => None,
+        });
+        notified.collect()
+    }
+
     pub fn refused(&self) -> Vec<(u32, Problem)> {
         let refusal = |text: &ServerMessage| match text {
             ServerMessage::Refused { id, problem } => Some((*id, problem.clone())),
@@ -393,10 +409,7 @@ impl Peer {
     }
 
     pub fn last_state(&self) -> Option<DocumentState> {
-        self.texts.iter().rev().find_map(|text| match text {
-            ServerMessage::State { state } | ServerMessage::Welcome { state, .. } => Some(state.clone()),
-            _ => None,
-        })
+        last_state(&self.texts)
     }
 
     pub fn welcome_acknowledged(&self) -> u32 {
@@ -409,6 +422,18 @@ impl Peer {
     pub fn resumed(&self) -> bool {
         matches!(self.texts.first(), Some(ServerMessage::Welcome { resumed: true, .. }))
     }
+}
+
+fn last_state(texts: &[ServerMessage]) -> Option<DocumentState> {
+    texts.iter().rev().find_map(|text| match text {
+        ServerMessage::State { state } | ServerMessage::Welcome { state, .. } => Some(state.clone()),
+        _ => None,
+    })
+}
+
+/// The client with this key.
+pub fn person(key: &str) -> Principal {
+    Principal::client(key).expect("a key")
 }
 
 pub fn grow(steps: u32) -> Value {

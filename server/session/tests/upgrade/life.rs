@@ -1,7 +1,7 @@
 //! Random lives of a document, as commands of the journal.
 
 use espalier_plant::MetamerId;
-use espalier_session::{Document, read_command};
+use espalier_session::{Document, Principal, read_command};
 use proptest::prelude::*;
 
 /// Something that is done. Rows are any numbers, from which a living metamer is found.
@@ -76,7 +76,7 @@ pub fn events() -> impl Strategy<Value = Vec<LifeEvent>> {
 pub fn live(document: &mut Document, number: usize, event: &LifeEvent) {
     for command in commands(document, number, event) {
         let read = read_command(&command).unwrap_or_else(|problem| panic!("{command}: {problem}"));
-        if let Err(problem) = document.apply("ann", &read) {
+        if let Err(problem) = document.apply(&Principal::visitor(), &read) {
             assert!(problem.field.is_some() && problem.allowed.is_some(), "{command}: {problem:?}");
         }
     }

@@ -54,29 +54,32 @@ impl Travels {
         let plant = |document: &Document| document.plant().hash();
         let mut there = document.clone();
         let steps = (0..=timeline.last_step).map(|step| {
-            there.apply("ann", &Action::GoTo { step }.into()).unwrap();
+            there.apply(&Principal::visitor(), &Action::GoTo { step }.into()).unwrap();
             plant(&there)
         });
         let steps = steps.collect();
         let futures = timeline.futures.iter().map(|future| {
             let mut there = document.clone();
-            there.apply("ann", &Action::TakeFuture { future: future.future }.into()).unwrap();
+            there.apply(&Principal::visitor(), &Action::TakeFuture { future: future.future }.into()).unwrap();
             (future.future, plant(&there))
         });
         let futures = futures.collect();
         let mut there = document.clone();
         let mut undone = Vec::new();
-        while there.apply("ann", &Action::Undo {}.into()).is_ok() {
+        while there.apply(&Principal::visitor(), &Action::Undo {}.into()).is_ok() {
             undone.push((plant(&there), format!("{:?}", there.parameters())));
         }
-        while there.apply("ann", &Action::Redo {}.into()).is_ok() {}
+        while there.apply(&Principal::visitor(), &Action::Redo {}.into()).is_ok() {}
         Self { present: plant(document), steps, undone, redone: plant(&there), futures }
     }
 }
 
 fn grow(document: &mut Document, steps: u32) {
     document
-        .apply("ann", &Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into())
+        .apply(
+            &Principal::visitor(),
+            &Action::Grow { steps: Steps::nearest(steps), until: None, bud: None }.into(),
+        )
         .unwrap();
 }
 
@@ -115,7 +118,7 @@ fn kept_documents_travel_as_ever_and_grow_by_new_rules() {
         assert_eq!(Travels::of(&document), before);
         grow(&mut document, 2);
         assert_ne!(document.plant().hash(), grown.plant().hash(), "new growth follows new rules");
-        document.apply("ann", &Action::Undo {}.into()).unwrap();
+        document.apply(&Principal::visitor(), &Action::Undo {}.into()).unwrap();
         assert_eq!(document.plant().hash(), before.present);
     }
 }
@@ -142,7 +145,7 @@ fn a_tail_is_replayed_by_the_new_rules() {
     let mut regrown = restore(&entries);
     assert_ne!(regrown.plant().hash(), replayed.plant().hash());
     assert_eq!(regrown.timeline().operations.len(), replayed.timeline().operations.len());
-    while regrown.apply("ann", &Action::Undo {}.into()).is_ok() {}
+    while regrown.apply(&Principal::visitor(), &Action::Undo {}.into()).is_ok() {}
     assert_eq!(regrown.plant().hash(), Document::new(11).plant().hash());
 }
 
@@ -175,7 +178,7 @@ proptest! {
         let again = Document::from_bytes(&read.to_bytes()).unwrap();
         prop_assert_eq!(again.hash(), read.hash());
         prop_assert_eq!(&Travels::of(&again), &Travels::of(&read));
-        while read.apply("ann", &Action::Undo {}.into()).is_ok() {}
+        while read.apply(&Principal::visitor(), &Action::Undo {}.into()).is_ok() {}
         prop_assert_eq!(read.plant().hash(), Document::new(seed).plant().hash());
     }
 }

@@ -1,5 +1,7 @@
 //! Every refusal names the field and what is allowed there, at every address that reads a body or a query.
 
+use std::borrow::Cow;
+
 use axum::http::header;
 use espalier_settings::ParameterValues;
 use serde_json::{Value, json};
@@ -8,7 +10,7 @@ use super::*;
 use crate::document::FORMATS;
 
 /// Each address that reads a body as JSON: the fields that may not be left out, and a body with all fields.
-fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
+pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
     let said = json!({ "note": "Pruned", "author": "Ada" });
     let with = |more: Value| {
         let mut all = said.clone();
@@ -26,6 +28,17 @@ fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             json!({ "seed": 1, "tree": "ash", "version": 1, "template": true }),
         ),
         ("POST /api/v1/schematic", every, parameters),
+        ("POST /api/v1/redeem", names(&["secret"]), json!({ "secret": "x" })),
+        (
+            "POST /api/v1/grow",
+            names(&["format"]),
+            json!({ "template": "oak", "steps": 1, "metamers": 5, "format": "glb" }),
+        ),
+        (
+            "POST /api/v1/login",
+            names(&["name", "password"]),
+            json!({ "name": "Ada", "password": "correct horse" }),
+        ),
         ("POST /api/v1/trees", names(&["session", "name"]), with(saved)),
         (
             "PATCH /api/v1/trees/{tree}",
@@ -33,28 +46,24 @@ fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
             json!({ "name": "Oak", "note": "Old", "template": true, "tags": ["old"], "collection": "" }),
         ),
         ("POST /api/v1/collections", names(&["name"]), json!({ "name": "Woods", "parent": "park" })),
-        ("PATCH /api/v1/collections/{id}", vec![], json!({ "name": "Woods", "parent": "" })),
+        ("PATCH /api/v1/collections/{collection}", vec![], json!({ "name": "Woods", "parent": "" })),
         ("POST /api/v1/trees/{tree}/copies", names(&["name"]), with(json!({ "name": "Oak", "version": 1 }))),
         (
             "POST /api/v1/trees/{tree}/versions",
             names(&["session"]),
             with(json!({ "session": "oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" })),
         ),
-        ("PATCH /api/v1/trees/{tree}/versions/{number}", names(&["note"]), json!({ "note": "Old" })),
-        ("POST /api/v1/trees/{tree}/versions/{number}/restore", vec![], said),
+        ("PATCH /api/v1/trees/{tree}/versions/{version}", names(&["note"]), json!({ "note": "Old" })),
+        ("POST /api/v1/trees/{tree}/versions/{version}/restore", vec![], said),
     ]
 }
 
 /// Addresses that take a file, or nothing.
-const WITHOUT: [&str; 4] = [
-    "POST /api/v1/sessions/{session}/obstacles",
-    "POST /api/v1/trees/import",
-    "POST /api/v1/trees/{tree}/undelete",
-    "PUT /api/v1/trees/{tree}/favourite",
-];
+const WITHOUT: [&str; 3] =
+    ["POST /api/v1/logout", "POST /api/v1/trees/{tree}/undelete", "PUT /api/v1/trees/{tree}/favourite"];
 
 /// Queries with one field that is wrong, and its name.
-fn queries() -> Vec<(String, &'static str, &'static str)> {
+fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
     let list = "GET /api/v1/trees";
     let versions = "GET /api/v1/trees/{tree}/versions";
     let import = "POST /api/v1/trees/import";
@@ -71,21 +80,38 @@ fn queries() -> Vec<(String, &'static str, &'static str)> {
         (list, "max_metamers=-1", "max_metamers"),
         (list, "q=1+2+3+4+5+6+7+8+9", "q"),
         (list, "tags=1,2,3,4,5,6,7,8,9", "tags"),
+        (list, "q=oak%00", "q"),
+        (list, "tags=old,%07", "tags"),
+        (list, "species=%FF", "species"),
+        (list, "author=%00", "author"),
+        (list, "author=", "author"),
+        (list, "min_metamers=9&max_metamers=1", "max_metamers"),
         (list, "sort=height", "sort"),
         (list, "saved_from=soon", "saved_from"),
         (list, "saved_from=2026-02-31T00:00:00Z", "saved_from"),
         (list, "saved_before=2026", "saved_before"),
         (versions, "limit=201", "limit"),
         (versions, "before=-1", "before"),
+        ("GET /api/v1/audit", "limit=0", "limit"),
+        ("GET /api/v1/audit", "before=-1", "before"),
         (import, "format=csv", "name"),
         (import, "name=Oak", "format"),
         (import, "name=%07&format=csv", "name"),
         (import, "name=Oak&format=exe", "format"),
+        (import, "name=Oak&format=", "format"),
+        (import, "name=Oak&format=5", "format"),
         (import, "name=Oak&format=csv&unit=x", "unit"),
         (import, "name=Oak&format=csv&unit=0", "unit"),
         (import, "name=Oak&format=csv&internode_length=x", "internode_length"),
+        (import, "name=Oak&format=csv&internode_length=0", "internode_length"),
+        (import, "name=Oak&format=csv&internode_length=1e39", "internode_length"),
     ];
-    let mut all: Vec<_> = fixed.map(|(address, query, field)| (address.to_owned(), query, field)).into();
+    let mut all: Vec<(String, Cow<str>, &str)> =
+        fixed.map(|(address, query, field)| (address.to_owned(), query.into(), field)).into();
+    // A text longer than any name.
+    for field in ["q", "tags", "author"] {
+        all.push((list.to_owned(), format!("{field}={}", "x".repeat(3000)).into(), field));
+    }
     for row in FORMATS {
         let address = format!("GET /api/v1/sessions/{{session}}/tree.{}", row.ending);
         // Each value is none that its option can have; a format that has no such option says so.
@@ -102,14 +128,17 @@ fn queries() -> Vec<(String, &'static str, &'static str)> {
             ("frames=70000", "frames"),
             ("points=0", "points"),
             ("ticket=short", "ticket"),
+            ("author=%00", "author"),
+            ("licence=%E2%80%AE", "licence"),
+            ("author=%C3", "author"),
         ] {
-            all.push((address.clone(), query, field));
+            all.push((address.clone(), query.into(), field));
         }
         for (query, field) in
             [("lod=1", "lod"), ("hull=true", "hull"), ("size=64x64", "size"), ("author=Ada", "author")]
         {
             if !row.options.contains(&field) {
-                all.push((address.clone(), query, field));
+                all.push((address.clone(), query.into(), field));
             }
         }
     }
@@ -119,7 +148,7 @@ fn queries() -> Vec<(String, &'static str, &'static str)> {
 async fn answer(server: &Router, address: &str, query: &str, body: &Value) -> (StatusCode, Value) {
     let (method, path) = (method_of(address), filled(path_of(address)));
     let body = if body.is_null() { String::new() } else { body.to_string() };
-    let request = Request::builder().method(method).uri(format!("{path}?{query}"));
+    let request = request(&method, &format!("{path}?{query}"));
     let request = request.header(header::CONTENT_TYPE, "application/json").body(Body::from(body)).unwrap();
     let answer = server.clone().oneshot(request).await.unwrap();
     let status = answer.status();
@@ -140,7 +169,7 @@ fn assert_names(field: &str, (status, problem): &(StatusCode, Value), asked: &st
 
 #[tokio::test]
 async fn every_refused_body_names_the_field_and_what_is_allowed() {
-    let server = server(authority::may).await;
+    let (server, _) = server().await;
     for (address, required, body) in bodies() {
         let asked = |what: &str| format!("{address} with {what}");
         let fields: Vec<String> = body.as_object().unwrap().keys().cloned().collect();
@@ -161,11 +190,19 @@ async fn every_refused_body_names_the_field_and_what_is_allowed() {
             let answer = answer(&server, address, "", &less).await;
             assert_names(field, &answer, &asked(&format!("no {field}")));
         }
+        let values: Vec<Value> = body.as_object().unwrap().values().cloned().collect();
+        for list in [json!([]), json!(values), json!([null, null, 7])] {
+            let (status, problem) = answer(&server, address, "", &list).await;
+            let allowed = problem["allowed"].as_str().unwrap_or_default();
+            assert_eq!((status, &problem["field"]), (StatusCode::BAD_REQUEST, &json!("body")), "{address}");
+            assert!(allowed.starts_with("an object"), "{address} with {list}: {problem}");
+        }
         let mut more = body.clone();
         more["sap"] = json!(1);
         assert_names("sap", &answer(&server, address, "", &more).await, &asked("an unknown field"));
     }
-    let reading: BTreeSet<&str> = bodies().iter().map(|(address, ..)| *address).chain(WITHOUT).collect();
+    let reading = bodies().into_iter().map(|(address, ..)| address);
+    let reading: BTreeSet<&str> = reading.chain(files::addresses()).chain(WITHOUT).collect();
     let all = routes();
     let writing = all.iter().map(|route| &*route.address);
     let writing =
@@ -174,10 +211,30 @@ async fn every_refused_body_names_the_field_and_what_is_allowed() {
 }
 
 #[tokio::test]
+async fn a_body_that_is_too_large_is_told_the_limit() {
+    let (server, _) = server().await;
+    for (address, _, body) in bodies() {
+        let text = "x".repeat(300 * 1024);
+        let (status, problem) = answer(&server, address, "", &json!(text)).await;
+        assert_eq!((status, &problem["field"]), (StatusCode::PAYLOAD_TOO_LARGE, &json!("body")), "{address}");
+        let allowed = problem["allowed"].as_str().unwrap_or_default();
+        let limit = allowed.strip_suffix(" KiB").and_then(|limit| limit.parse::<usize>().ok());
+        let limit = limit.unwrap_or_else(|| panic!("{address}: {problem}")) * 1024;
+        // One that is just as large is read, and refused for what it says.
+        let text = "x".repeat(limit - 2);
+        let (status, problem) = answer(&server, address, "", &json!(text)).await;
+        let allowed = problem["allowed"].as_str().unwrap_or_default();
+        assert_eq!((status, &problem["field"]), (StatusCode::BAD_REQUEST, &json!("body")), "{address}");
+        assert!(allowed.starts_with("an object"), "{address}: {problem}");
+        assert!(body.to_string().len() < limit, "{address}");
+    }
+}
+
+#[tokio::test]
 async fn every_refused_query_names_the_field_and_what_is_allowed() {
-    let server = server(authority::may).await;
+    let (server, _) = server().await;
     for (address, query, field) in queries() {
-        let answer = answer(&server, &address, query, &Value::Null).await;
+        let answer = answer(&server, &address, &query, &Value::Null).await;
         assert_names(field, &answer, &format!("{address}?{query}"));
     }
     let tried: BTreeSet<String> = queries().into_iter().map(|(address, ..)| address).collect();

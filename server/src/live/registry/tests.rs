@@ -3,7 +3,9 @@
 use std::time::Duration;
 
 use espalier_proto::{Notice, ServerMessage, version::CloseCode};
-use espalier_session::{ClientId, Document, JournalEntry, Principal, ReadDocument, RestoreError, Session};
+use espalier_session::{
+    Access, ClientId, Document, JournalEntry, Principal, ReadDocument, RestoreError, Session,
+};
 use tokio::time::timeout;
 
 use super::{
@@ -15,7 +17,6 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
-    authority::{self, Action, Object},
     store::{Breakable, Lease, MemoryStore, NewSession, NewSnapshot},
 };
 
@@ -35,12 +36,8 @@ impl House {
     }
 
     fn at(store: Arc<AnyStore>) -> Self {
-        Self::ruled(store, authority::may)
-    }
-
-    fn ruled(store: Arc<AnyStore>, authority: Authority) -> Self {
         let (pool, stop) = (SimulationPool::new(None).unwrap(), CancellationToken::new());
-        let sessions = Sessions::new(Arc::clone(&store), pool, authority, stop.clone());
+        let sessions = Sessions::new(Arc::clone(&store), pool, stop.clone());
         Self { store, stop, sessions }
     }
 
@@ -63,7 +60,7 @@ impl House {
     async fn visit_to(&self, name: &str) -> Visitor {
         let session = self.sessions.open(name).await.unwrap().unwrap();
         let (outbox, outgoings) = outbox::lane();
-        let client = session.join(outbox).await.unwrap();
+        let client = session.join(outbox, Access::Edit).await.unwrap();
         let mut visitor = Visitor { session, client, outgoings };
         visitor.say(HELLO).await;
         visitor
@@ -133,33 +130,6 @@ impl Visitor {
         timeout(Duration::from_secs(20), self.outgoings.closing.decided()).await.unwrap();
         self.outgoings.closing.farewell().code
     }
-}
-
-#[tokio::test]
-async fn au2_a_session_asks_the_authority_under_its_name() {
-    let house = House::new().await;
-    let house = House::ruled(house.store, |who, action, object| {
-        let is_member = who.to_string() == "test-client";
-        object == Object::Session("oak") && (action == Action::EditSession || is_member)
-    });
-    house.begin("elm", SIMULATION_VERSION, None).await;
-    assert_eq!(house.visit_to("elm").await.close_code().await, CloseCode::CannotOpen);
-    let mut member = house.visit().await;
-    member.welcome().await;
-    member.grow(1).await;
-    assert_eq!(member.acknowledged().await, 1);
-    let house = House::ruled(house.store, |_, action, _| action == Action::JoinSession);
-    house.begin("ash", SIMULATION_VERSION, None).await;
-    let mut viewer = house.visit_to("ash").await;
-    viewer.grow(1).await;
-    let refused = viewer.hear(|message| match message {
-        ServerMessage::Refused { problem, .. } => Some(problem),
-        _ => None,
-    });
-    assert_eq!(refused.await, espalier_session::forbidden().at("kind", "commands of a client that may edit"));
-    let command = espalier_session::read_command(r#"{"kind":"grow","steps":1}"#).unwrap();
-    let uploaded = viewer.session.act(Principal::visitor(), command).await.unwrap();
-    assert_eq!(uploaded, Err(espalier_session::forbidden().at("kind", "commands of a client that may edit")));
 }
 
 #[tokio::test]

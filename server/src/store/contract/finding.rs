@@ -2,8 +2,8 @@
 
 use super::{
     super::{
-        Collection, CollectionChange, Contents, Deletion, Finding, Library, Sort, StoreError, TreeChange,
-        TreeQuery,
+        Collection, CollectionChange, Contents, Deletion, Finding, Library, Missing, Sort, StoreError,
+        TreeChange, TreeQuery,
         folding::{folded, searched},
     },
     library::{ids, page, tree},
@@ -32,7 +32,7 @@ pub(super) async fn collections_lie_in_each_other(store: &(impl Library + Findin
         store.add_collection(new(id, parent)).await.unwrap();
     }
     let missing = store.add_collection(new("none", Some("nowhere"))).await;
-    assert!(matches!(missing, Err(StoreError::NotFound)));
+    assert!(matches!(missing, Err(StoreError::NotFound(Missing::Parent))));
     let under =
         |parent: &str| CollectionChange { parent: Some(Some(parent.into())), ..CollectionChange::default() };
     for parent in ["wood", "copse", "grove"] {
@@ -43,7 +43,7 @@ pub(super) async fn collections_lie_in_each_other(store: &(impl Library + Findin
     store.add_tree(tree("elm", "2026")).await.unwrap();
     change(store, "ash", lying_in(Some("copse"))).await;
     let nowhere = store.change_tree("ash", None, lying_in(Some("nowhere"))).await;
-    assert!(matches!(nowhere, Err(StoreError::NotFound)));
+    assert!(matches!(nowhere, Err(StoreError::NotFound(Missing::Collection))));
     let lying = async |collection: Option<&str>| {
         let collection = Some(collection.map(str::to_owned));
         ids(store, &TreeQuery { collection, ..TreeQuery::default() }).await
@@ -64,7 +64,10 @@ pub(super) async fn collections_lie_in_each_other(store: &(impl Library + Findin
         [("grove", "wood", 0), ("wood", "", 1)].map(owned)
     );
     assert_eq!(lying(Some("wood")).await, ["ash"], "what lay there lies in its parent");
-    assert!(matches!(store.delete_collection("copse").await, Err(StoreError::NotFound)));
+    let gone = store.delete_collection("copse").await;
+    assert!(matches!(gone, Err(StoreError::NotFound(Missing::Collection))));
+    let under_it = store.change_collection("grove", under("copse")).await;
+    assert!(matches!(under_it, Err(StoreError::NotFound(Missing::Parent))));
     store
         .change_collection("grove", CollectionChange { parent: Some(None), ..CollectionChange::default() })
         .await
@@ -92,7 +95,8 @@ pub(super) async fn tags_and_favourites_find_trees(store: &(impl Library + Findi
     store.set_favourite("ada-browser", "ash", true).await.unwrap();
     store.set_favourite("ada-browser", "ash", true).await.unwrap();
     store.set_favourite("bo-browser", "cedar", true).await.unwrap();
-    assert!(matches!(store.set_favourite("bo-browser", "elm", true).await, Err(StoreError::NotFound)));
+    let nowhere = store.set_favourite("bo-browser", "elm", true).await;
+    assert!(matches!(nowhere, Err(StoreError::NotFound(Missing::Tree))));
     assert_eq!(store.favourites("ada-browser").await.unwrap().into_iter().collect::<Vec<_>>(), ["ash"]);
     let of = |who: &str| TreeQuery { favourites_of: Some(who.into()), ..TreeQuery::default() };
     assert_eq!(ids(store, &of("bo-browser")).await, ["cedar"]);
@@ -148,6 +152,14 @@ pub(super) async fn searching_is_looking_into_every_text(store: &(impl Library +
         let looked: Vec<&String> = looked.map(|(id, _)| id).collect();
         assert_eq!(ids(store, &query).await.iter().collect::<Vec<_>>(), looked, "{word:?}");
     }
+    for (word, parts) in
+        [("eiche|ÖL", ["eiche", "ol"]), ("zz|k", ["zz", "k"]), ("apf|nowhere", ["apf", "nowhere"])]
+    {
+        let query = TreeQuery { words: vec![word.into(), "oak".into()], ..TreeQuery::default() };
+        let looked = texts.iter().filter(|(_, text)| parts.iter().any(|part| text.contains(part)));
+        let looked: Vec<&String> = looked.map(|(id, _)| id).collect();
+        assert_eq!(ids(store, &query).await.iter().collect::<Vec<_>>(), looked, "{word:?}");
+    }
 }
 
 pub(super) async fn every_order_goes_page_by_page(store: &(impl Library + Finding)) {
@@ -200,6 +212,8 @@ pub(super) async fn filters_hold_at_once(store: &(impl Library + Finding)) {
     let birch = || Some("silver-birch".to_owned());
     for (query, expected) in [
         (TreeQuery { species: birch(), ..any() }, vec!["cedar", "birch"]),
+        (TreeQuery { only: Some("birch".into()), ..any() }, vec!["birch"]),
+        (TreeQuery { only: Some("nowhere".into()), ..any() }, vec![]),
         (TreeQuery { author: Some("Ada".into()), ..any() }, vec!["birch", "ash"]),
         (TreeQuery { saved_by: Some("Bo-browser".into()), ..any() }, vec!["cedar"]),
         (TreeQuery { metamers: 10..=20, ..any() }, vec!["birch", "ash"]),

@@ -2,8 +2,8 @@
 
 use super::{
     super::{
-        Contents, Deletion, Library, NewSession, NewTree, NewVersion, Picture, Saved, SessionTree, Store,
-        StoreError, StoredTree, TreeChange, TreeDocument, TreePlace, TreeQuery,
+        Contents, Deletion, Library, Missing, NewSession, NewTree, NewVersion, Picture, Saved, SessionTree,
+        Store, StoreError, StoredTree, TreeChange, TreeDocument, TreePlace, TreeQuery,
     },
     Breakable, entries, oak,
 };
@@ -173,7 +173,10 @@ pub(super) async fn every_save_is_a_version(store: &impl Library) {
     store.change_tree("ash", None, change(2)).await.unwrap();
     let notes: Vec<_> = store.versions("ash", 9, None).await.unwrap().into_iter().map(|it| it.note).collect();
     assert_eq!(notes, ["Again", "Before rain", ""]);
-    assert!(matches!(store.change_tree("ash", None, change(4)).await, Err(StoreError::NotFound)));
+    assert!(matches!(
+        store.change_tree("ash", None, change(4)).await,
+        Err(StoreError::NotFound(Missing::Version))
+    ));
     let ash = found(store, "ash").await;
     assert_eq!((ash.head.number, ash.head.saved_at.as_str(), ash.created_at.as_str()), (3, "2027", "2026"));
     assert_eq!(ash.note, "", "what is said of the tree is its own");
@@ -195,8 +198,9 @@ pub(super) async fn one_of_two_wins(store: &impl Library) {
     let ash = found(store, "ash").await;
     assert_eq!((ash.name.as_str(), ash.revision, ash.head.number), ("In time", 3, 2));
     let nowhere = store.change_tree("elm", None, renamed("Elm")).await;
-    assert!(matches!(nowhere, Err(StoreError::NotFound)));
-    assert!(matches!(store.add_version("elm", None, again(b"c")).await, Err(StoreError::NotFound)));
+    assert!(matches!(nowhere, Err(StoreError::NotFound(Missing::Tree))));
+    let nowhere = store.add_version("elm", None, again(b"c")).await;
+    assert!(matches!(nowhere, Err(StoreError::NotFound(Missing::Tree))));
 }
 
 pub(super) async fn versions_are_restored_and_copied(store: &impl Library) {
@@ -213,7 +217,8 @@ pub(super) async fn versions_are_restored_and_copied(store: &impl Library) {
     let branch = found(store, "branch").await;
     assert_eq!((branch.origin, branch.head.restored), (Some(("ash".into(), 2)), None));
     assert_eq!((branch.head.metamers, branch.head.number), (4_000_000_000, 1));
-    assert!(matches!(store.add_tree(copy("none", 7)).await, Err(StoreError::NotFound)));
+    let no_version = store.add_tree(copy("none", 7)).await;
+    assert!(matches!(no_version, Err(StoreError::NotFound(Missing::Version))));
     assert_eq!(store.tree("none").await.unwrap(), None, "nothing is made by halves");
     store.add_version("branch", None, again(b"other")).await.unwrap();
     assert_eq!(found(store, "ash").await.head.number, 3, "each goes its own way");
@@ -234,8 +239,9 @@ pub(super) async fn what_is_deleted_comes_back_whole(store: &impl Library) {
         (vec!["ash".into()], vec!["elm".into()])
     );
     assert_eq!(found(store, "ash").await.deleted_at.as_deref(), Some(NOON));
-    let gone =
-        |result: Result<(), StoreError>| assert!(matches!(result, Err(StoreError::NotFound)), "{result:?}");
+    let gone = |result: Result<(), StoreError>| {
+        assert!(matches!(result, Err(StoreError::NotFound(Missing::Tree))), "{result:?}");
+    };
     gone(delete(store, "ash", NOON).await);
     gone(store.change_tree("ash", None, renamed("Gone")).await);
     gone(store.add_version("ash", None, again(b"x")).await.map(drop));

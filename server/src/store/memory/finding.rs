@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     super::{
-        Collection, CollectionChange, Finding, Library, StoreError, StoredTree, TreeQuery,
-        folding::{folded, searched},
+        Collection, CollectionChange, Finding, Library, Missing, StoreError, StoredTree, TreeQuery,
+        folding::{alternatives, folded, searched},
     },
     MemoryStore,
 };
@@ -23,11 +23,12 @@ pub(super) fn is_wanted(
         |wanted: &Option<String>, found: Option<&str>| wanted.as_deref().is_none_or(|it| found == Some(it));
     tree.deleted_at.is_some() == query.is_deleted
         && query.is_template.is_none_or(|wanted| tree.is_template == wanted)
-        && query.words.iter().all(|word| text.contains(&folded(word)))
+        && query.words.iter().all(|word| alternatives(word).iter().any(|part| text.contains(part)))
         && query.tags.iter().all(|tag| tree.tags.contains(tag))
         && query.collection.as_ref().is_none_or(|wanted| tree.collection == *wanted)
         && query.favourites_of.as_ref().is_none_or(|who| favourites.contains(&(who.clone(), tree.id.clone())))
         && query.saved_by.as_deref().is_none_or(|wanted| wanted == by)
+        && query.only.as_ref().is_none_or(|id| tree.id == *id)
         && is_in(&query.species, species)
         && is_in(&query.author, tree.head.author.as_deref())
         && query.metamers.contains(&tree.head.metamers)
@@ -59,7 +60,7 @@ impl Finding for MemoryStore {
     async fn add_collection(&self, new: Collection) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         if new.parent.as_ref().is_some_and(|parent| !kept.collections.contains_key(parent)) {
-            return Err(StoreError::NotFound);
+            return Err(StoreError::NotFound(Missing::Parent));
         }
         kept.collections.insert(new.id.clone(), new);
         Ok(())
@@ -68,16 +69,16 @@ impl Finding for MemoryStore {
     async fn change_collection(&self, id: &str, change: CollectionChange) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         if !kept.collections.contains_key(id) {
-            return Err(StoreError::NotFound);
+            return Err(StoreError::NotFound(Missing::Collection));
         }
         let mut above = change.parent.clone().flatten();
         while let Some(at) = above {
             if at == id {
                 return Err(StoreError::Cycle);
             }
-            above = kept.collections.get(&at).ok_or(StoreError::NotFound)?.parent.clone();
+            above = kept.collections.get(&at).ok_or(StoreError::NotFound(Missing::Parent))?.parent.clone();
         }
-        let collection = kept.collections.get_mut(id).ok_or(StoreError::NotFound)?;
+        let collection = kept.collections.get_mut(id).ok_or(StoreError::NotFound(Missing::Collection))?;
         collection.name = change.name.unwrap_or_else(|| collection.name.clone());
         collection.parent = change.parent.unwrap_or_else(|| collection.parent.clone());
         Ok(())
@@ -85,7 +86,7 @@ impl Finding for MemoryStore {
 
     async fn delete_collection(&self, id: &str) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
-        let parent = kept.collections.remove(id).ok_or(StoreError::NotFound)?.parent;
+        let parent = kept.collections.remove(id).ok_or(StoreError::NotFound(Missing::Collection))?.parent;
         let is_it = |lies_in: &&mut Option<String>| lies_in.as_deref() == Some(id);
         let inner = kept.collections.values_mut().map(|inner| &mut inner.parent);
         inner.filter(is_it).for_each(|lies_in| lies_in.clone_from(&parent));
@@ -114,7 +115,7 @@ impl Finding for MemoryStore {
     async fn set_favourite(&self, principal: &str, tree: &str, is_one: bool) -> Result<(), StoreError> {
         let mut kept = self.writing()?;
         if !kept.trees.contains_key(tree) {
-            return Err(StoreError::NotFound);
+            return Err(StoreError::NotFound(Missing::Tree));
         }
         let favourite = (principal.to_owned(), tree.to_owned());
         if is_one {

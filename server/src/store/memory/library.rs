@@ -2,7 +2,7 @@
 
 use super::{
     super::{
-        Contents, Deletion, Library, NewTree, NewVersion, Picture, Saved, SessionTree, StoreError,
+        Contents, Deletion, Library, Missing, NewTree, NewVersion, Picture, Saved, SessionTree, StoreError,
         StoredTree, StoredVersion, TreeChange, TreeDocument, TreeQuery,
         seal::{document_hash, tree_sum, version_sum},
     },
@@ -100,7 +100,7 @@ impl Tree {
 impl Kept {
     /// A tree that is not deleted, at this revision.
     fn tree(&mut self, id: &str, expected: Option<u64>) -> Result<&mut Tree, StoreError> {
-        let tree = self.trees.get_mut(id).ok_or(StoreError::NotFound)?;
+        let tree = self.trees.get_mut(id).ok_or(StoreError::NotFound(Missing::Tree))?;
         let is_expected = expected.is_none_or(|revision| revision == tree.revision);
         if is_expected { Ok(tree) } else { Err(StoreError::Stale) }
     }
@@ -110,8 +110,8 @@ impl Kept {
             Contents::New(saved) => Ok((**saved).clone()),
             Contents::Of { tree, version } => {
                 let tree = self.trees.get(tree).filter(|tree| tree.deleted_at.is_none());
-                let version = tree.and_then(|tree| tree.version(*version));
-                version.map(|version| version.saved.clone()).ok_or(StoreError::NotFound)
+                let version = tree.ok_or(StoreError::NotFound(Missing::Tree))?.version(*version);
+                version.map(|version| version.saved.clone()).ok_or(StoreError::NotFound(Missing::Version))
             }
         }
     }
@@ -162,7 +162,7 @@ impl Library for MemoryStore {
     ) -> Result<u32, StoreError> {
         let mut kept = self.writing()?;
         if kept.tree(tree, expected)?.deleted_at.is_some() {
-            return Err(StoreError::NotFound);
+            return Err(StoreError::NotFound(Missing::Tree));
         }
         let (saved, session) = (kept.saved(&version.contents)?, version.session.clone());
         let changed = kept.tree(tree, expected)?;
@@ -183,12 +183,15 @@ impl Library for MemoryStore {
         let has_collection = change.collection.iter().flatten().all(is_known);
         let tree = kept.tree(id, expected)?;
         let TreeChange { name, note, is_template, version_note, tags, collection, deletion } = change;
-        if !has_collection || tree.deleted_at.is_some() != (deletion == Some(Deletion::Undeleted)) {
-            return Err(StoreError::NotFound);
+        if tree.deleted_at.is_some() != (deletion == Some(Deletion::Undeleted)) {
+            return Err(StoreError::NotFound(Missing::Tree));
+        }
+        if !has_collection {
+            return Err(StoreError::NotFound(Missing::Collection));
         }
         if let Some((number, note)) = version_note {
             let version = number.checked_sub(1).and_then(|at| tree.versions.get_mut(at as usize));
-            version.ok_or(StoreError::NotFound)?.new.note = note;
+            version.ok_or(StoreError::NotFound(Missing::Version))?.new.note = note;
         }
         let is_whole = tree.checksum == tree_sum(id, &tree.name, tree.head());
         tree.name = name.unwrap_or_else(|| tree.name.clone());
@@ -282,6 +285,7 @@ impl Library for MemoryStore {
         for (_, id) in &gone {
             kept.trees.remove(id);
             kept.favourites.retain(|(_, tree)| tree != id);
+            kept.passes.retain(|(_, pass)| pass.tree.as_ref() != Some(id));
         }
         Ok(gone.len() as u64)
     }

@@ -24,6 +24,9 @@ use super::{
 
 /// How often the progress of a copy is reported.
 const REPORT_PERIOD: Duration = Duration::from_millis(200);
+/// Why a database of an earlier schema is not read.
+pub(super) const EARLIER: &str =
+    "its schema is an earlier program's; a server that is started on it brings it up to date";
 /// What SQLite keeps beside a database: its write-ahead log and the memory shared by those who use it.
 const COMPANIONS: [&str; 3] = ["", "-wal", "-shm"];
 
@@ -137,9 +140,7 @@ pub async fn check(database: &Path, mut progress: impl FnMut(u64, u64)) -> Resul
         .extend(found.into_iter().filter(|line| line != "ok").map(|line| format!("the file: {line}")));
     let refused = |reason| OpenError::new(database, reason);
     if !open::is_current(&mut connection).await.map_err(refused)? {
-        let reason =
-            "its schema is an earlier program's; a server that is started on it brings it up to date";
-        return Err(refused(reason.into()).into());
+        return Err(refused(EARLIER.into()).into());
     }
     let failed = |error: &sqlx::Error| unusable(database, error);
     let names: Vec<String> = sqlx::query_scalar("SELECT name FROM sessions ORDER BY name")
@@ -215,7 +216,7 @@ fn words(error: &StoreError) -> String {
 }
 
 /// A connection that reads a database of ours, which there must be.
-async fn reading(database: &Path) -> Result<SqliteConnection, OpenError> {
+pub(super) async fn reading(database: &Path) -> Result<SqliteConnection, OpenError> {
     let refused = |reason| OpenError::new(database, reason);
     if !database.is_file() {
         return Err(refused("there is no such file".into()));

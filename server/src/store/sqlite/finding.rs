@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use sqlx::{QueryBuilder, Sqlite, SqlitePool, sqlite::SqliteConnection};
 
 use super::super::{
-    Collection, CollectionChange, Sort, StoreError, TreeQuery,
-    folding::{folded, searched},
+    Collection, CollectionChange, Missing, Sort, StoreError, TreeQuery,
+    folding::{alternatives, folded, searched},
 };
 
 #[derive(Debug)]
@@ -23,18 +23,23 @@ pub(super) fn narrow(sql: &mut QueryBuilder<Sqlite>, query: &TreeQuery) {
     if let Some(is_template) = query.is_template {
         sql.push(" AND is_template = ").push_bind(is_template);
     }
-    let words: Vec<String> = query.words.iter().map(|word| folded(word)).collect();
+    let words: Vec<Vec<String>> = query.words.iter().map(|word| alternatives(word)).collect();
     // An index of three letters finds no fewer.
-    let (long, short): (Vec<_>, Vec<_>) =
-        words.into_iter().partition(|word| word.chars().count() >= 3 && !word.contains(char::is_control));
+    let is_long = |part: &String| part.chars().count() >= 3 && !part.contains(char::is_control);
+    let (long, short): (Vec<_>, Vec<_>) = words.into_iter().partition(|parts| parts.iter().all(is_long));
     if !long.is_empty() {
-        let quoted: Vec<String> =
-            long.iter().map(|word| format!("\"{}\"", word.replace('"', "\"\""))).collect();
+        let quoted = |part: &String| format!("\"{}\"", part.replace('"', "\"\""));
+        let any = |parts: &Vec<String>| parts.iter().map(quoted).collect::<Vec<_>>().join(" OR ");
+        let all: Vec<String> = long.iter().map(|parts| format!("({})", any(parts))).collect();
         sql.push(" AND id IN (SELECT rowid FROM trees_text WHERE trees_text MATCH ");
-        sql.push_bind(quoted.join(" ")).push(")");
+        sql.push_bind(all.join(" AND ")).push(")");
     }
-    for word in short {
-        sql.push(" AND instr(search, ").push_bind(word).push(") > 0");
+    for parts in short {
+        sql.push(" AND (FALSE");
+        for part in parts {
+            sql.push(" OR instr(search, ").push_bind(part).push(") > 0");
+        }
+        sql.push(")");
     }
     for tag in &query.tags {
         sql.push(" AND id IN (SELECT tree FROM tree_tags WHERE tag = ").push_bind(tag.clone()).push(")");
@@ -52,6 +57,7 @@ pub(super) fn narrow(sql: &mut QueryBuilder<Sqlite>, query: &TreeQuery) {
         sql.push_bind(principal.clone()).push(")");
     }
     for (condition, value) in [
+        (" AND key = ", &query.only),
         (" AND species = ", &query.species),
         (" AND author = ", &query.author),
         (" AND principal = ", &query.saved_by),
@@ -153,23 +159,24 @@ pub(super) async fn favourites(
 pub(super) async fn row_of(
     connection: &mut SqliteConnection,
     key: Option<&str>,
+    missing: Missing,
 ) -> Result<Option<i64>, StoreError> {
     let Some(key) = key else { return Ok(None) };
     let found = sqlx::query_scalar("SELECT id FROM collections WHERE key = ?").bind(key);
-    found.fetch_optional(connection).await?.map(Some).ok_or(StoreError::NotFound)
+    found.fetch_optional(connection).await?.map(Some).ok_or(StoreError::NotFound(missing))
 }
 
 impl FindingWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         let query = match self {
             Self::AddCollection(Collection { id, name, parent, .. }) => {
-                let parent = row_of(connection, parent.as_deref()).await?;
+                let parent = row_of(connection, parent.as_deref(), Missing::Parent).await?;
                 let query = sqlx::query("INSERT INTO collections (key, name, parent) VALUES (?, ?, ?)");
                 query.bind(id).bind(name).bind(parent)
             }
             Self::ChangeCollection(key, change) => return change_collection(connection, key, change).await,
             Self::DeleteCollection(key) => {
-                let id = row_of(connection, Some(key)).await?;
+                let id = row_of(connection, Some(key), Missing::Collection).await?;
                 for sql in [
                     "UPDATE trees SET collection = (SELECT parent FROM collections WHERE id = ?1) WHERE collection = ?1",
                     "UPDATE collections SET parent = (SELECT parent FROM collections WHERE id = ?1) WHERE parent = ?1",
@@ -180,7 +187,8 @@ impl FindingWrite {
             }
             Self::SetFavourite { principal, tree, is_one } => {
                 let found = sqlx::query_scalar("SELECT id FROM trees WHERE key = ?").bind(tree);
-                let id: i64 = found.fetch_optional(&mut *connection).await?.ok_or(StoreError::NotFound)?;
+                let id: Option<i64> = found.fetch_optional(&mut *connection).await?;
+                let id = id.ok_or(StoreError::NotFound(Missing::Tree))?;
                 let query = sqlx::query(if *is_one {
                     "INSERT OR IGNORE INTO favourites (principal, tree) VALUES (?, ?)"
                 } else {
@@ -198,13 +206,13 @@ async fn change_collection(
     key: &str,
     change: &CollectionChange,
 ) -> Result<u64, StoreError> {
-    let id = row_of(connection, Some(key)).await?;
+    let id = row_of(connection, Some(key), Missing::Collection).await?;
     if let Some(name) = &change.name {
         let query = sqlx::query("UPDATE collections SET name = ? WHERE id = ?").bind(name).bind(id);
         query.execute(&mut *connection).await?;
     }
     if let Some(parent) = &change.parent {
-        let parent = row_of(connection, parent.as_deref()).await?;
+        let parent = row_of(connection, parent.as_deref(), Missing::Parent).await?;
         let is_above: bool = sqlx::query_scalar(
             "WITH RECURSIVE above (id) AS
                  (SELECT ?1 UNION SELECT parent FROM collections JOIN above USING (id) WHERE parent IS NOT NULL)

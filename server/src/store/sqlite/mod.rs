@@ -1,13 +1,19 @@
 //! A store in one SQLite file: one writer that commits in groups, and readers beside it.
 
+mod audit;
 mod care;
 mod finding;
 mod identity;
+mod library_file;
 mod open;
+mod parts;
+mod passes;
 mod place;
 mod sessions;
+mod shrinking;
 mod tree_writes;
 mod trees;
+mod users;
 mod writer;
 
 use std::collections::BTreeSet;
@@ -19,9 +25,12 @@ use espalier_session::JournalEntry;
 use self::open::tests::Folder;
 pub use self::{
     care::{CareError, Report, backup, check, restore},
+    library_file::LibraryFile,
     open::{OpenError, SqliteStore},
 };
-use self::{finding::FindingWrite, sessions::SessionWrite, tree_writes::TreeWrite, writer::Write};
+use self::{
+    finding::FindingWrite, parts::Manifest, sessions::SessionWrite, tree_writes::TreeWrite, writer::Write,
+};
 use super::{
     Collection, CollectionChange, Damage, Finding, Lease, Library, NewSession, NewSnapshot, NewTree,
     NewVersion, Picture, SessionTree, Store, StoreError, StoredSession, StoredTree, StoredVersion,
@@ -30,8 +39,17 @@ use super::{
 };
 
 impl Store for SqliteStore {
-    async fn create_session(&self, new: NewSession) -> Result<(), StoreError> {
-        self.writer.write(Write::Session(SessionWrite::Create(new))).await.map(drop)
+    async fn create_session(&self, mut new: NewSession) -> Result<(), StoreError> {
+        let Some(bytes) = new.snapshot.take() else {
+            return self.writer.write(Write::Session(SessionWrite::Create(new, None))).await.map(drop);
+        };
+        let simulation_version = new.simulation_version;
+        self.keep(TreeDocument { simulation_version, bytes }, |manifest, bytes| {
+            let row = SnapshotRow::seal(&new.name, 0, simulation_version, bytes).without_bytes();
+            Write::Session(SessionWrite::Create(new, Some((row, manifest))))
+        })
+        .await
+        .map(drop)
     }
 
     async fn has_session(&self, name: &str) -> Result<bool, StoreError> {
@@ -41,7 +59,12 @@ impl Store for SqliteStore {
     async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
         self.place.check()?;
         // The lock on the file keeps other processes away.
-        Ok(self.writer.leases().acquire(session))
+        let lease = self.writer.leases().acquire(session);
+        // On a full disk a session opens all the same.
+        if let Err(error) = self.writer.write(Write::Session(SessionWrite::Enter(session.into()))).await {
+            tracing::warn!(%error, session, "that the session was entered is not kept");
+        }
+        Ok(lease)
     }
 
     async fn release(&self, lease: Lease) {
@@ -85,8 +108,22 @@ impl Store for SqliteStore {
 
     async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
         let NewSnapshot { through, simulation_version, bytes } = snapshot;
-        let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes);
-        self.writer.write(Write::Session(SessionWrite::Snapshot(lease.clone(), row))).await.map(drop)
+        self.keep(TreeDocument { simulation_version, bytes }, |manifest, bytes| {
+            let row = SnapshotRow::seal(&lease.session, through, simulation_version, bytes).without_bytes();
+            Write::Session(SessionWrite::Snapshot(lease.clone(), row, manifest))
+        })
+        .await
+        .map(drop)
+    }
+
+    async fn purge_sessions(&self, saved: &str, unsaved: &str, limit: u32) -> Result<u64, StoreError> {
+        let (saved, unsaved) = (saved.to_owned(), unsaved.to_owned());
+        self.writer.write(Write::Session(SessionWrite::Purge { saved, unsaved, limit })).await
+    }
+
+    async fn shrink(&self) -> Result<bool, StoreError> {
+        Ok(self.keeping.tidy(&self.readers, &self.writer).await?
+            || self.writer.write(Write::Shrink).await? > 0)
     }
 
     async fn check_place(&self) -> Result<(), StoreError> {
@@ -99,18 +136,21 @@ impl Store for SqliteStore {
 }
 
 impl Library for SqliteStore {
-    async fn add_tree(&self, tree: NewTree) -> Result<(), StoreError> {
-        self.writer.write(Write::Tree(TreeWrite::Add(tree))).await.map(drop)
+    async fn add_tree(&self, mut tree: NewTree) -> Result<(), StoreError> {
+        let document = tree.version.contents.take_document();
+        self.keep_if_new(document, |manifest| TreeWrite::Add(tree, manifest)).await.map(drop)
     }
 
     async fn add_version(
         &self,
         tree: &str,
         expected: Option<u64>,
-        version: NewVersion,
+        mut version: NewVersion,
     ) -> Result<u32, StoreError> {
-        let write = TreeWrite::AddVersion { key: tree.to_owned(), expected, version };
-        Ok(self.writer.write(Write::Tree(write)).await? as u32)
+        let document = version.contents.take_document();
+        let key = tree.to_owned();
+        let write = |manifest| TreeWrite::AddVersion { key, expected, version, manifest };
+        Ok(self.keep_if_new(document, write).await? as u32)
     }
 
     async fn change_tree(
@@ -191,6 +231,29 @@ impl Finding for SqliteStore {
         let (principal, tree) = (principal.to_owned(), tree.to_owned());
         let write = FindingWrite::SetFavourite { principal, tree, is_one };
         self.writer.write(Write::Finding(write)).await.map(drop)
+    }
+}
+
+impl SqliteStore {
+    /// Keeps the parts of a document, and then what names them and may seal what they hold.
+    async fn keep(
+        &self,
+        document: TreeDocument,
+        name: impl FnOnce(Manifest, Vec<u8>) -> Write,
+    ) -> Result<u64, StoreError> {
+        self.keeping.keep(document, &self.readers, &self.writer, name).await
+    }
+
+    /// The same for what may hold no document of its own.
+    async fn keep_if_new(
+        &self,
+        document: Option<TreeDocument>,
+        name: impl FnOnce(Option<Manifest>) -> TreeWrite,
+    ) -> Result<u64, StoreError> {
+        match document {
+            Some(document) => self.keep(document, |manifest, _| Write::Tree(name(Some(manifest)))).await,
+            None => self.writer.write(Write::Tree(name(None))).await,
+        }
     }
 }
 

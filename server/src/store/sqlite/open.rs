@@ -11,24 +11,32 @@ use sqlx::{
     ConnectOptions, SqlSafeStr, SqlitePool,
     migrate::{MigrateError, Migration, MigrationType, Migrator},
     sqlite::{
-        SqliteConnectOptions, SqliteConnection, SqliteExecutor, SqliteJournalMode, SqlitePoolOptions,
-        SqliteSynchronous,
+        SqliteAutoVacuum, SqliteConnectOptions, SqliteConnection, SqliteExecutor, SqliteJournalMode,
+        SqlitePoolOptions, SqliteSynchronous,
     },
 };
 
-use super::{finding, identity, in_words, place::Place, writer::Writer};
+use super::{finding, identity, in_words, parts::Keeping, place::Place, shrinking, writer::Writer};
 
 /// The schema: one file of `migrations/` for each change, in order.
-const MIGRATIONS: [(&str, &str); 5] = [
+const MIGRATIONS: [(&str, &str); 10] = [
     ("0001_sessions_and_trees", include_str!("../../../../migrations/0001_sessions_and_trees.sql")),
     ("0002_checksums", include_str!("../../../../migrations/0002_checksums.sql")),
     ("0003_whole_sessions", include_str!("../../../../migrations/0003_whole_sessions.sql")),
     ("0004_trees_with_versions", include_str!("../../../../migrations/0004_trees_with_versions.sql")),
     ("0005_finding_trees", include_str!("../../../../migrations/0005_finding_trees.sql")),
+    ("0006_sessions_that_go", include_str!("../../../../migrations/0006_sessions_that_go.sql")),
+    ("0007_passes", include_str!("../../../../migrations/0007_passes.sql")),
+    ("0008_parts_of_documents", include_str!("../../../../migrations/0008_parts_of_documents.sql")),
+    ("0009_users", include_str!("../../../../migrations/0009_users.sql")),
+    ("0010_audit", include_str!("../../../../migrations/0010_audit.sql")),
 ];
 
 /// Releases before this one can lose a committed transaction when the write-ahead log starts over.
 const OLDEST_SAFE_SQLITE: [u32; 3] = [3, 51, 3];
+
+/// The write-ahead log keeps no more of the disk than this between checkpoints.
+const MAX_IDLE_LOG: u64 = 16 * 1024 * 1024;
 
 /// Larger files are read through while the server already serves, for that takes seconds.
 const MAX_CHECKED_BYTES: u64 = 256 * 1024 * 1024;
@@ -56,6 +64,7 @@ impl OpenError {
 pub struct SqliteStore {
     pub(super) readers: SqlitePool,
     pub(super) writer: Writer,
+    pub(super) keeping: Keeping,
     /// Two servers on one file would each think that they hold its sessions.
     pub(super) place: Arc<Place>,
 }
@@ -64,6 +73,33 @@ impl SqliteStore {
     /// Opens the file, or makes it together with its folder.
     pub async fn open(path: &Path) -> Result<Self, OpenError> {
         Self::try_open(path).await.map_err(|reason| OpenError::new(path, reason))
+    }
+
+    /// Whether a server uses the file.
+    pub fn is_in_use(path: &Path) -> bool {
+        !Place::is_free(path)
+    }
+
+    /// Opens the file for a few rows, also beside a server that uses it; its sessions stay that server's.
+    pub async fn open_beside(path: &Path) -> Result<Self, OpenError> {
+        if Place::is_free(path) {
+            return Self::open(path).await;
+        }
+        Self::try_open_beside(path).await.map_err(|reason| OpenError::new(path, reason))
+    }
+
+    async fn try_open_beside(path: &Path) -> Result<Self, String> {
+        identity::check(path).await?;
+        let place = Arc::new(Place::of(path)?);
+        let mut connection = writer_options(path).connect().await.map_err(|error| sentence(&error))?;
+        if !is_current(&mut connection).await? {
+            return Err("the server that uses it is of an earlier release; stop that first".into());
+        }
+        let options = common_options(path).read_only(true);
+        let readers = SqlitePoolOptions::new().max_connections(1).connect_with(options).await;
+        let readers = readers.map_err(|error| sentence(&error))?;
+        let writer = Writer::start(connection, Arc::clone(&place));
+        Ok(Self { readers, writer, keeping: Keeping::default(), place })
     }
 
     async fn try_open(path: &Path) -> Result<Self, String> {
@@ -97,6 +133,7 @@ impl SqliteStore {
             .await
             .map_err(|error| migration_sentence(&error))?;
         finding::fold_all(&mut connection).await.map_err(|error| error.to_string())?;
+        shrinking::allow(&mut connection).await;
 
         let readers = SqlitePoolOptions::new()
             .max_connections(READERS)
@@ -107,7 +144,8 @@ impl SqliteStore {
             let readers = readers.clone();
             tokio::spawn(async move { check_beside(&readers).await });
         }
-        Ok(Self { readers, writer: Writer::start(connection, Arc::clone(&place)), place })
+        let writer = Writer::start(connection, Arc::clone(&place));
+        Ok(Self { readers, writer, keeping: Keeping::default(), place })
     }
 
     /// Commits what is under way and closes the file.
@@ -127,6 +165,9 @@ pub(super) fn common_options(path: &Path) -> SqliteConnectOptions {
 pub(super) fn writer_options(path: &Path) -> SqliteConnectOptions {
     common_options(path)
         .create_if_missing(true)
+        // Of a file that is made now; an earlier one is rewritten once.
+        .auto_vacuum(SqliteAutoVacuum::Incremental)
+        .pragma("journal_size_limit", MAX_IDLE_LOG.to_string())
         .journal_mode(SqliteJournalMode::Wal)
         .synchronous(SqliteSynchronous::Full)
 }

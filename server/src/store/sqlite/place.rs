@@ -33,13 +33,25 @@ impl Place {
     /// program's. Comes before SQLite opens it, which under a second name would take it for a database of its own. An error
     /// is half a sentence.
     pub(super) fn lock(path: &Path) -> Result<Self, String> {
+        let place = Self::of(path)?;
+        #[cfg(unix)]
+        try_lock(&place.file)?;
+        Ok(place)
+    }
+
+    /// Whether no server uses the file, or there is none yet.
+    pub(super) fn is_free(path: &Path) -> bool {
+        let opened = [path.to_owned(), lock_of(path)].map(|path| File::options().write(true).open(path));
+        opened.into_iter().flatten().all(|file| !matches!(file.try_lock(), Err(TryLockError::WouldBlock)))
+    }
+
+    /// The file, which other servers may use.
+    pub(super) fn of(path: &Path) -> Result<Self, String> {
         #[cfg(unix)]
         let file = {
             let opened = File::options().read(true).write(true).create(true).truncate(false).open(path);
             opened.map_err(|error| format!("it cannot be opened ({error})"))?
         };
-        #[cfg(unix)]
-        try_lock(&file)?;
         Ok(Self {
             path: path.to_owned(),
             by_name: None,
@@ -52,10 +64,9 @@ impl Place {
 
     /// Locks the file's name as well, in a file beside it.
     pub(super) fn lock_name(&mut self) -> Result<(), String> {
-        let mut name = self.path.as_os_str().to_owned();
-        name.push(".lock");
-        let file = File::create(&name)
-            .map_err(|error| format!("{} cannot be written ({error})", Path::new(&name).display()))?;
+        let name = lock_of(&self.path);
+        let file =
+            File::create(&name).map_err(|error| format!("{} cannot be written ({error})", name.display()))?;
         try_lock(&file)?;
         self.by_name = Some(file);
         Ok(())
@@ -84,6 +95,13 @@ impl Place {
         self.file.unlock()?;
         self.by_name.as_ref().map_or(Ok(()), File::unlock)
     }
+}
+
+/// The file beside the database that is locked for its name.
+fn lock_of(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".lock");
+    name.into()
 }
 
 fn try_lock(file: &File) -> Result<(), String> {

@@ -12,14 +12,17 @@ use super::super::{
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
 };
+use super::parts::{self, Manifest};
 
 #[derive(Debug)]
 pub(super) enum SessionWrite {
-    Create(NewSession),
+    Create(NewSession, Option<(SnapshotRow, Manifest)>),
     Append(Lease, JournalRow),
-    Snapshot(Lease, SnapshotRow),
+    Snapshot(Lease, SnapshotRow, Manifest),
     SetAside(Lease, Vec<Damage>, Vec<Notice>),
     ForgetNotices(Lease),
+    Enter(String),
+    Purge { saved: String, unsaved: String, limit: u32 },
 }
 
 pub(super) async fn exists(readers: &SqlitePool, name: &str) -> Result<bool, StoreError> {
@@ -101,21 +104,22 @@ async fn newest_snapshot(
     session: &str,
     before: Option<u64>,
     made_by: u32,
-) -> Result<Option<SnapshotRow>, sqlx::Error> {
-    let row: Option<(i64, Vec<u8>, Option<u32>, u32)> = sqlx::query_as(
-        "SELECT through, bytes, checksum, coalesce(simulation_version, ?3) FROM snapshots
+) -> Result<Option<SnapshotRow>, StoreError> {
+    let row = sqlx::query(
+        "SELECT through, bytes, document, checksum, coalesce(simulation_version, ?3) AS version FROM snapshots
          WHERE session = ?1 AND (?2 IS NULL OR through < ?2) ORDER BY through DESC LIMIT 1",
     )
     .bind(session)
     .bind(before.map(u64::cast_signed))
     .bind(made_by)
-    .fetch_optional(connection)
+    .fetch_optional(&mut *connection)
     .await?;
-    Ok(row.map(|(through, bytes, checksum, simulation_version)| SnapshotRow {
-        through: through.cast_unsigned(),
-        bytes,
-        checksum,
-        simulation_version,
+    let Some(row) = row else { return Ok(None) };
+    Ok(Some(SnapshotRow {
+        through: row.try_get::<i64, _>("through")?.cast_unsigned(),
+        bytes: parts::contents(connection, row.try_get("bytes")?, row.try_get("document")?).await?,
+        checksum: row.try_get("checksum")?,
+        simulation_version: row.try_get("version")?,
     }))
 }
 
@@ -138,9 +142,13 @@ impl SessionWrite {
         leases: &Leases,
     ) -> Result<u64, StoreError> {
         let (lease, change) = match self {
-            Self::Create(new) => return create(connection, new).await,
+            Self::Create(new, snapshot) => return create(connection, new, snapshot.as_ref()).await,
+            Self::Enter(name) => return enter(connection, name).await,
+            Self::Purge { saved, unsaved, limit } => {
+                return purge(connection, leases, [saved, unsaved], *limit).await;
+            }
             Self::Append(lease, row) => (lease, Change::Append(row)),
-            Self::Snapshot(lease, row) => (lease, Change::Snapshot(row)),
+            Self::Snapshot(lease, row, manifest) => (lease, Change::Snapshot(row, manifest)),
             Self::SetAside(lease, damage, notices) => (lease, Change::SetAside(damage, notices)),
             Self::ForgetNotices(lease) => (lease, Change::ForgetNotices),
         };
@@ -161,7 +169,7 @@ impl SessionWrite {
 /// A change to a session that there is.
 enum Change<'a> {
     Append(&'a JournalRow),
-    Snapshot(&'a SnapshotRow),
+    Snapshot(&'a SnapshotRow, &'a Manifest),
     SetAside(&'a [Damage], &'a [Notice]),
     ForgetNotices,
 }
@@ -182,8 +190,8 @@ impl Change<'_> {
                 insert_journal(connection, name, row).await?;
                 session.last_entry = row.last;
             }
-            Self::Snapshot(row) => {
-                insert_snapshot(connection, name, row).await?;
+            Self::Snapshot(row, manifest) => {
+                insert_snapshot(connection, name, row, manifest).await?;
                 drop_what_nobody_needs(connection, name).await?;
                 session.last_snapshot = session.last_snapshot.max(Some(row.through));
                 session.last_entry = session.last_entry.max(row.through);
@@ -206,7 +214,11 @@ impl Change<'_> {
     }
 }
 
-async fn create(connection: &mut SqliteConnection, new: &NewSession) -> Result<u64, StoreError> {
+async fn create(
+    connection: &mut SqliteConnection,
+    new: &NewSession,
+    snapshot: Option<&(SnapshotRow, Manifest)>,
+) -> Result<u64, StoreError> {
     sqlx::query(
         "INSERT INTO sessions (name, seed, simulation_version, created_at, principal)
          VALUES (?, ?, ?, strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?)",
@@ -225,17 +237,49 @@ async fn create(connection: &mut SqliteConnection, new: &NewSession) -> Result<u
             sqlx::query(sql).bind(tree).bind(version).bind(&new.name).execute(&mut *connection).await?;
         }
     }
-    if let Some(bytes) = &new.snapshot {
-        let row = SnapshotRow::seal(&new.name, 0, new.simulation_version, bytes.clone());
-        insert_snapshot(connection, &new.name, &row).await?;
+    if let Some((row, manifest)) = snapshot {
+        insert_snapshot(connection, &new.name, row, manifest).await?;
     }
-    update(connection, &new.name, &SessionRow::new(new)).await
+    update(connection, &new.name, &SessionRow::new(new, snapshot.is_some())).await
+}
+
+async fn enter(connection: &mut SqliteConnection, name: &str) -> Result<u64, StoreError> {
+    let sql = "UPDATE sessions SET entered_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now') WHERE name = ?";
+    Ok(sqlx::query(sql).bind(name).execute(connection).await?.rows_affected())
+}
+
+/// What a version holds is saved, and so is a seedling to which nothing was done.
+async fn purge(
+    connection: &mut SqliteConnection,
+    leases: &Leases,
+    [saved, unsaved]: [&str; 2],
+    limit: u32,
+) -> Result<u64, StoreError> {
+    let names: Vec<String> = sqlx::query_scalar(
+        "SELECT name FROM sessions WHERE entered_at < max(?1, ?2) AND entered_at < iif(
+             last_entry <= saved_through AND (tree IS NOT NULL OR last_entry = 0 AND last_snapshot IS NULL), ?1, ?2)
+         ORDER BY entered_at",
+    )
+    .bind(saved)
+    .bind(unsaved)
+    .fetch_all(&mut *connection)
+    .await?;
+    let mut gone = 0;
+    for name in names.iter().filter(|name| !leases.is_held(name)).take(limit as usize) {
+        gone += sqlx::query("DELETE FROM sessions WHERE name = ?")
+            .bind(name)
+            .execute(&mut *connection)
+            .await?
+            .rows_affected();
+    }
+    Ok(gone)
 }
 
 /// Writes what changes of a session's row.
 async fn update(connection: &mut SqliteConnection, name: &str, row: &SessionRow) -> Result<u64, StoreError> {
     let result = sqlx::query(
-        "UPDATE sessions SET last_entry = ?, last_snapshot = ?, notices = ?, written_by = ?, checksum = ?
+        "UPDATE sessions SET last_entry = ?, last_snapshot = ?, notices = ?, written_by = ?, checksum = ?,
+                             entered_at = strftime('%Y-%m-%dT%H:%M:%fZ', 'now')
          WHERE name = ?",
     )
     .bind(row.last_entry.cast_signed())
@@ -273,19 +317,21 @@ async fn insert_snapshot(
     connection: &mut SqliteConnection,
     session: &str,
     row: &SnapshotRow,
-) -> Result<(), sqlx::Error> {
+    manifest: &Manifest,
+) -> Result<(), StoreError> {
+    let (document, _) = parts::write_document(connection, manifest).await?;
     sqlx::query(
-        "INSERT OR REPLACE INTO snapshots (session, through, bytes, checksum, simulation_version)
-         VALUES (?, ?, ?, ?, ?)",
+        "INSERT OR REPLACE INTO snapshots (session, through, bytes, document, checksum, simulation_version)
+         VALUES (?, ?, x'', ?, ?, ?)",
     )
     .bind(session)
     .bind(row.through.cast_signed())
-    .bind(&row.bytes)
+    .bind(document)
     .bind(row.checksum)
     .bind(row.simulation_version)
     .execute(connection)
-    .await
-    .map(drop)
+    .await?;
+    Ok(())
 }
 
 async fn drop_what_nobody_needs(connection: &mut SqliteConnection, session: &str) -> Result<(), sqlx::Error> {
@@ -332,8 +378,8 @@ async fn set_aside(
             from,
         ),
         Damage::Snapshot(through) => (
-            "INSERT INTO set_aside (session, last, contents, checksum, simulation_version, set_aside_at)
-             SELECT session, through, bytes, checksum, simulation_version,
+            "INSERT INTO set_aside (session, last, contents, document, checksum, simulation_version, set_aside_at)
+             SELECT session, through, bytes, document, checksum, simulation_version,
                     strftime('%Y-%m-%dT%H:%M:%fZ', 'now')
              FROM snapshots WHERE session = ?1 AND through = ?2",
             "DELETE FROM snapshots WHERE session = ?1 AND through = ?2",

@@ -4,28 +4,42 @@ use sqlx::{Row, sqlite::SqliteConnection};
 
 use super::{
     super::{
-        Contents, Deletion, NewTree, NewVersion, Saved, StoreError, TreeChange,
-        seal::{document_hash, tree_sum, version_sum},
+        Contents, Deletion, Missing, NewTree, NewVersion, Saved, StoreError, TreeChange,
+        seal::{tree_sum, version_sum},
     },
     finding,
+    parts::{self, Manifest},
 };
 
 #[derive(Debug)]
 pub(super) enum TreeWrite {
-    Add(NewTree),
-    AddVersion { key: String, expected: Option<u64>, version: NewVersion },
-    Change { key: String, expected: Option<u64>, change: TreeChange },
-    Purge { before: String, limit: u32 },
+    /// A tree, and where the parts of its document are where it has one of its own.
+    Add(NewTree, Option<Manifest>),
+    AddVersion {
+        key: String,
+        expected: Option<u64>,
+        version: NewVersion,
+        manifest: Option<Manifest>,
+    },
+    Change {
+        key: String,
+        expected: Option<u64>,
+        change: TreeChange,
+    },
+    Purge {
+        before: String,
+        limit: u32,
+    },
 }
 
 impl TreeWrite {
     /// Answers with the number of the version that was made, or of rows changed.
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         match self {
-            Self::Add(tree) => add(connection, tree).await,
-            Self::AddVersion { key, expected, version } => {
+            Self::Add(tree, manifest) => add(connection, tree, manifest.as_ref()).await,
+            Self::AddVersion { key, expected, version, manifest } => {
                 let tree = Tree::there(connection, key, *expected).await?;
-                add_version(connection, &tree, version).await
+                add_version(connection, &tree, version, manifest.as_ref()).await
             }
             Self::Change { key, expected, change } => change_tree(connection, key, *expected, change).await,
             Self::Purge { before, limit } => purge(connection, before, *limit).await,
@@ -53,7 +67,8 @@ impl Tree {
         expected: Option<u64>,
     ) -> Result<Self, StoreError> {
         let sql = "SELECT id, name, head, revision, deleted_at, checksum FROM trees WHERE key = ?";
-        let row = sqlx::query(sql).bind(key).fetch_optional(connection).await?.ok_or(StoreError::NotFound)?;
+        let row = sqlx::query(sql).bind(key).fetch_optional(connection).await?;
+        let row = row.ok_or(StoreError::NotFound(Missing::Tree))?;
         let revision = row.try_get("revision")?;
         if expected.is_some_and(|expected| expected != i64::cast_unsigned(revision)) {
             return Err(StoreError::Stale);
@@ -76,7 +91,7 @@ impl Tree {
         expected: Option<u64>,
     ) -> Result<Self, StoreError> {
         let row = Self::at(connection, key, expected).await?;
-        if row.deleted_at.is_none() { Ok(row) } else { Err(StoreError::NotFound) }
+        if row.deleted_at.is_none() { Ok(row) } else { Err(StoreError::NotFound(Missing::Tree)) }
     }
 
     /// The checksum for another name and head. A row that was damaged stays damaged.
@@ -86,7 +101,11 @@ impl Tree {
     }
 }
 
-async fn add(connection: &mut SqliteConnection, tree: &NewTree) -> Result<u64, StoreError> {
+async fn add(
+    connection: &mut SqliteConnection,
+    tree: &NewTree,
+    manifest: Option<&Manifest>,
+) -> Result<u64, StoreError> {
     let NewTree { id: key, name, version } = tree;
     let origin = match &version.contents {
         Contents::Of { tree, version } => Some((tree, version)),
@@ -113,7 +132,7 @@ async fn add(connection: &mut SqliteConnection, tree: &NewTree) -> Result<u64, S
         deleted_at: None,
         checksum: Some(tree_sum(key, name, 0)),
     };
-    add_version(connection, &tree, version).await
+    add_version(connection, &tree, version, manifest).await
 }
 
 /// What a version holds, by the numbers of its rows.
@@ -126,17 +145,27 @@ struct Held {
     species: Option<String>,
 }
 
-async fn held(connection: &mut SqliteConnection, contents: &Contents) -> Result<Held, StoreError> {
+async fn held(
+    connection: &mut SqliteConnection,
+    contents: &Contents,
+    manifest: Option<&Manifest>,
+) -> Result<Held, StoreError> {
     match contents {
-        Contents::New(saved) => keep(connection, saved).await,
+        Contents::New(saved) => {
+            let none = || StoreError::Damaged("the parts of a new document are not there".into());
+            keep(connection, saved, manifest.ok_or_else(none)?).await
+        }
         Contents::Of { tree, version } => {
             let row = sqlx::query(
                 "SELECT document, hash, picture, versions.metamers, versions.species FROM versions
                  JOIN trees ON trees.id = versions.tree JOIN documents ON documents.id = document
                  WHERE key = ? AND number = ? AND deleted_at IS NULL",
             );
-            let row = row.bind(tree).bind(version).fetch_optional(connection).await?;
-            let row = row.ok_or(StoreError::NotFound)?;
+            let row = row.bind(tree).bind(version).fetch_optional(&mut *connection).await?;
+            let Some(row) = row else {
+                Tree::there(connection, tree, None).await?;
+                return Err(StoreError::NotFound(Missing::Version));
+            };
             Ok(Held {
                 document: row.try_get("document")?,
                 hash: row.try_get("hash")?,
@@ -148,17 +177,13 @@ async fn held(connection: &mut SqliteConnection, contents: &Contents) -> Result<
     }
 }
 
-async fn keep(connection: &mut SqliteConnection, saved: &Saved) -> Result<Held, StoreError> {
-    let Saved { document, metamers, species, thumbnail } = saved;
-    let hash = document_hash(document);
-    // One that is there already is written again: it may have been damaged since.
-    let row = sqlx::query_scalar(
-        "INSERT INTO documents (hash, simulation_version, bytes) VALUES (?, ?, ?)
-         ON CONFLICT (hash) DO UPDATE SET simulation_version = excluded.simulation_version, bytes = excluded.bytes
-         RETURNING id",
-    );
-    let row = row.bind(&hash).bind(document.simulation_version).bind(&document.bytes);
-    let document = row.fetch_one(&mut *connection).await?;
+async fn keep(
+    connection: &mut SqliteConnection,
+    saved: &Saved,
+    manifest: &Manifest,
+) -> Result<Held, StoreError> {
+    let Saved { document: _, metamers, species, thumbnail } = saved;
+    let (document, hash) = parts::write_document(connection, manifest).await?;
     let mut picture = None;
     if let Some(new) = thumbnail {
         let row = sqlx::query_scalar("INSERT INTO pictures (media_type, bytes) VALUES (?, ?) RETURNING id");
@@ -171,8 +196,9 @@ async fn add_version(
     connection: &mut SqliteConnection,
     tree: &Tree,
     version: &NewVersion,
+    manifest: Option<&Manifest>,
 ) -> Result<u64, StoreError> {
-    let held = held(connection, &version.contents).await?;
+    let held = held(connection, &version.contents, manifest).await?;
     let number = tree.head + 1;
     let restored = match &version.contents {
         Contents::Of { tree: of, version } if *of == tree.key => Some(version),
@@ -238,13 +264,13 @@ async fn change_tree(
     let tree = Tree::at(connection, key, expected).await?;
     let is_undeleted = *deletion == Some(Deletion::Undeleted);
     if tree.deleted_at.is_some() != is_undeleted {
-        return Err(StoreError::NotFound);
+        return Err(StoreError::NotFound(Missing::Tree));
     }
     if let Some((number, note)) = version_note {
         let changed = sqlx::query("UPDATE versions SET note = ? WHERE tree = ? AND number = ?");
         let changed = changed.bind(note).bind(tree.id).bind(number).execute(&mut *connection).await?;
         if changed.rows_affected() == 0 {
-            return Err(StoreError::NotFound);
+            return Err(StoreError::NotFound(Missing::Version));
         }
     }
     if let Some(tags) = tags {
@@ -255,7 +281,7 @@ async fn change_tree(
         }
     }
     if let Some(collection) = collection {
-        let row = finding::row_of(connection, collection.as_deref()).await?;
+        let row = finding::row_of(connection, collection.as_deref(), Missing::Collection).await?;
         let query = sqlx::query("UPDATE trees SET collection = ? WHERE id = ?").bind(row).bind(tree.id);
         query.execute(&mut *connection).await?;
     }
@@ -280,20 +306,11 @@ async fn change_tree(
     Ok(1)
 }
 
-/// What no version holds any more goes as well.
+/// What no version holds any more goes when the store is tidied.
 async fn purge(connection: &mut SqliteConnection, before: &str, limit: u32) -> Result<u64, StoreError> {
     let gone = sqlx::query(
         "DELETE FROM trees WHERE id IN
          (SELECT id FROM trees WHERE deleted_at < ? ORDER BY deleted_at LIMIT ?)",
     );
-    let gone = gone.bind(before).bind(limit).execute(&mut *connection).await?.rows_affected();
-    if gone > 0 {
-        for sql in [
-            "DELETE FROM documents WHERE id NOT IN (SELECT document FROM versions)",
-            "DELETE FROM pictures WHERE id NOT IN (SELECT picture FROM versions WHERE picture IS NOT NULL)",
-        ] {
-            sqlx::query(sql).execute(&mut *connection).await?;
-        }
-    }
-    Ok(gone)
+    Ok(gone.bind(before).bind(limit).execute(connection).await?.rows_affected())
 }

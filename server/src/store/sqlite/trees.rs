@@ -7,7 +7,7 @@ use super::{
         Picture, SessionTree, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
         seal::{document_hash, tree_sum, version_sum},
     },
-    finding,
+    finding, parts,
 };
 
 /// What lists tell of a tree; its newest version's note is asked for with its versions.
@@ -91,13 +91,16 @@ pub(super) async fn document(
 ) -> Result<Option<TreeDocument>, StoreError> {
     let row = sqlx::query(
         "SELECT name, head, trees.checksum AS of_tree, versions.checksum AS of_version,
-                simulation_version, bytes, hash
+                simulation_version, document, bytes, hash
          FROM trees JOIN versions ON versions.tree = trees.id JOIN documents ON documents.id = document
          WHERE key = ? AND number = ?",
     );
-    let Some(row) = row.bind(key).bind(number).fetch_optional(readers).await? else { return Ok(None) };
-    let document =
-        TreeDocument { simulation_version: row.try_get("simulation_version")?, bytes: row.try_get("bytes")? };
+    // One transaction sees one state: the version may go in between otherwise.
+    let mut transaction = readers.begin().await?;
+    let row = row.bind(key).bind(number).fetch_optional(&mut *transaction).await?;
+    let Some(row) = row else { return Ok(None) };
+    let bytes = parts::contents(&mut transaction, row.try_get("bytes")?, row.try_get("document")?).await?;
+    let document = TreeDocument { simulation_version: row.try_get("simulation_version")?, bytes };
     let (name, head): (String, u32) = (row.try_get("name")?, row.try_get("head")?);
     let hash: Option<Vec<u8>> = row.try_get("hash")?;
     // What earlier programs wrote has neither hash nor checksums.

@@ -12,10 +12,15 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     super::{StoreError, lease::Leases},
+    audit::AuditWrite,
     finding::FindingWrite,
+    parts::{self, Orphans, Part},
+    passes::PassWrite,
     place::Place,
     sessions::SessionWrite,
+    shrinking,
     tree_writes::TreeWrite,
+    users::UserWrite,
 };
 
 /// How long a write waits for others to be committed with it. What arrives during a commit is in the next group.
@@ -31,6 +36,14 @@ pub(super) enum Write {
     Session(SessionWrite),
     Tree(TreeWrite),
     Finding(FindingWrite),
+    Parts(Vec<Part>),
+    /// Rows that nothing referred to a moment ago.
+    Orphans(Orphans, Vec<i64>),
+    /// Answers with 1 if there is more to give back.
+    Shrink,
+    Pass(PassWrite),
+    User(UserWrite),
+    Audit(AuditWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -42,6 +55,12 @@ impl Write {
             Self::Session(write) => write.apply(connection, leases).await,
             Self::Tree(write) => write.apply(connection).await,
             Self::Finding(write) => write.apply(connection).await,
+            Self::Parts(some) => parts::write(connection, some).await,
+            Self::Orphans(orphans, ids) => orphans.delete(connection, ids).await,
+            Self::Shrink => Ok(shrinking::step(connection).await?.into()),
+            Self::Pass(write) => write.apply(connection).await,
+            Self::User(write) => write.apply(connection).await,
+            Self::Audit(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));
@@ -193,10 +212,10 @@ mod tests {
         super::{Folder, SqliteStore, open::writer_options},
         *,
     };
-    use crate::store::{Store, contract::tree_of_bytes};
+    use crate::store::Store;
 
-    fn save(id: &str, bytes: usize) -> Write {
-        Write::Tree(TreeWrite::Add(tree_of_bytes(id, "2026", vec![7; bytes])))
+    fn insert(name: &str, bytes: usize) -> Write {
+        Write::Raw(format!("INSERT INTO pictures (media_type, bytes) VALUES ('{name}', zeroblob({bytes}))"))
     }
 
     #[tokio::test]
@@ -207,14 +226,14 @@ mod tests {
         // Asked for less than the file has, SQLite keeps to what it has: the file cannot grow.
         let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 1");
         limit.fetch_one(&mut connection).await.unwrap();
-        let (small, large) = (save("small", 10), save("large", 1_000_000));
+        let (small, large) = (insert("small", 10), insert("large", 1_000_000));
         let leases = Leases::default();
         let error = commit_together(&mut connection, &leases, &[&small, &large]).await.unwrap_err();
         assert_eq!(error.in_words(), "the disk is full", "{error}");
 
         let limit = sqlx::query_scalar::<_, i64>("PRAGMA max_page_count = 100000");
         limit.fetch_one(&mut connection).await.unwrap();
-        let ids = || sqlx::query_scalar::<_, String>("SELECT key FROM trees ORDER BY key");
+        let ids = || sqlx::query_scalar::<_, String>("SELECT media_type FROM pictures ORDER BY media_type");
         assert!(ids().fetch_all(&mut connection).await.unwrap().is_empty(), "all of a group or nothing");
         commit_together(&mut connection, &leases, &[&small, &large]).await.unwrap();
         assert_eq!(ids().fetch_all(&mut connection).await.unwrap(), ["large", "small"]);

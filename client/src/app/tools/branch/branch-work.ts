@@ -55,7 +55,7 @@ export class BranchWork {
       busy,
       branchAbove: (row, most) => subtreeRows(table, row, most),
       showTurn: (turn) => this.ghosts.showTurn(turn),
-      showCopy: (row, pose) => this.ghosts.showCopy(row, pose),
+      showCopy: (row, placement) => this.ghosts.showCopy(row, placement),
     });
   }
 

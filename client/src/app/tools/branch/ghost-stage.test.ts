@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { sampleTree } from "../../../../test/sample-tree";
 import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
-import type { GhostPose } from "../../../scene/overlay/ghost";
+import type { GhostPlacement } from "../../../scene/overlay/ghost";
 import type { Overlay } from "../../../scene/overlay/overlays";
 import { TreeTable } from "../../../scene/table/tree-table";
 import type { Viewport } from "../../../scene/viewport";
@@ -16,14 +16,20 @@ function tree(height: number): TreeTable {
 
 function setUp(right: readonly [number, number, number] = [1, 0, 0]) {
   const table = tree(10);
-  const seen = { pose: null as GhostPose | null, shown: false, fitted: 0, restored: 0, overlays: new Set<Overlay>() };
+  const seen = {
+    placement: null as GhostPlacement | null,
+    shown: false,
+    fitted: 0,
+    restored: 0,
+    overlays: new Set<Overlay>(),
+  };
   const view = {
     drawingPlane: () => ({ origin: [0, 0, 0], right, up: [0, 1, 0] }),
     showGhost: (plants: TreeTable | null) => {
       seen.shown = plants !== null;
     },
-    placeGhost: (pose: GhostPose) => {
-      seen.pose = pose;
+    placeGhost: (placement: GhostPlacement) => {
+      seen.placement = placement;
     },
     camera: {
       fitTree: () => {
@@ -52,7 +58,7 @@ describe("a prediction beside the tree", () => {
       const { stage, table, seen } = setUp(right);
       const plants = tree(14);
       stage.showBeside(plants);
-      const [x = 0, y = 0, z = 0] = seen.pose?.to ?? [];
+      const [x = 0, y = 0, z = 0] = seen.placement?.to ?? [];
       expect(y).toBe(0);
       const across = (px: number, pz: number) => px * right[0] + pz * right[2];
       const all = (of: TreeTable) =>
@@ -64,9 +70,9 @@ describe("a prediction beside the tree", () => {
   it("keeps its place while it looks further ahead, and the camera moves once", () => {
     const { stage, seen } = setUp();
     stage.showBeside(tree(12));
-    const first = seen.pose?.to;
+    const first = seen.placement?.to;
     stage.showBeside(tree(16));
-    expect([seen.pose?.to, seen.fitted]).toEqual([first, 1]);
+    expect([seen.placement?.to, seen.fitted]).toEqual([first, 1]);
     stage.endBeside(null);
     expect([seen.shown, seen.restored, stage.beside.peek()]).toEqual([false, 1, null]);
   });

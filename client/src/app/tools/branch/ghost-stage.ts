@@ -1,7 +1,7 @@
 import { signal } from "@preact/signals";
 import { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import { CutOverlay } from "../../../scene/overlay/cut-overlay";
-import type { GhostPose } from "../../../scene/overlay/ghost";
+import type { GhostPlacement } from "../../../scene/overlay/ghost";
 import { subtreeRows } from "../../../scene/table/branch-rows";
 import type { TreeTable } from "../../../scene/table/tree-table";
 import type { Vec3 } from "../../../scene/vector";
@@ -90,7 +90,7 @@ export class GhostStage {
   }
 
   /** Shows a copy of the branch that begins with a row; null for none. */
-  showCopy(row: number | null, pose: GhostPose | null): void {
+  showCopy(row: number | null, placement: GhostPlacement | null): void {
     const view = this.#view;
     if (row !== this.#copied) {
       this.#copied = row;
@@ -99,8 +99,8 @@ export class GhostStage {
         row === null ? null : subtreeRows(this.#table, row, MOST_COPIED),
       );
     }
-    if (row !== null && pose) {
-      view?.placeGhost(pose);
+    if (row !== null && placement) {
+      view?.placeGhost(placement);
     }
   }
 

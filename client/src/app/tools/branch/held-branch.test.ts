@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
-import type { GhostPose } from "../../../scene/overlay/ghost";
+import type { GhostPlacement } from "../../../scene/overlay/ghost";
 import type { Command } from "../../../wire/generated";
 import { about, type Rotation, turned } from "./branch-turn";
 import { HeldBranch, type TurnPreview } from "./held-branch";
@@ -26,7 +26,7 @@ function setUp() {
   const rows = tree();
   const sent: Command[] = [];
   const turns: (TurnPreview | null)[] = [];
-  const copies: (GhostPose | null)[] = [];
+  const copies: (GhostPlacement | null)[] = [];
   let gesture = 40;
   const world = { busy: false };
   const held = new HeldBranch({
@@ -39,7 +39,7 @@ function setUp() {
     busy: () => world.busy,
     branchAbove: (row) => (row === 5 ? [5, 6, 7, 8] : [row]),
     showTurn: (turn) => turns.push(turn),
-    showCopy: (_, pose) => copies.push(pose),
+    showCopy: (_, placement) => copies.push(placement),
   });
   const last = <Kind extends Command["kind"]>(kind: Kind) => {
     const command = sent[sent.length - 1];
@@ -196,13 +196,13 @@ describe("grafting", () => {
     held.beginPlacing("copy");
     held.showOn(4, null);
     // The twig stood upright on a limb that goes to the right; on the trunk, which goes up, it points to the left.
-    const pose = copies[copies.length - 1];
-    expect(pose?.from).toEqual([2, 2, 0]);
-    expect(pose?.to).toEqual([0, 4, 0]);
-    near(turned(pose?.turn ?? [0, 0, 0, 1], [0, 1, 0]), [-1, 0, 0]);
+    const placement = copies[copies.length - 1];
+    expect(placement?.from).toEqual([2, 2, 0]);
+    expect(placement?.to).toEqual([0, 4, 0]);
+    near(turned(placement?.turn ?? [0, 0, 0, 1], [0, 1, 0]), [-1, 0, 0]);
     expect(held.graft()).toBe(true);
     expect(last("graft")).toMatchObject({ row: 8, onto: 4, keep: true });
-    near(last("graft").rotation, pose?.turn ?? []);
+    near(last("graft").rotation, placement?.turn ?? []);
   });
 
   it("points where the finger is", () => {

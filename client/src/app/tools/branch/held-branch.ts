@@ -1,5 +1,5 @@
 import { signal } from "@preact/signals";
-import type { GhostPose } from "../../../scene/overlay/ghost";
+import type { GhostPlacement } from "../../../scene/overlay/ghost";
 import { axisStart } from "../../../scene/table/branch-rows";
 import type { Vec3 } from "../../../scene/vector";
 import type { Command } from "../../../wire/generated";
@@ -20,7 +20,7 @@ import {
 
 /** Turns smaller than this, in radians, are the finger's trembling. */
 const SMALLEST_TURN = 0.004;
-/** Rows that show whether the table has a branch's new pose. */
+/** Rows that show whether the table has a branch's new place. */
 const MOST_WITNESSES = 40;
 /** What one press of a key turns by, in radians. */
 const STEP = (5 * Math.PI) / 180;
@@ -58,7 +58,7 @@ export interface BranchHandOptions {
   /** Draws a branch turned, until the rows say the same; null for as it is. */
   readonly showTurn: (turn: TurnPreview | null) => void;
   /** Draws a copy of the branch that begins with a row; null for none. */
-  readonly showCopy: (row: number | null, pose: GhostPose | null) => void;
+  readonly showCopy: (row: number | null, placement: GhostPlacement | null) => void;
 }
 
 /** The branch that is held, to be turned about its base or to be carried to another limb. */
@@ -318,10 +318,10 @@ export class HeldBranch {
     return after(between(turned(rotation, furthest), towards), rotation);
   }
 
-  #show(row: number | null, pose: GhostPose | null): void {
+  #show(row: number | null, placement: GhostPlacement | null): void {
     if (row !== null || this.#copied !== null) {
       this.#copied = row;
-      this.#options.showCopy(row, pose);
+      this.#options.showCopy(row, placement);
     }
   }
 

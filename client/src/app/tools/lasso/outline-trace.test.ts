@@ -8,12 +8,9 @@ describe("outline trace", () => {
     trace.draw(null);
     expect(trace.shown.value).toBeNull();
     trace.grow([[[0, 0, 0]]], 7);
-    trace.progressed(6, 0);
-    expect(trace.shown.value, "the server does not know of it yet").not.toBeNull();
-    trace.progressed(7, 1);
-    trace.progressed(9, 3);
-    expect(trace.shown.value?.stage).toBe("growing");
-    trace.progressed(9, 0);
+    trace.done(6);
+    expect(trace.shown.value?.stage, "what was asked for before").toBe("growing");
+    trace.done(7);
     expect(trace.shown.value).toBeNull();
   });
 
@@ -21,20 +18,8 @@ describe("outline trace", () => {
     const trace = new OutlineTrace();
     trace.grow([[[0, 0, 0]]], 1);
     trace.draw([[5, 5]]);
-    trace.progressed(9, 0);
+    trace.done(9);
     expect(trace.shown.value?.stage).toBe("drawing");
-  });
-
-  it("quick growth may end before its command is acknowledged", () => {
-    const trace = new OutlineTrace();
-    trace.progressed(3, 0);
-    trace.grow([[[0, 0, 0]]], 4);
-    trace.settled(4);
-    expect(trace.shown.value?.stage, "no message since").toBe("growing");
-    trace.grow([[[0, 0, 0]]], 5);
-    trace.progressed(4, 0);
-    trace.settled(5);
-    expect(trace.shown.value).toBeNull();
   });
 
   it("shows what was drawn up to then", () => {

@@ -12,8 +12,6 @@ export class OutlineTrace {
   readonly shown = signal<Outline | null>(null);
   /** The number of the last command that grows it. */
   #command = 0;
-  /** The steps left, by the last message of the server after the command was sent. */
-  #left: number | null = null;
 
   draw(points: readonly Point2[] | null, repeated: readonly (readonly Point2[])[] = []): void {
     this.shown.value = points && { stage: "drawing", points: [...points], repeated };
@@ -23,18 +21,11 @@ export class OutlineTrace {
   grow(outlines: readonly (readonly Vec3[])[], command: number): void {
     this.shown.value = { stage: "growing", outlines };
     this.#command = command;
-    this.#left = null;
   }
 
-  /** All commands up to `settled` are answered, and so many steps are left to grow. */
-  progressed(settled: number, pendingSteps: number): void {
-    this.#left = pendingSteps;
-    this.settled(settled);
-  }
-
-  /** All commands up to `settled` are answered. Growth that is quick ends before its command is acknowledged. */
-  settled(settled: number): void {
-    if (this.shown.peek()?.stage === "growing" && settled >= this.#command && this.#left === 0) {
+  /** Nothing is left to grow of commands up to this one (`CM11`). */
+  done(command: number): void {
+    if (this.shown.peek()?.stage === "growing" && command >= this.#command) {
       this.clear();
     }
   }

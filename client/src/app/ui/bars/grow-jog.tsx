@@ -13,10 +13,10 @@ export function GrowJog({ studio }: { studio: Studio }) {
   const rate = Math.round(growthRate(deflection));
 
   const follow = (event: PointerEvent) => {
-    const frame = lever.current?.getBoundingClientRect();
-    if (frame) {
-      const way = (frame.height - frame.width) / 2;
-      const offset = frame.top + frame.height / 2 - event.clientY;
+    const bounds = lever.current?.getBoundingClientRect();
+    if (bounds) {
+      const way = (bounds.height - bounds.width) / 2;
+      const offset = bounds.top + bounds.height / 2 - event.clientY;
       studio.growth.to(Math.max(-1, Math.min(1, offset / way)));
     }
   };

@@ -15,9 +15,9 @@ export function RadiusSlider({ studio }: { studio: Studio }) {
   const place = placeOf(radius, widest);
 
   const follow = (event: PointerEvent) => {
-    const frame = track.current?.getBoundingClientRect();
-    if (frame && (event.type === "pointerdown" || event.buttons % 2 === 1)) {
-      const pulled = (frame.bottom - event.clientY) / frame.height;
+    const bounds = track.current?.getBoundingClientRect();
+    if (bounds && (event.type === "pointerdown" || event.buttons % 2 === 1)) {
+      const pulled = (bounds.bottom - event.clientY) / bounds.height;
       studio.stage.setRadius(pulled > PAST_END ? MAX_RADIUS : radiusAt(pulled, widest));
     }
   };

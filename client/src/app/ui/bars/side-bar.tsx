@@ -8,8 +8,15 @@ import { isSmall } from "../workspace-size";
 import { GrowJog } from "./grow-jog";
 import { RadiusSlider } from "./radius-slider";
 
-/** The tools, at the side of the user that does not draw. */
+/** The tools, at the side of the user that does not draw; who only looks has the one that finds the tree again. */
 export function SideBar({ studio }: { studio: Studio }) {
+  if (!studio.rights.mayChange.value) {
+    return (
+      <nav class="panel side-bar" aria-label={say("bars.tools")} data-small="true">
+        <FitButton studio={studio} />
+      </nav>
+    );
+  }
   const document = studio.document.value;
   const small = isSmall(studio.settings.namesShown.value);
   return (
@@ -43,18 +50,24 @@ export function SideBar({ studio }: { studio: Studio }) {
         >
           <RedoIcon />
         </button>
-        <button
-          type="button"
-          class="tool"
-          data-place="fit"
-          aria-label={say("bars.fit")}
-          title={say("bars.fit.title")}
-          onClick={() => studio.stage.fitTree()}
-        >
-          <FrameIcon />
-        </button>
+        <FitButton studio={studio} />
       </div>
     </nav>
+  );
+}
+
+function FitButton({ studio }: { studio: Studio }) {
+  return (
+    <button
+      type="button"
+      class="tool"
+      data-place="fit"
+      aria-label={say("bars.fit")}
+      title={say("bars.fit.title")}
+      onClick={() => studio.stage.fitTree()}
+    >
+      <FrameIcon />
+    </button>
   );
 }
 

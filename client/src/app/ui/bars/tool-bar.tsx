@@ -1,5 +1,6 @@
 import type { ComponentType } from "preact";
 import { useRef, useState } from "preact/hooks";
+import type { Rights } from "../../access/rights";
 import type { PlaceName } from "../../help/help-places";
 import { PANEL_NAMES, type PanelName, type SheetName } from "../../page/layout";
 import type { Studio } from "../../studio";
@@ -40,6 +41,8 @@ interface ToolAction {
   readonly place?: PlaceName;
   readonly title?: Key;
   readonly Icon: ComponentType;
+  /** Whether somebody may who has these rights; everybody if absent. */
+  readonly may?: (rights: Rights) => boolean;
   readonly act: (studio: Studio) => void;
 }
 
@@ -58,8 +61,14 @@ const TOOL_ACTIONS: readonly ToolAction[] = [
       studio.layout.bare.value = true;
     },
   },
-  { label: "bars.new", place: "new", Icon: NewIcon, act: (studio) => studio.trees.begin() },
-  { label: "bars.save", Icon: SaveIcon, act: sheet("save") },
+  {
+    label: "bars.new",
+    place: "new",
+    Icon: NewIcon,
+    may: (rights) => rights.mayBegin,
+    act: (studio) => studio.trees.begin(),
+  },
+  { label: "bars.save", Icon: SaveIcon, may: (rights) => rights.mayChange.value, act: sheet("save") },
   { label: "bars.library", Icon: LibraryIcon, act: sheet("library") },
   { label: "bars.share", Icon: ShareIcon, act: sheet("share") },
   { label: "bars.download", Icon: DownloadIcon, act: sheet("download") },
@@ -69,10 +78,13 @@ const TOOL_ACTIONS: readonly ToolAction[] = [
 
 /** The panels, and what is done with a tree as a whole; where room is short the latter folds into a menu. */
 export function ToolBar({ studio }: { studio: Studio }) {
-  const folded = isToolBarFolded(studio.settings.namesShown.value);
+  const mayChange = studio.rights.mayChange.value;
+  // What is left for who only looks has room anywhere.
+  const folded = mayChange && isToolBarFolded(studio.settings.namesShown.value);
+  const actions = TOOL_ACTIONS.filter(({ may }) => may?.(studio.rights) ?? true);
   return (
     <header class="panel tool-bar" data-folded={folded}>
-      {PANEL_NAMES.map((panel) => {
+      {(mayChange ? PANEL_NAMES : []).map((panel) => {
         const Icon = PANEL_ICONS[panel];
         return (
           <button
@@ -88,12 +100,12 @@ export function ToolBar({ studio }: { studio: Studio }) {
           </button>
         );
       })}
-      <hr />
+      {mayChange && <hr />}
       <DrawModeMenu studio={studio} />
       {folded ? (
-        <Menu studio={studio} />
+        <Menu studio={studio} actions={actions} />
       ) : (
-        TOOL_ACTIONS.map(({ label, place, title = label, Icon, act }) => (
+        actions.map(({ label, place, title = label, Icon, act }) => (
           <button
             type="button"
             class="tool"
@@ -111,7 +123,7 @@ export function ToolBar({ studio }: { studio: Studio }) {
   );
 }
 
-function Menu({ studio }: { studio: Studio }) {
+function Menu({ studio, actions }: { readonly studio: Studio; readonly actions: readonly ToolAction[] }) {
   const host = useRef<HTMLDivElement>(null);
   const [open, setOpen] = useState(false);
   useDismissal(host, open, () => setOpen(false));
@@ -130,7 +142,7 @@ function Menu({ studio }: { studio: Studio }) {
       </button>
       {open && (
         <ul class="panel menu" aria-label={say("bars.more")}>
-          {TOOL_ACTIONS.map(({ label, Icon, act }) => (
+          {actions.map(({ label, Icon, act }) => (
             <li key={label}>
               <button
                 type="button"

@@ -48,9 +48,9 @@ export function Polar(props: PolarProps) {
     [],
   );
   const follow = (event: PointerEvent & { readonly currentTarget: HTMLElement }) => {
-    const frame = event.currentTarget.getBoundingClientRect();
-    const x = ((event.clientX - frame.left) / frame.width) * 2 - 1;
-    const y = ((event.clientY - frame.top) / frame.height) * 2 - 1;
+    const bounds = event.currentTarget.getBoundingClientRect();
+    const x = ((event.clientX - bounds.left) / bounds.width) * 2 - 1;
+    const y = ((event.clientY - bounds.top) / bounds.height) * 2 - 1;
     const to = props.valueAt(x, y);
     if (to !== null) {
       drag(to);

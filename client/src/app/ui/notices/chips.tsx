@@ -8,7 +8,6 @@ import { symmetryText } from "../../tools/symmetry/symmetry-text";
 import { descriptorOf } from "../../tools/tools";
 import { say } from "../../words/say";
 import { CloseIcon, StopIcon } from "../icons";
-import { SheddingChip } from "./shedding-chip";
 import { TransferChip } from "./transfer-chip";
 import { useLasting } from "./use-lasting";
 
@@ -18,7 +17,6 @@ export function Chips({ studio }: { studio: Studio }) {
   return (
     <>
       <GrowthChip studio={studio} />
-      <SheddingChip studio={studio} />
       <SlownessChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
@@ -128,15 +126,17 @@ function GrowthChip({ studio }: { studio: Studio }) {
         <progress aria-label={text} max={1} value={share} />
       )}
       {text}
-      <button
-        type="button"
-        class="chip-stop"
-        title={say("tools.growing.stop.title")}
-        onClick={() => stopGrowth(studio)}
-      >
-        <StopIcon />
-        {say("tools.growing.stop")}
-      </button>
+      {studio.rights.mayChange.value && (
+        <button
+          type="button"
+          class="chip-stop"
+          title={say("tools.growing.stop.title")}
+          onClick={() => stopGrowth(studio)}
+        >
+          <StopIcon />
+          {say("tools.growing.stop")}
+        </button>
+      )}
     </p>
   );
 }

@@ -13,10 +13,8 @@ export function HindranceCard({ studio }: { studio: Studio }) {
     <section class="panel hindrance" role="alert" data-hindrance={hindrance}>
       <h2>{say(`notices.${hindrance}`)}</h2>
       <p>{hindrance === "cannot-open" ? studio.link.refusal.value : say(`notices.${hindrance}.text`)}</p>
-      {(hindrance === "unknown-session" || hindrance === "cannot-open") && (
-        <button type="button" class="primary" onClick={() => studio.trees.leave()}>
-          {say("notices.unknown-session.way")}
-        </button>
+      {(hindrance === "unknown-session" || hindrance === "cannot-open" || hindrance === "only-look") && (
+        <WayToTrees studio={studio} />
       )}
       {(hindrance === "version" || hindrance === "no-picture") && (
         <button type="button" class="primary" onClick={() => location.reload()}>
@@ -24,6 +22,23 @@ export function HindranceCard({ studio }: { studio: Studio }) {
         </button>
       )}
     </section>
+  );
+}
+
+/** Where there is no tree: to a new one, or for whoever begins none to those there are. */
+function WayToTrees({ studio }: { studio: Studio }) {
+  const begins = studio.rights.mayBegin;
+  const act = () => {
+    if (begins) {
+      void studio.trees.leave();
+    } else {
+      studio.layout.sheet.value = "library";
+    }
+  };
+  return (
+    <button type="button" class="primary" onClick={act}>
+      {say(begins ? "notices.unknown-session.way" : "notices.only-look.way")}
+    </button>
   );
 }
 
@@ -86,6 +101,7 @@ function hint(studio: Studio): string | null {
   const { tools, settings } = studio;
   const usable =
     studio.hindrance.value === null &&
+    studio.rights.mayChange.value &&
     studio.link.phase.value === "connected" &&
     !tools.drawing.value &&
     // A legend has its place, and its lesson.

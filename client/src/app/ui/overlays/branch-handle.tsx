@@ -55,10 +55,10 @@ export function BranchHandle({ page }: ToolViewProps<BranchTool>) {
     trace.current?.setAttribute("d", path);
     ring.current?.setAttribute("transform", place ? `translate(${place[0]} ${place[1]})` : "translate(-99 -99)");
     const host = menu.current;
-    const frame = host?.parentElement;
-    if (host && frame && place) {
-      const x = Math.min(frame.clientWidth - MENU_HALF - EDGE, Math.max(MENU_HALF + EDGE, place[0]));
-      const low = frame.clientHeight - MENU_BELOW - 130;
+    const workspace = host?.parentElement;
+    if (host && workspace && place) {
+      const x = Math.min(workspace.clientWidth - MENU_HALF - EDGE, Math.max(MENU_HALF + EDGE, place[0]));
+      const low = workspace.clientHeight - MENU_BELOW - 130;
       const y = place[1] + MENU_BELOW > low ? place[1] - MENU_BELOW - host.offsetHeight : place[1] + MENU_BELOW;
       host.style.transform = `translate(${x}px, ${Math.max(EDGE, y)}px) translateX(-50%)`;
     }

@@ -250,8 +250,8 @@ function figure(diameter: number): string {
 }
 
 function onCanvas(event: PointerEvent): [number, number] {
-  const frame = document.getElementById("workspace")?.getBoundingClientRect();
-  return [event.clientX - (frame?.left ?? 0), event.clientY - (frame?.top ?? 0)];
+  const bounds = document.getElementById("workspace")?.getBoundingClientRect();
+  return [event.clientX - (bounds?.left ?? 0), event.clientY - (bounds?.top ?? 0)];
 }
 
 function awayFrom(page: ToolPage, row: number, event: PointerEvent): number {

@@ -1,9 +1,9 @@
-import { useEffect, useState } from "preact/hooks";
-import { type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
-import { bytesExpected, type ExportChoice, optionsOf } from "../../library/export-choice";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { DEFAULT_APPEARANCE, type ExportFormat, MAX_NAME_CHARACTERS } from "../../../wire/generated";
+import { type ExportChoice, optionsOf } from "../../library/export-choice";
+import { amountOf, bytesExpected } from "../../library/export-size";
 import { ask } from "../../requests/request";
 import type { Studio } from "../../studio";
-import { EXPORTS } from "../../words/exports";
 import { numberText } from "../../words/number-text";
 import { type Key, say } from "../../words/say";
 import { usualName } from "./name-field";
@@ -28,6 +28,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
   const sizes = sizesOf(studio.stage.pixels());
   const [chosen, setChosen] = useState(0);
   const size = sizes[chosen] ?? sizes[0];
+  const amount = useMemo(() => amountOf(studio.table, studio.appearance.peek() ?? DEFAULT_APPEARANCE), [studio]);
 
   const download = (event: Event) => {
     event.preventDefault();
@@ -59,10 +60,10 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         name="format"
         values={["picture", ...(formats ?? []).map(({ ending }) => ending)]}
         chosen={format ? choice.format : "picture"}
-        text={formatText}
+        text={(ending) => say(formats?.find((format) => format.ending === ending)?.label ?? "exports.picture")}
         onChoose={(format) => choose({ format })}
       />
-      <p class="quiet">{format ? formatText(format.ending, ".text") : say("exports.picture.text")}</p>
+      <p class="quiet">{say(format?.text ?? "exports.picture.text")}</p>
       {formats === null && (
         <p class="quiet">
           {say("exports.lost")}{" "}
@@ -87,7 +88,7 @@ export function DownloadSheet({ studio }: { studio: Studio }) {
         {format && options && (
           <p class="quiet">
             {say("exports.about", {
-              megabytes: numberText(Math.max(0.1, bytesExpected(format, options, treeOf(studio)) / 1e6), 0.1),
+              megabytes: numberText(Math.max(0.1, bytesExpected(format, options, amount) / 1e6), 0.1),
             })}
           </p>
         )}
@@ -191,18 +192,6 @@ function useFormats() {
   };
   useEffect(load, []);
   return [formats, load] as const;
-}
-
-/** A later server may know formats that this page has no words for. */
-function formatText(ending: string, part: "" | ".text" = ""): string {
-  const key = `exports.${ending}${part}`;
-  return key in EXPORTS ? say(key as Key) : part === "" ? ending : "";
-}
-
-function treeOf(studio: Studio) {
-  const metamers = studio.document.peek()?.metamers ?? 0;
-  // Half of the nodes bear leaves.
-  return { metamers, leaves: 0.5 * metamers * (studio.parameters.peek()?.leaves_per_node ?? 0) };
 }
 
 /** The picture as large as on the screen, twice that, and for a large screen; none where there is no picture. */

@@ -64,7 +64,7 @@ export function SaveSheet({ studio }: { studio: Studio }) {
       <SaidFields studio={studio} note={note} onNote={setNote} />
       {!of && <p class="quiet">{say("sheets.save.advice")}</p>}
       <div class="actions">
-        {belonging.of !== null && (
+        {belonging.of !== null && studio.rights.mayBegin && (
           <button type="button" class="small" disabled={saving} onClick={() => setAnew(!anew)}>
             {say(anew ? "sheets.save.as-version" : "sheets.save.as-new", { name: belonging.of.tree.name })}
           </button>

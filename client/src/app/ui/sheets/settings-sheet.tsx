@@ -2,13 +2,14 @@ import type { Signal } from "@preact/signals";
 import type { Studio } from "../../studio";
 import { type Language, say } from "../../words/say";
 import { Check } from "../controls/check";
+import { AccountSection } from "./account-section";
 
 /** Languages by their own names, which need no translation. */
 const LANGUAGE_NAMES: Record<Language, string> = { en: "English", de: "Deutsch" };
 
 /** What a person chooses for this device. */
 export function SettingsSheet({ studio }: { studio: Studio }) {
-  const { language, theme, side, pressureWidens, namesShown, followsGrowth } = studio.settings;
+  const { language, theme, side, pressureWidens, namesShown, followsGrowth, thorough } = studio.settings;
   return (
     <div class="options">
       <Segments
@@ -43,6 +44,8 @@ export function SettingsSheet({ studio }: { studio: Studio }) {
       <Check label={say("settings.names")} chosen={namesShown} />
       <Check label={say("settings.pressure")} chosen={pressureWidens} />
       <Check label={say("settings.follow")} chosen={followsGrowth} />
+      <Check label={say("settings.thorough")} chosen={thorough} />
+      <AccountSection studio={studio} />
     </div>
   );
 }

@@ -13,6 +13,10 @@ const MOST_FRAMES = 30;
 
 /** Shows what help speaks of: opens it, takes it up, or points at it. */
 export function showSubject(studio: Studio, subject: Subject): void {
+  if ("page" in subject) {
+    open(subject.page, "_blank", "noopener");
+    return;
+  }
   studio.layout.sheet.value = "sheet" in subject ? subject.sheet : null;
   studio.layout.bare.value = false;
   if ("tour" in subject) {

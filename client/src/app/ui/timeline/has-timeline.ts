@@ -1,9 +1,11 @@
 import type { Timeline } from "../../../wire/generated";
 import type { Studio } from "../../studio";
 
-/** Whether the strip lies along the bottom. */
+/** Whether the strip lies along the bottom; who only looks does not travel. */
 export function hasTimeline(studio: Studio): boolean {
-  return isWorthShowing(studio.time.timeline.value) && studio.settings.timelineOpen.value;
+  return (
+    studio.rights.mayChange.value && isWorthShowing(studio.time.timeline.value) && studio.settings.timelineOpen.value
+  );
 }
 
 /** Before anything was done there is nowhere to travel. */

@@ -35,8 +35,8 @@ export function useScrubbing(studio: Studio, track: { readonly current: HTMLElem
     timer.current = window.setTimeout(() => setShown(false), LINGERS);
   };
   const placeAt = (x: number) => {
-    const frame = track.current?.getBoundingClientRect();
-    return frame ? Math.min(1, Math.max(0, (x - frame.left) / frame.width)) : 0;
+    const bounds = track.current?.getBoundingClientRect();
+    return bounds ? Math.min(1, Math.max(0, (x - bounds.left) / bounds.width)) : 0;
   };
   const down = (event: PointerEvent) => {
     if (pull.current !== null || event.button !== 0) {
@@ -64,16 +64,16 @@ export function useScrubbing(studio: Studio, track: { readonly current: HTMLElem
       setLooked(looks ? time.scale.peek().operationAt(placeAt(event.clientX)) : null);
       return;
     }
-    const frame = track.current?.getBoundingClientRect();
-    if (event.pointerId !== held.id || !frame) {
+    const bounds = track.current?.getBoundingClientRect();
+    if (event.pointerId !== held.id || !bounds) {
       return;
     }
     held.moved ||= Math.abs(event.clientX - held.from) > SLOP;
     if (!held.moved) {
       return;
     }
-    const speed = frame.top - event.clientY > FINE_FROM ? FINE : 1;
-    held.place = Math.min(1, Math.max(0, held.place + (speed * (event.clientX - held.x)) / frame.width));
+    const speed = bounds.top - event.clientY > FINE_FROM ? FINE : 1;
+    held.place = Math.min(1, Math.max(0, held.place + (speed * (event.clientX - held.x)) / bounds.width));
     held.x = event.clientX;
     setPlace(held.place);
     time.pull(time.scale.peek().stepAt(held.place));

@@ -77,7 +77,7 @@ impl Graph {
             malformed(place(), format!("the scale is `{}`, which is no number", excerpt(scale)))
         })?;
         if read > MAX_SCALE || self.names.len() >= usize::from(u16::MAX) {
-            return Err(out_of_range(place(), format!("the scale is {read}; allowed: 0 to {MAX_SCALE}")));
+            return Err(out_of_range(place(), format!("the scale is {read}"), format!("0 to {MAX_SCALE}")));
         }
         let class = self.names.len() as u16;
         self.names.push(symbol.to_owned());

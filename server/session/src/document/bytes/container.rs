@@ -8,7 +8,7 @@ use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
     later,
-    packing::{MAX_UNPACKED, deflate, inflate},
+    packing::{deflate, inflate},
     sections::{Kind, Release, WRITER},
 };
 
@@ -65,6 +65,12 @@ impl Section {
         let unpacked = bytes.len() as u64;
         let flags = if kind.is_required { REQUIRED } else { 0 };
         Self { tag: kind.tag, version, flags, codec: RAW, unpacked, packed: bytes }
+    }
+
+    /// The same section with what it holds, unpacked.
+    pub(super) fn unpacked(&self, bytes: Vec<u8>) -> Self {
+        let Self { tag, version, flags, .. } = *self;
+        Self { tag, version, flags, codec: RAW, unpacked: bytes.len() as u64, packed: bytes }
     }
 
     /// What it holds, within what was announced.
@@ -139,24 +145,22 @@ impl Container {
         }
         let mut entries = Reader::new(table);
         let mut sections: Vec<Section> = Vec::with_capacity(count);
-        let mut unpacked: u64 = 0;
         for _ in 0..count {
             let section = read_section(&mut entries, &mut reader)?;
             if sections.iter().any(|other| other.tag == section.tag) {
                 return Err(damaged(format!("its section {} is there twice", section.name())));
             }
-            unpacked = unpacked.saturating_add(section.unpacked);
-            if unpacked > MAX_UNPACKED {
-                let name = section.name();
-                return Err(damaged(format!(
-                    "with its section {name} it is longer than any document can be"
-                )));
-            }
-            let is_later = Kind::of(section.tag).map(|kind| section.version > kind.version);
-            if is_later.unwrap_or(section.is_required()) {
+            let kind = Kind::of(section.tag);
+            if kind.map_or(section.is_required(), |kind| section.version > kind.version) {
                 let (name, version) = (section.name(), section.version);
                 return Err(later(format!(
                     "it has a section {name} of version {version}, which version {needs} and later ones read"
+                )));
+            }
+            if let Some(kind) = kind.filter(|kind| section.unpacked > kind.most) {
+                return Err(damaged(format!(
+                    "its section {} announces {} bytes, and at most {} are possible",
+                    kind.name, section.unpacked, kind.most
                 )));
             }
             sections.push(section);

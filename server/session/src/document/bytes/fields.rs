@@ -207,6 +207,19 @@ impl<'a> Reader<'a> {
         std::str::from_utf8(self.bytes()?).map_err(|_| damaged("a text is not UTF-8"))
     }
 
+    /// A list of so many items at most.
+    pub(crate) fn list_up_to<T>(
+        &mut self,
+        most: usize,
+        read: impl FnMut(&mut Self) -> Result<T, DocumentError>,
+    ) -> Result<Vec<T>, DocumentError> {
+        let len = self.clone().u32()? as usize;
+        if len > most {
+            return Err(damaged(format!("a list has {len} items, and at most {most} are possible")));
+        }
+        self.list(read)
+    }
+
     pub(crate) fn list<T>(
         &mut self,
         mut read: impl FnMut(&mut Self) -> Result<T, DocumentError>,

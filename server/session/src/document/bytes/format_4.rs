@@ -10,7 +10,7 @@ use super::{
     damaged,
     fields::Reader,
     gestures, growth,
-    packing::{MAX_UNPACKED, inflate},
+    packing::inflate,
     programmes::Programmes,
     sections::{self, Kind},
     settings::{self, Pool},
@@ -27,7 +27,8 @@ pub(super) fn upgrade(bytes: &[u8]) -> Result<Option<Container>, DocumentError> 
         return Ok(None);
     }
     let (simulation, expected) = (header.u32()?, header.u64()?);
-    let body = unpacked(header.rest(), MAX_UNPACKED)?;
+    let most = sections::RELEASED.iter().map(|kind| kind.most).sum();
+    let body = unpacked(header.rest(), most)?;
     if checksum(&body) != expected {
         return Err(damaged("its checksum differs"));
     }

@@ -7,9 +7,12 @@ use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
 };
-use crate::document::{
-    bending::{OpenBend, OpenBends},
-    strokes::{OpenStroke, OpenStrokes},
+use crate::{
+    document::{
+        bending::{OpenBend, OpenBends},
+        strokes::{OpenStroke, OpenStrokes},
+    },
+    principal::Principal,
 };
 
 pub(super) fn write(out: &mut Writer, strokes: &OpenStrokes, bends: &OpenBends) {
@@ -44,7 +47,7 @@ pub(super) fn check(strokes: &OpenStrokes, bends: &OpenBends, plant: &Plant) -> 
 fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
     out.u32(strokes.begun);
     out.list(&strokes.open, |out, stroke| {
-        out.text(&stroke.author);
+        out.text(stroke.author.name());
         out.u32(stroke.number);
         out.u32(stroke.id.0);
         out.option(stroke.chosen.map(MetamerId::raw));
@@ -58,7 +61,7 @@ fn write_strokes(out: &mut Writer, strokes: &OpenStrokes) {
 fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
     let begun = reader.u32()?;
     let open = reader.list(|r| {
-        let (author, number, id) = (r.text()?.to_owned(), r.u32()?, StrokeId(r.u32()?));
+        let (author, number, id) = (Principal::named(r.text()?), r.u32()?, StrokeId(r.u32()?));
         let chosen = r.metamer()?;
         let last = r.list(|r| Ok(BrushSample { position: r.vector()?, radius: r.f32()? }))?;
         Ok(OpenStroke { author, number, id, chosen, last: last.first().copied() })
@@ -69,7 +72,7 @@ fn read_strokes(reader: &mut Reader<'_>) -> Result<OpenStrokes, DocumentError> {
 fn write_bends(out: &mut Writer, bends: &OpenBends) {
     out.u32(bends.begun);
     out.list(&bends.open, |out, bend| {
-        out.text(&bend.author);
+        out.text(bend.author.name());
         out.u32(bend.number);
         out.u32(bend.id);
         out.list(&bend.path, |out, row| out.u32(row.raw()));
@@ -80,7 +83,7 @@ fn write_bends(out: &mut Writer, bends: &OpenBends) {
         out.vectors(&state.nodes);
         out.list(&state.radii, |out, &radius| out.f32(radius));
         out.f32(state.stretch);
-        out.list(&state.poses, |out, pose| pose.iter().for_each(|&c| out.f64(c)));
+        out.list(&state.prisms, |out, prism| prism.iter().for_each(|&c| out.f64(c)));
         out.list(&state.targets, |out, (at, place)| {
             out.u32(*at);
             place.iter().for_each(|&c| out.f64(c));
@@ -91,7 +94,7 @@ fn write_bends(out: &mut Writer, bends: &OpenBends) {
 fn read_bends(reader: &mut Reader<'_>) -> Result<OpenBends, DocumentError> {
     let begun = reader.u32()?;
     let open = reader.list(|r| {
-        let (author, number, id) = (r.text()?.to_owned(), r.u32()?, r.u32()?);
+        let (author, number, id) = (Principal::named(r.text()?), r.u32()?, r.u32()?);
         let path = r.list(|r| r.row().map(|row| MetamerId::new(row as usize)))?;
         let touches = r.list(|r| r.u32().map(|touch| touch as usize))?;
         let is_moved = r.u8()? != 0;
@@ -100,7 +103,7 @@ fn read_bends(reader: &mut Reader<'_>) -> Result<OpenBends, DocumentError> {
             nodes: r.vectors()?,
             radii: r.list(Reader::f32)?,
             stretch: r.f32()?,
-            poses: r.list(read_all)?,
+            prisms: r.list(read_all)?,
             targets: r.list(|r| Ok((r.u32()?, read_all(r)?)))?,
         };
         if state.radii.len() != path.len() || touches.iter().any(|&touch| touch >= path.len()) {

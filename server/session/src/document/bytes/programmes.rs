@@ -7,7 +7,7 @@ use espalier_settings::ParametersPatch;
 use super::{
     DocumentError, damaged,
     fields::{Reader, Writer},
-    settings::{Pool, number, read_json, write_json},
+    settings::{MOST, Pool, number, read_json, write_json},
 };
 use crate::{
     document::{
@@ -55,13 +55,13 @@ pub(super) fn write(
 
 pub(super) fn read(reader: &mut Reader<'_>) -> Result<Programmes, DocumentError> {
     reader.up_to(1)?;
-    let plans = reader.list(|r| {
+    let plans = reader.list_up_to(MOST, |r| {
         let plan = Plan::new(read_json(r)?).map_err(|problem| damaged(problem.message))?;
         Ok(Arc::new(plan))
     })?;
     Ok(Programmes {
         plans,
-        of_schedules: reader.list(Reader::option)?,
+        of_schedules: reader.list_up_to(MOST, Reader::option)?,
         present: reader.option()?,
         states: read_states(reader)?,
         states_of_futures: reader.list(read_states)?,

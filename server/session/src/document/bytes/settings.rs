@@ -15,12 +15,15 @@ use crate::{
     appearance::AppearanceChange,
     document::{
         futures::Futures,
-        history::{History, Setting},
+        history::{History, MAX_SETS, Setting},
         obstacles::{Obstacles, Standings},
     },
-    obstacle::{Form, Mesh, Obstacle, Pose, Standing},
+    obstacle::{Form, Mesh, Obstacle, Placement, Standing},
     schedule::GrowthSchedule,
 };
+
+/// Sets of a kind: one to each change of it, and again where a line of time was left with another one in force.
+pub(super) const MOST: usize = 2 * MAX_SETS;
 
 /// All sets of parameters, looks, meshes and sets of obstacles of a document, by number.
 #[derive(Debug, Default)]
@@ -126,8 +129,8 @@ impl Pool {
 
     fn write_standing(&self, out: &mut Writer, Standing { id, obstacle }: &Standing) {
         out.u32(*id);
-        out.vector(obstacle.pose.position);
-        out.rotation(obstacle.pose.rotation);
+        out.vector(obstacle.placement.position);
+        out.rotation(obstacle.placement.rotation);
         match &obstacle.form {
             Form::Box { size } => {
                 out.u8(0);
@@ -161,12 +164,12 @@ pub(super) fn read_set(reader: &mut Reader<'_>) -> Result<Parameters, DocumentEr
 
 pub(super) fn read_parameters(reader: &mut Reader<'_>) -> Result<Vec<ParametersPatch>, DocumentError> {
     reader.up_to(1)?;
-    reader.list(read_json)
+    reader.list_up_to(MOST, read_json)
 }
 
 pub(super) fn read_looks(reader: &mut Reader<'_>) -> Result<Vec<Arc<Appearance>>, DocumentError> {
     reader.up_to(1)?;
-    reader.list(|r| {
+    reader.list_up_to(MOST, |r| {
         let patch: AppearancePatch = read_json(r)?;
         let change = AppearanceChange::parse(&patch).map_err(|problem| damaged(problem.message))?;
         Ok(Arc::new(change.applied_to(&Appearance::default())))
@@ -180,7 +183,7 @@ pub(super) fn read_obstacles(reader: &mut Reader<'_>) -> Result<Vec<Standings>, 
         .list(|r| Mesh::from_bytes(r.bytes()?).map(Arc::new).map_err(|fault| damaged(fault.to_string())))?;
     // An obstacle that was moved stands in many sets, but its mesh is made once.
     let mut forms = BTreeMap::new();
-    reader.list(|r| {
+    reader.list_up_to(MOST, |r| {
         let set = r.list(|r| read_standing(r, &meshes, &mut forms))?;
         if !set.is_sorted_by(|a, b| a.id < b.id) {
             return Err(damaged("obstacles are out of order"));
@@ -213,7 +216,7 @@ fn read_standing(
         }
         _ => return Err(damaged("an obstacle of unknown shape")),
     };
-    let obstacle = Obstacle::new(form, Pose { position, rotation });
+    let obstacle = Obstacle::new(form, Placement { position, rotation });
     Ok(Standing { id, obstacle: obstacle.map_err(|problem| damaged(problem.message))? })
 }
 

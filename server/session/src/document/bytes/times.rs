@@ -1,6 +1,7 @@
 //! The present line of time and all others.
 
 use espalier_plant::Plant;
+use espalier_proto::version::MAX_FUTURES;
 
 use super::{
     DocumentError, damaged,
@@ -8,9 +9,12 @@ use super::{
     settings::Pool,
     wood::{read_future, write_future},
 };
-use crate::document::{
-    futures::{Fork, Future, Futures},
-    history::{Before, History, Kind, Latest, Operation},
+use crate::{
+    document::{
+        futures::{Fork, Future, Futures},
+        history::{Before, History, Kind, Latest, Operation},
+    },
+    principal::Principal,
 };
 
 pub(super) fn write_history(out: &mut Writer, history: &History, pool: &Pool) {
@@ -76,7 +80,7 @@ pub(super) fn write_futures(out: &mut Writer, futures: &Futures, pool: &Pool) {
 pub(super) fn read_futures(reader: &mut Reader<'_>, pool: &Pool) -> Result<Futures, DocumentError> {
     reader.up_to(1)?;
     let (present, newest) = (reader.u32()?, reader.u32()?);
-    let all = reader.list(|r| {
+    let all = reader.list_up_to(MAX_FUTURES, |r| {
         let (line, on) = (r.u32()?, r.option()?);
         let fork = Fork { shared: r.u32()? as usize, step: r.u32()? };
         let operations = read_operations(r, pool)?;
@@ -144,7 +148,7 @@ pub(super) fn check_futures(
 fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
     out.list(operations, |out, operation| {
         out.u8(operation.kind as u8);
-        out.text(&operation.author);
+        out.text(operation.author.name());
         out.option(operation.gesture);
         out.u32(operation.first);
         out.u32(operation.last);
@@ -156,7 +160,7 @@ fn write_operations(out: &mut Writer, operations: &[Operation], pool: &Pool) {
 fn read_operations(reader: &mut Reader<'_>, pool: &Pool) -> Result<Vec<Operation>, DocumentError> {
     reader.list(|r| {
         let kind = Kind::from_code(r.u8()?).ok_or_else(|| damaged("an operation of unknown kind"))?;
-        let (author, gesture) = (r.text()?.to_owned(), r.option()?);
+        let (author, gesture) = (Principal::named(r.text()?), r.option()?);
         let (first, last) = (r.u32()?, r.u32()?);
         if first > last {
             return Err(damaged("an operation ends before it begins"));

@@ -33,14 +33,15 @@ pub(super) fn place_in(gesture: Option<u32>, shape: &Shape, x: f32) -> Command {
 fn no_seed_is_planted_in_an_obstacle() {
     let mut document = Document::new(4);
     let ball = place(&sphere(4.0), 20.0);
-    document.apply("ann", &ball).expect("there is room");
+    document.apply(&who("ann"), &ball).expect("there is room");
     let before = document.hash();
     let plant = |x: f32| plain(Action::PlantSeed { position: Position::nearest(Vec3::X * x) });
-    let problem = document.apply("ann", &plant(20.0)).expect_err("the ball reaches below the ground there");
+    let problem =
+        document.apply(&who("ann"), &plant(20.0)).expect_err("the ball reaches below the ground there");
     assert_eq!((problem.code, problem.field.as_deref()), (ProblemCode::OutOfRange, Some("position")));
     assert!(problem.message.contains("obstacle"), "{}", problem.message);
     assert_eq!(document.hash(), before);
-    document.apply("ann", &plant(26.0)).expect("beside it the ground is free");
+    document.apply(&who("ann"), &plant(26.0)).expect("beside it the ground is free");
 }
 
 #[test]
@@ -51,11 +52,13 @@ fn a_moved_mesh_is_not_made_again() {
             espalier_growth::Shape::Mesh { mesh, .. } => Arc::clone(mesh),
             other => panic!("{other:?}"),
         };
-    document.apply("ann", &place(&slab(), 8.0)).expect("there is room");
-    document.apply("ann", &place(&slab(), -8.0)).expect("there is room");
+    document.apply(&who("ann"), &place(&slab(), 8.0)).expect("there is room");
+    document.apply(&who("ann"), &place(&slab(), -8.0)).expect("there is room");
     let before = [made(&document, 0), made(&document, 1)];
-    document.apply("ann", &plain(Action::MoveObstacle { id: 1, pose: pose(5.0) })).expect("it is there");
-    document.apply("ann", &place(&sphere(1.0), 15.0)).expect("there is room");
+    document
+        .apply(&who("ann"), &plain(Action::MoveObstacle { id: 1, pose: pose(5.0) }))
+        .expect("it is there");
+    document.apply(&who("ann"), &place(&sphere(1.0), 15.0)).expect("there is room");
     for (index, before) in before.iter().enumerate() {
         assert!(Arc::ptr_eq(before, &made(&document, index)), "{index}");
     }
@@ -85,9 +88,9 @@ fn ob2_a_mesh_keeps_its_shape() {
     let mut document = tree();
     apply(&mut document, &place(&slab(), 9.0));
     let before = document.hash();
-    let problem = document.apply("ann", &swell(1, 2.0, None)).expect_err("it is a mesh");
+    let problem = document.apply(&who("ann"), &swell(1, 2.0, None)).expect_err("it is a mesh");
     assert_eq!(problem.code, ProblemCode::Refused);
-    let problem = document.apply("ann", &swell(2, 2.0, None)).expect_err("nothing is there");
+    let problem = document.apply(&who("ann"), &swell(2, 2.0, None)).expect_err("nothing is there");
     assert_eq!(problem.code, ProblemCode::NotFound);
     assert_eq!(document.hash(), before);
     let refused = SimpleShape::try_from(slab()).expect_err("nothing becomes a mesh");
@@ -125,7 +128,7 @@ fn ob2_what_comes_between_parts_a_gesture() {
         ("ann", push(1, 8.0, Some(2))),
     ] {
         let operations = document.timeline().operations.len();
-        document.apply(author, &action).expect("it can be done");
+        document.apply(&who(author), &action).expect("it can be done");
         assert_eq!(document.timeline().operations.len(), operations + 1, "{author}: {action:?}");
     }
     // The same number for something of another kind is another operation as well.
@@ -189,7 +192,7 @@ fn arrange(document: &mut Document, arrangement: &Arrangement) {
         Arrangement::Clear(any) => in_gesture(HAND, Action::RemoveObstacle { id: found(any) }),
     };
     // Where nothing stands there is nothing to move.
-    let _ = document.apply("ann", &action);
+    let _ = document.apply(&who("ann"), &action);
 }
 
 fn check_gesture(seed: u32, earlier: &[Event], hand: &[Arrangement]) -> Result<(), TestCaseError> {
@@ -210,9 +213,9 @@ fn check_gesture(seed: u32, earlier: &[Event], hand: &[Arrangement]) -> Result<(
         return Ok(());
     }
     prop_assert!(!document.figures().can_redo, "what lay ahead is another future");
-    document.apply("ann", &plain(Action::Undo {})).expect("there is the gesture");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("there is the gesture");
     prop_assert_eq!(&form(&document), &before);
-    document.apply("ann", &plain(Action::Redo {})).expect("it was just undone");
+    document.apply(&who("ann"), &plain(Action::Redo {})).expect("it was just undone");
     prop_assert_eq!(&form(&document), &after);
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use proptest::{prelude::*, sample::Index};
 
 use super::*;
-use crate::document::bytes::{Container, Section};
+use crate::document::bytes::{Container, Section, sections::Kind};
 
 /// Where the table of sections begins, and how long an entry of it is.
 const TABLE: usize = 28;
@@ -21,6 +21,17 @@ static BYTES: LazyLock<Vec<u8>> = LazyLock::new(|| {
     apply(&mut document, &plain(Action::StrokeBegin { stroke: 2, bud: None }));
     document.to_bytes()
 });
+
+#[test]
+fn a_document_that_is_not_packed_is_the_same() {
+    let unpacked = crate::document::plain(BYTES.clone());
+    assert!(unpacked.len() > BYTES.len());
+    assert_eq!(crate::document::plain(unpacked.clone()), unpacked);
+    assert_eq!(Document::from_bytes(&unpacked).expect("a document").to_bytes(), *BYTES);
+    for other in [b"".to_vec(), BYTES[..100].to_vec(), vec![7; 100]] {
+        assert_eq!(crate::document::plain(other.clone()), other, "what is no document stays as it is");
+    }
+}
 
 fn container() -> Container {
     Container::from_bytes(&BYTES).expect("our own bytes")
@@ -119,7 +130,10 @@ fn announced_lengths_cost_nothing() {
             sentence(&resealed(&[(first, &length.to_le_bytes())])).contains("section plant is cut short")
         );
         let error = sentence(&resealed(&[(first + 8, &length.to_le_bytes())]));
-        assert!(error.contains("with its section plant it is longer than any document can be"), "{error}");
+        assert!(
+            error.contains(&format!("its section plant announces {length} bytes, and at most")),
+            "{error}"
+        );
     }
     let unpacked = u64::from_le_bytes(BYTES[first + 8..first + 16].try_into().expect("eight bytes"));
     for other in [unpacked - 1, unpacked + 1, 0] {
@@ -165,6 +179,40 @@ fn a_later_program_is_named() {
     let later = resealed(&[(12, &[3, 0, 12, 1]), (8, &[6])]);
     assert!(sentence(&later).contains("it has format 6, which version 1.12.3 and later ones read"));
     assert!(sentence(&resealed(&[(8, &[3])])).contains("it has format 3, which no released version wrote"));
+}
+
+#[test]
+fn each_section_has_a_length_that_it_may_not_pass() {
+    for (at, section) in container().sections.iter().enumerate() {
+        let kind = Kind::of(section.tag).expect("our own section");
+        let field = TABLE + at * ENTRY + 16;
+        // Nothing is unpacked that announces too much, and nothing else is wrong with it.
+        let over = sentence(&resealed(&[(field, &(kind.most + 1).to_le_bytes())]));
+        let expected = format!("its section {} announces {} bytes", kind.name, kind.most + 1);
+        assert!(over.contains(&expected), "{over}");
+        if section.unpacked < kind.most {
+            let most = sentence(&resealed(&[(field, &kind.most.to_le_bytes())]));
+            assert!(most.contains("it has another length"), "{most}");
+        }
+    }
+}
+
+/// In memory a set takes hundreds of times the six bytes that say that nothing is set.
+#[test]
+fn a_list_of_small_sets_is_refused_before_it_is_read() {
+    for (tag, name) in [(*b"PARA", "parameters"), (*b"LOOK", "looks")] {
+        let sets = 1_000_000u32;
+        let contents = [&sets.to_le_bytes()[..], &b"\x02\0\0\0{}".repeat(sets as usize)].concat();
+        let error = changed(|sections| {
+            let section = sections.iter_mut().find(|section| section.tag == tag).expect("it is there");
+            let kind = Kind::of(tag).expect("our own section");
+            *section = Section::new(kind, contents);
+            assert!(section.packed.len() < 50_000, "{}", section.packed.len());
+        });
+        let expected =
+            format!("in its section {name}, a list has 1000000 items, and at most 200000 are possible");
+        assert!(error.contains(&expected), "{error}");
+    }
 }
 
 /// Puts other contents into a section.
@@ -260,6 +308,20 @@ fn a_step_that_ends_before_its_buds_is_refused() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
+    /// Whatever a section announces and holds, no more of it is unpacked than it announces.
+    #[test]
+    fn a_bomb_in_any_section_is_refused(at: Index, announced in 0..1u64 << 22, held in 1usize..1 << 22) {
+        prop_assume!(announced != held as u64);
+        let mut container = container();
+        let section = at.get_mut(&mut container.sections);
+        let kind = Kind::of(section.tag).expect("our own section");
+        let bomb = Section::new(kind, vec![0; held]);
+        *section = Section { unpacked: announced, ..bomb };
+        let name = kind.name;
+        let error = sentence(&container.to_bytes());
+        prop_assert!(error.contains(&format!("section {name}")), "{}", error);
+    }
+
     #[test]
     fn flipped_bits_are_noticed(at: Index, bit in 0..8u32, and_at: Index, and: u8) {
         let mut bytes = BYTES.clone();
@@ -300,8 +362,8 @@ proptest! {
         refill(section, contents);
         if let Ok(mut read) = Document::from_bytes(&container.to_bytes()) {
             // Whatever it is, it is a document: it can be gone through and grows on.
-            while read.apply("ann", &plain(Action::Undo {})).is_ok() {}
-            let _full = read.apply("ann", &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }));
+            while read.apply(&who("ann"), &plain(Action::Undo {})).is_ok() {}
+            let _full = read.apply(&who("ann"), &plain(Action::Grow { steps: Steps::nearest(1), until: None, bud: None }));
             prop_assert!(Document::from_bytes(&read.to_bytes()).is_ok());
         }
     }

@@ -62,7 +62,7 @@ fn row(document: &Document, pick: u16) -> u32 {
 }
 
 fn steps(document: &mut Document, step: Step, steps: u32) -> Result<(), Problem> {
-    document.begin_steps(Cause::from("ann"), steps, step)?;
+    document.begin_steps(Cause::from(&who("ann")), steps, step)?;
     while document.advance() {}
     Ok(())
 }
@@ -125,7 +125,7 @@ fn happen(document: &mut Document, event: &Event) -> Result<(), Problem> {
             vec![turned(0.2), turned(0.3)]
         }
     };
-    actions.iter().try_for_each(|action| document.apply("ann", action))
+    actions.iter().try_for_each(|action| document.apply(&who("ann"), action))
 }
 
 /// The row below some wood.
@@ -218,20 +218,20 @@ proptest! {
         let (plant, at_the_end) = (document.plant().hash(), state(&document));
         places.check(&document);
         let mut undone = 0;
-        while document.apply("ann", &plain(Action::Undo {})).is_ok() {
+        while document.apply(&who("ann"), &plain(Action::Undo {})).is_ok() {
             undone += 1;
             places.check(&document);
         }
         prop_assert_eq!((document.plant().hash(), forks(&document)), (seedling, Forks::default()));
         for _ in 0..undone {
-            document.apply("ann", &plain(Action::Redo {})).expect("it was undone");
+            document.apply(&who("ann"), &plain(Action::Redo {})).expect("it was undone");
             places.check(&document);
         }
         prop_assert_eq!((document.plant().hash(), state(&document)), (plant, at_the_end));
         for future in document.timeline().futures {
             let taken = Action::TakeFuture { future: future.future };
             // Its own line may have been forgotten meanwhile.
-            let _ = document.apply("ann", &plain(taken));
+            let _ = document.apply(&who("ann"), &plain(taken));
             places.check(&document);
             for step in (0..=document.plant().last_step()).rev() {
                 apply(&mut document, &plain(Action::GoTo { step }));

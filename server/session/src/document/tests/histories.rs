@@ -226,7 +226,7 @@ pub(super) fn happen(document: &mut Document, number: usize, event: &Event) {
         }
     };
     let before = document.hash();
-    let refused = document.apply("ann", &action).is_err();
+    let refused = document.apply(&who("ann"), &action).is_err();
     // A bend that cannot be kept ends nevertheless.
     if refused && !matches!(action.action, Action::BendEnd { .. }) {
         assert_eq!(document.hash(), before, "a refused {event:?} changed something");
@@ -260,6 +260,8 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
         let input = espalier_growth::StepInput { autonomous: true, ..Default::default() };
         let schedule = GrowthSchedule::plain(grown.parameters().clone());
         grown.generator_mut().turn_to(&Arc::new(schedule), GeneratorState::default());
+        // What was drawn the document alone knows.
+        grown.generator_mut().keep_what_began_in(Vec::new());
         grown.step(&Step::Growth(input.clone()), &mut espalier_growth::NoObserver);
         afresh.step(&input, &mut espalier_growth::NoObserver);
     }
@@ -296,17 +298,17 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
             if !document.timeline().futures.iter().any(|listed| listed.future == future) {
                 continue;
             }
-            document.apply("ann", &plain(Action::TakeFuture { future })).expect("it is listed");
+            document.apply(&who("ann"), &plain(Action::TakeFuture { future })).expect("it is listed");
             prop_assert_eq!(document.timeline().line, future);
         }
-        while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
+        while document.apply(&who("ann"), &plain(Action::Redo {})).is_ok() {}
         // Ungrowing may have left a setting that is not the line's.
         let step = document.plant().step();
-        document.apply("ann", &plain(Action::GoTo { step })).expect("it is here");
+        document.apply(&who("ann"), &plain(Action::GoTo { step })).expect("it is here");
         let end = form(&document);
-        while document.apply("ann", &plain(Action::Undo {})).is_ok() {}
+        while document.apply(&who("ann"), &plain(Action::Undo {})).is_ok() {}
         prop_assert_eq!(&form(&document), &seedling);
-        while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
+        while document.apply(&who("ann"), &plain(Action::Redo {})).is_ok() {}
         prop_assert_eq!(&form(&document), &end);
         prop_assert_eq!(checks::all(document.plant()), Ok(()));
         forms.push((document.timeline().line, end));
@@ -315,7 +317,7 @@ fn check_all(seed: u32, events: &[Event]) -> Result<(), TestCaseError> {
     for (line, end) in forms {
         let timeline = document.timeline();
         if timeline.futures.iter().any(|listed| listed.future == line) {
-            document.apply("ann", &plain(Action::TakeFuture { future: line })).expect("it is listed");
+            document.apply(&who("ann"), &plain(Action::TakeFuture { future: line })).expect("it is listed");
             prop_assert_eq!(form(&document), end);
         }
     }

@@ -22,7 +22,7 @@ fn kinds(document: &Document) -> Vec<OperationKind> {
 }
 
 fn apply(document: &mut Document, action: &Command) {
-    document.apply("ann", action).expect("it is done");
+    document.apply(&who("ann"), action).expect("it is done");
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn ap2_a_drag_is_one_operation() {
         apply(&mut document, &plain(Action::Undo {}));
         assert_eq!(document.appearance().leaves.season, value);
     }
-    assert!(document.apply("ann", &plain(Action::Undo {})).is_err());
+    assert!(document.apply(&who("ann"), &plain(Action::Undo {})).is_err());
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn ap2_a_species_is_picked_in_one_operation() {
 fn ap2_what_others_do_parts_a_gesture() {
     let mut document = Document::new(1);
     apply(&mut document, &season(Some(1), 2.0));
-    document.apply("ben", &season(Some(1), 2.4)).expect("it is done");
+    document.apply(&who("ben"), &season(Some(1), 2.4)).expect("it is done");
     apply(&mut document, &season(Some(1), 2.8));
     assert_eq!(kinds(&document).len(), 3);
     grow(&mut document, 1, None);
@@ -159,13 +159,13 @@ fn looks_are_saved_with_the_tree() {
 #[test]
 fn looks_make_no_difference_to_growth() {
     let mut plain = Document::new(6);
-    let mut dressed = plain.clone();
-    apply(&mut dressed, &season(None, 3.0));
-    for document in [&mut plain, &mut dressed] {
+    let mut seasoned = plain.clone();
+    apply(&mut seasoned, &season(None, 3.0));
+    for document in [&mut plain, &mut seasoned] {
         grow(document, 6, None);
     }
-    assert_eq!(plain.plant().hash(), dressed.plant().hash());
-    assert_ne!(plain.hash(), dressed.hash());
+    assert_eq!(plain.plant().hash(), seasoned.plant().hash());
+    assert_ne!(plain.hash(), seasoned.hash());
 }
 
 #[test]
@@ -175,7 +175,7 @@ fn ap1_fields_of_two_people_both_count() {
     let tint = LeafPatch { tint: Some([10, 20, 30]), ..LeafPatch::default() };
     for (author, leaves) in [("ann", season), ("ben", tint)] {
         let patch = AppearancePatch { leaves: Some(leaves), ..AppearancePatch::default() };
-        document.apply(author, &look(None, patch)).expect("it is done");
+        document.apply(&who(author), &look(None, patch)).expect("it is done");
     }
     let leaves = document.appearance().leaves;
     assert_eq!((leaves.season, leaves.tint), (2.0, [10, 20, 30]));

@@ -53,12 +53,12 @@ pub(super) fn some(which: u32) -> Option<Programme> {
 }
 
 fn set(document: &mut Document, programme: Option<Programme>, keep: bool) {
-    document.apply("ann", &plain(Action::SetProgramme { programme, keep })).expect("it is in range");
+    document.apply(&who("ann"), &plain(Action::SetProgramme { programme, keep })).expect("it is in range");
 }
 
 fn set_shedding(document: &mut Document, threshold: f32) {
     let parameters = shedding(threshold);
-    document.apply("ann", &plain(Action::SetParameters { parameters })).expect("it is in range");
+    document.apply(&who("ann"), &plain(Action::SetParameters { parameters })).expect("it is in range");
 }
 
 fn now(document: &Document) -> (u32, f32) {
@@ -75,13 +75,13 @@ fn pg1_parameters_are_those_of_the_age_wherever_one_goes_in_time() {
     grow(&mut document, 3, None);
     assert_eq!(now(&document), (6, 0.1));
     let hash = document.plant().hash();
-    document.apply("ann", &plain(Action::GoTo { step: 2 })).expect("it has been there");
+    document.apply(&who("ann"), &plain(Action::GoTo { step: 2 })).expect("it has been there");
     assert_eq!(now(&document), (2, 0.9));
-    document.apply("ann", &plain(Action::Ungrow { steps: Steps::LEAST })).expect("it has grown");
+    document.apply(&who("ann"), &plain(Action::Ungrow { steps: Steps::LEAST })).expect("it has grown");
     assert_eq!(now(&document), (1, 0.9));
-    while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
+    while document.apply(&who("ann"), &plain(Action::Redo {})).is_ok() {}
     assert_eq!((now(&document), document.plant().hash()), ((6, 0.1), hash));
-    while document.apply("ann", &plain(Action::Undo {})).is_ok() {}
+    while document.apply(&who("ann"), &plain(Action::Undo {})).is_ok() {}
     assert!(document.programme().is_none() && now(&document) == (0, 0.0));
 }
 
@@ -91,7 +91,7 @@ fn pg1_edits_take_no_time() {
     set(&mut document, Some(pole()), false);
     grow(&mut document, 3, None);
     let seed = Action::PlantSeed { position: Position::nearest(Vec3::X * 9.0) };
-    document.apply("ann", &plain(seed)).expect("there is room");
+    document.apply(&who("ann"), &plain(seed)).expect("there is room");
     assert_eq!((now(&document), document.plant().step()), ((3, 0.9), 4));
 }
 
@@ -101,7 +101,7 @@ fn pg2_growth_ends_at_the_age_it_is_given() {
     set(&mut document, Some(drawn()), false);
     for _ in 0..40 {
         let action = Action::Grow { steps: Steps::nearest(3), until: Some(Age::nearest(20)), bud: None };
-        document.apply("ann", &plain(action)).expect("there is room");
+        document.apply(&who("ann"), &plain(action)).expect("there is room");
     }
     assert_eq!(document.age(), 20);
     assert!(document.plant().living_count() > 10 && document.plant().has_seed_at(Vec3::X * 5.0));
@@ -113,7 +113,7 @@ fn pg2_growth_goes_on_wherever_one_goes_back_to() {
     set(&mut document, Some(drawn()), false);
     grow(&mut document, 30, None);
     for step in (1..document.plant().last_step()).rev() {
-        document.apply("ann", &plain(Action::GoTo { step })).expect("it has been there");
+        document.apply(&who("ann"), &plain(Action::GoTo { step })).expect("it has been there");
         let seeds = |document: &Document| {
             let all = (0..document.plant().metamer_count()).map(MetamerId::new);
             all.filter(|&id| document.plant().is_seed(id)).count()
@@ -145,7 +145,7 @@ fn pg3_stages_out_of_order_are_refused() {
     let mut document = Document::new(3);
     let programme = programme(vec![change(4, shedding(0.9)), change(3, shedding(0.1))]);
     let action = Action::SetProgramme { programme: Some(programme), keep: false };
-    let problem = document.apply("ann", &plain(action)).expect_err("out of order");
+    let problem = document.apply(&who("ann"), &plain(action)).expect_err("out of order");
     assert_eq!(problem.field.as_deref(), Some("programme.stages[1].age"));
 }
 
@@ -158,13 +158,15 @@ fn pg4_what_was_set_by_hand_holds_at_every_age_until_it_is_given_back() {
     assert_eq!(now(&document).1, 0.5);
     let names = vec![ParameterName::try_from("shedding_threshold".to_owned()).expect("a parameter")];
     let parameters = List::try_from(names).expect("one");
-    document.apply("ann", &plain(Action::FollowProgramme { parameters })).expect("there is a programme");
+    document
+        .apply(&who("ann"), &plain(Action::FollowProgramme { parameters }))
+        .expect("there is a programme");
     assert_eq!(now(&document).1, 0.1);
-    document.apply("ann", &plain(Action::Undo {})).expect("it is an operation");
+    document.apply(&who("ann"), &plain(Action::Undo {})).expect("it is an operation");
     assert_eq!(now(&document).1, 0.5);
     set(&mut document, None, false);
     let all = Action::FollowProgramme { parameters: List::default() };
-    assert!(document.apply("ann", &plain(all)).is_err());
+    assert!(document.apply(&who("ann"), &plain(all)).is_err());
 }
 
 #[test]
@@ -178,7 +180,7 @@ fn pg2_the_brush_of_a_programme_gives_its_bud_to_the_hand() {
     let before = document.metamers();
     let tip = document.plant().bud_position(AxisId::new(0));
     assert!((5.0..40.0).contains(&tip.y), "the brush of the programme is on its way: {tip}");
-    let mut apply = |action: Action| document.apply("ann", &plain(action)).expect("it is well formed");
+    let mut apply = |action: Action| document.apply(&who("ann"), &plain(action)).expect("it is well formed");
     apply(Action::StrokeBegin { stroke: 1, bud: None });
     for step in 0..=10u8 {
         let along = f32::from(step);

@@ -113,7 +113,7 @@ fn be4_a_bend_given_up_is_no_operation() {
     ] {
         apply(&mut document, &begin(3, path[5], &[path[0]]));
         apply(&mut document, &travel);
-        assert_eq!(document.open_bends("ann"), [] as [u32; 0], "{travel:?} gives it up");
+        assert_eq!(document.open_bends(&who("ann")), [] as [u32; 0], "{travel:?} gives it up");
         apply(&mut document, &plain(Action::GoTo { step: 9 }));
     }
 }
@@ -165,7 +165,7 @@ fn be4_a_branch_that_is_cut_takes_its_bend_along() {
         &mut document,
         &plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::new(3.0, 4.0, 0.0)]) }),
     );
-    document.apply("bob", &plain(Action::Prune { rows: list(vec![path[0].raw()]) })).expect("a branch");
+    document.apply(&who("bob"), &plain(Action::Prune { rows: list(vec![path[0].raw()]) })).expect("a branch");
     assert!(document.poses().is_empty());
     let over = plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) });
     assert_eq!(refusal(&mut document, &over), (ProblemCode::NotFound, "bend".into()));
@@ -238,7 +238,7 @@ fn pr1_a_branch_is_cut_at_its_branching_point() {
     // With a constraint on the way a stub stays.
     apply(&mut stub, &plain(Action::SetWidth { row: lateral.raw(), diameter: Some(Diameter::nearest(0.4)) }));
     if row == lateral {
-        stub.apply("ann", &prune).expect_err("nothing stands above the constraint");
+        stub.apply(&who("ann"), &prune).expect_err("nothing stands above the constraint");
     } else {
         apply(&mut stub, &prune);
     }

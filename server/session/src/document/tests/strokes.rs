@@ -56,7 +56,7 @@ fn st1_a_stroke_that_settles_is_pending_until_it_is_done_or_stopped() {
         apply(&mut document, &plain(Action::StrokeBegin { stroke: 1, bud: None }));
         draw(&mut document, 1, &(0.0, 8.0, 8.0));
         let drawn = document.metamers();
-        document.begin("ann", &plain(Action::StrokeEnd { stroke: 1 })).expect("it was begun");
+        document.begin(&who("ann"), &plain(Action::StrokeEnd { stroke: 1 })).expect("it was begun");
         let mut pending = vec![document.pending_steps()];
         document.stop_at(stopped.then(|| document.steps_begun() + 1));
         while document.advance() {

@@ -1,6 +1,10 @@
 //! Lines of time: going along them, leaving them, and what they keep.
 
-use super::*;
+use super::{
+    arranging::{place_in, sphere},
+    *,
+};
+use crate::document::history::MAX_SETS;
 
 #[test]
 fn tt3_what_lay_ahead_becomes_a_future() {
@@ -53,11 +57,11 @@ fn tt2_scrubbing_follows_the_settings_of_the_line() {
     grow(&mut document, 1, None);
     use espalier_proto::OperationKind::{Growth, Parameters};
     assert_eq!(kinds(&document), [Growth, Parameters, Growth]);
-    while document.apply("ann", &plain(Action::Undo {})).is_ok() {}
+    while document.apply(&who("ann"), &plain(Action::Undo {})).is_ok() {}
     assert_eq!((document.parameters(), document.plant().step()), (seedling.clone(), 0));
     let nothing = problem(&mut document, &plain(Action::Undo {}));
     assert_eq!((nothing.code, nothing.message.as_str()), (ProblemCode::Refused, "there is nothing to undo"));
-    while document.apply("ann", &plain(Action::Redo {})).is_ok() {}
+    while document.apply(&who("ann"), &plain(Action::Redo {})).is_ok() {}
     assert_eq!((document.parameters(), document.plant().step()), (changed.clone(), 3));
     // Undoing takes a difference back that nothing was done with.
     apply(&mut document, &plain(Action::Ungrow { steps: Steps::nearest(3) }));
@@ -85,6 +89,26 @@ fn lm11_the_oldest_futures_are_forgotten() {
 }
 
 #[test]
+fn lm11_changes_of_settings_are_counted() {
+    let mut document = tree();
+    apply(&mut document, &patch(0.46));
+    let change = document.history.operations.last().expect("it was recorded").clone();
+    let others = document.history.operations.len() - 1;
+    document.history.operations.resize(others + MAX_SETS - 1, change);
+    document.history.done = document.history.operations.len();
+    apply(&mut document, &patch(0.47));
+    let full = (ProblemCode::Refused, "kind".to_owned());
+    assert_eq!(refusal(&mut document, &patch(0.48)), full);
+    assert_eq!(refusal(&mut document, &place_in(None, &sphere(2.0), 30.0)), full);
+    grow(&mut document, 1, None);
+    let read = Document::from_bytes(&document.to_bytes()).expect("as much can be read");
+    assert_eq!(read.hash(), document.hash());
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &plain(Action::Undo {}));
+    apply(&mut document, &patch(0.48));
+}
+
+#[test]
 fn lm11_what_dies_in_a_future_counts_as_what_is_born() {
     let mut document = tree();
     let (living, branch) = (document.metamers() as usize, laterals(&document)[0]);
@@ -108,7 +132,7 @@ fn cm5_a_stroke_that_goes_on_after_a_cut_is_another_operation() {
     apply(&mut document, &plain(Action::StrokeBegin { stroke: 7, bud: None }));
     let lateral = laterals(&document)[0];
     document
-        .apply("bob", &plain(Action::Prune { rows: list(vec![lateral.raw()]) }))
+        .apply(&who("bob"), &plain(Action::Prune { rows: list(vec![lateral.raw()]) }))
         .expect("it is a lateral");
     let cut = document.plant().hash();
     apply(&mut document, &stroke(3.0));
@@ -134,5 +158,5 @@ fn tt2_scrubbing_to_where_one_is_ends_strokes() {
     apply(&mut document, &plain(Action::StrokeBegin { stroke: 7, bud: None }));
     let step = document.plant().step();
     apply(&mut document, &plain(Action::GoTo { step }));
-    assert!(document.open_strokes("ann").is_empty());
+    assert!(document.open_strokes(&who("ann")).is_empty());
 }

@@ -46,8 +46,8 @@ export function Grip(props: GripProps) {
   );
 
   const placeIn = (event: PointerEvent & { readonly currentTarget: HTMLElement }): Place | null => {
-    const frame = event.currentTarget.parentElement?.getBoundingClientRect();
-    return frame ? { x: event.clientX - frame.left, y: event.clientY - frame.top } : null;
+    const bounds = event.currentTarget.parentElement?.getBoundingClientRect();
+    return bounds ? { x: event.clientX - bounds.left, y: event.clientY - bounds.top } : null;
   };
   const release = (event: PointerEvent) => {
     if (held.current?.pointer === event.pointerId) {

@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Programme } from "../../../../wire/generated";
 import { NUMBERS } from "../../../document/growth/growth-parameters";
 import { valuesAt } from "../../../document/growth/programme-control";
+import { placeOf } from "../../controls/travel";
 import { CurveScale, grippable, pointsOf, withChangeAt, withoutChange, withPoint } from "./programme-curve";
 
 const SHEDDING = NUMBERS.shedding_threshold;
@@ -54,7 +55,20 @@ describe("the curve of a parameter", () => {
     const scale = new CurveScale(SHEDDING, 20, { left: 10, top: 20, width: 200, height: 80 });
     const point = { age: 10, value: 0.25, change: null };
     expect(scale.at(scale.place(point))).toEqual({ age: 10, value: 0.25 });
-    expect(scale.path([point])).toBe("M110 80H210");
+    const flat = new CurveScale(NUMBERS.apical_control, 20, { left: 10, top: 20, width: 200, height: 80 });
+    const middle = (NUMBERS.apical_control.least + NUMBERS.apical_control.most) / 2;
+    expect(flat.path([{ ...point, value: middle }])).toBe("M110 60H210");
+  });
+
+  it("gives a value the place that it has on its slider", () => {
+    expect(SHEDDING.travel).toEqual([0.3, 0.6]);
+    const scale = new CurveScale(SHEDDING, 20, { left: 0, top: 20, width: 200, height: 100 });
+    for (const value of [0, 0.25, 0.3, 0.45, 0.6, 1]) {
+      expect(scale.y(value), `${value}`).toBeCloseTo(120 - 100 * placeOf(SHEDDING, value), 9);
+      expect(scale.at({ x: 0, y: scale.y(value) }).value, `${value}`).toBe(value);
+    }
+    expect(scale.y(0.3) - scale.y(0.6), "what does something fills the curve").toBeGreaterThanOrEqual(90);
+    expect([scale.at({ x: 0, y: 900 }), scale.at({ x: 0, y: -900 })].map(({ value }) => value)).toEqual([0, 1]);
   });
 
   it("has grips that lie apart, the chosen one's among them", () => {

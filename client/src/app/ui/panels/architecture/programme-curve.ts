@@ -1,6 +1,8 @@
 import type { Programme } from "../../../../wire/generated";
 import { type NumberParameter, patchFor } from "../../../document/growth/growth-parameters";
 import { type Change, changesOf, valuesAt, withChanges } from "../../../document/growth/programme-control";
+import { onStep } from "../../../words/number-text";
+import { placeOf, valueAt } from "../../controls/travel";
 import { clamped, type Place, short } from "./place";
 
 /** A point of the curve: from this age on the parameter has this value. */
@@ -28,11 +30,9 @@ export function withPoint(
   to: { readonly age: number; readonly value: number },
 ): Programme {
   const { name, least, most, step } = parameter;
-  const value = clamped(Math.round(to.value / step) * step, least, most);
-  // No more digits than a step has: what is multiplied and divided is not quite what was meant.
-  const tidy = Number(value.toPrecision(6));
+  const value = onStep(to.value, least, most, step);
   if (change === null) {
-    const patch = patchFor(name, tidy, valuesAt(programme, -1));
+    const patch = patchFor(name, value, valuesAt(programme, -1));
     return { ...programme, parameters: { ...programme.parameters, ...patch } };
   }
   const changes = changesOf(programme);
@@ -42,7 +42,7 @@ export function withPoint(
   }
   const [before, behind] = [changes[change - 1]?.age ?? -1, changes[change + 1]?.age ?? Number.POSITIVE_INFINITY];
   const age = clamped(Math.round(to.age), before + 1, Math.max(before + 1, behind - 1));
-  const patch = patchFor(name, tidy, valuesAt(programme, moved.age));
+  const patch = patchFor(name, value, valuesAt(programme, moved.age));
   const next: Change = { ...moved, age, parameters: { ...moved.parameters, ...patch } };
   return withChanges(programme, changes.with(change, next));
 }
@@ -87,25 +87,25 @@ export function grippable(points: readonly Point[], chosen: Point, scale: CurveS
 export class CurveScale {
   #parameter: NumberParameter;
   #lastAge: number;
-  #frame: { readonly left: number; readonly top: number; readonly width: number; readonly height: number };
+  #box: { readonly left: number; readonly top: number; readonly width: number; readonly height: number };
 
   constructor(
     parameter: NumberParameter,
     lastAge: number,
-    frame: { readonly left: number; readonly top: number; readonly width: number; readonly height: number },
+    box: { readonly left: number; readonly top: number; readonly width: number; readonly height: number },
   ) {
     this.#parameter = parameter;
     this.#lastAge = Math.max(1, lastAge);
-    this.#frame = frame;
+    this.#box = box;
   }
 
   x(age: number): number {
-    return this.#frame.left + (this.#frame.width * Math.min(age, this.#lastAge)) / this.#lastAge;
+    return this.#box.left + (this.#box.width * Math.min(age, this.#lastAge)) / this.#lastAge;
   }
 
+  /** A value is as high here as it is far on its slider: values that do little get little room. */
   y(value: number): number {
-    const { least, most } = this.#parameter;
-    return this.#frame.top + this.#frame.height * (1 - (value - least) / (most - least));
+    return this.#box.top + this.#box.height * (1 - placeOf(this.#parameter, value));
   }
 
   place({ age, value }: Point): Place {
@@ -114,11 +114,10 @@ export class CurveScale {
 
   /** The age and the value at a place. */
   at({ x, y }: Place): { readonly age: number; readonly value: number } {
-    const { least, most } = this.#parameter;
-    const { left, top, width, height } = this.#frame;
+    const { left, top, width, height } = this.#box;
     return {
       age: ((x - left) / width) * this.#lastAge,
-      value: least + (1 - (y - top) / height) * (most - least),
+      value: valueAt(this.#parameter, 1 - (y - top) / height),
     };
   }
 

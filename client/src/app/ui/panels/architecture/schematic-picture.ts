@@ -42,7 +42,7 @@ export function pictureOf({ segments, radii, leaves }: Schematic): SchematicPict
   return { wood, leaves: foliage, aside, above, below };
 }
 
-/** How a picture is laid into a frame: pixels for an internode, and where the ground is, from the top. */
+/** How a picture is laid into a box: pixels for an internode, and where the ground is, from the top. */
 export interface Layout {
   readonly scale: number;
   readonly ground: number;
@@ -53,7 +53,7 @@ const MARGIN = { aside: 14, above: 16, below: 16 };
 /** A seedling is drawn as small as it is beside a tree of this height. */
 const LEAST_HEIGHT = 8;
 
-/** The largest layout in which all of a tree is within a frame, in pixels, its trunk in the middle. */
+/** The largest layout in which all of a tree is within a box, in pixels, its trunk in the middle. */
 export function layoutOf({ aside, above, below }: SchematicPicture, width: number, height: number): Layout {
   const upright = (height - MARGIN.above - MARGIN.below) / Math.max(LEAST_HEIGHT, above + below);
   const level = (width / 2 - MARGIN.aside) / Math.max(1, aside);

@@ -22,23 +22,23 @@ const HAIR = 1.1;
 const BOLD = 1.6;
 /** How long a server that grew no sketch is left alone, in milliseconds. */
 const RETRY_AFTER = 1000;
-/** The length of the arrow, as a share of the frame's height, and at most in pixels. */
+/** The length of the arrow, as a share of the box's height, and at most in pixels. */
 const ARROW = { share: 0.36, most: 84 };
-/** A finger takes its tip so far around it, in pixels, which the frame has to show. */
+/** A finger takes its tip so far around it, in pixels, which the box has to show. */
 const GRIP_RADIUS = 22;
 
 /** A small flat tree that the server grows as the user changes what trees grow by, and on it the arrow of tropism. */
 export function SchematicTree({ studio }: WidgetProps) {
-  const frame = useRef<HTMLDivElement>(null);
+  const box = useRef<HTMLDivElement>(null);
   const now = studio.parameters.value;
-  const { width, height } = useSize(frame);
+  const { width, height } = useSize(box);
   const { picture, of, unanswered } = useSketch(studio);
   const state = sketchState(of !== null, unanswered);
   const wanted = layoutOf(picture, width, height);
   const scale = useEased(wanted.scale, false);
   const ground = useEased(wanted.ground, false);
   return (
-    <div class="schematic" ref={frame} data-grown={of !== null && of === now} data-metamers={picture.wood.length}>
+    <div class="schematic" ref={box} data-grown={of !== null && of === now} data-metamers={picture.wood.length}>
       {width > 0 && (
         <svg width={width} height={height} role="img" aria-label={say("architecture.sketch")}>
           <path class="schematic-ground" d={`M${width * 0.08} ${short(ground)}H${width * 0.92}`} />

@@ -18,6 +18,9 @@ export function useSpecies(studio: Studio): readonly Species[] | null {
   return source.known.value;
 }
 
+/** The same, as far as they are known by now. */
+export const knownSpecies = (): readonly Species[] => source.known.peek() ?? [];
+
 /** The species picked last on this page, by its slug: some differ only in how they are raised. */
 const lastPicked = signal<string | undefined>(undefined);
 

@@ -6,7 +6,7 @@ interface Painted {
   readonly tint: Readonly<Colour>;
 }
 
-function Frame({ children }: { children: ComponentChildren }) {
+function Picture({ children }: { children: ComponentChildren }) {
   return (
     <svg viewBox="0 0 40 40" aria-hidden="true">
       {children}
@@ -23,10 +23,10 @@ export function FlowerPicture({ kind, tint }: Painted & { kind: FlowerKind }) {
   const fill = hexOf(tint);
   switch (kind) {
     case "none":
-      return <Frame>{NONE}</Frame>;
+      return <Picture>{NONE}</Picture>;
     case "rosette":
       return (
-        <Frame>
+        <Picture>
           {[0, 72, 144, 216, 288].map((turn) => (
             <path
               key={turn}
@@ -37,11 +37,11 @@ export function FlowerPicture({ kind, tint }: Painted & { kind: FlowerKind }) {
             />
           ))}
           <circle cx="20" cy="20" r="3.4" fill="#e0b040" />
-        </Frame>
+        </Picture>
       );
     case "catkin":
       return (
-        <Frame>
+        <Picture>
           <path d="M12 5h16" {...STALK} />
           {[14, 25].map((x, i) => (
             <g key={x}>
@@ -52,11 +52,11 @@ export function FlowerPicture({ kind, tint }: Painted & { kind: FlowerKind }) {
               ))}
             </g>
           ))}
-        </Frame>
+        </Picture>
       );
     case "panicle":
       return (
-        <Frame>
+        <Picture>
           <path d="M20 37V6" {...STALK} />
           {[8, 12, 16.5, 21, 25.5, 30].map((y, row) => {
             const half = 1.2 + row * 1.9;
@@ -64,7 +64,7 @@ export function FlowerPicture({ kind, tint }: Painted & { kind: FlowerKind }) {
               <circle key={`${x} ${y}`} cx={20 + x} cy={y + Math.abs(x) * 0.15} r="3.1" fill={fill} {...EDGE} />
             ));
           })}
-        </Frame>
+        </Picture>
       );
   }
 }
@@ -74,10 +74,10 @@ export function FruitPicture({ kind, tint }: Painted & { kind: FruitKind }) {
   const fill = hexOf(tint);
   switch (kind) {
     case "none":
-      return <Frame>{NONE}</Frame>;
+      return <Picture>{NONE}</Picture>;
     case "round":
       return (
-        <Frame>
+        <Picture>
           <path d="M20 5c-4 5-7 10-7 17M20 5c3 4 6 8 7 14" {...STALK} />
           <circle cx="13" cy="26" r="7.5" fill={fill} {...EDGE} />
           <circle cx="27" cy="24" r="7.5" fill={fill} {...EDGE} />
@@ -87,11 +87,11 @@ export function FruitPicture({ kind, tint }: Painted & { kind: FruitKind }) {
             stroke="rgb(255 255 255 / 65%)"
             stroke-width="1.6"
           />
-        </Frame>
+        </Picture>
       );
     case "cone":
       return (
-        <Frame>
+        <Picture>
           <path d="M20 3v6" {...STALK} />
           <path
             d="M20 7c7 3 9.5 9 8.5 16-.8 6-4 10.5-8.5 13-4.5-2.5-7.7-7-8.5-13-1-7 1.5-13 8.5-16Z"
@@ -104,20 +104,20 @@ export function FruitPicture({ kind, tint }: Painted & { kind: FruitKind }) {
             stroke="rgb(40 25 10 / 45%)"
             stroke-width="1.3"
           />
-        </Frame>
+        </Picture>
       );
     case "nut":
       return (
-        <Frame>
+        <Picture>
           <path d="M20 4v7" {...STALK} />
           <path d="M11.5 19c0 9 4 14.5 8.5 17 4.5-2.5 8.5-8 8.5-17Z" fill={fill} {...EDGE} />
           <path d="M9.5 20c0-6.5 4.5-10.5 10.5-10.500S30.5 13.5 30.5 20c-6 2-15 2-21 0Z" fill="#8a6b48" {...EDGE} />
           <path d="M13 17.500l4-5M18 19l5-7M23.5 19.500l4-5" stroke="rgb(40 25 10 / 35%)" stroke-width="1.1" />
-        </Frame>
+        </Picture>
       );
     case "winged":
       return (
-        <Frame>
+        <Picture>
           <path d="M20 4v8" {...STALK} />
           {[1, -1].map((side) => (
             <g key={side} transform={`translate(20 0) scale(${side} 1)`}>
@@ -126,7 +126,7 @@ export function FruitPicture({ kind, tint }: Painted & { kind: FruitKind }) {
               <circle cx="2.5" cy="16" r="3" fill="#8a6b48" />
             </g>
           ))}
-        </Frame>
+        </Picture>
       );
   }
 }
@@ -155,7 +155,7 @@ export function PlacePicture({ place, tint }: Painted & { place: Place }) {
     ],
   }[place];
   return (
-    <Frame>
+    <Picture>
       <path d="M20 38V22" fill="none" stroke="#7d6a55" stroke-width="4.5" stroke-linecap="round" />
       <path d="M20 24V6M20 21 8 11M20 21 32 11" {...STALK} />
       {place !== "wood" &&
@@ -178,6 +178,6 @@ export function PlacePicture({ place, tint }: Painted & { place: Place }) {
       {spots.map(([x, y]) => (
         <circle key={`${x} ${y}`} cx={x} cy={y} r="3.2" fill={fill} stroke="rgb(30 25 20 / 55%)" stroke-width="0.9" />
       ))}
-    </Frame>
+    </Picture>
   );
 }

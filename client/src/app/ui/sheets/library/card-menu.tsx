@@ -83,6 +83,11 @@ export function CardMenu({ label, deeds }: CardMenuProps) {
   );
 }
 
+/** What one may do, and nothing of what one may not. */
+export function only(may: boolean, ...deeds: readonly Deed[]): readonly Deed[] {
+  return may ? deeds : [];
+}
+
 /** Below its button where there is room, else above; always on the page. */
 function place(list: HTMLElement, button: DOMRect): void {
   const { width, height } = list.getBoundingClientRect();

@@ -46,27 +46,29 @@ export function Collections({ desk }: { readonly desk: LibraryDesk }) {
         {folders?.map((folder) => (
           <Entry key={folder.id} desk={desk} folder={folder} isNew={folder.id === made} add={add} />
         ))}
-        <li class="collection-row">
-          {making ? (
-            <CardForm
-              kind="name"
-              label={say("finding.new.name")}
-              value=""
-              onSave={(name) => void add(name)}
-              onEnd={() => setMaking(false)}
-            />
-          ) : (
-            <button
-              type="button"
-              class="collection collection-new"
-              aria-label={say("finding.new")}
-              onClick={() => setMaking(true)}
-            >
-              <AddIcon />
-              <span>{say("finding.new")}</span>
-            </button>
-          )}
-        </li>
+        {studio.rights.mayChange.value && (
+          <li class="collection-row">
+            {making ? (
+              <CardForm
+                kind="name"
+                label={say("finding.new.name")}
+                value=""
+                onSave={(name) => void add(name)}
+                onEnd={() => setMaking(false)}
+              />
+            ) : (
+              <button
+                type="button"
+                class="collection collection-new"
+                aria-label={say("finding.new")}
+                onClick={() => setMaking(true)}
+              >
+                <AddIcon />
+                <span>{say("finding.new")}</span>
+              </button>
+            )}
+          </li>
+        )}
       </ul>
     </nav>
   );
@@ -106,7 +108,7 @@ function Entry({ desk, folder, isNew, add }: EntryProps) {
       setDeed(one);
     },
   }));
-  const menu = wanted.value.collection === id && deed === null && (
+  const menu = studio.rights.mayChange.value && wanted.value.collection === id && deed === null && (
     <CardMenu label={say("finding.more-of", { name })} deeds={deeds} />
   );
   return (

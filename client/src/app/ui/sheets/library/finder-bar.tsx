@@ -17,7 +17,7 @@ export function FinderBar({ desk }: { readonly desk: LibraryDesk }) {
   const { tags, favourite, species, author, mine, size, from, to, sort } = wanted.value;
   const count = [species, author, mine, size !== "any", from, to].filter(Boolean).length + tags.length;
   return (
-    <div class="finder">
+    <div class="finder" data-open={open}>
       <div class="finder-bar">
         <SearchField desk={desk} />
         <button

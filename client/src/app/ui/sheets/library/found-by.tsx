@@ -1,3 +1,4 @@
+import { KEPT_DAYS } from "../../../../wire/generated";
 import { speciesName } from "../../../document/species/species-choice";
 import { cleared, conditions } from "../../../library/wanted";
 import { say } from "../../../words/say";
@@ -43,7 +44,7 @@ export function NothingFound({ desk }: { readonly desk: LibraryDesk }) {
     const { collection: place } = wanted.value;
     const text =
       place === null
-        ? say(`library.empty.${section.name}`)
+        ? say(`library.empty.${section.name}`, { days: KEPT_DAYS })
         : place === ""
           ? say("finding.empty-none")
           : say("finding.empty", { collection });

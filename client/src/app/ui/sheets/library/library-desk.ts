@@ -8,6 +8,7 @@ import type { SectionName } from "../../../page/layout";
 import { kept } from "../../../page/settings";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
+import { knownSpecies } from "../../panels/architecture/species-list";
 import { TreeDrag } from "./tree-drag";
 
 /** What somebody looks for, as long as the tab of the browser is open. */
@@ -25,7 +26,14 @@ export interface LibraryDesk {
 export function openDesk(studio: Studio, name: SectionName): LibraryDesk {
   const show = studio.toasts.show.bind(studio.toasts);
   const catalogue = new Catalogue({ api, show });
-  const section = new LibrarySection({ name, api, wanted: () => wanted.peek(), said: () => said(studio), show });
+  const section = new LibrarySection({
+    name,
+    api,
+    wanted: () => wanted.peek(),
+    species: knownSpecies,
+    said: () => said(studio),
+    show,
+  });
   const drag = new TreeDrag({
     dropped: (trees, id) => void section.move(trees, catalogue.folder(id) ?? null),
     missed: () => show(say("finding.dropped-beside")),

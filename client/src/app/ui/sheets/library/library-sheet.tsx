@@ -23,11 +23,15 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   const { section, catalogue, wanted } = desk;
   const want = wanted.value;
   useEffect(() => void section.pages.anew(), [section, want]);
+  const { rights } = studio;
+  const isOpen = rights.onlyTree.value === null;
   useEffect(() => {
-    void catalogue.refresh();
+    if (isOpen) {
+      void catalogue.refresh();
+    }
     // Nobody sees any more how far the work is.
     return () => section.work.cancel();
-  }, [section, catalogue]);
+  }, [section, catalogue, isOpen]);
   useEffect(
     () => () => {
       // Whoever comes back from the versions of a tree finds the section as it was.
@@ -41,13 +45,16 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   const isFound = section.pages.items.value?.length !== 0;
   return (
     <div class="library-sections">
-      <SectionBar desk={desk} />
-      <FinderBar desk={desk} />
+      {rights.mayBegin && <SectionBar desk={desk} />}
+      {!isOpen && <p class="quiet">{say("library.guest")}</p>}
+      {isOpen && <FinderBar desk={desk} />}
       {isFound && <FoundBy desk={desk} />}
       <div class="library-body">
-        <Collections desk={desk} />
+        {isOpen && <Collections desk={desk} />}
         <div class="library-main">
-          {name === "trees" && !isNarrowed && want.words === "" && <UnsavedSection studio={studio} />}
+          {name === "trees" && rights.mayChange.value && !isNarrowed && want.words === "" && (
+            <UnsavedSection studio={studio} />
+          )}
           {!isFound && <NothingFound desk={desk} />}
           <TreeGrid desk={desk} />
           <More pages={section.pages} />
@@ -60,14 +67,14 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   );
 }
 
-/** Which part of the library is shown; files for it; and whether trees are being chosen. */
+/** Which part of the library is shown; files for it; and what begins to choose trees. */
 function SectionBar({ desk }: { readonly desk: LibraryDesk }) {
   const { section, studio } = desk;
-  const choosing = section.chosen.value !== null;
+  const trees = section.pages.items.value?.length ?? 0;
   return (
     <div class="library-bar">
       <fieldset class="segments" aria-label={say("library.sections")}>
-        {SECTION_NAMES.map((one) => (
+        {SECTION_NAMES.filter((one) => one !== "deleted" || studio.rights.mayDelete).map((one) => (
           <label key={one}>
             <input
               type="radio"
@@ -82,19 +89,18 @@ function SectionBar({ desk }: { readonly desk: LibraryDesk }) {
         ))}
       </fieldset>
       <div class="library-deeds">
-        {section.name === "trees" && <OpenFile desk={desk} />}
-        {(section.pages.items.value?.length ?? 0) > 0 && (
+        {trees > 0 && section.chosen.value === null && (
           <button
             type="button"
             class="small"
-            aria-pressed={choosing}
             onClick={() => {
-              section.chosen.value = choosing ? null : new Set();
+              section.chosen.value = new Set();
             }}
           >
-            {say(choosing ? "library.select.end" : "library.select")}
+            {say("library.select")}
           </button>
         )}
+        {section.name === "trees" && <OpenFile desk={desk} />}
       </div>
     </div>
   );

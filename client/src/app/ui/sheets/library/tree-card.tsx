@@ -1,11 +1,13 @@
 import { useState } from "preact/hooks";
 import type { SavedTree } from "../../../../wire/generated";
-import { pieces } from "../../../library/found-text";
+import { speciesName } from "../../../document/species/species-choice";
+import { isNamed } from "../../../library/species-words";
 import { dateText } from "../../../words/date-text";
 import { language, say } from "../../../words/say";
+import { useSpecies } from "../../panels/architecture/species-list";
 import { TreePicture } from "../tree-picture";
 import { CardForm } from "./card-form";
-import { CardMenu, type Deed } from "./card-menu";
+import { CardMenu, type Deed, only } from "./card-menu";
 import { FoundText } from "./found-text";
 import { StarIcon } from "./icons";
 import type { LibraryDesk } from "./library-desk";
@@ -28,28 +30,35 @@ interface TreeCardProps {
 export function TreeCard({ desk, tree }: TreeCardProps) {
   const { studio, section } = desk;
   const [edited, setEdited] = useState<Edited | null>(null);
-  const { name, species } = tree;
+  const { name } = tree;
   const chosen = section.chosen.value;
   const begin = () => void studio.trees.leave({ tree, template: true });
   const open = () => void studio.trees.leave({ tree });
   const isTemplate = section.name === "templates";
   const isChosen = chosen?.has(tree.id) ?? false;
   const { words } = desk.wanted.value;
+  const { rights } = studio;
+  const { mayBegin, mayDelete } = rights;
+  const mayChange = rights.mayChange.value;
+  const species = useSpecies(studio)?.find(({ slug }) => slug === tree.species);
   const press = usePress({
     tapped: () => (chosen === null ? (isTemplate ? begin() : open()) : section.toggle(tree.id)),
-    held: () => isChosen || section.toggle(tree.id),
+    held: () => isChosen || !mayBegin || section.toggle(tree.id),
     dragged:
-      section.name === "deleted"
+      section.name === "deleted" || !mayBegin
         ? undefined
         : (at) => desk.drag.begin(section.chosen.peek()?.has(tree.id) ? section.chosenTrees : [tree], at),
   });
   const deeds: readonly Deed[] = [
     { label: say("library.open"), act: open },
-    { label: say("library.begin"), act: begin },
-    { label: say("library.rename"), act: () => setEdited("name") },
-    { label: say("library.note"), act: () => setEdited("note") },
-    { label: say("finding.edit-tags"), act: () => setEdited("tags") },
-    { label: say("finding.move"), act: () => setEdited("collection") },
+    ...only(mayBegin, { label: say("library.begin"), act: begin }),
+    ...only(
+      mayChange,
+      { label: say("library.rename"), act: () => setEdited("name") },
+      { label: say("library.note"), act: () => setEdited("note") },
+      { label: say("finding.edit-tags"), act: () => setEdited("tags") },
+    ),
+    ...only(mayBegin, { label: say("finding.move"), act: () => setEdited("collection") }),
     {
       label: say("library.versions", { count: tree.version }),
       act: () => {
@@ -57,12 +66,12 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
         studio.layout.sheet.value = "versions";
       },
     },
-    { label: say("library.duplicate"), act: () => void section.duplicate([tree]) },
-    {
+    ...only(mayBegin, { label: say("library.duplicate"), act: () => void section.duplicate([tree]) }),
+    ...only(mayBegin, {
       label: say(isTemplate ? "library.unmark" : "library.mark"),
       act: () => void section.mark([tree], !isTemplate),
-    },
-    { label: say("library.delete"), act: () => void section.remove([tree]) },
+    }),
+    ...only(mayDelete, { label: say("library.delete"), act: () => void section.remove([tree]) }),
   ];
   const label = chosen === null ? (isTemplate ? "library.begin-which" : "sheets.library.open") : "library.choose";
   return (
@@ -117,9 +126,9 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
               <FoundText text={tree.note} words={words} />
             </p>
           )}
-          {species !== undefined && pieces(species, words).some(({ found }) => found) && (
+          {species !== undefined && isNamed(words, species) && (
             <p class="quiet card-note">
-              {say("finding.species")}: <FoundText text={species} words={words} />
+              {say("finding.species")}: <FoundText text={speciesName(species)} words={words} />
             </p>
           )}
         </div>

@@ -1,10 +1,11 @@
 import { useState } from "preact/hooks";
 import type { TreeVersion } from "../../../../wire/generated";
+import type { Rights } from "../../../access/rights";
 import { momentText } from "../../../words/date-text";
 import { language, say } from "../../../words/say";
 import { TreePicture } from "../tree-picture";
 import { CardForm } from "./card-form";
-import { CardMenu } from "./card-menu";
+import { CardMenu, only } from "./card-menu";
 
 /** What can be done with a version. */
 export interface VersionDeeds {
@@ -15,6 +16,7 @@ export interface VersionDeeds {
 }
 
 interface VersionCardProps {
+  readonly rights: Rights;
   readonly version: TreeVersion;
   readonly isNewest: boolean;
   readonly isTicked: boolean;
@@ -24,9 +26,10 @@ interface VersionCardProps {
 }
 
 /** One version of a tree, with what is known of it. */
-export function VersionCard({ version, isNewest, isTicked, onTick, deeds }: VersionCardProps) {
+export function VersionCard({ rights, version, isNewest, isTicked, onTick, deeds }: VersionCardProps) {
   const [editing, setEditing] = useState(false);
   const { number } = version;
+  const mayChange = rights.mayChange.value;
   return (
     <li class="version" data-version={number}>
       <button
@@ -52,9 +55,9 @@ export function VersionCard({ version, isNewest, isTicked, onTick, deeds }: Vers
         label={say("library.more-of-version", { number })}
         deeds={[
           { label: say("library.open-it"), act: () => deeds.open(version) },
-          ...(isNewest ? [] : [{ label: say("library.restore"), act: () => deeds.restore(version) }]),
-          { label: say("library.branch"), act: () => deeds.branch(version) },
-          { label: say("library.note"), act: () => setEditing(true) },
+          ...only(!isNewest && mayChange, { label: say("library.restore"), act: () => deeds.restore(version) }),
+          ...only(rights.mayBegin, { label: say("library.branch"), act: () => deeds.branch(version) }),
+          ...only(mayChange, { label: say("library.note"), act: () => setEditing(true) }),
         ]}
       />
       {editing && (

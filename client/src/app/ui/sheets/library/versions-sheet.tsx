@@ -73,6 +73,7 @@ function Versions({ studio, tree }: { readonly studio: Studio; readonly tree: Sa
             {versions.map((version, i) => (
               <VersionCard
                 key={version.number}
+                rights={studio.rights}
                 version={version}
                 isNewest={i === 0}
                 isTicked={ticked.includes(version.number)}

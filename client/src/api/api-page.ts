@@ -1,0 +1,24 @@
+import SwaggerUI from "swagger-ui-dist/swagger-ui-es-bundle.js";
+import "swagger-ui-dist/swagger-ui.css";
+import "./api-page.css";
+
+/** Where the server describes itself. */
+const DESCRIPTION = "/api/v1/openapi.json";
+
+const dark = matchMedia("(prefers-color-scheme: dark)");
+const follow = () => document.documentElement.classList.toggle("dark-mode", dark.matches);
+dark.addEventListener("change", follow);
+follow();
+
+SwaggerUI({
+  dom_id: "#api",
+  url: DESCRIPTION,
+  deepLinking: true,
+  filter: true,
+  docExpansion: "list",
+  defaultModelsExpandDepth: 0,
+  tryItOutEnabled: true,
+  displayRequestDuration: true,
+  // Nothing is asked of any other server.
+  validatorUrl: null,
+});

@@ -1,0 +1,44 @@
+import { afterEach, expect, it, vi } from "vitest";
+import { Rights } from "./rights";
+
+afterEach(() => vi.unstubAllGlobals());
+
+function store(kept: Record<string, string> = {}): Storage {
+  return {
+    getItem: (key: string) => kept[key] ?? null,
+    setItem: (key: string, value: string) => {
+      kept[key] = value;
+    },
+  } as unknown as Storage;
+}
+
+/** What somebody may: change trees, begin them, delete them. */
+function rightsOf(rights: Rights): readonly boolean[] {
+  return [rights.mayChange.peek(), rights.mayBegin, rights.mayDelete];
+}
+
+it.each([
+  [{ role: "admin" }, [true, true, true]],
+  [{ role: "owner" }, [true, true, true]],
+  [{ role: "editor" }, [true, true, false]],
+  [{ role: "viewer" }, [false, false, false]],
+  [{ role: "owner", tree: "ash" }, [true, false, false]],
+  [{ role: "editor", tree: "ash" }, [true, false, false]],
+] as const)("AC8: %j is told what they may", async (me, may) => {
+  vi.stubGlobal("fetch", async () => new Response(JSON.stringify({ ...me, way: "device" })));
+  const kept = {};
+  const rights = new Rights(store(kept));
+  expect(rightsOf(rights), "nothing is taken from whoever is not known").toEqual([true, true, true]);
+  await rights.ask();
+  expect(rightsOf(rights)).toEqual(may);
+  expect(rightsOf(new Rights(store(kept))), "the next page knows it from the start").toEqual(may);
+});
+
+it("AC8: what was known stays where the server is silent", async () => {
+  vi.stubGlobal("fetch", () => Promise.reject(new Error("no network")));
+  const rights = new Rights(store({ "espalier.me": '{"role":"viewer","way":"device"}' }));
+  await rights.ask();
+  expect(rights.mayChange.peek()).toBe(false);
+  const odd = new Rights(store({ "espalier.me": '{"role":"king"}' }));
+  expect(odd.mayChange.peek()).toBe(true);
+});

@@ -1,0 +1,37 @@
+import { useState } from "preact/hooks";
+import { logOut } from "../../entry/account";
+import { ENTRY_PATH } from "../../entry/ask-to-enter";
+import { explained } from "../../problems/explained";
+import type { Studio } from "../../studio";
+import { say } from "../../words/say";
+
+/** As whom this browser is let in, and the way out. Nobody has to be let in at the machine itself. */
+export function AccountSection({ studio }: { studio: Studio }) {
+  const [trouble, setTrouble] = useState("");
+  const me = studio.rights.me.value;
+  if (me === null || me.way === "machine") {
+    return null;
+  }
+  const leave = async () => {
+    try {
+      await logOut();
+      location.assign(ENTRY_PATH);
+    } catch (error) {
+      setTrouble(await explained(error));
+    }
+  };
+  return (
+    <div class="stack">
+      <p class="quiet">
+        {say(me.way === "login" ? "settings.account.login" : "settings.account.device", {
+          name: me.name ?? "",
+          role: say(`settings.role.${me.role}`),
+        })}
+      </p>
+      <button type="button" class="small" onClick={leave}>
+        {say("settings.account.leave")}
+      </button>
+      {trouble !== "" && <p role="alert">{trouble}</p>}
+    </div>
+  );
+}

@@ -1,0 +1,175 @@
+//! Who may come in, over HTTP.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use ts_rs::TS;
+
+/// What somebody may do; each may do what those before it may.
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema, TS,
+)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// Look, and take copies away.
+    Viewer,
+    /// Draw and save.
+    Editor,
+    /// Delete.
+    Owner,
+    /// Look after who comes in.
+    Admin,
+}
+
+impl Role {
+    /// All of them, those that may least first.
+    pub const ALL: [Self; 4] = [Self::Viewer, Self::Editor, Self::Owner, Self::Admin];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Viewer => "viewer",
+            Self::Editor => "editor",
+            Self::Owner => "owner",
+            Self::Admin => "admin",
+        }
+    }
+
+    /// The role of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|role| role.name() == name)
+    }
+}
+
+/// `POST /api/v1/redeem`: come in by an invitation (`AC3`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Redeem {
+    /// What stands behind the `#` of its link.
+    pub secret: String,
+}
+
+/// `POST /api/v1/login`: come in with a password (`AC9`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct LogIn {
+    /// Who one is.
+    pub name: String,
+    /// What only they know.
+    pub password: String,
+}
+
+/// `GET /api/v1/entry`: what somebody can come in by.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Entrance {
+    /// Whether anybody has a password here.
+    pub passwords: bool,
+}
+
+/// `GET /api/v1/users`: somebody who can log in.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct ListedUser {
+    /// What they are called.
+    pub name: String,
+    /// What they may do.
+    pub role: Role,
+    /// When they were added, in UTC.
+    pub created_at: String,
+}
+
+/// Somebody has come in; the cookie of the answer says so from now on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Admitted {
+    /// What they may do.
+    pub role: Role,
+    /// The only tree that they may see, if it is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub tree: Option<String>,
+}
+
+/// `GET /api/v1/me`: who asks, and what they may do (`AC8`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct Me {
+    /// What they may do.
+    pub role: Role,
+    /// How they have come in.
+    pub way: Way,
+    /// What they are called, or their device or program; nobody at the machine itself is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+    /// The only tree that they may see, if it is one. They may not ask for the library as a whole then: its collections,
+    /// tags and authors.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub tree: Option<String>,
+}
+
+/// `GET /api/v1/audit`: something that was done, or refused (`AC10`).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct AuditEvent {
+    /// Its number; later ones have larger numbers.
+    #[ts(type = "number")]
+    pub number: u64,
+    /// When, in UTC.
+    pub at: String,
+    /// By whom: the way that they came in (`Way`), and how they are called.
+    pub who: String,
+    /// Where they asked from; nothing where they sat at the machine's own command line.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub address: Option<String>,
+    /// What.
+    pub action: String,
+    /// To what.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub object: Option<String>,
+    /// `done`, or the status that it was refused with.
+    pub outcome: String,
+}
+
+/// How somebody has come in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum Way {
+    /// They sit at the server's machine.
+    Machine,
+    /// They were invited.
+    Device,
+    /// They have logged in.
+    Login,
+    /// A program has a token.
+    Token,
+}
+
+impl Way {
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Machine => "machine",
+            Self::Device => "device",
+            Self::Login => "login",
+            Self::Token => "token",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_role_is_written_by_its_name() {
+        for role in Role::ALL {
+            assert_eq!(Role::named(role.name()), Some(role));
+            assert_eq!(serde_json::to_value(role).unwrap(), role.name());
+        }
+        assert!(Role::ALL.is_sorted());
+    }
+}

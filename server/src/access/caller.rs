@@ -1,0 +1,322 @@
+//! Who asks, and what they may.
+
+use std::{
+    net::IpAddr,
+    time::{Duration, SystemTime},
+};
+
+use axum::http::{HeaderMap, header};
+use espalier_proto::access::{Me, Role, Way};
+
+use super::{
+    Action, Reach, SecretHash,
+    admission::{DEVICE_IDLE, TOKEN},
+    cookie, hash,
+};
+use crate::{
+    hosts,
+    store::{Pass, PassKind, Passes, StoreError},
+    time::written,
+};
+
+/// A device is kept for longer when so much of its time has gone, so that few requests write.
+const EXTENDED_AFTER: Duration = Duration::from_hours(24);
+
+/// Where a connection comes from.
+#[derive(Clone, Copy, Debug)]
+pub struct Peer(pub IpAddr);
+
+/// What somebody may do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Grant {
+    role: Role,
+    /// The only tree it is for.
+    tree: Option<String>,
+}
+
+/// What is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Object<'a> {
+    /// The server as a whole, and its library.
+    Server,
+    /// The tree with this identifier, or a session of it.
+    Tree(&'a str),
+    /// A session of no tree, or what is not there.
+    Loose,
+}
+
+/// Somebody who is let in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Caller {
+    grant: Grant,
+    /// What they came in by; nothing at the machine itself.
+    pass: Option<Held>,
+}
+
+/// A pass that somebody has shown.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Held {
+    hash: SecretHash,
+    kind: PassKind,
+    name: String,
+}
+
+/// Why somebody is not let in.
+#[derive(Debug)]
+pub enum Unknown {
+    /// They show nothing that lets them in.
+    NotLetIn,
+    /// They come as two at once.
+    Twofold,
+    /// Nobody can say now.
+    Store(StoreError),
+}
+
+impl From<StoreError> for Unknown {
+    fn from(error: StoreError) -> Self {
+        Self::Store(error)
+    }
+}
+
+impl Caller {
+    /// Whoever sits at the machine itself.
+    pub fn local() -> Self {
+        Self { grant: Grant { role: Role::Admin, tree: None }, pass: None }
+    }
+
+    /// Whoever sends a request with these headers over a connection (`AC1`, `AC2`).
+    pub async fn of(
+        headers: &HeaderMap,
+        peer: Option<Peer>,
+        trusts_local: bool,
+        store: &impl Passes,
+    ) -> Result<Self, Unknown> {
+        let is_local = trusts_local && peer.is_some_and(|peer| is_local(headers, peer));
+        let (hash, kinds) = match (bearer(headers), cookie::of(headers)) {
+            (Some(_), Some(_)) => return Err(Unknown::Twofold),
+            (Some(token), None) => (token, &[PassKind::Token][..]),
+            (None, _) if is_local => return Ok(Self::local()),
+            (None, Some(cookie)) => (cookie, &[PassKind::Device, PassKind::Login][..]),
+            (None, None) => return Err(Unknown::NotLetIn),
+        };
+        let now = SystemTime::now();
+        let pass = store.pass(hash, &written(now)).await?.filter(|pass| kinds.contains(&pass.kind));
+        let pass = pass.ok_or(Unknown::NotLetIn)?;
+        if pass.kind != PassKind::Token {
+            extend(store, &pass, now).await?;
+        }
+        let held = Held { hash, kind: pass.kind, name: pass.name };
+        Ok(Self { grant: Grant { role: pass.role, tree: pass.tree }, pass: Some(held) })
+    }
+
+    /// Whether they may do it.
+    pub fn may(&self, action: Action, object: Object<'_>) -> bool {
+        let is_theirs = match (&self.grant.tree, object) {
+            (None, _) => true,
+            (Some(own), Object::Tree(tree)) => own == tree,
+            (Some(_), Object::Server) => action.reach() == Reach::Guests,
+            (Some(_), Object::Loose) => false,
+        };
+        is_theirs && self.grant.role >= action.least()
+    }
+
+    /// Whether what somebody ordered is theirs as well: they are the same, came in as the same user, or are an
+    /// administrator.
+    pub fn has_what_is_of(&self, other: &Self) -> bool {
+        let user = |caller: &Self| {
+            let held = caller.pass.as_ref().filter(|held| held.kind == PassKind::Login);
+            held.map(|held| held.name.clone())
+        };
+        let is_admin = self.grant.role == Role::Admin && self.grant.tree.is_none();
+        is_admin || self.pass == other.pass || user(self).is_some() && user(self) == user(other)
+    }
+
+    /// The only tree that they may see, if it is one.
+    pub fn only_tree(&self) -> Option<&str> {
+        self.grant.tree.as_deref()
+    }
+
+    /// Whether they are still let in as they were.
+    pub async fn is_current(&self, store: &impl Passes) -> Result<bool, StoreError> {
+        let Some(held) = &self.pass else { return Ok(true) };
+        let pass = store.pass(held.hash, &written(SystemTime::now())).await?;
+        Ok(pass.is_some_and(|pass| Grant { role: pass.role, tree: pass.tree } == self.grant))
+    }
+
+    /// Who they are, for themselves.
+    pub fn described(&self) -> Me {
+        let way = self.pass.as_ref().map_or(Way::Machine, |held| way_of(held.kind));
+        let name = self.pass.as_ref().map(|held| held.name.clone());
+        Me { role: self.grant.role, way, name, tree: self.grant.tree.clone() }
+    }
+
+    /// Whether they may lose what they have while they are here.
+    pub fn is_revocable(&self) -> bool {
+        self.pass.is_some()
+    }
+}
+
+/// How a pass lets in.
+pub const fn way_of(kind: PassKind) -> Way {
+    match kind {
+        PassKind::Token => Way::Token,
+        PassKind::Login => Way::Login,
+        PassKind::Device | PassKind::Invitation => Way::Device,
+    }
+}
+
+/// A proxy on this machine would make everybody local; those that say so are told by what they add. Another machine's
+/// name that leads here by a trick is none of localhost's.
+fn is_local(headers: &HeaderMap, peer: Peer) -> bool {
+    let is_passed_on = headers.keys().any(|name| {
+        [header::FORWARDED, header::VIA].contains(name) || name.as_str().starts_with("x-forwarded-")
+    });
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    peer.0.to_canonical().is_loopback() && hosts::is_loopback(host) && !is_passed_on
+}
+
+/// The token that a program sends.
+fn bearer(headers: &HeaderMap) -> Option<SecretHash> {
+    let value = headers.get(header::AUTHORIZATION)?.to_str().ok()?;
+    let (scheme, token) = value.split_once(' ')?;
+    let token = token.trim();
+    (scheme.eq_ignore_ascii_case("bearer") && token.starts_with(TOKEN)).then(|| hash(token))
+}
+
+async fn extend(store: &impl Passes, pass: &Pass, now: SystemTime) -> Result<(), StoreError> {
+    let until = |lasts: Duration| written(now + lasts).min(pass.ends_at.clone());
+    if pass.expires_at < until(DEVICE_IDLE - EXTENDED_AFTER) {
+        store.extend_pass(&pass.id, &until(DEVICE_IDLE)).await?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use axum::http::{HeaderName, HeaderValue};
+
+    use super::*;
+    use crate::{
+        access::admission::{self, Invite},
+        store::MemoryStore,
+    };
+
+    fn headers(all: &[(&str, &str)]) -> HeaderMap {
+        let each = all.iter().map(|(name, value)| {
+            (HeaderName::try_from(*name).unwrap(), HeaderValue::try_from(*value).unwrap())
+        });
+        each.collect()
+    }
+
+    fn peer(address: &str) -> Option<Peer> {
+        Some(Peer(address.parse().unwrap()))
+    }
+
+    async fn who(all: &[(&str, &str)], from: &str, store: &MemoryStore) -> Result<Caller, Unknown> {
+        Caller::of(&headers(all), peer(from), true, store).await
+    }
+
+    #[tokio::test]
+    async fn ac1_who_sits_at_the_machine_may_do_everything() {
+        let store = MemoryStore::default();
+        for (host, from) in [
+            ("localhost:7700", "127.0.0.1"),
+            ("127.0.0.1:7700", "127.0.0.1"),
+            ("[::1]:7700", "::1"),
+            ("oak.localhost", "::ffff:127.0.0.1"),
+        ] {
+            assert_eq!(who(&[("host", host)], from, &store).await.unwrap(), Caller::local(), "{host}");
+        }
+        for all in [
+            &[("host", "192.168.1.7:7700")][..],
+            &[("host", "oak.example")],
+            &[("host", "localhost"), ("x-forwarded-for", "192.168.1.9")],
+            &[("host", "localhost"), ("x-forwarded-proto", "https")],
+            &[("host", "localhost"), ("forwarded", "for=192.168.1.9")],
+            &[("host", "localhost"), ("via", "1.1 proxy")],
+            &[],
+        ] {
+            assert!(matches!(who(all, "127.0.0.1", &store).await, Err(Unknown::NotLetIn)), "{all:?}");
+        }
+        let local = [("host", "localhost:7700")];
+        assert!(matches!(who(&local, "192.168.1.9", &store).await, Err(Unknown::NotLetIn)));
+        let distrusted = Caller::of(&headers(&local), peer("127.0.0.1"), false, &store).await;
+        assert!(matches!(distrusted, Err(Unknown::NotLetIn)));
+    }
+
+    #[test]
+    fn jb5_what_was_ordered_is_that_of_the_user_and_of_administrators() {
+        let caller = |kind, name: &str, secret: &str, role| Caller {
+            grant: Grant { role, tree: None },
+            pass: Some(Held { hash: hash(secret), kind, name: name.to_owned() }),
+        };
+        let ordered = caller(PassKind::Login, "Ada", "one", Role::Editor);
+        assert!(ordered.has_what_is_of(&ordered));
+        assert!(
+            caller(PassKind::Login, "Ada", "two", Role::Editor).has_what_is_of(&ordered),
+            "another browser"
+        );
+        assert!(caller(PassKind::Login, "Ben", "three", Role::Admin).has_what_is_of(&ordered));
+        assert!(Caller::local().has_what_is_of(&ordered));
+        for other in [
+            caller(PassKind::Login, "Ben", "four", Role::Owner),
+            caller(PassKind::Token, "Ada", "five", Role::Owner),
+            caller(PassKind::Device, "Ada", "six", Role::Owner),
+        ] {
+            assert!(!other.has_what_is_of(&ordered), "{other:?}");
+        }
+        let guest = Caller {
+            grant: Grant { role: Role::Admin, tree: Some("elm".into()) },
+            ..caller(PassKind::Device, "Eve", "seven", Role::Admin)
+        };
+        assert!(!guest.has_what_is_of(&ordered));
+    }
+
+    #[tokio::test]
+    async fn ac3_a_device_comes_in_by_its_cookie_until_it_is_not_used() {
+        let store = MemoryStore::default();
+        let now = SystemTime::now();
+        let days = |days: u64| Duration::from_hours(24 * days);
+        let invited = admission::invite(&store, Invite::default(), now).await.unwrap();
+        let (cookie, _) = admission::redeem(&store, invited.text(), now).await.unwrap().unwrap();
+        let sent = format!("theme=dark; espalier-7700={}", cookie.text());
+        let with_cookie = [("host", "192.168.1.7:7700"), ("cookie", &*sent)];
+        let caller = who(&with_cookie, "192.168.1.9", &store).await.unwrap();
+        assert_eq!(caller.grant, Grant { role: Role::Owner, tree: None });
+        // What is used some days later is kept for longer, but not beyond its end.
+        let pass = async || store.pass(cookie.hash(), "2026").await.unwrap().unwrap();
+        let first = pass().await;
+        assert_eq!(first.expires_at, written(now + days(30)));
+        extend(&store, &first, now + days(3)).await.unwrap();
+        assert_eq!(pass().await.expires_at, written(now + days(33)));
+        extend(&store, &pass().await, now + days(170)).await.unwrap();
+        assert_eq!(pass().await.expires_at, first.ends_at);
+        store.take_pass(&first.id).await.unwrap();
+        assert!(!caller.is_current(&store).await.unwrap());
+        assert!(matches!(who(&with_cookie, "192.168.1.9", &store).await, Err(Unknown::NotLetIn)));
+        // An invitation's own secret is no cookie.
+        let invited = admission::invite(&store, Invite::default(), now).await.unwrap();
+        let sent = format!("espalier={}", invited.text());
+        let with_cookie = [("host", "192.168.1.7"), ("cookie", &*sent)];
+        assert!(matches!(who(&with_cookie, "192.168.1.9", &store).await, Err(Unknown::NotLetIn)));
+    }
+
+    #[test]
+    fn ac5_a_guest_gets_to_one_tree() {
+        let grant = Grant { role: Role::Editor, tree: Some("ash".into()) };
+        let held = Held { hash: [1; 32], kind: PassKind::Device, name: "tablet".into() };
+        let guest = Caller { grant, pass: Some(held) };
+        for (action, object, expected) in [
+            (Action::SeeTree, Object::Tree("ash"), true),
+            (Action::EditSession, Object::Tree("ash"), true),
+            (Action::DeleteTree, Object::Tree("ash"), false),
+            (Action::SeeTree, Object::Tree("elm"), false),
+            (Action::JoinSession, Object::Loose, false),
+            (Action::ListTrees, Object::Server, true),
+            (Action::SeeLibrary, Object::Server, false),
+            (Action::SaveTree, Object::Server, false),
+        ] {
+            assert_eq!(guest.may(action, object), expected, "{action:?} {object:?}");
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! What can be asked for, and the least role that may have it.
+
+use espalier_proto::access::Role::{self, Admin, Editor, Owner, Viewer};
+
+/// Who of those that are in for one tree alone may ask for something of the server as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reach {
+    /// They may, for it tells nothing of other trees.
+    Guests,
+    /// They may not.
+    Library,
+}
+
+/// Declares the actions, each with its row.
+macro_rules! table {
+    ($($(#[doc = $sentence:literal])+ $action:ident: $least:ident, $reach:ident;)+) => {
+        /// What is asked for, at an address or for something that a request names.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Action {
+            $($(#[doc = $sentence])+ $action,)+
+        }
+
+        impl Action {
+            /// The least role that may do it.
+            pub const fn least(self) -> Role {
+                match self { $(Self::$action => $least,)+ }
+            }
+
+            /// Whether guests may do it to the server as a whole.
+            pub const fn reach(self) -> Reach {
+                match self { $(Self::$action => Reach::$reach,)+ }
+            }
+        }
+    };
+}
+
+table! {
+    /// Reads what is the same on every server: species, formats, this description; draws schematics.
+    Look: Viewer, Guests;
+    /// Comes into the session of a tree, or begins one. Which tree it may be is asked by itself ([`Action::OpenTree`]).
+    EnterSession: Viewer, Guests;
+    /// Grows trees from seeds into files, as a job, and asks for jobs of one's own.
+    GrowTrees: Editor, Library;
+    /// Begins a session that belongs to no tree.
+    BeginSession: Editor, Library;
+    /// Asks for a session by its name.
+    SeeSession: Viewer, Library;
+    /// Joins a session.
+    JoinSession: Viewer, Library;
+    /// Does a command in a session, uploads included.
+    EditSession: Editor, Library;
+    /// Takes the tree of a session, as a file or into the library.
+    TakeTree: Viewer, Library;
+    /// Takes the mesh of an obstacle.
+    SeeObstacle: Viewer, Library;
+    /// Lists trees, of which guests see theirs.
+    ListTrees: Viewer, Guests;
+    /// Lists collections, tags and people.
+    SeeLibrary: Viewer, Library;
+    /// Adds a tree to the library.
+    SaveTree: Editor, Library;
+    /// Takes what was saved of a tree: begins a session with it, copies it, or takes its document.
+    OpenTree: Viewer, Library;
+    /// Sees a tree with its versions and their pictures.
+    SeeTree: Viewer, Library;
+    /// Changes what is said of a tree, or saves a version of it.
+    ChangeTree: Editor, Library;
+    /// Deletes a tree, or takes that back.
+    DeleteTree: Owner, Library;
+    /// Makes, changes and deletes collections.
+    ChangeCollections: Editor, Library;
+    /// Sees who can come in, and what was done.
+    SeePeople: Admin, Library;
+}

@@ -1,0 +1,120 @@
+//! What the command line writes: a file in some format, and figures.
+
+use std::{num::NonZeroUsize, path::PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use crate::{
+    document::{FORMATS, FormatRow},
+    export_options::ExportOptions,
+    output::{STDOUT, Target},
+};
+
+/// What comes out, and with how many threads.
+#[derive(Clone, Debug, Args)]
+pub struct Results {
+    /// Write the plants to a file, in the format of its ending: .glb, .obj.zip, .usda, .usdz, .json, .mtg, .csv, .ply,
+    /// .png or .espalier; docs/formats.md says what is in them, and which options each has. `-` is standard output.
+    #[arg(long, value_name = "OUT", value_parser = parse_export)]
+    pub export: Option<Export>,
+    /// The format, by its ending, whatever the file is called; needed for `-`.
+    #[arg(long, value_name = "ENDING", requires = "export", value_parser = parse_format)]
+    pub format: Option<&'static FormatRow>,
+    #[command(flatten)]
+    pub options: ExportOptions,
+    /// Print figures as one JSON object instead of a summary; docs/command-line.md explains them.
+    #[arg(long, value_name = "FORMAT")]
+    pub stats: Option<Stats>,
+    /// Make no mesh deltas: time and memory are those of growth alone.
+    #[arg(long)]
+    pub no_deltas: bool,
+    /// Threads of the simulation; one for each core if not given. The plants do not depend on it.
+    #[arg(long)]
+    pub threads: Option<NonZeroUsize>,
+}
+
+impl Results {
+    /// Where the export goes, and as what.
+    pub fn target(&self) -> Result<Option<Target>, NoFormat> {
+        self.export.as_ref().map(|export| export.target(self.format)).transpose()
+    }
+}
+
+/// Formats of the figures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stats {
+    /// One JSON object.
+    Json,
+}
+
+/// A file to write.
+#[derive(Clone, Debug)]
+pub struct Export {
+    /// Where.
+    pub path: PathBuf,
+    /// As what, by its name.
+    row: Option<&'static FormatRow>,
+}
+
+/// Standard output has no ending that tells a format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("An export to standard output needs its format, as in --format glb.")]
+pub struct NoFormat;
+
+impl Export {
+    /// The file in the format that was given, or in that of its name.
+    pub fn target(&self, format: Option<&'static FormatRow>) -> Result<Target, NoFormat> {
+        Ok(Target { path: self.path.clone(), row: format.or(self.row).ok_or(NoFormat)? })
+    }
+}
+
+pub(super) fn parse_export(path: &str) -> Result<Export, String> {
+    if path == STDOUT {
+        return Ok(Export { path: path.into(), row: None });
+    }
+    let path = PathBuf::from(path);
+    let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let ends = |row: &&FormatRow| {
+        name.strip_suffix(row.ending).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
+    };
+    let row =
+        FORMATS.iter().find(ends).ok_or_else(|| format!("the name must end in one of: {}", endings()))?;
+    Ok(Export { path, row: Some(row) })
+}
+
+pub(super) fn parse_format(ending: &str) -> Result<&'static FormatRow, String> {
+    let found = FORMATS.iter().find(|row| row.ending == ending.trim_start_matches('.'));
+    found.ok_or_else(|| format!("it must be one of: {}", endings()))
+}
+
+fn endings() -> String {
+    let all: Vec<_> = FORMATS.iter().map(|row| format!(".{} ({})", row.ending, row.what)).collect();
+    all.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::Format;
+
+    #[test]
+    fn the_extension_chooses_the_format() {
+        let format = |path| parse_export(path).unwrap().target(None).map(|target| target.row.format);
+        assert_eq!(format("a/tree.GLB"), Ok(Format::Glb));
+        assert_eq!(format("tree.json"), Ok(Format::Skeleton));
+        assert_eq!(format("tree.obj.zip"), Ok(Format::Obj));
+        assert_eq!(format("tree.png"), Ok(Format::Picture));
+        for bad in ["tree", "tree.obj", "glb", ".json"] {
+            assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn standard_output_needs_a_format() {
+        let stdout = parse_export("-").unwrap();
+        assert_eq!(stdout.target(None).map(|target| target.row.format), Err(NoFormat));
+        let target = stdout.target(Some(parse_format("mtg").unwrap())).unwrap();
+        assert_eq!((target.row.format, target.is_stdout()), (Format::Mtg, true));
+        assert!(parse_format("fbx").unwrap_err().contains(".glb"));
+    }
+}

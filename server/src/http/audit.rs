@@ -1,0 +1,79 @@
+//! What was done, for administrators, and how it is noted.
+
+use axum::{Json, extract::State, http::StatusCode};
+use espalier_proto::access::AuditEvent;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{
+    Shared,
+    failure::{Failure, Query},
+    trees::limit_of,
+};
+use crate::{
+    access::{Caller, Peer},
+    store::{Audit, Event},
+    text::shown,
+    time::now,
+};
+
+/// Characters that are noted of who it was and of what it was done to.
+const MOST_SHOWN: usize = 200;
+/// Events in one answer.
+const MAX_EVENTS: u32 = 1000;
+
+/// Which events to list.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(inline)]
+pub(super) struct Page {
+    /// How many at most, 1 to 1000.
+    limit: Option<u32>,
+    /// Those before this number.
+    before: Option<u64>,
+}
+
+pub(super) async fn list(
+    State(shared): State<Shared>,
+    Query(page): Query<Page>,
+) -> Result<Json<Vec<AuditEvent>>, Failure> {
+    let events = shared.store.events(limit_of(page.limit, MAX_EVENTS)?, page.before).await?;
+    Ok(Json(events.into_iter().map(described).collect()))
+}
+
+/// An event as it is told.
+pub fn described((number, event): (u64, Event)) -> AuditEvent {
+    let Event { at, who, address, action, object, outcome } = event;
+    AuditEvent { number, at, who, address, action, object, outcome }
+}
+
+/// What an answer says has come of an action.
+pub(super) fn outcome(status: StatusCode) -> String {
+    if status.is_success() || status.is_redirection() { "done".into() } else { status.as_u16().to_string() }
+}
+
+impl Shared {
+    /// Adds to the list what somebody did; where that fails, what they did stands all the same.
+    pub(super) async fn note(
+        &self,
+        who: String,
+        peer: Option<Peer>,
+        action: &str,
+        object: Option<String>,
+        outcome: String,
+    ) {
+        let (who, object) = (shown(&who, MOST_SHOWN), object.map(|object| shown(&object, MOST_SHOWN)));
+        let address = peer.map(|Peer(address)| address.to_canonical().to_string());
+        let event = Event { at: now(), who, address, action: action.into(), object, outcome };
+        if let Err(error) = self.store.note(event).await {
+            tracing::error!(%error, action, "what was done could not be noted");
+        }
+    }
+}
+
+/// How the list calls somebody.
+pub(super) fn called(caller: &Caller) -> String {
+    let me = caller.described();
+    let way = me.way.name();
+    me.name.map_or_else(|| way.to_owned(), |name| format!("{way} {name}"))
+}

@@ -1,0 +1,166 @@
+//! The door: coming in by an invitation or a password, as whom one is in, and going out.
+
+use std::{
+    net::{IpAddr, Ipv4Addr},
+    time::{Duration, Instant, SystemTime},
+};
+
+use axum::{
+    Extension, Json,
+    extract::State,
+    http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header},
+    response::{IntoResponse, Response},
+};
+use espalier_proto::{
+    Problem, Reason,
+    access::{Admitted, Entrance, ListedUser, LogIn, Me, Redeem, Way},
+    version::MAX_NAME_CHARACTERS,
+};
+
+use super::{
+    Shared, audit,
+    failure::{Body, Failure},
+};
+use crate::{
+    access::{self, Caller, Peer, Secret, admission, cookie, network},
+    store::{Missing, Pass, Passes, StoreError, User, Users, folded},
+    time::now,
+};
+
+/// Has the browser of whoever came in keep their cookie.
+type Welcome = (Option<[(HeaderName, HeaderValue); 1]>, Json<Admitted>);
+
+/// Makes a device of whoever has the secret of an invitation (`AC3`).
+pub(super) async fn redeem(
+    State(shared): State<Shared>,
+    peer: Option<Extension<Peer>>,
+    headers: HeaderMap,
+    Body(Redeem { secret }): Body<Redeem>,
+) -> Result<Welcome, Response> {
+    let peer = peer.map(|Extension(peer)| peer);
+    let from = address(peer.as_ref());
+    shared.tries.count(from, Instant::now()).map_err(|wait| too_often("secret", wait))?;
+    let redeemed = admission::redeem(&*shared.store, &secret, SystemTime::now()).await;
+    let come = redeemed.map_err(Failure::from).and_then(|come| come.ok_or_else(no_invitation));
+    let name = come.as_ref().map_or("", |(_, pass)| &*pass.name);
+    note(&shared, Way::Device, name, peer, "come-in", &come).await;
+    let welcome = welcome(come.map_err(Failure::into_response)?, &headers);
+    shared.tries.forget(from);
+    Ok(welcome)
+}
+
+/// Lets in whoever has a user's password (`AC9`).
+pub(super) async fn log_in(
+    State(shared): State<Shared>,
+    peer: Option<Extension<Peer>>,
+    headers: HeaderMap,
+    Body(LogIn { name, password }): Body<LogIn>,
+) -> Result<Welcome, Response> {
+    let peer = peer.map(|Extension(peer)| peer);
+    let from = address(peer.as_ref());
+    let name = name.trim();
+    let by_name = access::hash(&folded(name));
+    let counted = shared.tries.count(from, Instant::now());
+    let counted = counted.and_then(|()| shared.tries_for.count(by_name, Instant::now()));
+    counted.map_err(|wait| too_often("password", wait))?;
+    let come = check(&shared, name, &password).await;
+    note(&shared, Way::Login, name, peer, "log-in", &come).await;
+    let come = come.map_err(Failure::into_response)?;
+    shared.tries.forget(from);
+    shared.tries_for.forget(by_name);
+    Ok(welcome(come, &headers))
+}
+
+async fn check(shared: &Shared, name: &str, password: &str) -> Result<(Secret, Pass), Failure> {
+    let user = shared.store.user(name).await?;
+    let kept = user.as_ref().map(|user| user.password.clone());
+    let is_right = shared.passwords.is_right(password, kept).await;
+    let user = user.filter(|_| is_right).ok_or_else(wrong_password)?;
+    match admission::log_in(&*shared.store, user, SystemTime::now()).await {
+        // They were removed just now.
+        Err(StoreError::NotFound(Missing::User)) => Err(wrong_password()),
+        come => Ok(come?),
+    }
+}
+
+/// Ends what a browser came in by.
+pub(super) async fn log_out(
+    State(shared): State<Shared>,
+    peer: Option<Extension<Peer>>,
+    headers: HeaderMap,
+) -> Result<impl IntoResponse, Failure> {
+    if let Some(cookie) = cookie::of(&headers)
+        && let Some(pass) = shared.store.pass(cookie, &now()).await?
+    {
+        shared.store.take_pass(&pass.id).await?;
+        let peer = peer.map(|Extension(peer)| peer);
+        note(&shared, access::way_of(pass.kind), &pass.name, peer, "log-out", &Ok(())).await;
+    }
+    Ok((set(cookie::forgetting(&headers)), StatusCode::NO_CONTENT))
+}
+
+/// Says what one can come in by.
+pub(super) async fn entrance(State(shared): State<Shared>) -> Result<Json<Entrance>, Failure> {
+    Ok(Json(Entrance { passwords: !shared.store.users().await?.is_empty() }))
+}
+
+/// Says who asks.
+pub(super) async fn me(caller: Caller) -> Json<Me> {
+    Json(caller.described())
+}
+
+/// Says who can log in.
+pub(super) async fn users(State(shared): State<Shared>) -> Result<Json<Vec<ListedUser>>, Failure> {
+    let listed = |User { name, role, created_at, .. }| ListedUser { name, role, created_at };
+    Ok(Json(shared.store.users().await?.into_iter().map(listed).collect()))
+}
+
+/// Where tries are counted for.
+fn address(peer: Option<&Peer>) -> IpAddr {
+    network(peer.map_or(IpAddr::V4(Ipv4Addr::UNSPECIFIED), |Peer(from)| *from))
+}
+
+/// Notes that somebody came, went or tried to (`AC10`).
+async fn note<T>(
+    shared: &Shared,
+    way: Way,
+    name: &str,
+    peer: Option<Peer>,
+    action: &str,
+    done: &Result<T, Failure>,
+) {
+    let outcome = audit::outcome(done.as_ref().map_or_else(Failure::status, |_| StatusCode::OK));
+    let name: String = name.chars().take(MAX_NAME_CHARACTERS).collect();
+    shared.note(format!("{} {name}", way.name()).trim_end().to_owned(), peer, action, None, outcome).await;
+}
+
+/// How long to wait, in whole seconds.
+fn too_often(field: &str, wait: Duration) -> Response {
+    let seconds = wait.as_secs() + u64::from(wait.subsec_nanos() > 0);
+    let problem = Problem::new(Reason::TooOften, "There were too many tries.")
+        .at(field, format!("another try after {seconds} s"));
+    ([(header::RETRY_AFTER, seconds.to_string())], Failure::from(problem)).into_response()
+}
+
+fn no_invitation() -> Failure {
+    let sentence = "This invitation was used, has expired, or never was.";
+    Problem::new(Reason::NoInvitation, sentence)
+        .at("secret", "the secret of an invitation not used yet")
+        .into()
+}
+
+fn wrong_password() -> Failure {
+    Problem::new(Reason::WrongPassword, "The name or the password is wrong.")
+        .at("password", "the password of the user with this name")
+        .into()
+}
+
+fn welcome((secret, pass): (Secret, Pass), headers: &HeaderMap) -> Welcome {
+    let Pass { id, name, role, tree, .. } = pass;
+    tracing::info!(pass = id, name, role = role.name(), "somebody has come in");
+    (set(cookie::keeping(&secret, headers)), Json(Admitted { role, tree }))
+}
+
+fn set(cookie: Option<HeaderValue>) -> Option<[(HeaderName, HeaderValue); 1]> {
+    cookie.map(|cookie| [(header::SET_COOKIE, cookie)])
+}

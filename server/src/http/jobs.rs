@@ -1,0 +1,348 @@
+//! Jobs: trees that are grown on request (`JB`).
+
+use axum::{
+    Json,
+    extract::State,
+    http::{HeaderMap, StatusCode, header},
+    response::{IntoResponse, Response},
+};
+use espalier_growth::species;
+use espalier_proto::{NotAllowed, Problem, Reason, Steps};
+use espalier_session::{Document, DocumentError};
+use espalier_settings::{AppearancePatch, ParametersPatch};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Deserializer, Serialize, de::Error};
+use serde_json::Value;
+
+use super::{
+    Shared,
+    exports::{self, not_of},
+    failure::{Body, Failure, Path},
+    guard::Named,
+    ranges, sessions,
+};
+use crate::{
+    access::{Action, Caller},
+    document::FORMATS,
+    export_options::{ExportOptions, NotOfFormat},
+    jobs::{self, Job, NotTaken, Order},
+    recipe::{Recipe, SeedRange},
+    store::Library,
+};
+
+/// Seeds of one job.
+const MOST_SEEDS: usize = 1000;
+
+/// What to grow, one tree for each seed.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GrowTrees {
+    /// The short name of a species, or the identifier of a saved tree: its programme, parameters and looks, grown to its age.
+    /// Without it a seedling grows.
+    template: Option<String>,
+    /// Parameters to set, at every age.
+    #[serde(default)]
+    parameters: ParametersPatch,
+    /// Looks to set.
+    #[serde(default)]
+    appearance: AppearancePatch,
+    /// Up to 1000 different seeds: a list, or a text as "1-50"; 1 if left out.
+    #[serde(default)]
+    seeds: WantedSeeds,
+    /// Steps to grow on for.
+    steps: Option<Steps>,
+    /// Living metamers to grow on to.
+    metamers: Option<u32>,
+    /// How the names of files of the format end, as `GET /api/v1/formats` tells them.
+    format: String,
+    /// Options of the format.
+    #[serde(default)]
+    options: ExportOptions,
+}
+
+/// Seeds, each once.
+#[derive(Debug, PartialEq)]
+struct WantedSeeds(Vec<u32>);
+
+impl Default for WantedSeeds {
+    fn default() -> Self {
+        Self(vec![1])
+    }
+}
+
+impl WantedSeeds {
+    fn read(value: &Value) -> Option<Self> {
+        let seeds: Vec<u32> = match value {
+            Value::String(text) => {
+                let SeedRange(seeds) = text.parse().ok()?;
+                seeds.take(MOST_SEEDS + 1).collect()
+            }
+            Value::Array(list) if list.len() <= MOST_SEEDS => {
+                list.iter().map(|seed| seed.as_u64()?.try_into().ok()).collect::<Option<_>>()?
+            }
+            _ => return None,
+        };
+        let mut different = seeds.clone();
+        different.sort_unstable();
+        different.dedup();
+        ((1..=MOST_SEEDS).contains(&seeds.len()) && different.len() == seeds.len()).then_some(Self(seeds))
+    }
+}
+
+impl<'de> Deserialize<'de> for WantedSeeds {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = Value::deserialize(deserializer)?;
+        let allowed = format!("a list of 1 to {MOST_SEEDS} different seeds, or a text as 1-50");
+        Self::read(&value).ok_or_else(|| D::Error::custom(NotAllowed::new("none", allowed)))
+    }
+}
+
+impl JsonSchema for WantedSeeds {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Seeds".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [
+            { "type": "string", "pattern": "^[0-9]+-[0-9]+$" },
+            {
+                "type": "array",
+                "items": { "type": "integer", "minimum": 0, "maximum": u32::MAX },
+                "minItems": 1,
+                "maxItems": MOST_SEEDS,
+                "uniqueItems": true,
+            },
+        ] })
+    }
+}
+
+/// Where a job is.
+#[derive(Debug, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(inline)]
+enum JobState {
+    /// Others come first.
+    Waiting,
+    /// Its trees are being grown.
+    Growing,
+    /// Every seed has its file or its problem.
+    Done,
+    /// It ended before: `problem` says why.
+    Failed,
+}
+
+/// A job, and how far it is.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct JobNow {
+    /// Its name.
+    id: String,
+    /// Where it is.
+    state: JobState,
+    /// Jobs that come first.
+    ahead: usize,
+    /// Seeds that have their file or their problem.
+    done: usize,
+    /// All seeds.
+    all: usize,
+    /// The tree under way.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    growing: Option<UnderWay>,
+    /// Files, in the order of the seeds; there from when they are made until an hour after the job has ended.
+    results: Vec<GrownTree>,
+    /// Trees that could not be made.
+    failed: Vec<FailedTree>,
+    /// Why it ended before it was done.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    problem: Option<Problem>,
+}
+
+/// A tree under way.
+#[derive(Debug, Serialize, JsonSchema)]
+struct UnderWay {
+    /// Its seed.
+    seed: u32,
+    /// Living metamers so far.
+    metamers: u32,
+    /// Bytes of its file so far.
+    bytes: u64,
+}
+
+/// A tree that has its file.
+#[derive(Debug, Serialize, JsonSchema)]
+struct GrownTree {
+    /// Its seed.
+    seed: u32,
+    /// Living metamers.
+    metamers: u32,
+    /// Bytes of the file.
+    bytes: u64,
+    /// Where the file is.
+    address: String,
+}
+
+/// A tree that could not be made.
+#[derive(Debug, Serialize, JsonSchema)]
+struct FailedTree {
+    /// Its seed.
+    seed: u32,
+    /// Why.
+    problem: Problem,
+}
+
+impl JobNow {
+    fn of(id: String, job: &Job, ahead: usize) -> Self {
+        let jobs::Progress { state, grown, failed, problem, seed, .. } = job.progress();
+        let (metamers, bytes) = job.under_way();
+        let address = |seed| format!("{}/results/{seed}", address_of(&id));
+        let results = grown.iter().map(|&jobs::Grown { seed, metamers, bytes }| GrownTree {
+            seed,
+            metamers,
+            bytes,
+            address: address(seed),
+        });
+        Self {
+            state: match state {
+                jobs::State::Waiting => JobState::Waiting,
+                jobs::State::Growing => JobState::Growing,
+                jobs::State::Done => JobState::Done,
+                jobs::State::Failed => JobState::Failed,
+            },
+            ahead,
+            done: grown.len() + failed.len(),
+            all: job.order.seeds.len(),
+            growing: seed.map(|seed| UnderWay { seed, metamers, bytes }),
+            results: results.collect(),
+            failed: failed.into_iter().map(|(seed, problem)| FailedTree { seed, problem }).collect(),
+            problem,
+            id,
+        }
+    }
+}
+
+fn address_of(id: &str) -> String {
+    format!("/api/v1/jobs/{id}")
+}
+
+/// Begins a job (`JB1`).
+pub(super) async fn grow(
+    State(shared): State<Shared>,
+    caller: Caller,
+    Body(wanted): Body<GrowTrees>,
+) -> Result<impl IntoResponse, Failure> {
+    let GrowTrees { template, parameters, appearance, seeds, steps, metamers, format, options } = wanted;
+    let row = FORMATS.iter().find(|row| row.ending == format).ok_or_else(|| {
+        let endings: Vec<_> = FORMATS.iter().map(|row| row.ending).collect();
+        Problem::out_of_range("format", &format, endings.join(", "))
+    })?;
+    let checked = match &options.ticket {
+        // Progress is asked for by the name of the job.
+        Some(_) => Err(NotOfFormat("ticket")),
+        None => options.check(row.options),
+    };
+    checked.map_err(|error| not_of(row, &error).within("options"))?;
+    let budget = shared.metamer_budget;
+    if metamers.is_some_and(|metamers| !(1..=budget).contains(&metamers)) {
+        let problem = Problem::out_of_range("metamers", metamers.unwrap_or(0), format!("1 to {budget}"));
+        return Err(problem.into());
+    }
+    let (recipe, species) = match &template {
+        None if steps.is_none() && metamers.is_none() => {
+            let message = "There is no template, so that nothing says how far the trees grow.";
+            let problem = Problem::new(Reason::Malformed, message);
+            return Err(problem.at("metamers", "metamers, steps or a template").into());
+        }
+        None => (Recipe::default(), None),
+        Some(template) => recipe_of(&shared, &caller, template).await?,
+    };
+    let recipe = Recipe { parameters, appearance, steps, metamers, budget, ..recipe };
+    recipe.check()?;
+    let WantedSeeds(seeds) = seeds;
+    let order = Order { by: caller.clone(), recipe, seeds, species, row, options };
+    let id = shared.jobs.add(order)?;
+    let (job, ahead) = shared.jobs.find(&id, &caller).ok_or_else(no_job)?;
+    let location = [(header::LOCATION, address_of(&id))];
+    Ok((StatusCode::ACCEPTED, location, Json(JobNow::of(id, &job, ahead))))
+}
+
+/// How trees like a species or a saved tree grow.
+async fn recipe_of(
+    shared: &Shared,
+    caller: &Caller,
+    template: &str,
+) -> Result<(Recipe, Option<&'static species::Species>), Failure> {
+    if let Some(species) = species::find(template) {
+        return Ok((Recipe::of(species), Some(species)));
+    }
+    shared.ask(caller, Action::OpenTree, Named::Tree(template)).await?;
+    let tree = shared.store.tree(template).await?.filter(|tree| tree.deleted_at.is_none());
+    let tree = tree.ok_or_else(|| {
+        let problem = Problem::new(Reason::NoTree, "There is no such species or saved tree.");
+        problem.at("template", "the name of a species, or of a saved tree")
+    })?;
+    let saved = sessions::saved_document(shared, template, tree.head.number).await?;
+    let read = shared.pool.run(move || {
+        let document = Document::from_bytes(&saved.bytes)?;
+        Ok::<_, DocumentError>((document.variation(), document.species()))
+    });
+    let (script, species) = read.await?.map_err(|error| sessions::unreadable(template, &error))?;
+    Ok((Recipe { script, ..Recipe::default() }, species.as_deref().and_then(species::find)))
+}
+
+fn no_job() -> Failure {
+    Failure::none_such("job", "job", "the name of a job that you ordered and that is kept")
+}
+
+/// How far a job is (`JB2`).
+pub(super) async fn find(
+    State(shared): State<Shared>,
+    caller: Caller,
+    Path(id): Path<String>,
+) -> Result<Json<JobNow>, Failure> {
+    let (job, ahead) = shared.jobs.find(&id, &caller).ok_or_else(no_job)?;
+    Ok(Json(JobNow::of(id, &job, ahead)))
+}
+
+/// A file of a job (`JB3`).
+pub(super) async fn result(
+    State(shared): State<Shared>,
+    caller: Caller,
+    Path((id, seed)): Path<(String, u32)>,
+    asked: HeaderMap,
+) -> Result<Response, Failure> {
+    let (job, _) = shared.jobs.find(&id, &caller).ok_or_else(no_job)?;
+    let found = job.open(seed).map_err(|error| {
+        tracing::error!(%error, "a file of a job cannot be read");
+        Failure::new(Reason::NotExported, "The file cannot be read.")
+    })?;
+    let (file, length) =
+        found.ok_or_else(|| Failure::none_such("file", "seed", "a seed in the results of the job"))?;
+    ranges::answer(&asked, exports::headers(job.order.row, &job.file_name(seed)), file, length)
+}
+
+/// Ends a job and takes its files away (`JB4`).
+pub(super) async fn give_up(
+    State(shared): State<Shared>,
+    caller: Caller,
+    Path(id): Path<String>,
+) -> Result<StatusCode, Failure> {
+    if shared.jobs.give_up(&id, &caller) { Ok(StatusCode::NO_CONTENT) } else { Err(no_job()) }
+}
+
+impl From<NotTaken> for Failure {
+    fn from(error: NotTaken) -> Self {
+        match error {
+            NotTaken::Full => {
+                Self::new(Reason::JobsFull, format!("{error}; try again when one has ended or was given up."))
+            }
+            NotTaken::Stopping => Self::new(Reason::Stopping, "The server is stopping."),
+            NotTaken::Disk(error) => {
+                tracing::error!(%error, "a job has no room on the disk");
+                Self::new(Reason::JobsDiskFull, "The server's disk cannot be written.")
+            }
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Coming in with a password, and going out.
+
+use serde_json::{Value, json};
+
+use super::*;
+use crate::{
+    access::password::Password,
+    store::{User, UserChange, Users},
+};
+
+async fn with_ada(role: Role) -> (Router, Arc<AnyStore>) {
+    let (server, store) = server().await;
+    let password = Password::parse("correct horse").unwrap().kept().unwrap();
+    let ada = User { name: "Ada".into(), role, password, created_at: "2026".into() };
+    store.add_user(ada).await.unwrap();
+    (server, store)
+}
+
+/// A request of somebody on another machine.
+fn from_afar(method: &Method, path: &str, from: [u8; 4]) -> Builder {
+    let request = Request::builder().method(method).uri(path).header(header::HOST, "192.168.1.7:7700");
+    request.extension(Peer(from.into())).header(header::CONTENT_TYPE, "application/json")
+}
+
+async fn log_in(server: &Router, name: &str, password: &str, from: [u8; 4]) -> axum::response::Response {
+    let body = json!({ "name": name, "password": password }).to_string();
+    let asked = from_afar(&Method::POST, "/api/v1/login", from).body(Body::from(body)).unwrap();
+    server.clone().oneshot(asked).await.unwrap()
+}
+
+fn cookie_of(answer: &axum::response::Response) -> String {
+    let set = answer.headers()[header::SET_COOKIE].to_str().unwrap();
+    set.split(';').next().unwrap().to_owned()
+}
+
+async fn me(server: &Router, cookie: &str) -> Value {
+    let asked = from_afar(&Method::GET, "/api/v1/me", [192, 168, 1, 9]).header(header::COOKIE, cookie);
+    let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    serde_json::from_slice(&bytes).unwrap()
+}
+
+const AFAR: [u8; 4] = [192, 168, 1, 9];
+
+#[tokio::test]
+async fn ac9_whoever_has_the_password_is_in_until_they_log_out() {
+    let (server, store) = with_ada(Role::Editor).await;
+    for (name, password) in [("Ada", "correct hors"), ("Ada", ""), ("Bo", "correct horse")] {
+        let refused = log_in(&server, name, password, AFAR).await;
+        assert_eq!(refused.status(), StatusCode::UNAUTHORIZED, "{name}");
+        assert!(!refused.headers().contains_key(header::SET_COOKIE));
+    }
+    let answer = log_in(&server, " ada ", "correct horse", AFAR).await;
+    assert_eq!(answer.status(), StatusCode::OK);
+    let cookie = cookie_of(&answer);
+    assert_eq!(me(&server, &cookie).await, json!({ "role": "editor", "way": "login", "name": "Ada" }));
+    store.change_user("Ada", UserChange::Role(Role::Viewer)).await.unwrap();
+    assert_eq!(me(&server, &cookie).await["role"], "viewer", "at once");
+
+    let out = from_afar(&Method::POST, "/api/v1/logout", AFAR).header(header::COOKIE, &cookie);
+    let out = server.clone().oneshot(out.body(Body::empty()).unwrap()).await.unwrap();
+    assert_eq!(out.status(), StatusCode::NO_CONTENT);
+    let forgotten = out.headers()[header::SET_COOKIE].to_str().unwrap();
+    assert!(forgotten.starts_with("espalier-7700=;") && forgotten.contains("Max-Age=0"), "{forgotten}");
+    assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
+}
+
+#[tokio::test]
+async fn ac9_another_password_or_none_ends_logins() {
+    let (server, store) = with_ada(Role::Owner).await;
+    let cookie = cookie_of(&log_in(&server, "Ada", "correct horse", AFAR).await);
+    let another = Password::parse("battery staple").unwrap().kept().unwrap();
+    store.change_user("Ada", UserChange::Password(another)).await.unwrap();
+    assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
+    let cookie = cookie_of(&log_in(&server, "Ada", "battery staple", AFAR).await);
+    assert_eq!(me(&server, &cookie).await["role"], "owner");
+    store.remove_user("Ada").await.unwrap();
+    assert_eq!(me(&server, &cookie).await["reason"], "not-let-in");
+}
+
+#[tokio::test]
+async fn ac9_passwords_are_guessed_slowly_from_an_address_and_for_a_name() {
+    let (server, _) = with_ada(Role::Viewer).await;
+    // Each guess from an address of its own.
+    for host in 1..=5 {
+        let refused = log_in(&server, "ADA", "guess", [10, 0, 0, host]).await;
+        assert_eq!(refused.status(), StatusCode::UNAUTHORIZED);
+    }
+    let late = log_in(&server, "Ada", "correct horse", [10, 0, 0, 6]).await;
+    assert_eq!(late.status(), StatusCode::TOO_MANY_REQUESTS);
+    assert!(late.headers().contains_key(header::RETRY_AFTER));
+    // Each guess for a name of its own.
+    for name in ["a", "b", "c", "d", "e"] {
+        assert_eq!(log_in(&server, name, "guess", AFAR).await.status(), StatusCode::UNAUTHORIZED);
+    }
+    let late = log_in(&server, "f", "guess", AFAR).await;
+    assert_eq!(late.status(), StatusCode::TOO_MANY_REQUESTS);
+}
+
+#[tokio::test]
+async fn ac9_the_page_is_told_whether_to_ask_for_a_password() {
+    for (server, expected) in [(server().await.0, false), (with_ada(Role::Viewer).await.0, true)] {
+        let asked = from_afar(&Method::GET, "/api/v1/entry", AFAR).body(Body::empty()).unwrap();
+        let answer = server.oneshot(asked).await.unwrap();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap(), json!({ "passwords": expected }));
+    }
+}

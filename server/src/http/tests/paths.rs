@@ -1,0 +1,163 @@
+//! At every address: a path that cannot be read, a method that is not taken, and what is not there are each a problem
+//! that names the field and what is allowed.
+
+use std::collections::BTreeMap;
+
+use axum::http::HeaderMap;
+use serde_json::{Value, json};
+
+use super::{refusals::bodies, *};
+
+/// Parts of paths that are whole numbers.
+const NUMBERS: [&str; 3] = ["version", "obstacle", "seed"];
+
+struct Answer {
+    status: StatusCode,
+    headers: HeaderMap,
+    problem: Value,
+}
+
+impl Answer {
+    fn assert(&self, status: StatusCode, field: &str, asked: &str) {
+        let Self { status: found, headers, problem } = self;
+        assert_eq!((*found, problem["field"].as_str()), (status, Some(field)), "{asked}: {problem}");
+        assert_eq!(headers[header::CONTENT_TYPE], "application/json", "{asked}");
+        let said = |name: &str| problem[name].as_str().is_some_and(|text| !text.is_empty());
+        assert!(said("allowed") && said("message") && said("reason"), "{asked}: {problem}");
+    }
+}
+
+async fn ask(server: &Router, method: &Method, path: &str, body: &Value, revision: Option<&str>) -> Answer {
+    let mut request = request(method, path).header(header::CONTENT_TYPE, "application/json");
+    if let Some(revision) = revision {
+        request = request.header(header::IF_MATCH, revision);
+    }
+    let body = if body.is_null() { Body::empty() } else { Body::from(body.to_string()) };
+    let answer = server.clone().oneshot(request.body(body).unwrap()).await.unwrap();
+    let (status, headers) = (answer.status(), answer.headers().clone());
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    Answer { status, headers, problem: serde_json::from_slice(&bytes).unwrap_or_default() }
+}
+
+/// All addresses but that of the socket.
+fn addresses() -> Vec<String> {
+    routes().into_iter().chain(downloads()).map(|route| route.address.into_owned()).collect()
+}
+
+/// What can be filled into a path.
+fn parts(path: &str) -> Vec<&str> {
+    path.split(['{', '}']).skip(1).step_by(2).collect()
+}
+
+/// The path with this instead of one of its parts.
+fn filled_with(path: &str, part: &str, text: &str) -> String {
+    filled(&path.replace(&format!("{{{part}}}"), text))
+}
+
+#[tokio::test]
+async fn a_path_that_cannot_be_read_is_a_problem() {
+    let (server, _) = server().await;
+    for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
+        let (method, path) = (method_of(&address), path_of(&address));
+        for part in parts(path) {
+            let numbers: &[&str] = if NUMBERS.contains(&part) { &["x", "-1", "4294967296"] } else { &[] };
+            for wrong in [&["%ff"], numbers].concat() {
+                let asked = filled_with(path, part, wrong);
+                let answer = ask(&server, &method, &asked, &Value::Null, None).await;
+                answer.assert(StatusCode::BAD_REQUEST, part, &asked);
+            }
+        }
+    }
+}
+
+#[tokio::test]
+async fn a_wrong_method_is_a_problem_that_names_the_right_ones() {
+    let (server, _) = server().await;
+    let mut taken: BTreeMap<String, Vec<Method>> = BTreeMap::new();
+    for address in addresses().into_iter().chain([SOCKET.to_owned()]) {
+        taken.entry(filled(path_of(&address))).or_default().push(method_of(&address));
+    }
+    for path in ["/", "/api", "/pair", "/s/oak", "/health"] {
+        taken.entry(path.to_owned()).or_default().push(Method::GET);
+    }
+    for (path, methods) in &taken {
+        let all = [Method::GET, Method::PUT, Method::POST, Method::PATCH, Method::DELETE];
+        for method in all.iter().filter(|method| !methods.contains(method)) {
+            let asked = format!("{method} {path}");
+            let answer = ask(&server, method, path, &Value::Null, None).await;
+            answer.assert(StatusCode::METHOD_NOT_ALLOWED, "method", &asked);
+            let allowed = answer.problem["allowed"].as_str().unwrap();
+            let named: BTreeSet<&str> = allowed.split(", ").filter(|&method| method != "HEAD").collect();
+            assert_eq!(named, methods.iter().map(Method::as_str).collect(), "{asked}");
+            assert_eq!(
+                answer.headers[header::ALLOW].to_str().unwrap().replace(',', ", "),
+                allowed,
+                "{asked}"
+            );
+        }
+    }
+}
+
+#[tokio::test]
+async fn an_address_that_is_none_says_so_to_every_method() {
+    let (server, _) = server().await;
+    for method in [Method::GET, Method::POST, Method::PUT, Method::DELETE] {
+        for path in ["/api/v1/shrubs", "/api/", "/nowhere.html"] {
+            let answer = ask(&server, &method, path, &Value::Null, None).await;
+            answer.assert(StatusCode::NOT_FOUND, "path", path);
+        }
+    }
+}
+
+#[tokio::test]
+async fn what_is_not_there_is_named_by_the_part_of_the_path() {
+    let bodies: BTreeMap<&str, Value> =
+        bodies().into_iter().map(|(address, _, body)| (address, body)).collect();
+    for address in addresses() {
+        let (method, path) = (method_of(&address), path_of(&address));
+        for part in parts(path) {
+            // Each on a server of its own, for some of them change what is there.
+            let (server, _) = server().await;
+            let unknown = if NUMBERS.contains(&part) { "77" } else { "no-such-thing-there" };
+            let asked = filled_with(path, part, unknown);
+            let mut body = bodies.get(&*address).cloned().unwrap_or_default();
+            if let Some(parent) = body.get_mut("parent") {
+                *parent = json!("");
+            }
+            let answer = ask(&server, &method, &asked, &body, None).await;
+            // A ticket says enough; nobody has the one that stands in the path.
+            let named = if path.ends_with("{ticket}") { "ticket" } else { part };
+            answer.assert(StatusCode::NOT_FOUND, named, &format!("{method} {asked}"));
+        }
+    }
+}
+
+#[tokio::test]
+async fn what_is_not_there_is_named_by_the_field_of_the_body() {
+    let (server, _) = server().await;
+    let not_found = StatusCode::NOT_FOUND;
+    for (address, body, status, field) in [
+        ("POST /api/v1/sessions", json!({ "tree": "elm" }), not_found, "tree"),
+        ("POST /api/v1/sessions", json!({ "tree": "ash", "version": 7 }), not_found, "version"),
+        ("POST /api/v1/trees", json!({ "session": "yew", "name": "Yew" }), not_found, "session"),
+        ("POST /api/v1/trees/ash/versions", json!({ "session": "yew" }), not_found, "session"),
+        ("POST /api/v1/trees/ash/copies", json!({ "name": "Copy", "version": 7 }), not_found, "version"),
+        ("PATCH /api/v1/trees/ash", json!({ "collection": "none" }), not_found, "collection"),
+        ("POST /api/v1/collections", json!({ "name": "Woods", "parent": "none" }), not_found, "parent"),
+        ("PATCH /api/v1/collections/wood", json!({ "parent": "none" }), not_found, "parent"),
+        ("PATCH /api/v1/collections/wood", json!({ "parent": "wood" }), StatusCode::CONFLICT, "parent"),
+    ] {
+        let answer = ask(&server, &method_of(address), path_of(address), &body, None).await;
+        answer.assert(status, field, address);
+    }
+    let change =
+        ask(&server, &Method::PATCH, "/api/v1/trees/ash", &json!({ "note": "" }), Some("\"9\"")).await;
+    change.assert(StatusCode::PRECONDITION_FAILED, "if-match", "an old revision");
+}
+
+#[tokio::test]
+async fn the_address_of_a_socket_says_that_it_is_one() {
+    let (server, _) = server().await;
+    let answer = ask(&server, &Method::GET, &filled(path_of(SOCKET)), &Value::Null, None).await;
+    answer.assert(StatusCode::BAD_REQUEST, "upgrade", "a plain GET");
+}

@@ -1,0 +1,296 @@
+//! A job: what was asked for, how far it is, and how a tree of it is made.
+
+use std::{
+    fs::{self, File},
+    io::{self, ErrorKind},
+    path::PathBuf,
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU32, AtomicU64, Ordering},
+    },
+    time::Instant,
+};
+
+use espalier_export::ExportError;
+use espalier_growth::species::Species;
+use espalier_proto::{Command, Problem, Reason};
+use espalier_session::{Document, Principal};
+use tempfile::TempDir;
+use tokio_util::sync::CancellationToken;
+
+use super::MOST_BYTES;
+use crate::{
+    access::Caller,
+    document::{self, FileError, FormatRow},
+    export_options::ExportOptions,
+    pool::SimulationPool,
+    recipe::{Gardener, GrowError, Recipe},
+    spool::{PATIENCE, Spool},
+};
+
+/// What is to be grown, and written.
+#[derive(Clone, Debug)]
+pub struct Order {
+    /// Who ordered it.
+    pub by: Caller,
+    /// How each tree grows.
+    pub recipe: Recipe,
+    /// The seed of each.
+    pub seeds: Vec<u32>,
+    /// The species that it is one of.
+    pub species: Option<&'static Species>,
+    /// The format of the files.
+    pub row: &'static FormatRow,
+    /// Its options.
+    pub options: ExportOptions,
+}
+
+/// Where a job is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum State {
+    /// Others come first.
+    Waiting,
+    /// Under way.
+    Growing,
+    /// Every seed has its file or its problem.
+    Done,
+    /// It ended before.
+    Failed,
+}
+
+/// A tree that has its file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Grown {
+    /// Its seed.
+    pub seed: u32,
+    /// Living metamers.
+    pub metamers: u32,
+    /// Bytes of the file.
+    pub bytes: u64,
+}
+
+/// How far a job is.
+#[derive(Clone, Debug)]
+pub struct Progress {
+    /// Where it is.
+    pub state: State,
+    /// What it made.
+    pub grown: Vec<Grown>,
+    /// What it could not make.
+    pub failed: Vec<(u32, Problem)>,
+    /// Why it ended before it was done.
+    pub problem: Option<Problem>,
+    /// The seed under way.
+    pub seed: Option<u32>,
+    /// When it is old.
+    pub(super) gone_at: Option<Instant>,
+}
+
+/// A job.
+#[derive(Debug)]
+pub struct Job {
+    /// What was asked for.
+    pub order: Order,
+    given_up: CancellationToken,
+    progress: Mutex<Progress>,
+    /// Taken where the job is given up.
+    folder: Mutex<Option<TempDir>>,
+    metamers: AtomicU32,
+    written: Arc<AtomicU64>,
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Job {
+    /// A job that waits. Its files lie in the folder; it is given up with `stop`.
+    pub(super) fn new(order: Order, folder: TempDir, stop: &CancellationToken) -> Self {
+        Self {
+            order,
+            given_up: stop.child_token(),
+            progress: Mutex::new(Progress {
+                state: State::Waiting,
+                grown: Vec::new(),
+                failed: Vec::new(),
+                problem: None,
+                seed: None,
+                gone_at: None,
+            }),
+            folder: Mutex::new(Some(folder)),
+            metamers: AtomicU32::default(),
+            written: Arc::default(),
+        }
+    }
+
+    /// How far it is, to look at and to change.
+    pub(super) fn lock(&self) -> MutexGuard<'_, Progress> {
+        lock(&self.progress)
+    }
+
+    /// Whether nobody wants it any more.
+    pub(super) fn is_given_up(&self) -> bool {
+        self.given_up.is_cancelled()
+    }
+
+    /// Ends it, and takes its files away.
+    pub(super) fn give_up(&self) {
+        self.given_up.cancel();
+        lock(&self.folder).take();
+    }
+
+    /// How far it is.
+    pub fn progress(&self) -> Progress {
+        self.lock().clone()
+    }
+
+    /// Metamers of the tree under way, and bytes of its file.
+    pub fn under_way(&self) -> (u32, u64) {
+        (self.metamers.load(Ordering::Relaxed), self.written.load(Ordering::Relaxed))
+    }
+
+    /// The name of the file of a seed.
+    pub fn file_name(&self, seed: u32) -> String {
+        format!("{seed}.{}", self.order.row.ending)
+    }
+
+    /// The file of a seed, if it was made, and how many bytes it has.
+    pub fn open(&self, seed: u32) -> io::Result<Option<(File, u64)>> {
+        let made = self.lock().grown.iter().find(|grown| grown.seed == seed).copied();
+        let Some((grown, path)) = made.and_then(|grown| Some((grown, self.path(seed)?))) else {
+            return Ok(None);
+        };
+        Ok(Some((File::open(path)?, grown.bytes)))
+    }
+
+    /// Where the file of a seed lies, or would lie.
+    pub(super) fn path(&self, seed: u32) -> Option<PathBuf> {
+        Some(lock(&self.folder).as_ref()?.path().join(self.file_name(seed)))
+    }
+
+    /// Grows a tree and writes its file, which may have so many bytes.
+    pub(super) fn make(&self, seed: u32, pool: &SimulationPool, bytes_left: u64) -> Result<Grown, Problem> {
+        self.metamers.store(0, Ordering::Relaxed);
+        self.written.store(0, Ordering::Relaxed);
+        let made = self.grow(seed, pool, bytes_left);
+        if made.is_err()
+            && let Some(path) = self.path(seed)
+        {
+            // Where there is none, nothing is left to be removed.
+            let _ = fs::remove_file(path);
+        }
+        // Whoever gives a job up takes its folder away, and then the file cannot be written for that reason.
+        made.map_err(|error| if self.is_given_up() { given_up() } else { problem_of(&error, seed) })
+    }
+
+    fn grow(&self, seed: u32, pool: &SimulationPool, bytes_left: u64) -> Result<Grown, JobError> {
+        let Order { recipe, species, row, options, .. } = &self.order;
+        let mut plot = Plot { document: recipe.seedling(seed).map_err(GrowError::from)?, job: self, pool };
+        recipe.grow(&mut plot)?;
+        let mut document = plot.document;
+        let file = File::create_new(self.path(seed).ok_or(GrowError::GivenUp)?)?;
+        let stop = self.given_up.clone();
+        let mut out = Spool::new(file, pool.clone(), stop, Arc::clone(&self.written)).within(bytes_left);
+        document::write(&mut document, *species, row.format, options, &mut out)?;
+        let (_, bytes) = out.into_file()?;
+        Ok(Grown { seed, metamers: document.metamers(), bytes })
+    }
+}
+
+/// A tree cannot be grown or written.
+#[derive(Debug, thiserror::Error)]
+enum JobError {
+    #[error(transparent)]
+    Grow(#[from] GrowError),
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl From<ExportError> for JobError {
+    fn from(error: ExportError) -> Self {
+        Self::File(error.into())
+    }
+}
+
+impl From<io::Error> for JobError {
+    fn from(error: io::Error) -> Self {
+        Self::File(error.into())
+    }
+}
+
+fn problem_of(error: &JobError, seed: u32) -> Problem {
+    match error {
+        JobError::Grow(GrowError::Refused(problem)) => problem.clone(),
+        JobError::Grow(error @ GrowError::Stalled { .. }) => {
+            Problem::new(Reason::StoppedGrowing, error.to_string())
+        }
+        JobError::Grow(GrowError::GivenUp) => given_up(),
+        JobError::File(error) if kind_of(error) == Some(ErrorKind::QuotaExceeded) => {
+            let sentence =
+                format!("The files of all jobs have {} GiB and may not have more.", MOST_BYTES >> 30);
+            Problem::new(Reason::JobsDiskFull, sentence)
+        }
+        JobError::File(error) if kind_of(error) == Some(ErrorKind::StorageFull) => {
+            Problem::new(Reason::JobsDiskFull, "The disk of the server is full.")
+        }
+        JobError::File(error) => {
+            tracing::error!(%error, seed, "a tree of a job cannot be exported");
+            Problem::new(Reason::NotExported, format!("The tree cannot be exported: {error}."))
+        }
+    }
+}
+
+fn given_up() -> Problem {
+    Problem::new(Reason::Stopping, "The job was given up.")
+}
+
+/// What the disk said, if it was the disk.
+fn kind_of(error: &FileError) -> Option<ErrorKind> {
+    match error {
+        FileError::Export(ExportError::Write(kind)) => Some(*kind),
+        FileError::Disk(error) => Some(error.kind()),
+        _ => None,
+    }
+}
+
+/// A document that grows beneath those who draw, until it is given up.
+struct Plot<'a> {
+    document: Document,
+    job: &'a Job,
+    pool: &'a SimulationPool,
+}
+
+impl Gardener for Plot<'_> {
+    fn document(&self) -> &Document {
+        &self.document
+    }
+
+    fn act(&mut self, command: &Command) -> Result<(), GrowError> {
+        self.document.begin(&Principal::visitor(), command)?;
+        loop {
+            self.pool.give_way(PATIENCE);
+            if self.job.given_up.is_cancelled() {
+                return Err(GrowError::GivenUp);
+            }
+            if !self.pool.block_on(|| self.document.advance()) {
+                return Ok(());
+            }
+            self.job.metamers.store(self.document.metamers(), Ordering::Relaxed);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jb3_a_full_disk_ends_the_job_and_a_file_that_is_none_does_not() {
+        let reason = |error: ExportError| problem_of(&JobError::from(error), 1).reason;
+        for kind in [ErrorKind::StorageFull, ErrorKind::QuotaExceeded] {
+            assert_eq!(reason(ExportError::Write(kind)), Reason::JobsDiskFull);
+            assert_eq!(problem_of(&JobError::from(io::Error::from(kind)), 1).reason, Reason::JobsDiskFull);
+        }
+        assert_eq!(reason(ExportError::Write(ErrorKind::PermissionDenied)), Reason::NotExported);
+    }
+}

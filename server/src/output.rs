@@ -1,0 +1,103 @@
+//! Where the command line writes what it makes: a file, whole or not at all, or standard output.
+
+use std::{
+    fs::File,
+    io::{self, BufWriter, ErrorKind, IsTerminal, Seek, Write},
+    path::{Path, PathBuf},
+};
+
+use espalier_export::{ExportError, Sink};
+
+use crate::{document::FormatRow, progress::Bar};
+
+/// What stands for standard output.
+pub const STDOUT: &str = "-";
+
+/// A file to write, in a format.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// Where; [`STDOUT`] for standard output.
+    pub path: PathBuf,
+    /// As what.
+    pub row: &'static FormatRow,
+}
+
+/// A file cannot be written; each message is one sentence.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// The disk or the reader does not take it.
+    #[error("The export {} cannot be written: {cause}.", path.display())]
+    Write {
+        /// Which file.
+        path: PathBuf,
+        /// Why not.
+        cause: io::Error,
+    },
+    /// The result does not fit its format.
+    #[error("The export failed: {0}.")]
+    Export(ExportError),
+    /// A terminal would show bytes as signs, and obey some of them.
+    #[error("A .{0} file is not for a terminal: pass it to a program, or to a file with > or by its name.")]
+    Terminal(&'static str),
+}
+
+impl Target {
+    /// Whether it goes to standard output.
+    pub fn is_stdout(&self) -> bool {
+        self.path == Path::new(STDOUT)
+    }
+
+    /// Whether it can be written there, before anything is made.
+    ///
+    /// # Errors
+    /// A format that is no text is not for a terminal.
+    pub fn check(&self) -> Result<(), OutputError> {
+        let shown = self.is_stdout() && io::stdout().is_terminal();
+        if shown && !self.row.is_text() { Err(OutputError::Terminal(self.row.ending)) } else { Ok(()) }
+    }
+
+    /// Makes the file in a place of its own, and moves or copies it when it is whole.
+    ///
+    /// # Errors
+    /// Those of what makes it, and of the disk.
+    pub fn write(
+        &self,
+        make: impl FnOnce(&mut dyn Sink) -> Result<(), ExportError>,
+    ) -> Result<(), OutputError> {
+        self.check()?;
+        let failed = |cause| OutputError::Write { path: self.path.clone(), cause };
+        if self.is_stdout() {
+            let mut file = made(tempfile::tempfile().map_err(failed)?, make, failed)?;
+            file.rewind().map_err(failed)?;
+            let mut stdout = io::stdout().lock();
+            return match io::copy(&mut file, &mut stdout).and_then(|_| stdout.flush()) {
+                // A reader that has seen enough, as `head` may, is no error of ours.
+                Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+                copied => copied.map_err(failed),
+            };
+        }
+        let folder = self.path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+        let mut file = tempfile::Builder::new();
+        #[cfg(unix)]
+        file.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = file.tempfile_in(folder).map_err(failed)?;
+        let (opened, path) = file.into_parts();
+        drop::<File>(made(opened, make, failed)?);
+        path.persist(&self.path).map_err(|error| failed(error.error))
+    }
+}
+
+/// The file when all is in it.
+fn made(
+    file: File,
+    make: impl FnOnce(&mut dyn Sink) -> Result<(), ExportError>,
+    failed: impl Fn(io::Error) -> OutputError,
+) -> Result<File, OutputError> {
+    let _bar = Bar::turning("writing the file");
+    let mut out = BufWriter::new(file);
+    match make(&mut out) {
+        Err(ExportError::Write(kind)) => return Err(failed(kind.into())),
+        made => made.map_err(OutputError::Export)?,
+    }
+    out.into_inner().map_err(|error| failed(error.into_error()))
+}

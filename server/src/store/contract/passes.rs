@@ -1,0 +1,85 @@
+//! The contract of what lets people in.
+
+use espalier_proto::access::Role;
+
+use super::{
+    super::{Library, Missing, Pass, PassKind, Passes, StoreError},
+    library::tree,
+};
+use crate::access::SecretHash;
+
+pub(super) const NOW: &str = "2026-05-01T12:00:00.000Z";
+const LATER: &str = "2026-05-01T12:00:00.001Z";
+
+pub(super) fn pass(id: &str, kind: PassKind) -> Pass {
+    Pass {
+        id: id.into(),
+        kind,
+        name: format!("Ada's {id}"),
+        role: Role::Editor,
+        tree: None,
+        created_at: format!("2026-04-01T12:00:00.000Z {id}"),
+        expires_at: LATER.into(),
+        ends_at: "2026-10-01T12:00:00.000Z".into(),
+    }
+}
+
+pub(super) fn hash(byte: u8) -> SecretHash {
+    [byte; 32]
+}
+
+pub(super) async fn passes_let_in_until_they_expire(store: &impl Passes) {
+    store.add_pass(hash(1), pass("tablet", PassKind::Device)).await.unwrap();
+    store.add_pass(hash(2), pass("script", PassKind::Token)).await.unwrap();
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), Some(pass("tablet", PassKind::Device)));
+    assert_eq!(store.pass(hash(3), NOW).await.unwrap(), None);
+    assert_eq!(store.pass(hash(1), LATER).await.unwrap(), None, "it has expired");
+    store.extend_pass("tablet", "2026-06-01T12:00:00.000Z").await.unwrap();
+    let longer = store.pass(hash(1), LATER).await.unwrap().unwrap();
+    assert_eq!((&*longer.id, &*longer.expires_at), ("tablet", "2026-06-01T12:00:00.000Z"));
+    assert_eq!(store.pass(hash(2), LATER).await.unwrap(), None, "the other one has not changed");
+    store.purge_passes(LATER).await.unwrap();
+    assert_eq!(store.pass(hash(2), NOW).await.unwrap(), None, "it is forgotten");
+    assert!(store.pass(hash(1), NOW).await.unwrap().is_some());
+}
+
+pub(super) async fn one_of_those_who_take_a_pass_has_it(store: &impl Passes) {
+    store.add_pass(hash(1), pass("door", PassKind::Invitation)).await.unwrap();
+    let taken = async || store.take_pass("door").await.unwrap();
+    let (a, b, c) = tokio::join!(taken(), taken(), taken());
+    assert_eq!([a, b, c].iter().filter(|&&it| it).count(), 1);
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);
+    assert!(!taken().await);
+}
+
+pub(super) async fn passes_are_listed_by_kind(store: &impl Passes) {
+    for (byte, id, kind) in [
+        (1, "a", PassKind::Device),
+        (2, "b", PassKind::Token),
+        (3, "c", PassKind::Device),
+        (4, "d", PassKind::Invitation),
+    ] {
+        store.add_pass(hash(byte), pass(id, kind)).await.unwrap();
+    }
+    let ids = async |kind, now| -> Vec<String> {
+        store.passes(kind, now).await.unwrap().into_iter().map(|pass| pass.id).collect()
+    };
+    assert_eq!(ids(PassKind::Device, NOW).await, ["c", "a"]);
+    assert_eq!(ids(PassKind::Token, NOW).await, ["b"]);
+    assert_eq!(ids(PassKind::Invitation, NOW).await, ["d"]);
+    assert!(ids(PassKind::Device, LATER).await.is_empty());
+}
+
+pub(super) async fn a_pass_for_a_tree_goes_with_it(store: &(impl Library + Passes)) {
+    let of = |tree: &str| Pass { tree: Some(tree.into()), ..pass(tree, PassKind::Device) };
+    store.add_tree(tree("ash", "2026")).await.unwrap();
+    store.add_pass(hash(1), of("ash")).await.unwrap();
+    let missing = store.add_pass(hash(2), of("elm")).await;
+    assert!(matches!(missing, Err(StoreError::NotFound(Missing::Tree))));
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), Some(of("ash")));
+    let deletion = Some(super::super::Deletion::Deleted("2026-01-01".into()));
+    let change = super::super::TreeChange { deletion, ..super::super::TreeChange::default() };
+    store.change_tree("ash", None, change).await.unwrap();
+    store.purge("2026-02-01", 8).await.unwrap();
+    assert_eq!(store.pass(hash(1), NOW).await.unwrap(), None);
+}

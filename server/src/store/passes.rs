@@ -1,0 +1,80 @@
+//! What lets people in: invitations, devices, tokens.
+
+use espalier_proto::access::Role;
+
+use super::StoreError;
+use crate::access::SecretHash;
+
+/// Keeps passes. Their secrets are kept nowhere, so that who reads the database cannot come in with what stands there.
+pub trait Passes {
+    /// Keeps a pass; [`StoreError::NotFound`] where its tree or its user is not there. A user's pass has their role.
+    async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError>;
+
+    /// The pass with this secret, unless it has expired.
+    async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError>;
+
+    /// All of a kind that have not expired, newest first.
+    async fn passes(&self, kind: PassKind, now: &str) -> Result<Vec<Pass>, StoreError>;
+
+    /// Lets a pass last until another time.
+    async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError>;
+
+    /// Takes a pass away. Of several who do so at once, one is told that it was there.
+    async fn take_pass(&self, id: &str) -> Result<bool, StoreError>;
+
+    /// Forgets all that have expired.
+    async fn purge_passes(&self, now: &str) -> Result<(), StoreError>;
+}
+
+/// Lets somebody in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pass {
+    /// What it is told from others by; it is no secret.
+    pub id: String,
+    /// How it lets in.
+    pub kind: PassKind,
+    /// How people call it.
+    pub name: String,
+    /// What it allows.
+    pub role: Role,
+    /// The only tree it is for.
+    pub tree: Option<String>,
+    /// When it was made.
+    pub created_at: String,
+    /// When it stops letting in, unless it is extended.
+    pub expires_at: String,
+    /// When it ends for good; for an invitation, when what comes of it does.
+    pub ends_at: String,
+}
+
+/// How a pass lets in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PassKind {
+    /// Once, and then as a device.
+    Invitation,
+    /// By a cookie.
+    Device,
+    /// By a cookie, as the user whose name it has.
+    Login,
+    /// By a header that a program sends.
+    Token,
+}
+
+impl PassKind {
+    /// How it is written in a database.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Invitation => "invitation",
+            Self::Device => "device",
+            Self::Login => "login",
+            Self::Token => "token",
+        }
+    }
+
+    /// The kind that is written so.
+    pub(super) fn named(name: &str) -> Option<Self> {
+        [Self::Invitation, Self::Device, Self::Login, Self::Token]
+            .into_iter()
+            .find(|kind| kind.name() == name)
+    }
+}

@@ -1,0 +1,46 @@
+//! Who logs in with a password.
+
+use espalier_proto::access::Role;
+
+use super::StoreError;
+
+/// Keeps users. Two whose names differ in large and small letters or accents alone would be taken for each other, so their
+/// names are one.
+pub trait Users {
+    /// Adds somebody; [`StoreError::Taken`] where somebody goes by the name already.
+    async fn add_user(&self, user: User) -> Result<(), StoreError>;
+
+    /// Whoever goes by a name.
+    async fn user(&self, name: &str) -> Result<Option<User>, StoreError>;
+
+    /// All of them, by name.
+    async fn users(&self) -> Result<Vec<User>, StoreError>;
+
+    /// Changes somebody; whether they are there.
+    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError>;
+
+    /// Removes somebody with all their logins; whether they were there.
+    async fn remove_user(&self, name: &str) -> Result<bool, StoreError>;
+}
+
+/// Somebody who logs in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct User {
+    /// What they are called, and log in by.
+    pub name: String,
+    /// What they may do.
+    pub role: Role,
+    /// What is kept of their password.
+    pub password: String,
+    /// When they were added.
+    pub created_at: String,
+}
+
+/// What changes of somebody.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum UserChange {
+    /// What they may do, from now on and wherever they are logged in.
+    Role(Role),
+    /// What is kept of their password; all their logins end.
+    Password(String),
+}

@@ -1,0 +1,106 @@
+//! Who logs in with a password, added at the command line.
+
+use std::path::Path;
+
+use espalier_tests::{
+    http::{self, Answer},
+    program::{self, Finished},
+    scratch::Scratch,
+    server::Server,
+};
+use serde_json::{Value, json};
+
+use super::people::{ask, name, printed_by};
+
+fn user(arguments: &[&str], database: &Path, password: &str) -> Finished {
+    program::run_with(&[&["user"], arguments, &["--database", name(database)]].concat(), password)
+}
+
+fn log_in(server: &Server, name: &str, password: &str) -> Answer {
+    let body = json!({ "name": name, "password": password });
+    http::send(server.port(), "POST", "/api/v1/login", Some(&body)).expect("the server answers")
+}
+
+/// The cookie of whoever logs in, as a header.
+fn cookie(server: &Server, name: &str, password: &str) -> String {
+    let answer = log_in(server, name, password);
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    let cookie = answer.header("set-cookie").and_then(|cookie| cookie.split(';').next());
+    format!("cookie: {}", cookie.expect("it sets a cookie"))
+}
+
+fn me(server: &Server, header: &str) -> Value {
+    ask(server, "GET", "/api/v1/me", header, "").json()
+}
+
+#[test]
+fn ac9_the_first_administrator_comes_by_one_command() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--auth"]);
+    let printed = printed_by(&server);
+    assert!(printed.contains("user add --admin NAME") && !printed.contains("/pair#"), "{printed}");
+    // Who sits at the machine is nobody.
+    let list = http::get(server.port(), "/api/v1/trees").expect("the server answers");
+    assert_eq!((list.status, list.json()["reason"].as_str()), (401, Some("not-let-in")));
+
+    let added = user(&["add", "--admin", "Ada"], &database, "correct horse\n");
+    assert_eq!((added.code, &*added.stdout), (0, "Ada can log in: admin.\n"), "{}", added.stderr);
+    let ada = cookie(&server, "ada", "correct horse");
+    assert_eq!(me(&server, &ada), json!({ "role": "admin", "way": "login", "name": "Ada" }));
+    let users = ask(&server, "GET", "/api/v1/users", &ada, "").json();
+    assert_eq!((&users[0]["name"], &users[0]["role"]), (&json!("Ada"), &json!("admin")));
+    assert_eq!(ask(&server, "POST", "/api/v1/sessions", &ada, r#"{"seed":7}"#).status, 201);
+}
+
+#[test]
+fn ac9_users_are_listed_changed_and_removed_while_the_server_runs() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    let server = Server::start_with(&database, 0, &["--auth"]);
+    let said = |arguments: &[&str], password: &str| {
+        let done = user(arguments, &database, password);
+        assert_eq!(done.code, 0, "{arguments:?}: {}", done.stderr);
+        done.stdout
+    };
+    said(&["add", "Bo"], "battery staple");
+    let bo = cookie(&server, "Bo", "battery staple");
+    assert_eq!(me(&server, &bo)["role"], "editor");
+    assert_eq!(ask(&server, "GET", "/api/v1/users", &bo, "").status, 403);
+    said(&["role", "Bo", "viewer"], "");
+    assert_eq!(me(&server, &bo)["role"], "viewer");
+    assert!(said(&["ls"], "").contains("Bo: viewer, since "));
+    said(&["passwd", "bo"], "another password\n");
+    assert_eq!(me(&server, &bo)["reason"], "not-let-in", "they are logged in nowhere");
+    assert_eq!(log_in(&server, "Bo", "battery staple").json()["reason"], "wrong-password");
+    let bo = cookie(&server, "Bo", "another password");
+    said(&["remove", "Bo"], "");
+    assert_eq!(me(&server, &bo)["reason"], "not-let-in");
+    let audited = program::run(&["audit", "--json", "--database", name(&database)]);
+    let events: Vec<Value> =
+        audited.stdout.lines().map(|line| serde_json::from_str(line).expect("each line is JSON")).collect();
+    let actions: Vec<&str> = events.iter().rev().filter_map(|event| event["action"].as_str()).collect();
+    let expected = ["user-add", "log-in", "user-role", "user-passwd", "log-in", "log-in", "user-remove"];
+    assert_eq!(actions, expected);
+    assert_eq!((&events[1]["who"], &events[2]["outcome"]), (&json!("login Bo"), &json!("401")));
+    assert_eq!(said(&["ls"], ""), "");
+}
+
+#[test]
+fn ac9_a_name_that_is_taken_or_of_nobody_and_a_short_password_are_refused() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    assert_eq!(user(&["add", "Ada"], &database, "correct horse").code, 0);
+    for (arguments, password, expected) in [
+        (&["add", "ADA"][..], "correct horse", "There is a user ADA already"),
+        (&["add", "Bo"], "short", "8 to 200 characters"),
+        (&["add", "Bo"], "", "8 to 200 characters"),
+        (&["passwd", "Bo"], "correct horse", "There is no user Bo"),
+        (&["role", "Bo", "viewer"], "", "There is no user Bo"),
+        (&["remove", "Bo"], "", "There is no user Bo"),
+    ] {
+        let refused = user(arguments, &database, password);
+        assert_eq!(refused.code, 1, "{arguments:?}");
+        assert!(refused.stderr.contains(expected), "{arguments:?}: {}", refused.stderr);
+    }
+}
