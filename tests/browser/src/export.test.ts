@@ -48,11 +48,31 @@ it("files of every species are glTF without error or warning, says Khronos' vali
   }
 }, 1_200_000);
 
-it.each([
-  [["--lod", "set", "--hull", "--quantised"], []],
-  [["--by-limb", "--quantised"], []],
-  [["--lod", "3"], []],
+/** Each option in one of two files that have as many as go together. */
+const TOGETHER = [
+  [["--lod", "set", "--hull", "--by-limb", "--quantised"], []],
   // The validator does not know these two, and says so as information.
+  [["--compressed", "--instanced", "--hull"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
+] as const;
+
+it.each(TOGETHER)(
+  "so are files of every species with %j",
+  async (options, information) => {
+    for (const slug of await species()) {
+      const { issues } = await validateBytes(await grown(slug, ["--species", slug, ...options]));
+      expect([issues.numErrors, issues.numWarnings], slug).toEqual([0, 0]);
+      const codes = new Set(issues.messages.map(({ code }) => code));
+      for (const code of codes) expect(information, slug).toContain(code);
+    }
+  },
+  1_200_000,
+);
+
+it.each([
+  [["--by-limb"], []],
+  [["--lod", "1"], []],
+  [["--lod", "2"], []],
+  [["--lod", "3"], []],
   [["--compressed", "--quantised"], ["UNSUPPORTED_EXTENSION"]],
   [["--instanced"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
 ])(
