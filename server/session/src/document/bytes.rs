@@ -63,17 +63,18 @@ impl DocumentError {
 }
 
 impl Document {
-    /// The whole document, its history and futures included. Steps still pending are run first by the caller.
+    /// The whole document, its history and futures included, packed. Steps still pending are run first by the caller.
     pub fn to_bytes(&self) -> Vec<u8> {
-        self.to_container(&self.futures).to_bytes()
+        self.to_container(&self.futures).packed().to_bytes()
     }
 
-    /// The document with its present line of time alone, for keeping as a tree (`TT3`).
+    /// The document with its present line of time alone, for keeping as a tree (`TT3`). As snapshots, it is not packed:
+    /// the store packs its parts.
     pub fn to_saved_bytes(&self) -> Vec<u8> {
         self.to_container(&Futures::default()).to_bytes()
     }
 
-    /// The whole document with the section of a session.
+    /// The whole document with the section of a session, not packed.
     pub(crate) fn to_snapshot_bytes(&self, session: Writer) -> Vec<u8> {
         let mut container = self.to_container(&self.futures);
         container.sections.push(Section::new(&SESSION, session.into_bytes()));

@@ -2,6 +2,8 @@
 //!
 //! `docs/document.md` has the layout. What a section holds is of no concern here.
 
+use std::borrow::Cow;
+
 use flate2::Crc;
 
 use super::{
@@ -49,15 +51,9 @@ pub(crate) struct Container {
 }
 
 impl Section {
-    /// A section of this kind that holds these bytes.
+    /// A section of this kind that holds these bytes, not packed.
     pub(crate) fn new(kind: &Kind, bytes: Vec<u8>) -> Self {
-        let deflated = deflate(&bytes);
-        let section = Self::raw(kind, kind.version, bytes);
-        if deflated.len() < section.packed.len() {
-            Self { codec: DEFLATED, packed: deflated, ..section }
-        } else {
-            section
-        }
+        Self::raw(kind, kind.version, bytes)
     }
 
     /// The same in any version, not packed.
@@ -73,11 +69,25 @@ impl Section {
         Self { tag, version, flags, codec: RAW, unpacked: bytes.len() as u64, packed: bytes }
     }
 
+    /// Packs it, if that makes it shorter and it is not packed yet.
+    pub(crate) fn pack(&mut self) {
+        if self.codec == RAW {
+            let deflated = deflate(&self.packed);
+            if deflated.len() < self.packed.len() {
+                (self.codec, self.packed) = (DEFLATED, deflated);
+            }
+        }
+    }
+
+    pub(super) fn is_packed(&self) -> bool {
+        self.codec != RAW
+    }
+
     /// What it holds, within what was announced.
-    pub(crate) fn unpack(&self) -> Result<Vec<u8>, DocumentError> {
+    pub(crate) fn unpack(&self) -> Result<Cow<'_, [u8]>, DocumentError> {
         let bytes = match self.codec {
-            RAW => Some(self.packed.clone()),
-            DEFLATED => inflate(&self.packed, self.unpacked)?,
+            RAW => Some(Cow::Borrowed(&*self.packed)),
+            DEFLATED => inflate(&self.packed, self.unpacked)?.map(Cow::Owned),
             codec => return Err(later(format!("it is packed by codec {codec}"))),
         };
         let whole = bytes.filter(|bytes| bytes.len() as u64 == self.unpacked);
@@ -94,6 +104,12 @@ impl Section {
 }
 
 impl Container {
+    /// The same with each section packed that gets shorter by it.
+    pub(crate) fn packed(mut self) -> Self {
+        self.sections.iter_mut().for_each(Section::pack);
+        self
+    }
+
     /// The container as bytes; the same container always gives the same.
     pub(crate) fn to_bytes(&self) -> Vec<u8> {
         let known = self.sections.iter().filter_map(|section| Kind::of(section.tag));

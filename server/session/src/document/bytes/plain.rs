@@ -6,9 +6,12 @@ use super::container::{Container, Section};
 /// opens as the other does. Bytes that are no container of this program come back as they are.
 pub fn plain(bytes: Vec<u8>) -> Vec<u8> {
     let Ok(mut container) = Container::from_bytes(&bytes) else { return bytes };
+    if !container.sections.iter().any(Section::is_packed) {
+        return bytes;
+    }
     for section in &mut container.sections {
         match section.unpack() {
-            Ok(unpacked) => *section = Section::unpacked(section, unpacked),
+            Ok(unpacked) => *section = Section::unpacked(section, unpacked.into_owned()),
             Err(_) => return bytes,
         }
     }

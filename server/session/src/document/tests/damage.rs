@@ -207,6 +207,7 @@ fn a_list_of_small_sets_is_refused_before_it_is_read() {
             let section = sections.iter_mut().find(|section| section.tag == tag).expect("it is there");
             let kind = Kind::of(tag).expect("our own section");
             *section = Section::new(kind, contents);
+            section.pack();
             assert!(section.packed.len() < 50_000, "{}", section.packed.len());
         });
         let expected =
@@ -233,7 +234,7 @@ fn names_that_a_later_program_added_name_that_program() {
         let with_name = |sections: &mut Vec<Section>| {
             let section =
                 sections.iter_mut().find(|section| section.tag == tag).expect("every document has it");
-            let mut contents = section.unpack().expect("our own section");
+            let mut contents = section.unpack().expect("our own section").into_owned();
             // The first text becomes an object with one name; its length stands behind the count.
             let length = u32::from_le_bytes(contents[4..8].try_into().expect("four bytes")) as usize;
             let text = br#"{"sap":1}"#;
@@ -285,7 +286,7 @@ fn a_step_that_ends_before_its_buds_is_refused() {
     const FIRST_END: usize = 8;
     let is_timeline = |section: &Section| section.tag == *b"TIME";
     let timeline = container().sections.into_iter().find(is_timeline).expect("every document has one");
-    let mut contents = timeline.unpack().expect("our own section");
+    let mut contents = timeline.unpack().expect("our own section").into_owned();
     let number =
         |contents: &[u8], at: usize| u32::from_le_bytes(contents[at..at + 4].try_into().expect("four bytes"));
     let steps = number(&contents, 4) as usize;
@@ -315,7 +316,8 @@ proptest! {
         let mut container = container();
         let section = at.get_mut(&mut container.sections);
         let kind = Kind::of(section.tag).expect("our own section");
-        let bomb = Section::new(kind, vec![0; held]);
+        let mut bomb = Section::new(kind, vec![0; held]);
+        bomb.pack();
         *section = Section { unpacked: announced, ..bomb };
         let name = kind.name;
         let error = sentence(&container.to_bytes());
@@ -356,7 +358,7 @@ proptest! {
     fn changed_contents_never_panic(at: Index, place: Index, with: u8, cut in 0usize..3) {
         let mut container = container();
         let section = at.get_mut(&mut container.sections);
-        let mut contents = section.unpack().expect("our own section");
+        let mut contents = section.unpack().expect("our own section").into_owned();
         *place.get_mut(&mut contents) ^= with;
         contents.truncate(contents.len() - cut.min(contents.len()));
         refill(section, contents);
