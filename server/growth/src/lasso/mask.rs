@@ -21,11 +21,11 @@ pub(super) struct Mask {
 }
 
 impl Mask {
-    /// Fills an outline by the even-odd rule; its last point is joined to its first. `room` is what the
+    /// Fills an outline by the even-odd rule; its last point is joined to its first. `margin` is what the
     /// silhouette may be widened by, and `resolution` the mask's longer side in pixels.
-    pub(super) fn fill(outline: &[Vec2], room: f32, resolution: usize) -> Self {
+    pub(super) fn fill(outline: &[Vec2], margin: f32, resolution: usize) -> Self {
         let (low, high) = bounds(outline);
-        let size = high - low + 2.0 * room;
+        let size = high - low + 2.0 * margin;
         let pixel = size.max_element() / (resolution - 2 * MARGIN) as f32;
         let pixels = |length: f32| ((length / pixel).ceil() as usize).clamp(1, resolution - 2 * MARGIN);
         let (width, height) = (pixels(size.x) + 2 * MARGIN, pixels(size.y) + 2 * MARGIN);

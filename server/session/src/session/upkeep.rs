@@ -221,16 +221,16 @@ impl Session {
             return;
         }
         let done = self.done.min(self.journal.durable());
-        let mut told = Vec::new();
+        let mut notified = Vec::new();
         for (&client, state) in &mut self.clients {
             let Some(connected) = &mut state.connected else { continue };
             let Some(author) = self.authors.get(&connected.principal) else { continue };
             if author.taken > connected.done && author.last_entry <= done {
                 connected.done = author.taken;
-                told.push((client, author.taken));
+                notified.push((client, author.taken));
             }
         }
-        for (client, id) in told {
+        for (client, id) in notified {
             self.send(client, &ServerMessage::Done { id });
         }
     }
