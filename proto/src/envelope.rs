@@ -44,8 +44,8 @@ const LEVEL: Compression = Compression::new(2);
 pub enum FrameKind {
     /// A change to the table of rows, [`crate::frame::Frame`].
     MeshDelta = 1,
-    /// A branch that is being bent, [`crate::pose::PoseFrame`].
-    Pose = 2,
+    /// A branch that is being bent, [`crate::bend::BendFrame`].
+    Bend = 2,
     /// A prediction, [`crate::ghost::GhostFrame`].
     Ghost = 3,
 }
@@ -71,7 +71,7 @@ schemas! {
 
 impl FrameKind {
     /// All kinds.
-    pub const ALL: [Self; 3] = [Self::MeshDelta, Self::Pose, Self::Ghost];
+    pub const ALL: [Self; 3] = [Self::MeshDelta, Self::Bend, Self::Ghost];
     const CODES: Between<u32> = Between(Self::MeshDelta as u32, Self::Ghost as u32);
 
     /// Its number in the header.

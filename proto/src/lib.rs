@@ -7,6 +7,7 @@
 //! settings of a tree are those of the tables in `espalier-settings`.
 
 pub mod access;
+pub mod bend;
 pub mod bounded;
 pub mod command;
 pub mod control;
@@ -17,7 +18,6 @@ pub mod library;
 pub mod mesh;
 pub mod obstacle;
 pub mod place;
-pub mod pose;
 pub mod problem;
 pub mod programme;
 pub mod protocol_tables;
@@ -32,6 +32,7 @@ pub mod typescript;
 pub mod varint;
 pub mod version;
 
+pub use bend::{BendFrame, RowMotion};
 pub use bounded::{
     Age, BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
 };
@@ -45,7 +46,6 @@ pub use ghost::GhostFrame;
 pub use mesh::{Mesh, MeshError};
 pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleShape};
 pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
-pub use pose::{PoseFrame, RowMotion};
 pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reading::NotAllowed;

@@ -1,7 +1,7 @@
 //! Frames survive the journey, and no bytes at all bring the decoder down.
 
 use espalier_proto::{
-    ChunkChange, Frame, FrameError, GhostFrame, PoseFrame, RowMotion, Rows, Values,
+    BendFrame, ChunkChange, Frame, FrameError, GhostFrame, RowMotion, Rows, Values,
     frame::{CHUNK_ROWS, HEADER_BYTES},
 };
 use proptest::{collection::vec, prelude::*, sample::subsequence};
@@ -78,11 +78,11 @@ fn finite() -> impl Strategy<Value = f32> {
     POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO
 }
 
-fn pose() -> impl Strategy<Value = PoseFrame> {
+fn bend_frame() -> impl Strategy<Value = BendFrame> {
     let motion = (any::<u32>(), prop::array::uniform4(finite()), prop::array::uniform3(finite()))
         .prop_map(|(row, rotation, to)| RowMotion { row, rotation, to });
     (any::<u32>(), any::<u32>(), any::<u32>(), vec(motion, 0..40))
-        .prop_map(|(epoch, sequence, bend, motions)| PoseFrame { epoch, sequence, bend, motions })
+        .prop_map(|(epoch, sequence, bend, motions)| BendFrame { epoch, sequence, bend, motions })
 }
 
 /// A valid header in front of any body at all: what is most likely to reach the depths of the decoder.
@@ -97,7 +97,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
-    fn decode_undoes_encode(frame in frame()) {
+    fn decode_undoes_encode(frame in bend_frame()) {
         prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
     }
 
@@ -114,23 +114,23 @@ proptest! {
     }
 
     #[test]
-    fn poses_and_ghosts_survive_the_journey(pose in pose(), changes in vec(change(), 0..3)) {
-        prop_assert_eq!(PoseFrame::decode(&pose.encode()), Ok(pose));
+    fn bend_frames_and_ghosts_survive_the_journey(frame in bend_frame(), changes in vec(change(), 0..3)) {
+        prop_assert_eq!(BendFrame::decode(&frame.encode()), Ok(frame));
         let ghost = GhostFrame { epoch: 1, sequence: 2, changes };
         prop_assert_eq!(GhostFrame::decode(&ghost.encode()), Ok(ghost));
     }
 
     #[test]
-    fn arbitrary_poses_never_panic(bytes in vec(any::<u8>(), 0..80)) {
-        let mut pose = headed(&bytes);
-        pose[1] = 2;
-        if let Ok(pose) = PoseFrame::decode(&pose) {
-            prop_assert_eq!(PoseFrame::decode(&pose.encode()), Ok(pose));
+    fn arbitrary_bend_frames_never_panic(bytes in vec(any::<u8>(), 0..80)) {
+        let mut frame = headed(&bytes);
+        frame[1] = 2;
+        if let Ok(frame) = BendFrame::decode(&frame) {
+            prop_assert_eq!(BendFrame::decode(&frame.encode()), Ok(frame));
         }
     }
 
     #[test]
-    fn a_flipped_bit_is_an_error_or_another_frame(frame in frame(), at: prop::sample::Index, bit in 0..8u8) {
+    fn a_flipped_bit_is_an_error_or_another_frame(frame in bend_frame(), at: prop::sample::Index, bit in 0..8u8) {
         let mut bytes = frame.encode();
         let at = at.index(bytes.len());
         bytes[at] ^= 1 << bit;
@@ -142,7 +142,7 @@ proptest! {
     }
 
     #[test]
-    fn a_frame_cut_short_is_an_error(frame in frame(), at: prop::sample::Index) {
+    fn a_frame_cut_short_is_an_error(frame in bend_frame(), at: prop::sample::Index) {
         let bytes = frame.encode();
         prop_assert!(Frame::decode(&bytes[..at.index(bytes.len())]).is_err());
     }
@@ -159,7 +159,7 @@ fn fr1_what_is_reserved_is_refused() {
     assert!(Frame::decode(&valid).is_ok());
     assert_eq!(with(0, 2), Err(FrameError::Version(2)));
     assert_eq!(with(1, 0), Err(FrameError::Kind(0)));
-    assert_eq!(with(1, 2), Err(FrameError::Kind(2)), "a pose is no mesh delta");
+    assert_eq!(with(1, 2), Err(FrameError::Kind(2)), "a bend frame is no mesh delta");
     assert_eq!(with(2, 2), Err(FrameError::Codec(2)));
     assert_eq!(with(3, 3), Err(FrameError::Flags(3)));
     assert_eq!(Frame::decode(&headed(&[9, 0, 0])), Err(FrameError::Body));
@@ -185,10 +185,10 @@ fn fr1_flags_belong_to_mesh_deltas_alone() {
 }
 
 #[test]
-fn fr1_a_pose_holds_finite_numbers() {
+fn fr1_a_bend_frame_holds_finite_numbers() {
     let at = |to| {
         let motions = vec![RowMotion { row: 1, rotation: [0.0, 0.0, 0.0, 1.0], to }];
-        PoseFrame::decode(&PoseFrame { epoch: 0, sequence: 0, bend: 1, motions }.encode())
+        BendFrame::decode(&BendFrame { epoch: 0, sequence: 0, bend: 1, motions }.encode())
     };
     assert!(at([0.0; 3]).is_ok());
     assert_eq!(at([0.0, f32::NAN, 0.0]), Err(FrameError::Body));

@@ -4,7 +4,7 @@
 
 use std::{fs, path::PathBuf};
 
-use espalier_proto::{ChunkChange, Frame, GhostFrame, PoseFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{BendFrame, ChunkChange, Frame, GhostFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
 use serde_json::{Value, json};
 
 /// A seed, a trunk of three metamers and a lateral, in so few bytes that they travel raw.
@@ -154,13 +154,13 @@ fn described_rows(rows: &Rows) -> Value {
     })
 }
 
-fn described_pose(pose: &PoseFrame) -> Value {
+fn described_bend(frame: &BendFrame) -> Value {
     let motion = |m: &RowMotion| json!({ "row": m.row, "rotation": m.rotation, "to": m.to });
     json!({
-        "epoch": pose.epoch,
-        "sequence": pose.sequence,
-        "bend": pose.bend,
-        "motions": pose.motions.iter().map(motion).collect::<Vec<_>>(),
+        "epoch": frame.epoch,
+        "sequence": frame.sequence,
+        "bend": frame.bend,
+        "motions": frame.motions.iter().map(motion).collect::<Vec<_>>(),
     })
 }
 
@@ -194,9 +194,9 @@ fn check(name: &str, frame: &Frame) {
     check_sample(name, &frame.encode(), &described(frame));
 }
 
-fn check_pose(name: &str, pose: &PoseFrame) {
-    assert_eq!(PoseFrame::decode(&pose.encode()).as_ref(), Ok(pose), "{name}");
-    check_sample(name, &pose.encode(), &described_pose(pose));
+fn check_bend(name: &str, frame: &BendFrame) {
+    assert_eq!(BendFrame::decode(&frame.encode()).as_ref(), Ok(frame), "{name}");
+    check_sample(name, &frame.encode(), &described_bend(frame));
 }
 
 fn check_ghost(name: &str, ghost: &GhostFrame) {
@@ -232,17 +232,17 @@ fn a_frame_may_change_nothing() {
 }
 
 #[test]
-fn be5_a_pose_is_a_path_of_motions() {
+fn be5_a_bend_frame_is_a_path_of_motions() {
     let motions = vec![
         RowMotion { row: 3, rotation: [0.0, 0.0, 0.0, 1.0], to: [0.5, 4.0, -0.25] },
         RowMotion { row: 300, rotation: [0.5, -0.5, 0.5, 0.5], to: [-1000.0, 1.0e-6, 3.5] },
     ];
-    check_pose("pose", &PoseFrame { epoch: 7, sequence: 12, bend: 130, motions });
+    check_bend("bend", &BendFrame { epoch: 7, sequence: 12, bend: 130, motions });
 }
 
 #[test]
-fn be5_a_pose_without_motions_is_over() {
-    check_pose("pose-over", &PoseFrame { epoch: 7, sequence: 13, bend: 1, motions: Vec::new() });
+fn be5_a_bend_frame_without_motions_is_over() {
+    check_bend("bend-over", &BendFrame { epoch: 7, sequence: 13, bend: 1, motions: Vec::new() });
 }
 
 #[test]

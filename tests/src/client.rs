@@ -3,7 +3,7 @@
 use std::{collections::VecDeque, fmt::Debug, time::Duration};
 
 use espalier_proto::{
-    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, PoseFrame, Problem,
+    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, Notice, PlacedObstacle, Problem,
     Programme, ServerMessage, Timeline, WidthConstraint,
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -63,8 +63,8 @@ pub struct Client {
     pub timeline: Timeline,
     /// The newest width constraints.
     pub widths: Vec<WidthConstraint>,
-    /// Poses of bends, in the order they came.
-    pub poses: Vec<PoseFrame>,
+    /// Frames of bends, in the order they came.
+    pub bend_frames: Vec<BendFrame>,
     /// Ghosts of predictions, in the order they came.
     pub ghosts: Vec<GhostFrame>,
     /// The highest durable command.
@@ -192,7 +192,7 @@ impl Client {
             obstacles: Vec::new(),
             timeline: Timeline::default(),
             widths: Vec::new(),
-            poses: Vec::new(),
+            bend_frames: Vec::new(),
             ghosts: Vec::new(),
             acknowledged,
             done: 0,
@@ -215,7 +215,7 @@ impl Client {
         self.socket = None;
         self.closed = None;
         // BE5: these end with the connection.
-        self.poses.clear();
+        self.bend_frames.clear();
         self.ghosts.clear();
         let mut socket = open(port, &self.session).await;
         let hello = ClientMessage::Hello {
@@ -348,9 +348,9 @@ impl Client {
         let kind = FrameKind::of(bytes).unwrap_or(FrameKind::MeshDelta);
         let sequence = match kind {
             FrameKind::MeshDelta => return self.take_delta(bytes).await,
-            FrameKind::Pose => {
-                self.poses.push(PoseFrame::decode(bytes).expect("every pose is valid"));
-                self.poses.last().map(|pose| pose.sequence)
+            FrameKind::Bend => {
+                self.bend_frames.push(BendFrame::decode(bytes).expect("every frame of a bend is valid"));
+                self.bend_frames.last().map(|frame| frame.sequence)
             }
             FrameKind::Ghost => {
                 self.ghosts.push(GhostFrame::decode(bytes).expect("every ghost is valid"));

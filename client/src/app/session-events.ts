@@ -11,7 +11,7 @@ import type { ProgrammeControl } from "./document/growth/programme-control";
 import type { UnsavedTrees } from "./library/unsaved-trees";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
-import type { SharedPoses } from "./tools/bend/shared-poses";
+import type { SharedBends } from "./tools/bend/shared-bends";
 import type { DrawnInVain } from "./tools/drawn-in-vain";
 import type { OutlineTrace } from "./tools/lasso/outline-trace";
 import { toolFor } from "./tools/tools";
@@ -29,7 +29,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly growth: GrowControl;
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
-  readonly poses: SharedPoses;
+  readonly bends: SharedBends;
   readonly unsaved: UnsavedTrees;
   readonly table: TreeTable;
   readonly rows: Signal<number>;
@@ -90,7 +90,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       } else {
         // Someone else bends, so that the code which shows it is needed.
         void page.tools.load(toolFor("bend"));
-        page.poses.receive(aside.frame);
+        page.bends.receive(aside.frame);
       }
     },
     rekeyed: () => {
@@ -101,7 +101,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.outline.clear();
     },
     lost: () => {
-      page.poses.clear();
+      page.bends.clear();
       page.branches.prediction.lost();
     },
     leaving: () => {
@@ -123,7 +123,7 @@ function forget(page: SessionTargets): void {
   page.bud.release();
   page.tools.clear();
   page.outline.clear();
-  page.poses.clear();
+  page.bends.clear();
   page.widths.all.value = [];
   page.obstacles.forget();
   page.time.clear();

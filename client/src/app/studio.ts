@@ -25,7 +25,7 @@ import { Toasts } from "./page/toasts";
 import { explained } from "./problems/explained";
 import { askAs } from "./requests/principal";
 import { sessionEvents } from "./session-events";
-import { SharedPoses } from "./tools/bend/shared-poses";
+import { SharedBends } from "./tools/bend/shared-bends";
 import { BranchWork } from "./tools/branch/branch-work";
 import { chooseBud } from "./tools/bud-choice";
 import { ChosenBud } from "./tools/chosen-bud";
@@ -103,7 +103,7 @@ export class Studio {
   readonly outline = new OutlineTrace();
   readonly drawnInVain = new DrawnInVain(browserClock);
   readonly widths = new WidthList();
-  readonly poses = new SharedPoses();
+  readonly bends = new SharedBends();
   readonly obstacles = new ObstacleList({
     submit: (command) => this.submit(command),
     newGesture: () => this.link.next,
@@ -169,7 +169,7 @@ export class Studio {
     branch: this.branches.held,
     outline: this.outline,
     widths: this.widths,
-    poses: this.poses,
+    bends: this.bends,
     submit: (command) => this.submit(command),
     next: () => this.link.next,
     // What is durable may still have to grow: a heavy tree must not fall behind the finger.

@@ -81,7 +81,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
     keys.stop();
     studio.link.leave();
     studio.tools.detach();
-    studio.poses.detach();
+    studio.bends.detach();
     studio.branches.detach();
     studio.stage.detach();
     viewport.dispose();

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../test/randoms";
 import { decodeFrame, FrameError } from "./frame";
-import { decodePose } from "./pose";
+import { decodeBend } from "./bend-frame";
 import { decodeServerFrame } from "./server-frame";
 
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {
@@ -22,8 +22,8 @@ async function deflated(body: Uint8Array<ArrayBuffer>): Promise<number[]> {
   return [...new Uint8Array(await new Response(stream).arrayBuffer())];
 }
 
-describe("a pose", () => {
-  const pose = (body: number[]) => {
+describe("a bendFrame", () => {
+  const bendFrame = (body: number[]) => {
     const bytes = new Uint8Array(headed(body));
     bytes[1] = 2;
     return bytes.buffer;
@@ -31,14 +31,14 @@ describe("a pose", () => {
   const zeros = Array.from({ length: 28 }, () => 0);
 
   it("FR1: holds finite numbers and nothing after them", async () => {
-    expect((await decodePose(pose([1, 1, 7, ...zeros]))).motions[0]?.row).toBe(7);
-    await expect(decodePose(pose([1, 1, 7, ...zeros, 0]))).rejects.toThrow(/follows/);
+    expect((await decodeBend(bendFrame([1, 1, 7, ...zeros]))).motions[0]?.row).toBe(7);
+    await expect(decodeBend(bendFrame([1, 1, 7, ...zeros, 0]))).rejects.toThrow(/follows/);
     const infinite = [...zeros.slice(4), 0, 0, 0x80, 0x7f];
-    await expect(decodePose(pose([1, 1, 7, ...infinite]))).rejects.toThrow(/finite/);
+    await expect(decodeBend(bendFrame([1, 1, 7, ...infinite]))).rejects.toThrow(/finite/);
   });
 
   it("is distinguished from a mesh delta by its kind", async () => {
-    expect((await decodeServerFrame(pose([1, 0]))).kind).toBe(2);
+    expect((await decodeServerFrame(bendFrame([1, 0]))).kind).toBe(2);
     await expect(decodeServerFrame(headed([1, 0, 0]))).rejects.toThrow(FrameError);
   });
 });

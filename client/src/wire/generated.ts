@@ -63,7 +63,7 @@ export const CloseCode = {
 /** What a frame is about; each kind counts its sequences by itself. */
 export const FrameKind = {
   MeshDelta: 1,
-  Pose: 2,
+  Bend: 2,
   Ghost: 3,
 } as const;
 

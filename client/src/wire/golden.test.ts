@@ -11,7 +11,7 @@ const names = readdirSync(folder)
 
 /** The frame in the words of the samples' descriptions. */
 function described({ kind, frame }: ServerFrame): object {
-  if (kind === FrameKind.Pose) return frame;
+  if (kind === FrameKind.Bend) return frame;
   const { epoch, sequence } = frame;
   const changes = frame.changes.map(describedChange);
   return kind === FrameKind.Ghost

@@ -2,12 +2,12 @@ import { kindOf } from "./envelope";
 import { decodeFrame, type Frame } from "./frame";
 import { FrameKind } from "./generated";
 import { decodeGhost, type GhostFrame } from "./ghost";
-import { decodePose, type PoseFrame } from "./pose";
+import { decodeBend, type BendFrame } from "./bend-frame";
 
 /** Any binary message. `received` answers each with its sequence and, unless it is 1, its kind (FL1). */
 export type ServerFrame =
   | { readonly kind: typeof FrameKind.MeshDelta; readonly frame: Frame }
-  | { readonly kind: typeof FrameKind.Pose; readonly frame: PoseFrame }
+  | { readonly kind: typeof FrameKind.Bend; readonly frame: BendFrame }
   | { readonly kind: typeof FrameKind.Ghost; readonly frame: GhostFrame };
 
 /** A frame that does not change the table of rows. */
@@ -16,7 +16,7 @@ export type AsideServerFrame = Exclude<ServerFrame, { readonly kind: typeof Fram
 /** Reads whatever kind of frame this is; any bytes at all give one or a `FrameError`. */
 export async function decodeServerFrame(bytes: ArrayBuffer): Promise<ServerFrame> {
   const kind = kindOf(bytes);
-  if (kind === FrameKind.Pose) return { kind, frame: await decodePose(bytes) };
+  if (kind === FrameKind.Bend) return { kind, frame: await decodeBend(bytes) };
   if (kind === FrameKind.Ghost) return { kind, frame: await decodeGhost(bytes) };
   return { kind: FrameKind.MeshDelta, frame: await decodeFrame(bytes) };
 }

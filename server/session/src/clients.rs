@@ -36,12 +36,12 @@ pub(crate) struct ConnectedClient {
     pub(crate) prediction_view: PredictionView,
 }
 
-/// The poses a client has seen (`BE5`).
+/// The open bends that a client has seen (`BE5`).
 #[derive(Debug, Default)]
 pub(crate) struct Watch {
-    /// The newest pose sent of each bend that it does not know to be over.
+    /// The newest frame sent of each bend that it does not know to be over.
     pub(crate) shown: BTreeMap<u32, u32>,
-    /// A pose that it has not answered.
+    /// A frame that it has not answered.
     pub(crate) in_flight: Option<u32>,
 }
 

@@ -1,10 +1,10 @@
 //! The state machine of one session: what happened goes in, what is to be done comes out.
 
 mod acts;
+mod bending;
 mod commands;
 mod delivery;
 mod greeting;
-mod posing;
 mod predicting;
 mod upkeep;
 
@@ -33,7 +33,7 @@ use crate::{
     snapshot::{self, RestoreError, Snapshot},
     stops::Stops,
     window::MAX_UNREAD,
-    work::{Posed, Work},
+    work::{BendUpdate, Work},
 };
 
 use self::{acts::Act, commands::Queue, upkeep::Upkeep};
@@ -66,7 +66,7 @@ pub struct Session {
     timeline: Timeline,
     widths: Vec<WidthConstraint>,
     /// Bends as they are sent to clients, by their numbers.
-    poses: BTreeMap<u32, Posed>,
+    bends: BTreeMap<u32, BendUpdate>,
     /// Predictions that are being made.
     predictions: usize,
     upkeep: Upkeep,
@@ -188,7 +188,7 @@ impl Session {
             authors = Authors::restored(&last_commands);
         }
         let mut work = Box::new(Work::new(document, epoch, last, last_commands));
-        let poses = work.take_report().poses;
+        let bends = work.take_report().bends;
         Self {
             name,
             epoch,
@@ -209,7 +209,7 @@ impl Session {
             scenery: Scenery::of(&work.document),
             timeline: work.document.timeline(),
             widths: work.document.widths(),
-            poses: poses.into_iter().map(|pose| (pose.bend, pose)).collect(),
+            bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,
             home: Some(work),
             upkeep: Upkeep::new(snapshotted),
@@ -322,7 +322,7 @@ impl Session {
             }
             Ok(ClientMessage::Received { sequence, kind }) => match kind {
                 FrameKind::MeshDelta => self.received(client, sequence),
-                FrameKind::Pose => self.received_pose(client, sequence),
+                FrameKind::Bend => self.received_bend_frame(client, sequence),
                 FrameKind::Ghost => self.received_ghost(client, sequence),
             },
             Ok(ClientMessage::Predict { rows, steps }) => {

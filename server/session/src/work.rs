@@ -6,7 +6,7 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{Command, Hint, PlacedObstacle, PoseFrame, Position, Problem, RowMotion};
+use espalier_proto::{BendFrame, Command, Hint, PlacedObstacle, Position, Problem, RowMotion};
 
 use crate::{
     author::{LastCommand, note_last},
@@ -67,7 +67,7 @@ pub(crate) struct Unheard {
 
 /// A bend as it is sent to clients.
 #[derive(Clone, Debug)]
-pub(crate) struct Posed {
+pub(crate) struct BendUpdate {
     pub(crate) bend: u32,
     pub(crate) sequence: u32,
     pub(crate) is_over: bool,
@@ -82,8 +82,8 @@ pub(crate) struct Report {
     pub(crate) catch_ups: Vec<(ClientId, Arc<[u8]>)>,
     pub(crate) refused: Vec<Refusal>,
     pub(crate) unheard: Vec<Unheard>,
-    /// New poses of open bends with their sequences, by bend; without a frame's motions a bend is over.
-    pub(crate) poses: Vec<Posed>,
+    /// New frames of open bends; without a frame's motions a bend is over.
+    pub(crate) bends: Vec<BendUpdate>,
     /// Predictions to be made.
     pub(crate) runs: Vec<PredictionRun>,
     /// What became of commands from outside: the obstacle they placed.
@@ -122,10 +122,10 @@ pub struct Work {
     doing: Option<(Principal, u32)>,
     /// The frame with all rows, kept while it is current: clients often join at the same time.
     complete: Option<(u32, Arc<[u8]>)>,
-    /// The poses that were reported last.
-    poses: BTreeMap<u32, Vec<RowMotion>>,
-    /// The newest pose.
-    pose_sequence: u32,
+    /// The open bends as they were reported last.
+    bends: BTreeMap<u32, Vec<RowMotion>>,
+    /// The sequence of the newest frame.
+    bend_sequence: u32,
     report: Report,
 }
 
@@ -159,12 +159,12 @@ impl Work {
             busy,
             doing: None,
             complete: None,
-            poses: BTreeMap::new(),
-            pose_sequence: 0,
+            bends: BTreeMap::new(),
+            bend_sequence: 0,
             report: Report::default(),
         };
         work.sync();
-        work.report_poses();
+        work.report_bends();
         work
     }
 
@@ -172,7 +172,7 @@ impl Work {
     pub fn run(&mut self) {
         self.simulate();
         self.sync();
-        self.report_poses();
+        self.report_bends();
         for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
             let frame = self.catch_up(&held);
             self.report.catch_ups.push((client, frame));
@@ -277,20 +277,20 @@ impl Work {
         }
     }
 
-    /// Tells the poses that changed; what the table shows of bends is behind what the report holds already.
-    fn report_poses(&mut self) {
-        let poses = self.document.poses();
-        let over = self.poses.keys().filter(|bend| !poses.contains_key(bend));
+    /// Tells the bends that changed; what the table shows of bends is behind what the report holds already.
+    fn report_bends(&mut self) {
+        let bends = self.document.bend_motions();
+        let over = self.bends.keys().filter(|bend| !bends.contains_key(bend));
         let mut changed: Vec<_> = over.map(|&bend| (bend, Vec::new())).collect();
-        let is_new = |(bend, pose): &(&u32, &Vec<RowMotion>)| self.poses.get(bend) != Some(pose);
-        changed.extend(poses.iter().filter(is_new).map(|(&bend, pose)| (bend, pose.clone())));
+        let is_new = |(bend, update): &(&u32, &Vec<RowMotion>)| self.bends.get(bend) != Some(update);
+        changed.extend(bends.iter().filter(is_new).map(|(&bend, update)| (bend, update.clone())));
         for (bend, motions) in changed {
-            self.pose_sequence += 1;
-            let (sequence, is_over) = (self.pose_sequence, motions.is_empty());
-            let frame = PoseFrame { epoch: self.epoch, sequence, bend, motions }.encode().into();
-            self.report.poses.push(Posed { bend, sequence, is_over, frame });
+            self.bend_sequence += 1;
+            let (sequence, is_over) = (self.bend_sequence, motions.is_empty());
+            let frame = BendFrame { epoch: self.epoch, sequence, bend, motions }.encode().into();
+            self.report.bends.push(BendUpdate { bend, sequence, is_over, frame });
         }
-        self.poses = poses;
+        self.bends = bends;
     }
 
     fn sync(&mut self) {

@@ -1,18 +1,18 @@
 //! Binary frames, as a client reads them.
 
-use espalier_proto::{ChunkChange, Frame, GhostFrame, PoseFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
+use espalier_proto::{BendFrame, ChunkChange, Frame, GhostFrame, RowMotion, Rows, Values, frame::CHUNK_ROWS};
 
-/// Reads a mesh delta, a pose or a ghost; what can be read is the same when it is written and read again.
+/// Reads a mesh delta, a bend frame or a ghost; what can be read is the same when it is written and read again.
 pub fn read(bytes: &[u8]) -> bool {
     let frame = Frame::decode(bytes);
-    let pose = PoseFrame::decode(bytes);
+    let bend = BendFrame::decode(bytes);
     let ghost = GhostFrame::decode(bytes);
-    let taken = frame.is_ok() || pose.is_ok() || ghost.is_ok();
+    let taken = frame.is_ok() || bend.is_ok() || ghost.is_ok();
     if let Ok(frame) = frame {
         assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
     }
-    if let Ok(pose) = pose {
-        assert_eq!(PoseFrame::decode(&pose.encode()), Ok(pose));
+    if let Ok(bend) = bend {
+        assert_eq!(BendFrame::decode(&bend.encode()), Ok(bend));
     }
     if let Ok(ghost) = ghost {
         assert_eq!(GhostFrame::decode(&ghost.encode()), Ok(ghost));
@@ -59,8 +59,8 @@ pub fn seeds() -> Vec<Vec<u8>> {
         frame(false, &few),
         frame(true, &changes),
         frame(false, &changes[3..]),
-        PoseFrame { epoch: 7, sequence: 1, bend: 3, motions: vec![motion; 2] }.encode(),
-        PoseFrame { epoch: 7, sequence: 2, bend: 3, motions: Vec::new() }.encode(),
+        BendFrame { epoch: 7, sequence: 1, bend: 3, motions: vec![motion; 2] }.encode(),
+        BendFrame { epoch: 7, sequence: 2, bend: 3, motions: Vec::new() }.encode(),
         ghost.encode(),
     ]
 }

@@ -64,7 +64,7 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
         ann.send(command.clone()).await;
         done.push(command);
         if number == 7 {
-            ann.until("poses travel (BE5)", |ann| !ann.poses.is_empty()).await;
+            ann.until("frames of the bend travel (BE5)", |ann| !ann.bend_frames.is_empty()).await;
             assert_eq!(ann.table.form(), rest, "BE5: rows do not");
             server = server.kill_and_restart();
             ann.reconnect(server.port()).await;
@@ -72,7 +72,7 @@ async fn a_kill_in_the_middle_of_a_bend_loses_nothing() {
     }
     ann.until_settled().await;
     // What is shown while a bend is going on comes when there is time for it, or never.
-    let is_over = |ann: &Client| ann.poses.last().is_none_or(|pose| pose.motions.is_empty());
+    let is_over = |ann: &Client| ann.bend_frames.last().is_none_or(|pose| pose.motions.is_empty());
     ann.until("the bend is over (BE5)", is_over).await;
     assert_eq!(ann.refused, []);
     assert_ne!(ann.table.form()[..rest.len()], rest[..], "the branch was bent");
@@ -168,7 +168,7 @@ async fn what_another_has_cut_cannot_be_edited() {
     let target = beside(&bob, top, [1.0, 0.0, 0.0]);
     bob.send(json!({ "kind": "bend_move", "bend": 1, "targets": vec![target] })).await;
     bob.until_settled().await;
-    ann.until("ann sees it bend", |ann| !ann.poses.is_empty()).await;
+    ann.until("ann sees it bend", |ann| !ann.bend_frames.is_empty()).await;
     ann.send(json!({ "kind": "prune", "rows": vec![top] })).await;
     ann.until_settled().await;
     assert_eq!(ann.table.rows[top as usize].radius, 0, "it is cut");
@@ -206,5 +206,5 @@ async fn what_another_has_cut_cannot_be_edited() {
         (2, 2),
         "growth and the cut, nothing else"
     );
-    assert!(bob.poses.last().is_some_and(|pose| pose.motions.is_empty()), "BE4: his bend is over");
+    assert!(bob.bend_frames.last().is_some_and(|pose| pose.motions.is_empty()), "BE4: his bend is over");
 }

@@ -12,7 +12,7 @@ import type { Settings } from "../page/settings";
 import type { Toasts } from "../page/toasts";
 import type { Stage } from "../view/stage";
 import type { Key, Text } from "../words/say";
-import type { SharedPoses } from "./bend/shared-poses";
+import type { SharedBends } from "./bend/shared-bends";
 import type { BranchWork } from "./branch/branch-work";
 import type { HeldBranch } from "./branch/held-branch";
 import type { ChosenBud } from "./chosen-bud";
@@ -125,7 +125,7 @@ export interface Workshop {
   readonly branch: HeldBranch;
   readonly outline: OutlineTrace;
   readonly widths: WidthList;
-  readonly poses: SharedPoses;
+  readonly bends: SharedBends;
   readonly submit: (command: Command) => void;
   /** The number the next command gets. */
   readonly next: () => number;

@@ -7,11 +7,11 @@ import { TreeTable } from "../../scene/table/tree-table";
 import type { Vec3 } from "../../scene/vector";
 import type { Viewport } from "../../scene/viewport";
 import type { Command, WidthConstraint } from "../../wire/generated";
-import type { PoseFrame, RowMotion } from "../../wire/pose";
+import type { BendFrame, RowMotion } from "../../wire/bend-frame";
 import { ObstacleList } from "../document/obstacles/obstacle-list";
 import { loadSettings } from "../page/settings";
 import { Toasts } from "../page/toasts";
-import { SharedPoses } from "./bend/shared-poses";
+import { SharedBends } from "./bend/shared-bends";
 import type { HeldBranch } from "./branch/held-branch";
 import { ChosenBud } from "./chosen-bud";
 import { OutlineTrace } from "./lasso/outline-trace";
@@ -56,11 +56,11 @@ function setUp(table = new TreeTable()) {
   });
   obstacles.receive([{ id: 1, shape: { kind: "sphere", radius: 2 }, pose: { position: [80, 0, 0] } }]);
   const toasts = new Toasts();
-  const [outline, widths, poses] = [new OutlineTrace(), new WidthList(), new SharedPoses()];
+  const [outline, widths, bends] = [new OutlineTrace(), new WidthList(), new SharedBends()];
   const tools = new Toolbox({
     outline,
     widths,
-    poses,
+    bends,
     table,
     settings: loadSettings(store),
     toasts,
@@ -102,7 +102,7 @@ function setUp(table = new TreeTable()) {
     begin(points);
     tools.gesture({ kind: "stroke-end" });
   };
-  return { tools, outline, widths, poses, view, sent, world, toasts, obstacles, begin, draw };
+  return { tools, outline, widths, bends, view, sent, world, toasts, obstacles, begin, draw };
 }
 
 const kinds = (commands: Command[]) => commands.map(({ kind }) => kind);
@@ -137,18 +137,18 @@ describe("toolbox", () => {
     expect(tools.made.value?.width?.widths.value).toEqual(set);
   });
 
-  it("BE5: poses that come before the tools are not lost", async () => {
-    const { tools, poses, view, world } = setUp(tableOf(SMALL));
-    const pose = (bend: number, rows: number[], x = 0): PoseFrame => {
+  it("BE5: bends that come before the tools are not lost", async () => {
+    const { tools, bends, view, world } = setUp(tableOf(SMALL));
+    const frameOf = (bend: number, rows: number[], x = 0): BendFrame => {
       const motions = rows.map((row): RowMotion => ({ row, rotation: [0, 0, 0, 1], to: [x, row, 0] }));
       return { epoch: 1, sequence: 1, bend, motions };
     };
     const shown = () => [...world.overlays].map(({ path }) => path);
     tools.detach();
-    poses.detach();
+    bends.detach();
     world.overlays.clear();
-    for (const frame of [pose(7, [2, 6, 7]), pose(8, [3, 12]), pose(7, [2, 6, 7], 9), pose(8, [])]) {
-      poses.receive(frame);
+    for (const frame of [frameOf(7, [2, 6, 7]), frameOf(8, [3, 12]), frameOf(7, [2, 6, 7], 9), frameOf(8, [])]) {
+      bends.receive(frame);
     }
     tools.attach(view);
     await tools.load("bend");
@@ -156,12 +156,12 @@ describe("toolbox", () => {
     const motion = vi.fn();
     const out = { plain: () => {}, orientation: () => {}, motion } as unknown as SlotWriter;
     [...world.overlays][0]?.write(tableOf(SMALL), out);
-    expect(motion.mock.lastCall?.[3], "the pose received last").toEqual([9, 7, 0]);
-    poses.receive(pose(7, []));
+    expect(motion.mock.lastCall?.[3], "the frame received last").toEqual([9, 7, 0]);
+    bends.receive(frameOf(7, []));
     expect(shown()).toEqual([]);
-    poses.receive(pose(9, [3, 12]));
+    bends.receive(frameOf(9, [3, 12]));
     tools.detach();
-    poses.clear();
+    bends.clear();
     world.overlays.clear();
     tools.attach(view);
     expect(shown(), "another connection tells anew").toEqual([]);

@@ -1,4 +1,4 @@
-//! What clients are notified of a document beside its rows and figures: lines of time, width constraints, poses.
+//! What clients are notified of a document beside its rows and figures: lines of time, width constraints, open bends.
 
 use std::collections::BTreeMap;
 
@@ -53,8 +53,8 @@ impl Document {
     }
 
     /// Where each open bend that was moved stands, by its number (`BE5`).
-    pub(crate) fn poses(&self) -> BTreeMap<u32, Vec<RowMotion>> {
-        let pose = |bend: &super::bending::OpenBend| {
+    pub(crate) fn bend_motions(&self) -> BTreeMap<u32, Vec<RowMotion>> {
+        let motions = |bend: &super::bending::OpenBend| {
             let rows = bend.path.iter().zip(bend.solver.motions());
             let entry = rows.map(|(row, motion)| RowMotion {
                 row: row.raw(),
@@ -63,7 +63,7 @@ impl Document {
             });
             (bend.id, entry.collect())
         };
-        self.bends.open.iter().filter(|bend| bend.is_moved).map(pose).collect()
+        self.bends.open.iter().filter(|bend| bend.is_moved).map(motions).collect()
     }
 
     pub(super) fn girth(&self) -> Girth {

@@ -25,7 +25,7 @@ impl Session {
 
     /// The document came home from a slice of work.
     pub(super) fn worked(&mut self, mut work: Box<Work>) {
-        let Report { delta, catch_ups, refused, unheard, poses, runs, acts, documents, snapshot } =
+        let Report { delta, catch_ups, refused, unheard, bends, runs, acts, documents, snapshot } =
             work.take_report();
         self.deliver(delta.as_ref(), work.sequence);
         self.newest = (work.sequence, work.table.rows() as u32);
@@ -33,7 +33,7 @@ impl Session {
         for (client, frame) in catch_ups {
             self.deliver_catch_up(client, &frame);
         }
-        self.take_poses(poses);
+        self.take_bend_updates(bends);
         self.outputs.extend(runs.into_iter().map(|prediction| Output::Predict(Box::new(prediction))));
         for refusal in refused {
             // The session's own commands have number 0, and nobody waits for their answer.

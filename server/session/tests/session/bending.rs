@@ -125,7 +125,7 @@ fn pose(touches: &[u32], base: u32, rounds: &[Vec<[f32; 3]>]) -> Vec<RowMotion> 
     }
     world.settle();
     assert_eq!(world.peer(ann).refused(), []);
-    world.peer(ann).poses.last().expect("a pose came").motions.clone()
+    world.peer(ann).bend_frames.last().expect("a frame came").motions.clone()
 }
 
 /// The longest way between where two poses put the same metamer.

@@ -53,7 +53,7 @@ pub fn grown() -> (World, u64, u64) {
 }
 
 #[test]
-fn be5_while_a_branch_is_dragged_only_poses_travel() {
+fn be5_while_a_branch_is_dragged_only_its_frames_travel() {
     let (mut world, ann, bob) = grown();
     let frames = world.peer(bob).frames.len();
     let begun = begin(&world);
@@ -65,17 +65,17 @@ fn be5_while_a_branch_is_dragged_only_poses_travel() {
     world.settle();
     let peer = world.peer(bob);
     assert_eq!(peer.frames.len(), frames, "no row changed");
-    let last = peer.poses.last().expect("poses came").clone();
-    assert_eq!(peer.poses.len(), 5);
+    let last = peer.bend_frames.last().expect("frames came").clone();
+    assert_eq!(peer.bend_frames.len(), 5);
     assert_eq!(last.motions.len(), 7, "one for each metamer of the path");
     assert_eq!(last.motions[0].rotation, [0.0, 0.0, 0.0, 1.0], "the base does not move");
     let carol = world.join("aspen-01");
     world.settle();
-    assert_eq!(world.peer(carol).poses.last().map(|pose| &pose.motions), Some(&last.motions));
+    assert_eq!(world.peer(carol).bend_frames.last().map(|frame| &frame.motions), Some(&last.motions));
     world.command(ann, 8, json!({ "kind": "bend_end", "bend": 1 }));
     world.settle();
     for client in [ann, bob, carol] {
-        let over = world.peer(client).poses.last().expect("it is over");
+        let over = world.peer(client).bend_frames.last().expect("it is over");
         assert_eq!((over.bend, over.motions.len()), (last.bend, 0));
         assert!(world.peer(client).frames.len() > usize::from(client == bob) * frames);
         world.assert_mirrored(client);
@@ -85,7 +85,7 @@ fn be5_while_a_branch_is_dragged_only_poses_travel() {
 }
 
 #[test]
-fn be5_slow_clients_get_the_newest_pose_alone() {
+fn be5_slow_clients_get_the_newest_frame_alone() {
     let (mut world, ann, bob) = grown();
     world.peer_mut(bob).slow = true;
     let begun = begin(&world);
@@ -94,16 +94,16 @@ fn be5_slow_clients_get_the_newest_pose_alone() {
         world.command(ann, 3 + part, drag(0.2 * part as f32));
         world.pass(20);
     }
-    assert_eq!(world.peer(bob).poses.len(), 1, "nothing is queued");
-    let newest = world.peer(ann).poses.last().cloned().expect("ann has all");
+    assert_eq!(world.peer(bob).bend_frames.len(), 1, "nothing is queued");
+    let newest = world.peer(ann).bend_frames.last().cloned().expect("ann has all");
     world.answer_frames(bob);
     world.pass(5);
-    assert_eq!(world.peer(bob).poses.last(), Some(&newest));
-    assert_eq!(world.peer(bob).poses.len(), 2);
+    assert_eq!(world.peer(bob).bend_frames.last(), Some(&newest));
+    assert_eq!(world.peer(bob).bend_frames.len(), 2);
     // That it is over is said without waiting: its rows have moved.
     world.command(ann, 23, json!({ "kind": "bend_cancel", "bend": 1 }));
     world.pass(20);
-    assert!(world.peer(bob).poses.last().is_some_and(|pose| pose.motions.is_empty()));
+    assert!(world.peer(bob).bend_frames.last().is_some_and(|frame| frame.motions.is_empty()));
 }
 
 #[test]
@@ -141,7 +141,7 @@ fn be4_a_bend_goes_on_after_a_crash() {
         assert_eq!(world.document().hash(), hash);
         let ann = world.join("birch-01");
         world.settle();
-        assert_eq!(world.peer(ann).poses.len(), 1, "the pose is sent again");
+        assert_eq!(world.peer(ann).bend_frames.len(), 1, "the frame is sent again");
         world.command(ann, 5, drag(3.0));
         world.command(ann, 6, json!({ "kind": "bend_end", "bend": 1 }));
         world.settle();

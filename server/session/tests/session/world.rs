@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use espalier_proto::{
-    ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, PoseFrame, Problem, Resume,
+    BendFrame, ClientMessage, DocumentState, Frame, FrameKind, GhostFrame, PlacedObstacle, Problem, Resume,
     ServerMessage,
     version::{CloseCode, PROTOCOL_VERSION},
 };
@@ -22,7 +22,7 @@ pub const SEED: u32 = 7;
 pub struct Peer {
     pub texts: Vec<ServerMessage>,
     pub frames: Vec<Frame>,
-    pub poses: Vec<PoseFrame>,
+    pub bend_frames: Vec<BendFrame>,
     pub ghosts: Vec<GhostFrame>,
     pub mirror: Mirror,
     pub closed: Option<CloseCode>,
@@ -143,10 +143,10 @@ impl World {
                 let peer = self.peers.get_mut(&id).expect("a frame goes to a connection that was made");
                 assert!(peer.closed.is_none(), "nothing follows a close");
                 match FrameKind::of(&bytes) {
-                    Some(FrameKind::Pose) => {
-                        let pose = PoseFrame::decode(&bytes).expect("every pose is valid");
-                        peer.unanswered.push((2, pose.sequence));
-                        return peer.poses.push(pose);
+                    Some(FrameKind::Bend) => {
+                        let frame = BendFrame::decode(&bytes).expect("every frame of a bend is valid");
+                        peer.unanswered.push((2, frame.sequence));
+                        return peer.bend_frames.push(frame);
                     }
                     Some(FrameKind::Ghost) => {
                         let ghost = GhostFrame::decode(&bytes).expect("every ghost is valid");

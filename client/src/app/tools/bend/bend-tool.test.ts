@@ -107,7 +107,7 @@ describe("bending", () => {
         [4, 2, 0],
       ],
     });
-    expect(view.overlays.size, "the pose stays until the rows have it").toBe(1);
+    expect(view.overlays.size, "the bend stays until the rows have it").toBe(1);
   });
 
   it("the lowest finger holds the base, whichever came first", () => {
@@ -234,7 +234,7 @@ describe("bending", () => {
     finger(3).down(7);
     expect(kinds(sent)).toEqual(["bend_begin", "bend_move", "bend_end"]);
     finger(2).by(0, -120, 9);
-    expect(sent, "the last pose is on its way").toHaveLength(3);
+    expect(sent, "the last move is on its way").toHaveLength(3);
     tableOf(
       SMALL.map((twig, row) => (row === 9 ? { ...twig, at: [4, 3, 0] as const } : twig)),
       table,

@@ -1,6 +1,6 @@
 import { BendIcon } from "../../ui/shaping-icons";
 import type { ToolDescriptor } from "../descriptor";
-import { BendPoses } from "./bend-poses";
+import { OthersBends } from "./others-bends";
 import type { BendTool } from "./bend-tool";
 
 export const BEND: ToolDescriptor<BendTool> = {
@@ -24,7 +24,7 @@ export const BEND: ToolDescriptor<BendTool> = {
       say,
     });
   },
-  ready: (bend, { table, view, poses }) => poses.attach(new BendPoses(table, view, bend)),
+  ready: (bend, { table, view, bends }) => bends.attach(new OthersBends(table, view, bend)),
   hasViews: true,
   later: () => import("./later"),
 };

@@ -24,7 +24,7 @@ fn be1_a_bend_is_one_operation_for_undo() {
         let targets = vec![place + Vec3::X * 0.5 * part as f32];
         apply(&mut document, &plain(Action::BendMove { bend: 1, targets: places(targets) }));
         assert_eq!(document.plant().hash(), before, "BE5: the wood stays until it is let go");
-        assert_eq!(document.poses().len(), 1);
+        assert_eq!(document.bend_motions().len(), 1);
     }
     apply(&mut document, &plain(Action::BendEnd { bend: 1 }));
     assert!(end(&document, top).x > place.x + 0.5, "it followed the finger");
@@ -166,7 +166,7 @@ fn be4_a_branch_that_is_cut_takes_its_bend_along() {
         &plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::new(3.0, 4.0, 0.0)]) }),
     );
     document.apply(&who("bob"), &plain(Action::Prune { rows: list(vec![path[0].raw()]) })).expect("a branch");
-    assert!(document.poses().is_empty());
+    assert!(document.bend_motions().is_empty());
     let over = plain(Action::BendMove { bend: 1, targets: places(vec![Vec3::ONE]) });
     assert_eq!(refusal(&mut document, &over), (ProblemCode::NotFound, "bend".into()));
     assert_eq!(

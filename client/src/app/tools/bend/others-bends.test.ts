@@ -1,13 +1,13 @@
 import { describe, expect, it } from "vitest";
 import { frontView, SMALL, tableOf } from "../../../../test/small-tree";
 import type { BendOverlay } from "../../../scene/overlay/bend-overlay";
-import { BendPoses } from "./bend-poses";
+import { OthersBends } from "./others-bends";
 
 function setUp(own: readonly number[] = []) {
   const table = tableOf(SMALL);
   const view = frontView(table);
   const over: (readonly number[])[] = [];
-  const poses = new BendPoses(table, view, {
+  const bends = new OthersBends(table, view, {
     owns: (path) => path.join() === own.join(),
     over: (path) => void over.push(path),
   });
@@ -15,18 +15,18 @@ function setUp(own: readonly number[] = []) {
   const receive = (bend: number, ...path: number[]) => {
     sequence += 1;
     const motions = path.map((row) => ({ row, rotation: [0, 0, 0, 1], to: [row, 1, 2] }) as const);
-    poses.receive({
+    bends.receive({
       epoch: 1,
       sequence,
       bend,
       motions: motions.map(({ row, rotation, to }) => ({ row, rotation: [...rotation], to: [...to] })),
     });
   };
-  return { table, view, poses, over, receive };
+  return { table, view, bends, over, receive };
 }
 
 describe("BE5: bends of other people", () => {
-  it("are shown from the first pose to the one without motions", () => {
+  it("are shown from the first frame to the one without motions", () => {
     const { view, receive } = setUp();
     receive(7, 2, 6, 7);
     receive(7, 2, 6, 7);
@@ -67,10 +67,10 @@ describe("BE5: bends of other people", () => {
   });
 
   it("are forgotten with the connection", () => {
-    const { view, poses, over, receive } = setUp([3, 12]);
+    const { view, bends, over, receive } = setUp([3, 12]);
     receive(7, 2, 6, 7);
     receive(8, 3, 12);
-    poses.clear();
+    bends.clear();
     receive(8);
     expect([view.overlays.size, over]).toEqual([0, []]);
   });

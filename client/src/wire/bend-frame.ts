@@ -3,8 +3,8 @@ import { openFrame } from "./envelope";
 import { FrameError } from "./frame-error";
 import { FrameKind } from "./generated";
 
-/** Where a bend stands; without motions it is over (BE5). Mirrors `proto/src/pose.rs`. */
-export interface PoseFrame {
+/** Where a bend stands; without motions it is over (BE5). Mirrors `proto/src/bend.rs`. */
+export interface BendFrame {
   epoch: number;
   sequence: number;
   /** The server's own number for the bend. */
@@ -22,9 +22,9 @@ export interface RowMotion {
   to: [number, number, number];
 }
 
-/** Reads a pose; any bytes at all give one of finite numbers or a `FrameError`. */
-export async function decodePose(bytes: ArrayBuffer): Promise<PoseFrame> {
-  const { epoch, sequence, body } = await openFrame(bytes, FrameKind.Pose);
+/** Reads the frame of a bend; any bytes at all give one of finite numbers or a `FrameError`. */
+export async function decodeBend(bytes: ArrayBuffer): Promise<BendFrame> {
+  const { epoch, sequence, body } = await openFrame(bytes, FrameKind.Bend);
   const reader = new ByteReader(body);
   const bend = reader.varint();
   const count = reader.varint();

@@ -17,12 +17,12 @@ pub struct RowMotion {
     pub to: [f32; 3],
 }
 
-/// Where a bend stands; without motions it is over.
+/// Where an open bend stands; without motions it is over.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PoseFrame {
+pub struct BendFrame {
     /// As in mesh deltas.
     pub epoch: u32,
-    /// Rises from pose to pose.
+    /// Rises from frame to frame.
     pub sequence: u32,
     /// The server's own number for the bend.
     pub bend: u32,
@@ -30,7 +30,7 @@ pub struct PoseFrame {
     pub motions: Vec<RowMotion>,
 }
 
-impl PoseFrame {
+impl BendFrame {
     /// The frame as bytes.
     pub fn encode(&self) -> Vec<u8> {
         let mut body = Vec::with_capacity(8 + 32 * self.motions.len());
@@ -43,12 +43,12 @@ impl PoseFrame {
             }
         }
         let header = Header { flags: 0, epoch: self.epoch, sequence: self.sequence };
-        envelope::seal(FrameKind::Pose, header, &body)
+        envelope::seal(FrameKind::Bend, header, &body)
     }
 
     /// Reads a frame; any bytes at all give a frame of finite numbers or an error.
     pub fn decode(bytes: &[u8]) -> Result<Self, FrameError> {
-        let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Pose)?;
+        let (Header { epoch, sequence, .. }, body) = envelope::open(bytes, FrameKind::Bend)?;
         let mut body = &*body;
         let bend = varint::read(&mut body).ok_or(FrameError::Truncated)?;
         let count = varint::read(&mut body).ok_or(FrameError::Truncated)?;

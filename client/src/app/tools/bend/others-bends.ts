@@ -1,6 +1,6 @@
 import { BendOverlay } from "../../../scene/overlay/bend-overlay";
 import type { TreeTable } from "../../../scene/table/tree-table";
-import type { PoseFrame, RowMotion } from "../../../wire/pose";
+import type { BendFrame, RowMotion } from "../../../wire/bend-frame";
 import type { ShapingView } from "../shaping-view";
 
 /** The bend that this page has in progress. */
@@ -10,7 +10,7 @@ export interface OwnBends {
 }
 
 /** Draws the branches that others are bending (`BE5`); those of this page are drawn by its own tool. */
-export class BendPoses {
+export class OthersBends {
   #table: TreeTable;
   #view: ShapingView;
   #own: OwnBends;
@@ -24,7 +24,7 @@ export class BendPoses {
     this.#own = own;
   }
 
-  receive({ bend, motions }: PoseFrame): void {
+  receive({ bend, motions }: BendFrame): void {
     if (motions.length === 0) {
       this.#end(bend);
       return;
@@ -34,7 +34,7 @@ export class BendPoses {
       this.#mine.set(bend, path);
       return;
     }
-    this.#pose(bend, path, motions);
+    this.#show(bend, path, motions);
   }
 
   /** Forgets all of them, for another session or another connection, which sends them again. */
@@ -46,7 +46,7 @@ export class BendPoses {
     this.#mine.clear();
   }
 
-  #pose(bend: number, path: readonly number[], motions: readonly RowMotion[]): void {
+  #show(bend: number, path: readonly number[], motions: readonly RowMotion[]): void {
     let bent = this.#shown.get(bend);
     if (!bent || !this.#view.hasOverlay(bent)) {
       if (!isPath(this.#table, path)) {
