@@ -22,7 +22,8 @@ if (location.pathname === ENTRY_PATH) {
   const studio = new Studio();
   // The server is asked first: it answers while the browser makes its picture ready.
   void studio.link.start();
-  void studio.rights.ask();
+  // Where it is silent, what it said last time holds.
+  studio.rights.ask().catch(() => {});
   render(<App studio={studio} />, root);
   registerServiceWorker();
 }

@@ -9,6 +9,7 @@ import type { Draft } from "./document/draft";
 import type { GrowControl } from "./document/growth/grow-control";
 import type { ProgrammeControl } from "./document/growth/programme-control";
 import type { UnsavedTrees } from "./library/unsaved-trees";
+import type { Layout } from "./page/layout";
 import { explained, plainWords } from "./problems/explained";
 import { type RefusalTargets, refused } from "./problems/refusals";
 import type { SharedBends } from "./tools/bend/shared-bends";
@@ -31,6 +32,7 @@ export interface SessionTargets extends RefusalTargets {
   readonly widths: WidthList;
   readonly bends: SharedBends;
   readonly unsaved: UnsavedTrees;
+  readonly layout: Pick<Layout, "sheet">;
   readonly table: TreeTable;
   readonly rows: Signal<number>;
   /** Counts the frames of rows that came in. */
@@ -109,6 +111,9 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.growth.release();
     },
     parted: () => page.toasts.show(say("notices.parted")),
+    choosing: () => {
+      page.layout.sheet.value = "library";
+    },
     failed: (error) => void explained(error).then((text) => page.toasts.show(text)),
   };
 }

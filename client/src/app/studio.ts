@@ -95,7 +95,10 @@ export class Studio {
     hindrance: this.hindrance,
     dark: () => this.stage.dark,
     lastSession: this.settings.lastSession,
-    onlyTree: () => this.#whereToLand(),
+    rights: async () => {
+      await this.rights.ask();
+      return { mayBegin: this.rights.mayBegin, onlyTree: this.rights.onlyTree.peek() };
+    },
     begun: () => this.document.peek() !== null,
     events: sessionEvents(this),
   });
@@ -232,16 +235,6 @@ export class Studio {
 
   #ahead(): GrowthAhead {
     return growthAhead(this.document.peek(), this.outline.shown.peek()?.stage === "growing");
-  }
-
-  /** The tree to land on; who may see several chooses one in the library. */
-  async #whereToLand(): Promise<string | null> {
-    await this.rights.ask();
-    const tree = this.rights.onlyTree.peek();
-    if (tree === null) {
-      this.layout.sheet.value = "library";
-    }
-    return tree;
   }
 
   async #explain(error: unknown): Promise<void> {

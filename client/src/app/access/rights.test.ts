@@ -1,4 +1,5 @@
 import { afterEach, expect, it, vi } from "vitest";
+import { RequestFailed } from "../requests/request";
 import { Rights } from "./rights";
 
 afterEach(() => vi.unstubAllGlobals());
@@ -37,8 +38,18 @@ it.each([
 it("AC8: what was known stays where the server is silent", async () => {
   vi.stubGlobal("fetch", () => Promise.reject(new Error("no network")));
   const rights = new Rights(store({ "espalier.me": '{"role":"viewer","way":"device"}' }));
-  await rights.ask();
+  await expect(rights.ask()).rejects.toBeInstanceOf(RequestFailed);
   expect(rights.mayChange.peek()).toBe(false);
   const odd = new Rights(store({ "espalier.me": '{"role":"king"}' }));
   expect(odd.mayChange.peek()).toBe(true);
+});
+
+it("AC8: who asks while the question is on its way waits for the same answer", async () => {
+  const fetch = vi.fn(async () => new Response(JSON.stringify({ role: "viewer", way: "device" })));
+  vi.stubGlobal("fetch", fetch);
+  const rights = new Rights(store());
+  await Promise.all([rights.ask(), rights.ask()]);
+  expect([fetch.mock.calls.length, rights.mayBegin]).toEqual([1, false]);
+  await rights.ask();
+  expect(fetch, "later the server is asked again").toHaveBeenCalledTimes(2);
 });

@@ -15,6 +15,8 @@ export class Rights {
   readonly mayChange = computed(() => CHANGES[this.me.value?.role ?? "owner"]);
   /** The only tree they may see; null where the library is open to them. */
   readonly onlyTree = computed(() => this.me.value?.tree ?? null);
+  /** The question on its way. */
+  #asked: Promise<void> | null = null;
 
   constructor(store: Storage) {
     this.me = kept<Me | null>(store, "me", null, isMe);
@@ -30,18 +32,26 @@ export class Rights {
     return DELETES[this.me.value?.role ?? "owner"] && this.onlyTree.value === null;
   }
 
-  /** Asks the server; where it does not say, nothing is known that was not known before. */
-  async ask(): Promise<void> {
-    const me = await whoAmI();
-    if (me !== null) {
-      this.me.value = me;
-    }
+  /** Asks the server, once for all who want to know; fails where it does not say, and what was known before stays. */
+  ask(): Promise<void> {
+    this.#asked ??= askWho()
+      .then((me) => {
+        this.me.value = me;
+      })
+      .finally(() => {
+        this.#asked = null;
+      });
+    return this.#asked;
   }
 }
 
 /** Who the server takes this page for; null where it lets it not in, or is silent. */
 export async function whoAmI(): Promise<Me | null> {
-  return ask<Me>("GET", "/api/v1/me").catch(() => null);
+  return askWho().catch(() => null);
+}
+
+function askWho(): Promise<Me> {
+  return ask<Me>("GET", "/api/v1/me");
 }
 
 function isMe(value: unknown): boolean {

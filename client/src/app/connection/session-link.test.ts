@@ -4,6 +4,7 @@ import { FakeSocket } from "../../../test/fake-socket";
 import { Virtual } from "../../../test/virtual-clock";
 import { CloseCode } from "../../wire/generated";
 import type { Hindrance } from "../page/hindrance";
+import { RequestFailed } from "../requests/request";
 import { type SessionEvents, SessionLink } from "./session-link";
 
 /** A server of sessions that begins them under the names given, one after the other; silent when they run out. */
@@ -32,7 +33,12 @@ function storage(): Storage {
 
 function setUp(
   path = "/",
-  { last = null as string | null, store = storage(), begun = false, onlyTree = null as string | null } = {},
+  {
+    last = null as string | null,
+    store = storage(),
+    begun = false,
+    rights = async () => ({ mayBegin: true, onlyTree: null as string | null }),
+  } = {},
 ) {
   const sockets: { address: string; socket: FakeSocket }[] = [];
   const clock = new Virtual();
@@ -51,6 +57,7 @@ function setUp(
     lost: tells("lost"),
     parted: tells("parted"),
     failed: tells("failed"),
+    choosing: tells("choosing"),
     rows: nothing,
     settled: nothing,
     message: nothing,
@@ -74,7 +81,7 @@ function setUp(
     hindrance,
     dark: () => false,
     lastSession,
-    onlyTree: async () => onlyTree,
+    rights,
     begun: () => begun,
     events,
   });
@@ -116,44 +123,79 @@ describe("the session a page opens with", () => {
   });
 
   it("AC2: is asked for at the door by whoever is not let in", async () => {
-    const refused = { code: "refused", reason: "not-let-in", message: "Ask for the code." };
-    vi.stubGlobal("fetch", async () => new Response(JSON.stringify(refused), { status: 401 }));
-    const first = setUp();
+    const refused = { code: "refused", reason: "not-let-in", message: "Ask for the code." } as const;
+    const { asked } = serveSessions([], []);
+    const first = setUp("/", { rights: () => Promise.reject(new RequestFailed(401, refused)) });
     await first.link.start();
-    expect([first.location.replace.mock.calls, first.hindrance.peek()]).toEqual([[["/pair"]], null]);
+    expect([first.location.replace.mock.calls, first.hindrance.peek(), asked]).toEqual([[["/pair"]], null, []]);
     const named = setUp("/s/oak");
     await named.link.start();
     named.newest().end(CloseCode.CannotOpen, "not-let-in: Ask for the code.");
     expect(named.location.replace).toHaveBeenCalledWith("/pair?to=%2Fs%2Foak");
   });
 
+  it("is asked for again where the server does not say who is here", async () => {
+    const { asked } = serveSessions([], ["late"]);
+    const answers = [Promise.reject(new RequestFailed(0, { code: "unavailable", message: "Silence." }))];
+    const { link, clock, hindrance } = setUp("/", {
+      rights: () => answers.shift() ?? Promise.resolve({ mayBegin: true, onlyTree: null }),
+    });
+    await link.start();
+    expect([hindrance.peek(), asked]).toEqual(["no-server", []]);
+    clock.pass(2000);
+    await vi.waitFor(() => expect(link.session.peek()).toBe("late"));
+  });
+
   it("AC5: is that of the only tree for a guest, whatever was open before", async () => {
     const asked: string[] = [];
-    vi.stubGlobal("fetch", async (path: string, { body = "" }: { body?: string }) => {
-      asked.push(`${path} ${body}`);
-      const forbidden = { code: "refused", reason: "forbidden", message: "You may not do this here." };
-      return body.includes("ash")
-        ? new Response(JSON.stringify({ session: "oak" }), { status: 201 })
-        : new Response(JSON.stringify(forbidden), { status: 403 });
+    vi.stubGlobal("fetch", async (path: string, { method, body = "" }: { method: string; body?: string }) => {
+      asked.push(`${method} ${path} ${body}`);
+      return new Response(JSON.stringify({ session: "oak" }), { status: 201 });
     });
+    const rights = async () => ({ mayBegin: false, onlyTree: "ash" });
     for (const last of [null, "elm"]) {
-      const { link, hindrance, location } = setUp("/", { last, onlyTree: "ash" });
+      const { link, hindrance, location } = setUp("/", { last, rights });
       await link.start();
       expect([link.session.peek(), location.pathname, hindrance.peek()]).toEqual(["oak", "/s/oak", null]);
     }
-    expect(asked.filter((one) => one.includes("ash"))).toEqual(Array(2).fill('/api/v1/sessions {"tree":"ash"}'));
+    expect(asked).toEqual(Array(2).fill('POST /api/v1/sessions {"tree":"ash"}'));
   });
 
-  it("AC5: is none for whoever may only look at trees, and is not asked for again and again", async () => {
+  it("AC5: is said not to be had where a guest's tree is gone, and asked for again where nobody answers", async () => {
     const refused = { code: "refused", reason: "forbidden", message: "You may not do this here." };
+    const rights = async () => ({ mayBegin: false, onlyTree: "ash" });
     vi.stubGlobal("fetch", async () => new Response(JSON.stringify(refused), { status: 403 }));
-    const { link, hindrance, clock } = setUp();
-    await link.start();
-    clock.pass(60_000);
-    expect([hindrance.peek(), link.session.peek()]).toEqual(["only-look", null]);
-    const guest = setUp("/", { onlyTree: "ash" });
+    const guest = setUp("/", { rights });
     await guest.link.start();
     expect([guest.hindrance.peek(), guest.link.refusal.peek()]).toEqual(["cannot-open", "You may not do this here."]);
+    const { names } = serveSessions([], []);
+    const waiting = setUp("/", { rights });
+    await waiting.link.start();
+    expect(waiting.hindrance.peek()).toBe("no-server");
+    names.push("oak");
+    waiting.clock.pass(2000);
+    await vi.waitFor(() => expect(waiting.link.session.peek()).toBe("oak"));
+  });
+
+  it("AC5: is that of last time, or one they choose, for whoever may only look at trees", async () => {
+    const { asked } = serveSessions(["elm"], ["never"]);
+    const rights = async () => ({ mayBegin: false, onlyTree: null });
+    const first = setUp("/", { rights });
+    await first.link.start();
+    first.clock.pass(60_000);
+    expect([first.hindrance.peek(), first.link.session.peek(), first.calls]).toEqual(["only-look", null, ["choosing"]]);
+    expect(asked, "nothing is asked for that they may not have").toEqual([]);
+    const again = setUp("/", { last: "elm", rights });
+    await again.link.start();
+    expect([again.link.session.peek(), again.hindrance.peek(), again.calls.includes("choosing")]).toEqual([
+      "elm",
+      null,
+      false,
+    ]);
+    const gone = setUp("/", { last: "ash", rights });
+    await gone.link.start();
+    expect(gone.hindrance.peek()).toBe("only-look");
+    expect(asked).toEqual(["GET /api/v1/sessions/elm", "GET /api/v1/sessions/ash"]);
   });
 
   it("is not put in place of one that was opened meanwhile", async () => {

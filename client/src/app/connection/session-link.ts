@@ -38,6 +38,8 @@ export interface SessionEvents
   parted(): void;
   /** Another session could not be had. */
   failed(error: unknown): void;
+  /** Whoever is here may begin no tree, and chooses one. */
+  choosing(): void;
 }
 
 /** The part of the browser's page that is used; tests bring their own. */
@@ -58,8 +60,8 @@ export interface SessionLinkOptions {
   readonly dark: () => boolean;
   /** The session to come back to. */
   readonly lastSession: Signal<string | null>;
-  /** The only tree that whoever is here may see; null where there is none, so that they choose one. */
-  readonly onlyTree: () => Promise<string | null>;
+  /** Whether whoever is here may begin trees, and the only one that they may see; fails where the server does not say. */
+  readonly rights: () => Promise<{ readonly mayBegin: boolean; readonly onlyTree: string | null }>;
   /** Whether there is something on the page already. */
   readonly begun: () => boolean;
   readonly events: SessionEvents;
@@ -86,30 +88,23 @@ export class SessionLink implements PageEvents {
     this.#options = options;
   }
 
-  /** Opens what the address names, or the session of last time, or a new one. */
+  /** Opens what the address names, or the only tree there is, or the session of last time, or a new one. */
   async start(): Promise<void> {
-    const { page, lastSession, hindrance } = this.#options;
+    const { page, hindrance, rights } = this.#options;
     const named = sessionInPath(page.location.pathname);
     if (named !== null) {
       this.#open(named);
       return;
     }
     try {
-      const last = lastSession.peek();
-      const { session } = (last !== null && (await findSession(last))) || (await createSession());
-      if (this.session.peek() === null) {
-        page.history.replaceState(null, "", pathOf(session));
-        this.#open(session);
-      }
+      // Nothing is asked for that they may not have.
+      const { mayBegin, onlyTree } = await rights();
+      await (onlyTree === null ? this.#come(mayBegin) : this.#comeTo(onlyTree));
     } catch (error) {
       if (this.session.peek() !== null) {
         return;
       }
       if (error instanceof RequestFailed && askToEnter(error.problem, page.location)) {
-        return;
-      }
-      if (isForbidden(error)) {
-        await this.#land();
         return;
       }
       hindrance.value = "no-server";
@@ -156,24 +151,40 @@ export class SessionLink implements PageEvents {
     return "opened";
   }
 
-  /** Comes in where somebody may who may begin nothing: to their only tree, or where trees are chosen. */
-  async #land(): Promise<void> {
-    const { page, hindrance, onlyTree } = this.#options;
-    const tree = await onlyTree();
-    if (this.session.peek() !== null) {
-      return;
-    }
-    if (tree === null) {
+  /** Comes into the session of last time, a new one, or where trees are chosen. */
+  async #come(mayBegin: boolean): Promise<void> {
+    const { lastSession, hindrance, events } = this.#options;
+    const last = lastSession.peek();
+    const found = last === null ? null : await findSession(last);
+    if (found !== null || mayBegin) {
+      this.#enter(found ?? (await createSession()));
+    } else if (this.session.peek() === null) {
       hindrance.value = "only-look";
-      return;
+      events.choosing();
     }
+  }
+
+  /** Comes in where a guest may. */
+  async #comeTo(tree: string): Promise<void> {
     try {
-      const { session } = await createSession({ tree });
-      page.history.replaceState(null, "", pathOf(session));
-      this.#open(session);
+      this.#enter(await createSession({ tree }));
     } catch (error) {
-      this.refusal.value = await explained(error);
-      hindrance.value = "cannot-open";
+      if (!(error instanceof RequestFailed) || error.status === 0) {
+        throw error;
+      }
+      const refusal = await explained(error);
+      if (this.session.peek() === null) {
+        this.refusal.value = refusal;
+        this.#options.hindrance.value = "cannot-open";
+      }
+    }
+  }
+
+  /** Opens what was asked for, unless another session was opened meanwhile. */
+  #enter({ session }: SessionCreated): void {
+    if (this.session.peek() === null) {
+      this.#options.page.history.replaceState(null, "", pathOf(session));
+      this.#open(session);
     }
   }
 
@@ -331,8 +342,4 @@ export class SessionLink implements PageEvents {
       this.#options.events.parted();
     }
   }
-}
-
-function isForbidden(error: unknown): boolean {
-  return error instanceof RequestFailed && error.problem.reason === "forbidden";
 }
