@@ -7,11 +7,8 @@ import { say } from "../../words/say";
 import { CloseIcon } from "../icons";
 import { useAnimationFrames } from "../use-animation-frames";
 import { type Ring, ringAt } from "./ring";
+import { ringHandles } from "./ring-handles";
 
-/** Room between a ring and its knobs. */
-const KNOB_GAP = 26;
-/** A finger needs so much for a knob, and as much for the dot between two. */
-const TARGET = 44;
 /** How near to a limb a ring that is dragged along it has to be kept, in pixels. */
 const ALONG = 60;
 
@@ -263,23 +260,7 @@ function awayFrom(page: ToolPage, row: number, event: PointerEvent): number {
 
 function place(label: HTMLElement, ring: Ring | null): void {
   label.style.visibility = ring ? "visible" : "hidden";
-  if (!ring) {
-    return;
-  }
-  const [[ax, ay], [bx, by]] = ring.ends;
-  const length = Math.hypot(bx - ax, by - ay) || 1;
-  const [ux, uy] = [(bx - ax) / length, (by - ay) / length];
-  const [x, y] = ring.middle;
-  const away = Math.max(length / 2 + KNOB_GAP, TARGET);
-  const values = {
-    x,
-    y,
-    "left-x": x - away * ux,
-    "left-y": y - away * uy,
-    "right-x": x + away * ux,
-    "right-y": y + away * uy,
-  };
-  for (const [name, value] of Object.entries(values)) {
-    label.style.setProperty(`--${name}`, `${value.toFixed(1)}px`);
+  for (const [name, value] of Object.entries(ring ? ringHandles(ring) : {})) {
+    label.style.setProperty(name, value);
   }
 }
