@@ -88,6 +88,26 @@ describe("the door", () => {
     expect(new URL(page.url()).pathname).toBe(address);
   });
 
+  it("AC2: is used to its end by a finger on glass that is lower than what it asks", async () => {
+    const screen = { width: 844, height: 330 };
+    const page = await device("/pair", screen);
+    const button = page.getByRole("button", { name: "Come in" });
+    const end = async () => {
+      const box = await button.boundingBox();
+      return box === null ? Number.POSITIVE_INFINITY : box.y + box.height;
+    };
+    await button.waitFor();
+    expect(await end()).toBeGreaterThan(screen.height);
+    expect((await page.locator(".entry-card").boundingBox())?.y, "its top is in view").toBeGreaterThanOrEqual(0);
+    const glass = await page.context().newCDPSession(page);
+    const touch = (type: "touchStart" | "touchMove" | "touchEnd", touchPoints: { x: number; y: number }[]) =>
+      glass.send("Input.dispatchTouchEvent", { type, touchPoints });
+    await touch("touchStart", [{ x: 100, y: 300 }]);
+    for (let y = 290; y >= 10; y -= 10) await touch("touchMove", [{ x: 100, y }]);
+    await touch("touchEnd", []);
+    await expect.poll(end).toBeLessThanOrEqual(screen.height);
+  });
+
   it("AC9: asks for name and password where anybody has one, and the settings lead out again", async () => {
     const added = spawnSync(program, ["user", "add", "Ada", "--database", server.database], {
       input: "correct horse",
@@ -119,6 +139,9 @@ describe("the door", () => {
   it("AC4: closes behind whoever is let out", async () => {
     const page = await device(`/pair#${secretIn(invite("--name", "lost"))}`);
     await untilConnected(page);
+    await page.getByRole("button", { name: "Settings" }).tap();
+    await page.getByText("Let in as lost (may draw, save and delete)").waitFor();
+    await page.getByText("Who logs out here needs a new invitation to come back.").waitFor();
     const { status } = spawnSync(program, ["device", "revoke", "lost", "--database", server.database]);
     expect(status).toBe(0);
     await page.getByRole("heading", { name: "You need an invitation" }).waitFor();

@@ -34,6 +34,8 @@ function EntryPage({ invited, passwords }: { invited: string; passwords: boolean
       void comeIn(invited);
     }
   }, [invited]);
+  /** An invitation that came with the address is being used: there is nothing to type. */
+  const isInvited = entering && code === "";
   const turn = () => {
     setByPassword(!byPassword);
     forgive();
@@ -54,7 +56,7 @@ function EntryPage({ invited, passwords }: { invited: string; passwords: boolean
         </p>
         {byPassword ? (
           <LogIn account={account} setAccount={setAccount} trouble={trouble} entering={entering} />
-        ) : entering && code === "" ? (
+        ) : isInvited ? (
           <h1>{say("entry.entering")}</h1>
         ) : (
           <Knocking code={code} setCode={setCode} trouble={trouble} entering={entering} />
@@ -63,6 +65,11 @@ function EntryPage({ invited, passwords }: { invited: string; passwords: boolean
           <button type="button" class="small" disabled={entering} onClick={turn}>
             {say(byPassword ? "entry.by-code" : "entry.by-password")}
           </button>
+        )}
+        {!byPassword && !isInvited && (
+          <p class="entry-host">
+            {say("entry.host")} <code>{say("entry.invite")}</code>
+          </p>
         )}
       </form>
     </main>
@@ -102,9 +109,6 @@ function Knocking({ code, setCode, trouble, entering }: KnockingProps) {
       <button type="submit" class="primary" disabled={entering || secretIn(code) === ""}>
         {say(entering ? "entry.entering" : "entry.enter")}
       </button>
-      <p class="entry-host">
-        {say("entry.host")} <code>{say("entry.invite")}</code>
-      </p>
     </>
   );
 }

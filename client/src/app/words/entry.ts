@@ -4,7 +4,7 @@ export const ENTRY = {
   "entry.title": ["You need an invitation", "Du brauchst eine Einladung"],
   "entry.text": [
     "Ask whoever runs Espalier here for one. Scan its code with the camera of this device, or paste its link below.",
-    "Bitte darum, wer Espalier hier betreibt. Scanne ihren Code mit der Kamera dieses Geräts oder füge ihren Link unten ein.",
+    "Bitte die Person darum, die Espalier hier betreibt. Scanne den Code mit der Kamera dieses Geräts oder füge den Link unten ein.",
   ],
   "entry.code": ["Link or code", "Link oder Code"],
   "entry.enter": ["Come in", "Eintreten"],
@@ -16,8 +16,8 @@ export const ENTRY = {
   "entry.login.enter": ["Log in", "Anmelden"],
   "entry.entering": ["Coming in…", "Du trittst ein…"],
   "entry.host": [
-    "You run it? On that computer this makes a new invitation:",
-    "Du betreibst es selbst? Auf jenem Rechner macht dies eine neue Einladung:",
+    "You run it? On the computer where it runs this makes a new invitation:",
+    "Du betreibst es selbst? Auf dem Rechner, auf dem es läuft, macht dies eine neue Einladung:",
   ],
   "entry.invite": ["espalier invite", "espalier invite"],
 } as const;

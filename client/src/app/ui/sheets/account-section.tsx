@@ -20,18 +20,16 @@ export function AccountSection({ studio }: { studio: Studio }) {
       setTrouble(await explained(error));
     }
   };
+  const [name, role] = [me.name ?? "", say(`settings.role.${me.role}`)];
   return (
-    <div class="stack">
-      <p class="quiet">
-        {say(me.way === "login" ? "settings.account.login" : "settings.account.device", {
-          name: me.name ?? "",
-          role: say(`settings.role.${me.role}`),
-        })}
-      </p>
+    <section class="account" aria-label={say("settings.account")}>
+      <h3>{say("settings.account")}</h3>
+      <p>{say(me.way === "login" ? "settings.account.login" : "settings.account.device", { name, role })}</p>
+      {me.way === "device" && <p class="quiet">{say("settings.account.again")}</p>}
       <button type="button" class="small" onClick={leave}>
         {say("settings.account.leave")}
       </button>
       {trouble !== "" && <p role="alert">{trouble}</p>}
-    </div>
+    </section>
   );
 }
