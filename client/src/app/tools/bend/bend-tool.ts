@@ -10,13 +10,12 @@ import type { Key } from "../../words/say";
 import type { ShapingView } from "../shaping-view";
 import { type GripTool, PICK_TOLERANCE, withinReach } from "../tool";
 import { type Hold, holdAt, naturalBase, related } from "./bend-hold";
+import { SettlingBends } from "./settling-bends";
 
 /** Rounds that are played again for a finger that rests, so that the branch comes up to it. */
 const ROUNDS_AT_REST = 8;
 /** Moves that may be in progress; beyond it the newest waits for its turn. */
 const MAX_UNSETTLED = 6;
-/** How long after its answer a bend may take to show in the rows, in milliseconds. */
-const LINGERS = 1500;
 
 /** Bends a path as the server will, before it answers. */
 export type BendSolver = Pick<Bend, "drag" | "relax" | "motions">;
@@ -88,8 +87,7 @@ export class BendTool implements GripTool {
   #options: BendOptions;
   #fingers = new Map<number, Finger>();
   #bending: Bending | null = null;
-  /** Bends that were let go and are not yet in the table. */
-  #settling = new Map<BendOverlay, number>();
+  #settling: SettlingBends;
   /** Bends made without letting go are one operation. */
   #gesture: number | null = null;
   /** The most fingers since the last was lifted: only a lone one taps. */
@@ -97,6 +95,7 @@ export class BendTool implements GripTool {
 
   constructor(options: BendOptions) {
     this.#options = options;
+    this.#settling = new SettlingBends(options);
   }
 
   takes(x: number, y: number): Grip {
@@ -236,41 +235,25 @@ export class BendTool implements GripTool {
     if (this.#bending?.number === number) {
       this.abandon();
     }
-    for (const [overlay, bend] of this.#settling) {
-      if (bend === number) {
-        this.#options.view.removeOverlay(overlay);
-        this.#settling.delete(overlay);
-      }
-    }
+    this.#settling.refused(number);
   }
 
   /** Whether a bend along this path is this tool's own, and so shown already. */
   owns(path: readonly number[]): boolean {
-    return this.#bending?.overlay.follows(path) === true || [...this.#settling.keys()].some((own) => own.follows(path));
+    return this.#bending?.overlay.follows(path) === true || this.#settling.owns(path);
   }
 
-  /** The server says that a bend is over: what has not come as a change of the table by now never will. */
+  /** The server says that a bend is over. */
   over(path: readonly number[]): void {
-    for (const overlay of this.#settling.keys()) {
-      if (overlay.follows(path)) {
-        this.#options.view.removeOverlay(overlay);
-        this.#settling.delete(overlay);
-      }
-    }
+    this.#settling.over(path);
     if (this.#bending?.overlay.follows(path)) {
       this.abandon();
     }
   }
 
   changed(): void {
-    const { table, view } = this.#options;
-    for (const overlay of [...this.#settling.keys()]) {
-      if (!view.hasOverlay(overlay) || overlay.over(table)) {
-        this.#settling.delete(overlay);
-      } else if (this.#options.unsettled("bend_end") === 0) {
-        this.#linger(overlay);
-      }
-    }
+    const { table, unsettled } = this.#options;
+    this.#settling.changed(unsettled("bend_end") === 0);
     if (this.#bending?.overlay.over(table)) {
       this.#options.say("tools.bend-ended");
       this.abandon();
@@ -282,15 +265,6 @@ export class BendTool implements GripTool {
     } else if (this.handles.peek().some(gone)) {
       this.handles.value = this.handles.peek().filter((row) => !gone(row));
     }
-  }
-
-  /** A bend that was answered is in the table with the next rows; if not, it came to nothing. */
-  #linger(overlay: BendOverlay): void {
-    setTimeout(() => {
-      if (this.#settling.delete(overlay)) {
-        this.#options.view.removeOverlay(overlay);
-      }
-    }, LINGERS);
   }
 
   /** One finger marks a base, then places above it that stay put; the same place again lets go of it. */
@@ -313,8 +287,7 @@ export class BendTool implements GripTool {
 
   #begin(): void {
     const { table, view, submit, newBend, newGesture, stretch, solver, say } = this.#options;
-    if ([...this.#settling.keys()].some((overlay) => view.hasOverlay(overlay) && !overlay.over(table))) {
-      // The pose of the last bend is on its way; taking hold of the branch before it comes would make it jump.
+    if (this.#settling.pending) {
       return;
     }
     const grips = this.#grips();
@@ -432,7 +405,7 @@ export class BendTool implements GripTool {
     this.#options.submit({ kind: "bend_end", bend: bending.number });
     bending.solver.relax();
     this.#pose(bending.overlay, bending.solver);
-    this.#settling.set(bending.overlay, bending.number);
+    this.#settling.add(bending.overlay, bending.number);
   }
 
   #pick(x: number, y: number) {
