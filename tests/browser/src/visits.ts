@@ -59,6 +59,9 @@ export async function openPart(tablet: Tablet, { panel, tab, picks = [] }: Part)
   await tablet.untilSettled();
 }
 
+/** So many touches a finger makes on its way where only what stands beside it is looked at. */
+const TOUCHES = 8;
+
 /** Puts each tool to work on a stem, beginning with the brush, and stops on the way to look. */
 export async function atWork({ tablet, at }: Stem, look: (where: string) => Promise<void>): Promise<void> {
   const { page } = tablet;
@@ -66,13 +69,13 @@ export async function atWork({ tablet, at }: Stem, look: (where: string) => Prom
     await look(where);
     await page.keyboard.press("Escape");
   };
-  await under(tablet, way(at(0, 130), at(203, 230)), () => look("a stroke under way"));
+  await under(tablet, way(at(0, 130), at(203, 230), TOUCHES), () => look("a stroke under way"));
   await tablet.untilQuiet();
 
   await tablet.take("Lasso");
   const middle = at(203, 400);
   const radius = at(293, 400).x - middle.x;
-  const outline = loop(middle, { x: radius, y: radius }).slice(0, 30);
+  const outline = loop(middle, { x: radius, y: radius }, 2 * TOUCHES).slice(0, 1.5 * TOUCHES);
   await under(tablet, outline, () => escaped("an outline under way"));
   await tablet.take("Plant a seed");
   await look("Plant a seed");
@@ -80,7 +83,7 @@ export async function atWork({ tablet, at }: Stem, look: (where: string) => Prom
   await tablet.take("Bend");
   await tablet.tapAt(at(0, 150));
   await page.getByLabel("Let go of the base").waitFor();
-  await under(tablet, way(at(0, 310), at(123, 270)), () => look("a bend under way"));
+  await under(tablet, way(at(0, 310), at(123, 270), TOUCHES), () => look("a bend under way"));
   await tablet.untilQuiet();
   await tablet.tap("Undo");
   await tablet.untilQuiet();
@@ -99,7 +102,7 @@ export async function atWork({ tablet, at }: Stem, look: (where: string) => Prom
   for (const name of await page.locator(".tool-options .field-name:visible").all()) await tablet.press(name);
   await look("what is dark");
   await tablet.tap("Reset Darker than");
-  const across = way(at(103, 310), at(163, 130));
+  const across = way(at(103, 310), at(163, 130), TOUCHES);
   await under(tablet, across, () => escaped("a cut under way"));
   await page.getByLabel("What if?", { exact: true }).check();
   await tablet.swipe([across]);
