@@ -2,6 +2,7 @@ import { mkdir } from "node:fs/promises";
 import { join } from "node:path";
 import type { Browser, BrowserContext, CDPSession, Locator, Page } from "playwright-core";
 import { atMost } from "./at-most";
+import { FRAMES, isAtRest, restAsked } from "./at-rest";
 import { screenshots } from "./browser";
 import { withClient } from "./client-build";
 import { type Facts, factsOf } from "./facts";
@@ -28,8 +29,6 @@ export type Tool = keyof typeof TOOLS;
 
 /** The longest growth of a test ends sooner, in milliseconds, also on a machine that has much else to do. */
 const PATIENCE = 150_000;
-/** So long two frames may take, in milliseconds. */
-const FRAMES = 5000;
 /** `ALBUM=1` takes pictures as well of which no test asks anything, for people to look at. */
 const ALBUM = process.env.ALBUM === "1";
 /** The page's picture. */
@@ -236,29 +235,12 @@ export class Tablet extends Glass {
 
   /** Bars and panels stand where they will: what slides in has come, and nothing of the page changes any more. */
   async untilSettled(): Promise<void> {
-    let before = "";
-    await until("the page comes to rest", async () => {
-      await this.untilCome();
-      const now = await this.page.evaluate(() => document.body.outerHTML);
-      const settled = now === before;
-      before = now;
-      return settled;
-    });
+    await until("the page comes to rest", () => this.page.evaluate(isAtRest, restAsked("settled")));
   }
 
   /** What slides or fades in has come; what it says may go on changing. */
   async untilCome(): Promise<void> {
-    await until("all that slides in has come", async () => {
-      await this.frames();
-      return this.page.evaluate(
-        () =>
-          // A part that is being loaded has not come.
-          document.querySelector('[aria-busy="true"]') === null &&
-          document.getAnimations().every(({ effect, playState }) => {
-            return playState !== "running" || effect?.getComputedTiming().endTime === Number.POSITIVE_INFINITY;
-          }),
-      );
-    });
+    await until("all that slides in has come", () => this.page.evaluate(isAtRest, restAsked("come")));
   }
 
   /** Notes from now on what comes, if only for a moment: what this gives waits until it has, and says its text. */
