@@ -250,7 +250,7 @@ describe("a phone", () => {
     await tablet.tap("All tools: Brush");
     await tablet.take("Lasso");
     await tablet.tap("More");
-    await tablet.page.getByRole("button", { name: "Save" }).tap();
+    await tablet.page.getByRole("button", { name: "Save", exact: true }).tap();
     await tablet.page.getByRole("dialog", { name: "Save this tree" }).waitFor();
   });
 
