@@ -1,5 +1,7 @@
 //! Connections: accepted, served over HTTP/1.1, and ended when the server stops.
 
+mod paced;
+
 use std::{sync::Arc, time::Duration};
 
 use axum::Router;
@@ -12,87 +14,158 @@ use hyper_util::{
 use tokio::{
     net::{TcpListener, TcpStream},
     sync::Semaphore,
-    time::sleep,
+    time::{sleep, timeout},
 };
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tower::util::MapRequest;
 
-use crate::access::Peer;
+use self::paced::{PATIENCE, Paced};
+use crate::{access::Peer, places::Places};
 
 /// A client that takes longer to send a request's head is let go: it would hold a connection for nothing.
 const HEADER_TIMEOUT: Duration = Duration::from_secs(5);
-/// HTTP connections at a time; further ones wait to be accepted. Sockets are counted by themselves.
-const MAX_CONNECTIONS: usize = 1024;
+/// How long a connection lasts for which there is no place.
+const BRIEF: Duration = Duration::from_secs(2);
+/// Bytes of requests that are read ahead of what is answered, and of answers that wait to be sent.
+const BUFFER: usize = 32 * 1024;
 /// Before accepting again when the system has no more file descriptors, say.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
-/// Serves until `stop` is cancelled, then until every connection has ended.
-pub async fn serve(listeners: Vec<TcpListener>, router: Router, stop: CancellationToken) {
-    let connections = TaskTracker::new();
-    let places = Arc::new(Semaphore::new(MAX_CONNECTIONS));
-    let accepting =
-        listeners.into_iter().map(|listener| accept(listener, &router, &connections, &places, &stop));
-    join_all(accepting).await;
-    connections.close();
-    connections.wait().await;
+/// What connections may take.
+#[derive(Clone, Copy, Debug)]
+pub struct Limits {
+    /// HTTP connections at a time. Sockets are counted by themselves.
+    pub connections: usize,
+    /// Those of one network, but for this machine.
+    pub of_one: usize,
+    /// Beyond those for which there is a place, so many are told so; further ones wait to be accepted.
+    pub told: usize,
+    /// How long a peer may take nothing of what is sent.
+    pub patience: Duration,
 }
 
-/// Accepts connections at one address, each of which takes a place.
-async fn accept(
-    listener: TcpListener,
-    router: &Router,
-    connections: &TaskTracker,
-    places: &Arc<Semaphore>,
-    stop: &CancellationToken,
-) {
-    loop {
-        let accepted = async {
-            let place = Arc::clone(places).acquire_owned().await;
-            (place, listener.accept().await)
-        };
-        let (place, accepted) = tokio::select! {
-            () = stop.cancelled() => break,
-            accepted = accepted => accepted,
-        };
-        match accepted {
-            Ok((stream, from)) => {
-                let (router, stop) = (router.clone(), stop.clone());
-                connections.spawn(async move {
-                    connection(stream, Peer(from.ip()), router, stop).await;
-                    drop(place);
-                });
-            }
-            Err(error) => {
-                tracing::warn!(%error, "a connection could not be accepted");
-                sleep(ACCEPT_PAUSE).await;
+impl Default for Limits {
+    fn default() -> Self {
+        Self { connections: 1024, of_one: 256, told: 32, patience: PATIENCE }
+    }
+}
+
+/// Who answers.
+#[derive(Clone, Debug)]
+pub struct Answers {
+    /// Everything.
+    pub all: Router,
+    /// Connections for which there is no place.
+    pub crowded: Router,
+}
+
+struct Listening {
+    answers: Answers,
+    limits: Limits,
+    places: Places,
+    told: Arc<Semaphore>,
+    connections: TaskTracker,
+    stop: CancellationToken,
+}
+
+/// Serves until `stop` is cancelled, then until every connection has ended.
+pub async fn serve(listeners: Vec<TcpListener>, answers: Answers, limits: Limits, stop: CancellationToken) {
+    let listening = Arc::new(Listening {
+        answers,
+        limits,
+        places: Places::new(limits.connections, limits.of_one),
+        told: Arc::new(Semaphore::new(limits.told)),
+        connections: TaskTracker::new(),
+        stop,
+    });
+    join_all(listeners.into_iter().map(|listener| Arc::clone(&listening).accept(listener))).await;
+    listening.connections.close();
+    listening.connections.wait().await;
+}
+
+impl Listening {
+    /// Accepts connections at one address.
+    async fn accept(self: Arc<Self>, listener: TcpListener) {
+        loop {
+            let accepted = async {
+                let told = Arc::clone(&self.told).acquire_owned().await;
+                (told, listener.accept().await)
+            };
+            let (told, accepted) = tokio::select! {
+                () = self.stop.cancelled() => break,
+                accepted = accepted => accepted,
+            };
+            match accepted {
+                Ok((stream, from)) => {
+                    let (listening, peer) = (Arc::clone(&self), Peer(from.ip()));
+                    let place = self.places.take(from.ip());
+                    self.connections.spawn(async move {
+                        if let Some(_place) = place {
+                            drop(told);
+                            listening.converse(stream, peer).await;
+                        } else {
+                            listening.tell(stream, peer).await;
+                            drop(told);
+                        }
+                    });
+                }
+                Err(error) => {
+                    tracing::warn!(%error, "a connection could not be accepted");
+                    sleep(ACCEPT_PAUSE).await;
+                }
             }
         }
     }
+
+    /// Answers requests until the peer or the server has enough.
+    async fn converse(&self, stream: TcpStream, peer: Peer) {
+        let service = TowerToHyperService::new(of_peer(self.answers.all.clone(), peer));
+        let connection = http1::Builder::new()
+            .timer(TokioTimer::new())
+            .header_read_timeout(HEADER_TIMEOUT)
+            .max_buf_size(BUFFER)
+            .serve_connection(TokioIo::new(self.paced(stream)), service)
+            .with_upgrades();
+        let mut connection = std::pin::pin!(connection);
+        let ended = tokio::select! {
+            ended = &mut connection => ended,
+            () = self.stop.cancelled() => {
+                connection.as_mut().graceful_shutdown();
+                connection.await
+            }
+        };
+        if let Err(error) = ended {
+            tracing::debug!(%error, "a connection broke");
+        }
+    }
+
+    /// Answers one request of somebody for whom there is no place.
+    async fn tell(&self, stream: TcpStream, peer: Peer) {
+        let service = TowerToHyperService::new(of_peer(self.answers.crowded.clone(), peer));
+        let connection = http1::Builder::new()
+            .keep_alive(false)
+            .max_buf_size(BUFFER)
+            .serve_connection(TokioIo::new(self.paced(stream)), service);
+        if !matches!(timeout(BRIEF, connection).await, Ok(Ok(()))) {
+            tracing::debug!("a connection without a place broke");
+        }
+    }
+
+    fn paced(&self, stream: TcpStream) -> Paced {
+        Paced::new(stream, self.limits.patience, self.stop.clone(), self.connections.clone())
+    }
 }
 
-async fn connection(stream: TcpStream, peer: Peer, router: Router, stop: CancellationToken) {
-    // Small deltas should not wait for company.
-    if let Err(error) = stream.set_nodelay(true) {
-        tracing::debug!(%error, "TCP_NODELAY cannot be set");
-    }
-    let service = MapRequest::new(router, move |mut request: Request<Incoming>| {
+/// The router, with who asks.
+fn of_peer(
+    router: Router,
+    peer: Peer,
+) -> MapRequest<Router, impl FnMut(Request<Incoming>) -> Request<Incoming> + Clone> {
+    MapRequest::new(router, move |mut request: Request<Incoming>| {
         request.extensions_mut().insert(peer);
         request
-    });
-    let connection = http1::Builder::new()
-        .timer(TokioTimer::new())
-        .header_read_timeout(HEADER_TIMEOUT)
-        .serve_connection(TokioIo::new(stream), TowerToHyperService::new(service))
-        .with_upgrades();
-    let mut connection = std::pin::pin!(connection);
-    let ended = tokio::select! {
-        ended = &mut connection => ended,
-        () = stop.cancelled() => {
-            connection.as_mut().graceful_shutdown();
-            connection.await
-        }
-    };
-    if let Err(error) = ended {
-        tracing::debug!(%error, "a connection broke");
-    }
+    })
 }
+
+#[cfg(test)]
+mod tests;

@@ -19,6 +19,7 @@ mod manual;
 mod name;
 mod output;
 mod people;
+mod places;
 mod pool;
 mod portrait;
 mod progress;

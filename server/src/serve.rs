@@ -18,7 +18,7 @@ use crate::{
     hosts::Hosts,
     http::{self, Shared},
     jobs::Jobs,
-    listener,
+    listener::{self, Answers, Limits},
     live::Sessions,
     maintenance,
     pool::SimulationPool,
@@ -118,7 +118,8 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let unsaved = Duration::from_hours(24 * u64::from(options.keep_unsaved));
     let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
-    let serving = tokio::spawn(listener::serve(listeners, http::router(shared), stop.clone()));
+    let answers = Answers { crowded: http::crowded(&shared), all: http::router(shared) };
+    let serving = tokio::spawn(listener::serve(listeners, answers, Limits::default(), stop.clone()));
 
     let asked_to_stop = stop_requested();
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };

@@ -1,7 +1,7 @@
 //! Who asks, and what they may.
 
 use std::{
-    net::IpAddr,
+    net::{IpAddr, Ipv4Addr},
     time::{Duration, SystemTime},
 };
 
@@ -25,6 +25,11 @@ const EXTENDED_AFTER: Duration = Duration::from_hours(24);
 /// Where a connection comes from.
 #[derive(Clone, Copy, Debug)]
 pub struct Peer(pub IpAddr);
+
+/// Where a request comes from.
+pub fn address(peer: Option<&Peer>) -> IpAddr {
+    peer.map_or(IpAddr::V4(Ipv4Addr::UNSPECIFIED), |Peer(from)| *from)
+}
 
 /// What somebody may do.
 #[derive(Clone, Debug, PartialEq, Eq)]

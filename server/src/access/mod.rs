@@ -11,7 +11,7 @@ mod table;
 mod tries;
 
 pub use self::{
-    caller::{Caller, Object, Peer, Unknown, way_of},
+    caller::{Caller, Object, Peer, Unknown, address, way_of},
     secret::{Secret, SecretHash, hash},
     table::{Action, Reach},
     tries::{Tries, network},

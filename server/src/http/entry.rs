@@ -1,9 +1,6 @@
 //! The door: coming in by an invitation or a password, as whom one is in, and going out.
 
-use std::{
-    net::{IpAddr, Ipv4Addr},
-    time::{Duration, Instant, SystemTime},
-};
+use std::time::{Duration, Instant, SystemTime};
 
 use axum::{
     Extension, Json,
@@ -38,7 +35,7 @@ pub(super) async fn redeem(
     Body(Redeem { secret }): Body<Redeem>,
 ) -> Result<Welcome, Response> {
     let peer = peer.map(|Extension(peer)| peer);
-    let from = address(peer.as_ref());
+    let from = network(access::address(peer.as_ref()));
     shared.tries.count(from, Instant::now()).map_err(|wait| too_often("secret", wait))?;
     let redeemed = admission::redeem(&*shared.store, &secret, SystemTime::now()).await;
     let come = redeemed.map_err(Failure::from).and_then(|come| come.ok_or_else(no_invitation));
@@ -57,7 +54,7 @@ pub(super) async fn log_in(
     Body(LogIn { name, password }): Body<LogIn>,
 ) -> Result<Welcome, Response> {
     let peer = peer.map(|Extension(peer)| peer);
-    let from = address(peer.as_ref());
+    let from = network(access::address(peer.as_ref()));
     let name = name.trim();
     let by_name = access::hash(&folded(name));
     let counted = shared.tries.count(from, Instant::now());
@@ -113,11 +110,6 @@ pub(super) async fn me(caller: Caller) -> Json<Me> {
 pub(super) async fn users(State(shared): State<Shared>) -> Result<Json<Vec<ListedUser>>, Failure> {
     let listed = |User { name, role, created_at, .. }| ListedUser { name, role, created_at };
     Ok(Json(shared.store.users().await?.into_iter().map(listed).collect()))
-}
-
-/// Where tries are counted for.
-fn address(peer: Option<&Peer>) -> IpAddr {
-    network(peer.map_or(IpAddr::V4(Ipv4Addr::UNSPECIFIED), |Peer(from)| *from))
 }
 
 /// Notes that somebody came, went or tried to (`AC10`).

@@ -22,7 +22,7 @@ use espalier_proto::{
     library::{ExportFormat, ExportProgress},
 };
 use futures_util::stream;
-use tokio::sync::{mpsc, oneshot};
+use tokio::{sync::oneshot, task::spawn_blocking};
 use tokio_util::sync::CancellationToken;
 
 use super::{
@@ -36,9 +36,8 @@ use crate::{
     spool::Spool,
 };
 
-/// Bytes read from the disk at once, and how many times as many wait for the network.
+/// Bytes read from the disk at once.
 const PIECE: usize = 256 * 1024;
-const WAITING: usize = 2;
 /// Characters of a ticket: so many that nobody guesses one.
 const TICKET: std::ops::RangeInclusive<usize> = 16..=64;
 
@@ -113,23 +112,17 @@ pub(super) async fn take(
     let stop = CancellationToken::new();
     let gone = stop.clone().drop_guard();
     let (made, whether_made) = oneshot::channel();
-    let (pieces, to_send) = mpsc::channel(WAITING);
     let pool = shared.pool.clone();
-    tokio::task::spawn_blocking(move || {
+    spawn_blocking(move || {
         let file = make(&document.bytes, row, &options, &progress, |written| {
             Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
         });
         drop((document, held));
-        let (file, length) = match file {
-            Ok(file) => file,
-            Err(error) => return drop(made.send(Err(error))),
-        };
-        if made.send(Ok(length)).is_ok() {
-            send(file, &pieces);
-        }
+        // Fails when nobody waits any more.
+        drop(made.send(file));
     });
-    let length = match whether_made.await {
-        Ok(Ok(length)) => length,
+    let (file, length) = match whether_made.await {
+        Ok(Ok(made)) => made,
         Ok(Err(error)) => {
             tracing::error!(session, %error, "a document cannot be exported");
             return Err(Failure::new(Reason::NotExported, "The tree cannot be exported."));
@@ -138,10 +131,8 @@ pub(super) async fn take(
     };
     let headers = headers(row, &format!("tree.{}", row.ending));
     let size = [(header::CONTENT_LENGTH, length.to_string())];
-    let pieces = stream::unfold((to_send, gone), |(mut to_send, gone)| async move {
-        to_send.recv().await.map(|piece| (piece, (to_send, gone)))
-    });
-    Ok((headers, size, Body::from_stream(pieces)).into_response())
+    drop(gone.disarm());
+    Ok((headers, size, body_of(file)).into_response())
 }
 
 /// What is said of a file that is sent.
@@ -152,12 +143,18 @@ pub(super) fn headers(row: &FormatRow, name: &str) -> [(HeaderName, String); 2] 
     ]
 }
 
-/// What is read, as the body of an answer.
+/// What is read, as the body of an answer: a piece at a time, when the one before has been taken. No thread waits for
+/// whoever reads slowly.
 pub(super) fn body_of(file: impl Read + Send + 'static) -> Body {
-    let (pieces, to_send) = mpsc::channel(WAITING);
-    tokio::task::spawn_blocking(move || send(file, &pieces));
-    Body::from_stream(stream::unfold(to_send, |mut to_send| async move {
-        to_send.recv().await.map(|piece| (piece, to_send))
+    Body::from_stream(stream::try_unfold(file, async |file| {
+        let read = spawn_blocking(|| {
+            let mut file = file;
+            let mut piece = vec![0; PIECE];
+            let count = file.read(&mut piece)?;
+            piece.truncate(count);
+            Ok::<_, io::Error>((count > 0).then(|| (Bytes::from(piece), file)))
+        });
+        read.await.map_err(io::Error::other)?
     }))
 }
 
@@ -173,21 +170,6 @@ fn make(
     let mut out = spool(Arc::clone(&progress.written))?;
     stored.write(row.format, options, &mut out)?;
     Ok(out.into_file()?)
-}
-
-/// Sends a file piece by piece, as fast as they are taken.
-fn send(mut file: impl Read, pieces: &mpsc::Sender<io::Result<Bytes>>) {
-    let mut piece = vec![0; PIECE];
-    loop {
-        let sent = match file.read(&mut piece) {
-            Ok(0) => return,
-            Ok(count) => pieces.blocking_send(Ok(Bytes::copy_from_slice(&piece[..count]))),
-            Err(error) => return drop(pieces.blocking_send(Err(error))),
-        };
-        if sent.is_err() {
-            return;
-        }
-    }
 }
 
 pub(super) fn not_of(row: &FormatRow, error: &NotOfFormat) -> Problem {

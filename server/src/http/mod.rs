@@ -26,9 +26,11 @@ use std::{net::IpAddr, sync::Arc};
 use axum::{
     Router,
     extract::{MatchedPath, State},
+    http::header,
     middleware::{from_fn, from_fn_with_state, map_response},
     routing::{MethodRouter, any, get},
 };
+use espalier_proto::Reason;
 use tokio::sync::Mutex;
 use tower::ServiceBuilder;
 
@@ -124,6 +126,23 @@ pub fn router(shared: Shared) -> Router {
         .with_state(shared)
 }
 
+/// What the server answers where there is no place for another connection: that, and whether it can serve at all.
+pub fn crowded(shared: &Shared) -> Router {
+    Router::new()
+        .route("/health", get(health))
+        .fallback(async || {
+            let failure =
+                Failure::new(Reason::ManyPeople, "As many connections as may be are open; try again.");
+            ([(header::RETRY_AFTER, "5")], failure)
+        })
+        .layer(
+            ServiceBuilder::new()
+                .layer(map_response(guard::headers))
+                .layer(from_fn_with_state(shared.hosts.clone(), origin::known_host)),
+        )
+        .with_state(shared.clone())
+}
+
 /// Whether the server can serve: what is drawn gets where it is kept.
 async fn health(State(shared): State<Shared>) -> Result<&'static str, Failure> {
     shared.store.check_place().await?;
@@ -142,7 +161,7 @@ mod tests {
 
     use axum::{
         body::Body,
-        http::{HeaderName, Method, Request, StatusCode, header, request::Builder},
+        http::{HeaderName, Method, Request, StatusCode, request::Builder},
     };
     use espalier_proto::{access::Role, library::TreePage};
     use serde_json::{Value, json};

@@ -28,7 +28,7 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
-    access::{self, Action, Caller},
+    access::{self, Action, Caller, Peer},
     live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle},
     name,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
@@ -131,6 +131,7 @@ pub(super) async fn socket(
     State(shared): State<Shared>,
     Path(name): Path<String>,
     caller: Result<Caller, Failure>,
+    peer: Option<Extension<Peer>>,
     upgrade: Result<WebSocketUpgrade, WebSocketUpgradeRejection>,
 ) -> Response {
     let upgrade = match upgrade {
@@ -141,7 +142,7 @@ pub(super) async fn socket(
             return Failure::from(problem.at(header::UPGRADE.as_str(), "websocket")).into_response();
         }
     };
-    let Some(place) = shared.sessions.place() else {
+    let Some(place) = shared.sessions.place(access::address(peer.as_deref())) else {
         return Failure::new(Reason::ManyPeople, "Too many people are here already.").into_response();
     };
     let admitted = match admit(&shared, caller, &name).await.map_err(Failure::final_problem) {

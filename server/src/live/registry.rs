@@ -2,14 +2,12 @@
 
 use std::{
     collections::BTreeMap,
+    net::IpAddr,
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
 };
 
 use espalier_session::Principal;
-use tokio::{
-    sync::{OnceCell, OwnedSemaphorePermit, Semaphore},
-    time::Instant,
-};
+use tokio::{sync::OnceCell, time::Instant};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
@@ -17,12 +15,15 @@ use super::{
     restoring::{self, OpenError},
 };
 use crate::{
+    places::{self, Places},
     pool::{Panicked, SimulationPool},
     store::{AnyStore, Store},
 };
 
-/// Sockets at a time, over all sessions.
+/// Sockets at a time, over all sessions,
 const MAX_SOCKETS: usize = 1024;
+/// and those of one network, but for this machine.
+const MAX_SOCKETS_OF_ONE: usize = 256;
 
 type Slot = OnceCell<SessionHandle>;
 
@@ -36,7 +37,7 @@ struct Inner {
     slots: Mutex<BTreeMap<String, Arc<Slot>>>,
     /// Sessions and their sockets.
     tasks: TaskTracker,
-    places: Arc<Semaphore>,
+    places: Places,
 }
 
 impl Sessions {
@@ -47,7 +48,7 @@ impl Sessions {
             services,
             slots: Mutex::default(),
             tasks: TaskTracker::new(),
-            places: Arc::new(Semaphore::new(MAX_SOCKETS)),
+            places: Places::new(MAX_SOCKETS, MAX_SOCKETS_OF_ONE),
         }))
     }
 
@@ -98,13 +99,13 @@ impl Sessions {
         }
     }
 
-    /// A place for one more socket, if there is any left.
-    pub fn place(&self) -> Option<OwnedSemaphorePermit> {
-        Arc::clone(&self.0.places).try_acquire_owned().ok()
+    /// A place for one more socket from this address, if there is any left.
+    pub fn place(&self, from: IpAddr) -> Option<places::Place> {
+        self.0.places.take(from)
     }
 
     /// Runs a socket; when the server stops, this is waited for as well.
-    pub async fn run_socket(&self, place: OwnedSemaphorePermit, socket: impl Future<Output = ()>) {
+    pub async fn run_socket(&self, place: places::Place, socket: impl Future<Output = ()>) {
         self.0.tasks.track_future(socket).await;
         drop(place);
     }

@@ -1,0 +1,93 @@
+use std::net::SocketAddr;
+
+use axum::{body::Body, routing::get};
+use futures_util::stream;
+
+use super::*;
+
+/// A server that answers `/endless` without end, with anything else where there is no place.
+struct House {
+    at: SocketAddr,
+    stop: CancellationToken,
+    serving: tokio::task::JoinHandle<()>,
+}
+
+impl House {
+    async fn new(limits: Limits) -> Self {
+        let listener = TcpListener::bind(("127.0.0.1", 0)).await.unwrap();
+        let at = listener.local_addr().unwrap();
+        let endless =
+            async || Body::from_stream(stream::repeat_with(|| Ok::<_, std::io::Error>(vec![7; 4096])));
+        let all = Router::new().route("/endless", get(endless)).route("/health", get(async || "ok"));
+        let crowded = Router::new().route("/health", get(async || "ok")).fallback(async || "no place");
+        let stop = CancellationToken::new();
+        let serving = serve(vec![listener], Answers { all, crowded }, limits, stop.clone());
+        Self { at, stop, serving: tokio::spawn(serving) }
+    }
+
+    /// Opens a connection, asks for this as often as is said, and reads no byte.
+    async fn ask(&self, path: &str, times: usize) -> TcpStream {
+        let stream = TcpStream::connect(self.at).await.unwrap();
+        let request = format!("GET {path} HTTP/1.1\r\nhost: localhost\r\n\r\n").repeat(times);
+        stream.writable().await.unwrap();
+        assert_eq!(stream.try_write(request.as_bytes()).unwrap(), request.len());
+        stream
+    }
+
+    /// The body of one answer.
+    async fn answer(&self, path: &str) -> String {
+        let stream = self.ask(path, 1).await;
+        let mut heard = String::new();
+        while !heard.contains("\r\n\r\n") || !(heard.ends_with("ok") || heard.ends_with("no place")) {
+            let mut bytes = [0; 1024];
+            stream.readable().await.unwrap();
+            match stream.try_read(&mut bytes) {
+                Ok(0) => break,
+                Ok(count) => heard.push_str(str::from_utf8(&bytes[..count]).unwrap()),
+                Err(error) => assert_eq!(error.kind(), std::io::ErrorKind::WouldBlock),
+            }
+        }
+        heard.split_once("\r\n\r\n").unwrap().1.to_owned()
+    }
+}
+
+/// Patience that no test outlasts.
+const LONG: Duration = Duration::from_hours(1);
+
+#[tokio::test]
+async fn lm16_where_all_places_are_taken_health_answers_and_others_are_told() {
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG }).await;
+    let mut unread = Vec::new();
+    for _ in 0..3 {
+        unread.push(house.ask("/endless", 20).await);
+    }
+    assert_eq!(house.answer("/health").await, "ok");
+    assert_eq!(house.answer("/endless").await, "no place");
+    // Whoever says nothing where there is no place holds up nobody for long.
+    let _silent = [house.ask("", 0).await, house.ask("", 0).await];
+    assert_eq!(house.answer("/health").await, "ok");
+}
+
+#[tokio::test]
+async fn lm15_places_of_those_who_do_not_read_become_free() {
+    let patience = Duration::from_millis(50);
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience }).await;
+    let mut unread = Vec::new();
+    for _ in 0..3 {
+        unread.push(house.ask("/endless", 20).await);
+    }
+    let mut answer = house.answer("/anything").await;
+    while answer == "no place" {
+        answer = house.answer("/anything").await;
+    }
+    assert_eq!(answer, "", "not found");
+}
+
+#[tokio::test]
+async fn a_server_that_stops_does_not_wait_for_those_who_do_not_read() {
+    let house = House::new(Limits { connections: 3, of_one: 1, told: 2, patience: LONG }).await;
+    let _unread = [house.ask("/endless", 1).await, house.ask("/endless", 20).await];
+    assert_eq!(house.answer("/health").await, "ok");
+    house.stop.cancel();
+    house.serving.await.unwrap();
+}
