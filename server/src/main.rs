@@ -14,6 +14,7 @@ mod jobs;
 mod library;
 mod listener;
 mod live;
+mod logging;
 mod maintenance;
 mod manual;
 mod name;
@@ -30,7 +31,11 @@ mod store;
 mod text;
 mod time;
 
-use std::process::ExitCode;
+use std::{
+    fmt::Display,
+    io::{self, Write},
+    process::ExitCode,
+};
 
 use clap::Parser;
 
@@ -73,39 +78,44 @@ fn main() -> ExitCode {
     }
 }
 
+/// Says why it ends, to whoever may read it.
+fn say(why: &dyn Display) {
+    let _ = writeln!(io::stderr(), "{why}");
+}
+
 fn served(result: Result<(), ServeError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("{error}");
+    say(&error);
     ExitCode::FAILURE
 }
 
-fn written(result: std::io::Result<()>) -> ExitCode {
+fn written(result: io::Result<()>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("It cannot be written: {error}.");
+    say(&format_args!("It cannot be written: {error}."));
     ExitCode::FAILURE
 }
 
 fn let_in(result: Result<(), PeopleError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("{error}");
+    say(&error);
     ExitCode::FAILURE
 }
 
 fn cared(result: Result<(), CareError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("{error}");
+    say(&error);
     ExitCode::FAILURE
 }
 
 fn in_library(result: Result<(), LibraryError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("{error}");
+    say(&error);
     if error.is_usage() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
 }
 
 fn done(result: Result<(), HeadlessError>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
-    eprintln!("{error}");
+    say(&error);
     match error {
         HeadlessError::Script(_)
         | HeadlessError::Read { .. }

@@ -4,12 +4,13 @@ use std::{
     io::{self, IsTerminal, Write},
     net::{Ipv4Addr, Ipv6Addr, SocketAddr},
     sync::Arc,
+    thread,
     time::{Duration, SystemTime},
 };
 
 use tokio::{net::TcpListener, signal, time::timeout};
 use tokio_util::sync::CancellationToken;
-use tracing_subscriber::{EnvFilter, fmt};
+use tracing_subscriber::EnvFilter;
 
 use crate::{
     access::admission::{self, Invite},
@@ -20,7 +21,7 @@ use crate::{
     jobs::Jobs,
     listener::{self, Answers, Limits},
     live::Sessions,
-    maintenance,
+    logging, maintenance,
     pool::SimulationPool,
     portrait::Portraits,
     store::{AnyStore, Audit, Event, OpenError, SqliteStore, Store, StoreError, Users},
@@ -69,7 +70,7 @@ pub enum ServeError {
 pub fn run(options: &cli::Serve) -> Result<(), ServeError> {
     let filter = EnvFilter::try_new(&options.log)
         .map_err(|cause| ServeError::Log { filter: options.log.clone(), cause })?;
-    fmt().with_env_filter(filter).with_writer(io::stderr).with_ansi(io::stderr().is_terminal()).init();
+    let _log = logging::start(filter)?;
     let pool = SimulationPool::new(None)?;
     tokio::runtime::Builder::new_multi_thread().enable_all().build()?.block_on(serve(options, pool))
 }
@@ -123,8 +124,9 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
 
     let asked_to_stop = stop_requested();
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };
+    let announcement = announce::text(bound, &open_to, medium);
     // Nobody may be reading; the server works all the same.
-    let _ = writeln!(io::stdout(), "{}", announce::text(bound, &open_to, medium));
+    thread::spawn(move || writeln!(io::stdout(), "{announcement}"));
     asked_to_stop.await;
 
     tracing::info!("stopping");

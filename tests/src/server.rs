@@ -4,7 +4,7 @@ use std::{
     fs,
     io::{BufRead, BufReader, Read},
     path::{Path, PathBuf},
-    process::{Child, Command, ExitStatus, Stdio},
+    process::{Child, ChildStderr, Command, ExitStatus, Stdio},
     sync::{Arc, Mutex, PoisonError, mpsc},
     thread,
     time::{Duration, Instant},
@@ -24,6 +24,19 @@ pub struct Server {
     port: u16,
     database: PathBuf,
     printed: Arc<Mutex<String>>,
+    /// Standard error, where nobody reads it.
+    _unread: Option<ChildStderr>,
+}
+
+/// Who reads what a server writes to standard error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Readers {
+    /// It is read and kept.
+    Some,
+    /// The other end is open, and nobody reads there.
+    Asleep,
+    /// The other end is closed.
+    Gone,
 }
 
 impl Server {
@@ -39,6 +52,11 @@ impl Server {
 
     /// Starts a server with more options.
     pub fn start_with(database: &Path, port: u16, options: &[&str]) -> Self {
+        Self::start_before(Readers::Some, database, port, options)
+    }
+
+    /// The same where standard error is read, or not.
+    pub fn start_before(readers: Readers, database: &Path, port: u16, options: &[&str]) -> Self {
         let mut child = program::command()
             .args(["serve", "--host", "127.0.0.1", "--port", &port.to_string(), "--database"])
             .arg(database)
@@ -52,7 +70,14 @@ impl Server {
         let stdout = child.stdout.take().expect("standard output is piped");
         let stderr = child.stderr.take().expect("standard error is piped");
         collect(stdout, Arc::clone(&printed), found.clone());
-        collect(stderr, Arc::clone(&printed), found);
+        let unread = match readers {
+            Readers::Some => {
+                collect(stderr, Arc::clone(&printed), found);
+                None
+            }
+            Readers::Asleep => Some(stderr),
+            Readers::Gone => None,
+        };
         let port = match address.recv_timeout(GUARD) {
             Ok(port) => port,
             Err(_) => {
@@ -62,7 +87,7 @@ impl Server {
                 panic!("the server printed no address:\n{said}");
             }
         };
-        let server = Self { child, port, database: database.to_owned(), printed };
+        let server = Self { child, port, database: database.to_owned(), printed, _unread: unread };
         let started = Instant::now();
         while !http::get(port, "/health").is_ok_and(|answer| answer.status == 200) {
             assert!(started.elapsed() < GUARD, "the server does not answer:\n{}", server.printed());

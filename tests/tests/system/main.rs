@@ -14,6 +14,7 @@ mod jobs;
 mod later_programs;
 mod library;
 mod library_commands;
+mod logging;
 mod obstacles;
 mod people;
 mod python;
