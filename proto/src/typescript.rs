@@ -59,6 +59,8 @@ pub fn declarations() -> String {
     out.push_str("} as const;\n\nexport const CloseCode = {\n");
     for (name, code) in [
         ("GoingAway", version::CloseCode::GoingAway),
+        ("ProtocolError", version::CloseCode::ProtocolError),
+        ("NotText", version::CloseCode::NotText),
         ("MessageTooBig", version::CloseCode::MessageTooBig),
         ("InternalError", version::CloseCode::InternalError),
         ("VersionMismatch", version::CloseCode::VersionMismatch),

@@ -78,6 +78,10 @@ pub const MAX_TAGS: usize = 32;
 pub enum CloseCode {
     /// The server is stopping; reconnect with backoff.
     GoingAway = 1001,
+    /// What came breaks the rules of WebSockets (RFC 6455).
+    ProtocolError = 1002,
+    /// A text was not UTF-8.
+    NotText = 1007,
     /// A message was larger than [`MAX_MESSAGE_BYTES`].
     MessageTooBig = 1009,
     /// The server failed to keep the session; reconnect with backoff.

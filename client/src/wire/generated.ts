@@ -50,6 +50,8 @@ export const BOUNDS = {
 
 export const CloseCode = {
   GoingAway: 1001,
+  ProtocolError: 1002,
+  NotText: 1007,
   MessageTooBig: 1009,
   InternalError: 1011,
   VersionMismatch: 4000,

@@ -14,7 +14,7 @@ use axum::{
 use espalier_proto::{
     Problem, Reason,
     library::{NewSession, SessionCreated, SessionTree},
-    version::CloseCode,
+    version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_session::{Access, DocumentError, Principal, RestoreError, Session};
 
@@ -29,7 +29,7 @@ use super::{
 use crate::{
     SIMULATION_VERSION,
     access::{self, Action, Caller, Peer},
-    live::{self, OpenError, REFUSED_MESSAGE_BYTES, SessionHandle},
+    live::{self, OpenError, SessionHandle},
     name,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
 };
@@ -152,8 +152,8 @@ pub(super) async fn socket(
     };
     upgrade
         .read_buffer_size(READ_BUFFER)
-        .max_message_size(REFUSED_MESSAGE_BYTES)
-        .max_frame_size(REFUSED_MESSAGE_BYTES)
+        .max_message_size(MAX_MESSAGE_BYTES)
+        .max_frame_size(MAX_MESSAGE_BYTES)
         .max_write_buffer_size(MAX_WRITE_BUFFER)
         .on_upgrade(async move |socket| {
             let connected = async {

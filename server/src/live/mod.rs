@@ -9,4 +9,4 @@ mod socket;
 pub use actor::{Ended, SessionHandle};
 pub use registry::Sessions;
 pub use restoring::OpenError;
-pub use socket::{REFUSED_MESSAGE_BYTES, serve, turn_away};
+pub use socket::{serve, turn_away};

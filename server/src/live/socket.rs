@@ -13,16 +13,12 @@ use futures_util::{
     stream::{SplitSink, SplitStream},
 };
 use tokio::time::{MissedTickBehavior, interval, sleep, timeout};
-use tokio_tungstenite::tungstenite;
+use tokio_tungstenite::tungstenite::{self, error::ProtocolError};
 
 use super::{
     actor::{Request, SessionHandle},
     outbox::{self, Closing, Farewell, Outgoing, Outgoings},
 };
-
-/// Above this a message is refused while it arrives. Between [`MAX_MESSAGE_BYTES`] and this it is taken in before
-/// the socket closes, since a connection closed with unread data may lose the close code on its way.
-pub const REFUSED_MESSAGE_BYTES: usize = 4 * MAX_MESSAGE_BYTES;
 
 /// The server asks so often whether the other side is still there,
 const PING_INTERVAL: Duration = Duration::from_secs(20);
@@ -57,7 +53,9 @@ pub async fn serve(
         };
         tokio::select! {
             () = watching => {}
-            () = &mut reading => {}
+            heard = &mut reading => if heard == Heard::Nonsense {
+                writing.as_mut().await;
+            },
             () = &mut writing => {
                 // The close frame is sent. What the client still sends is read, so that it can read the frame.
                 let _ = timeout(CLOSING, &mut reading).await;
@@ -79,52 +77,54 @@ pub async fn turn_away(mut socket: WebSocket, code: CloseCode, sentence: &str) {
     let _ = timeout(CLOSING, closed).await;
 }
 
+/// How reading ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Heard {
+    /// The other side has said goodbye and been answered, or has gone, or says nothing.
+    Nothing,
+    /// What cannot be read. It is decided how the socket closes.
+    Nonsense,
+}
+
 async fn read(
     mut stream: SplitStream<WebSocket>,
     session: &SessionHandle,
     client: ClientId,
     closing: &Closing,
-) {
+) -> Heard {
     while let Ok(Some(message)) = timeout(SILENCE, stream.next()).await {
         let request = match message {
-            Ok(Message::Close(_)) => return,
-            Ok(message) if length(&message) > MAX_MESSAGE_BYTES => {
-                refuse_size(closing);
-                continue;
-            }
             Ok(Message::Text(text)) => Request::Text(client, text.as_str().into()),
             Ok(Message::Binary(_)) => Request::Binary(client),
-            Ok(Message::Ping(_) | Message::Pong(_)) => continue,
-            Err(error) if is_too_long(&error) => {
-                refuse_size(closing);
-                // Nothing more can be read from this connection; the writing side ends it.
-                return pending().await;
+            // A goodbye is answered while the next message is asked for, of which there is none.
+            Ok(Message::Close(_) | Message::Ping(_) | Message::Pong(_)) => continue,
+            Err(error) => {
+                let Some(farewell) = refusal(&error) else { return Heard::Nothing };
+                closing.decide(farewell);
+                return Heard::Nonsense;
             }
-            Err(_) => return,
         };
         if !closing.is_decided() {
             // Fails when the session has ended; then the writing side says goodbye.
             let _ = session.send(request).await;
         }
     }
+    Heard::Nothing
 }
 
-fn length(message: &Message) -> usize {
-    match message {
-        Message::Text(text) => text.len(),
-        Message::Binary(bytes) => bytes.len(),
-        Message::Ping(_) | Message::Pong(_) | Message::Close(_) => 0,
-    }
-}
-
-fn is_too_long(error: &axum::Error) -> bool {
-    let error = error.source().and_then(|error| error.downcast_ref());
-    matches!(error, Some(tungstenite::Error::Capacity(_)))
-}
-
-fn refuse_size(closing: &Closing) {
-    let sentence = format!("A message may have {} KiB at most.", MAX_MESSAGE_BYTES / 1024);
-    closing.decide(Farewell { code: CloseCode::MessageTooBig, sentence });
+/// What is said to a client whose bytes are no messages, unless it has just gone.
+fn refusal(error: &axum::Error) -> Option<Farewell> {
+    let (code, sentence) = match error.source()?.downcast_ref()? {
+        tungstenite::Error::Capacity(_) => {
+            let sentence = format!("A message may have {} KiB at most.", MAX_MESSAGE_BYTES / 1024);
+            (CloseCode::MessageTooBig, sentence)
+        }
+        tungstenite::Error::Utf8(_) => (CloseCode::NotText, "A text is not UTF-8.".into()),
+        tungstenite::Error::Protocol(ProtocolError::ResetWithoutClosingHandshake) => return None,
+        tungstenite::Error::Protocol(error) => (CloseCode::ProtocolError, format!("{error}.")),
+        _ => return None,
+    };
+    Some(Farewell { code, sentence })
 }
 
 async fn write(

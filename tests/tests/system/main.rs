@@ -2,6 +2,7 @@
 
 mod appearance;
 mod bad_input;
+mod bad_peers;
 mod care;
 mod command_line;
 mod commands;
