@@ -1,0 +1,351 @@
+mod audit;
+mod files;
+mod login;
+mod paths;
+mod refusals;
+
+use std::collections::BTreeSet;
+
+use axum::{
+    body::Body,
+    http::{HeaderName, Method, Request, StatusCode, request::Builder},
+};
+use espalier_proto::{access::Role, library::TreePage};
+use serde_json::{Value, json};
+use tokio_util::sync::CancellationToken;
+use tower::ServiceExt;
+
+use super::*;
+use crate::{
+    access::{Caller, Peer, Reach, Secret, admission::TOKEN},
+    document::FORMATS,
+    export_options::ExportOptions,
+    jobs::Order,
+    name,
+    recipe::Recipe,
+    store::{Collection, Finding, Library, MemoryStore, NewSession, Pass, PassKind, Passes, Store, tree},
+};
+
+async fn server() -> (Router, Arc<AnyStore>) {
+    let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
+    let pool = SimulationPool::new(None).unwrap();
+    for (id, at) in [("ash", "2026-05-01T09:00:00.000Z"), ("yew", "2026-05-01T09:00:00.001Z")] {
+        store.add_tree(tree(id, at)).await.unwrap();
+    }
+    for (name, tree) in [("oak", None), ("ashen", Some(("ash".to_owned(), 1)))] {
+        let name = name.to_owned();
+        let new = NewSession { name, seed: 1, simulation_version: 1, tree, ..NewSession::default() };
+        store.create_session(new).await.unwrap();
+    }
+    let wood = Collection { id: "wood".into(), name: "Wood".into(), parent: None, trees: 0 };
+    store.add_collection(wood).await.unwrap();
+    // Nobody does jobs here.
+    let jobs = Jobs::new(pool.clone(), CancellationToken::new());
+    jobs.add_named(JOB.into(), order(Caller::local())).unwrap();
+    let shared = Shared {
+        jobs,
+        sessions: Sessions::new(Arc::clone(&store), pool.clone(), CancellationToken::new()),
+        store: Arc::clone(&store),
+        pool,
+        metamer_budget: 1000,
+        portraits: Portraits::default(),
+        hosts: Hosts::new(&[]),
+        trusts_local: true,
+        tries: Arc::default(),
+        tries_for: Arc::default(),
+        passwords: Arc::default(),
+        opening: Arc::default(),
+        progresses: Progresses::default(),
+    };
+    (router(shared), store)
+}
+
+/// The name of a job.
+const JOB: &str = "a-job";
+
+fn order(by: Caller) -> Order {
+    let recipe = Recipe::default();
+    let (row, options) = (&FORMATS[0], ExportOptions::default());
+    Order { by, recipe, seeds: vec![1], species: None, row, options }
+}
+
+/// A token of somebody with this role, for one tree or for all.
+async fn token(store: &AnyStore, role: Role, tree: Option<&str>) -> String {
+    let secret = Secret::long(TOKEN);
+    let pass = Pass {
+        id: name::unguessable(),
+        kind: PassKind::Token,
+        name: "script".into(),
+        role,
+        tree: tree.map(str::to_owned),
+        created_at: "2026".into(),
+        expires_at: "9".into(),
+        ends_at: "9".into(),
+    };
+    store.add_pass(secret.hash(), pass).await.unwrap();
+    format!("Bearer {}", secret.text())
+}
+
+/// A request of somebody at this machine.
+fn request(method: &Method, path: &str) -> Builder {
+    let request = Request::builder().method(method).uri(path).header(header::HOST, "localhost:7700");
+    request.extension(Peer([127, 0, 0, 1].into()))
+}
+
+/// The same of whoever has a token.
+fn request_of(token: &str, method: &Method, path: &str) -> Builder {
+    request(method, path).header(header::AUTHORIZATION, token)
+}
+
+async fn status(server: &Router, request: Builder, body: &'static str) -> StatusCode {
+    let request = request.header(header::CONTENT_TYPE, "application/json");
+    server.clone().oneshot(request.body(Body::from(body)).unwrap()).await.unwrap().status()
+}
+
+fn method_of(address: &str) -> Method {
+    address.split(' ').next().unwrap().parse().unwrap()
+}
+
+fn filled(path: &str) -> String {
+    path.replace("{session}", "oak")
+        .replace("{tree}", "ash")
+        .replace("{collection}", "wood")
+        .replace("{obstacle}", "1")
+        .replace("{ticket}", "a-ticket-of-nobody")
+        .replace("{slug}", "of-no-species")
+        .replace("{version}", "1")
+        .replace("{job}", JOB)
+        .replace("{seed}", "1")
+}
+
+#[tokio::test]
+async fn ac2_whoever_is_not_let_in_gets_the_page_alone() {
+    let (server, _) = server().await;
+    let stranger =
+        |method: &Method, path: &str| request(method, path).extension(Peer([192, 168, 1, 9].into()));
+    let expected = (StatusCode::UNAUTHORIZED, Some("not-let-in".into()));
+    for Route { address, action, .. } in routes().into_iter().chain(downloads()) {
+        let asked = stranger(&method_of(&address), &filled(path_of(&address)));
+        let found = reason(&server, asked).await;
+        assert_eq!(found == expected, action.is_some(), "{address}: {found:?}");
+    }
+    for path in ["/", "/pair", "/s/oak", "/icon.svg", "/health"] {
+        let found = reason(&server, stranger(&Method::GET, path)).await;
+        assert_eq!(found.0, StatusCode::OK, "{path}");
+    }
+}
+
+/// Each row of the table at each address, for people to whom all trees are open and for guests of one.
+#[tokio::test]
+async fn au1_every_role_may_at_every_address_what_the_table_says() {
+    let (server, store) = server().await;
+    for role in Role::ALL {
+        for only in [None, Some("ash"), Some("yew")] {
+            let token = token(&store, role, only).await;
+            for Route { address, action, .. } in routes().into_iter().chain(downloads()) {
+                let Some(action) = action else { continue };
+                let reaches = match only {
+                    None => true,
+                    Some(_) if address.contains("{session}") => false,
+                    Some(tree) if address.contains("{tree}") => tree == "ash",
+                    Some(_) => action.reach() == Reach::Guests,
+                };
+                let may = reaches && role >= action.least();
+                let asked = request_of(&token, &method_of(&address), &filled(path_of(&address)));
+                let found = status(&server, asked, "").await;
+                assert_eq!(found != StatusCode::FORBIDDEN, may, "{role:?} of {only:?}: {address} {found}");
+                assert_ne!(found, StatusCode::UNAUTHORIZED, "{role:?} of {only:?}: {address}");
+            }
+        }
+    }
+}
+
+#[tokio::test]
+async fn au1_what_a_request_names_is_asked_for_as_well() {
+    let (server, store) = server().await;
+    let token = token(&store, Role::Owner, Some("ash")).await;
+    for (path, body, may) in [
+        ("/api/v1/sessions", r#"{"tree":"ash"}"#, true),
+        ("/api/v1/sessions", r#"{"tree":"yew"}"#, false),
+        ("/api/v1/sessions", r#"{"tree":"ash","template":true}"#, false),
+        ("/api/v1/sessions", "{}", false),
+        ("/api/v1/trees/ash/versions", r#"{"session":"ashen"}"#, true),
+        ("/api/v1/trees/ash/versions", r#"{"session":"oak"}"#, false),
+        ("/api/v1/trees/ash/copies", r#"{"name":"Oak"}"#, false),
+    ] {
+        let found = status(&server, request_of(&token, &Method::POST, path), body).await;
+        assert_eq!(found != StatusCode::FORBIDDEN, may, "{path} {body}: {found}");
+    }
+    for (path, may) in [("/api/v1/sessions/ashen", true), ("/api/v1/sessions/oak", false)] {
+        let found = status(&server, request_of(&token, &Method::GET, path), "").await;
+        assert_eq!(found != StatusCode::FORBIDDEN, may, "{path}: {found}");
+    }
+}
+
+#[tokio::test]
+async fn jb5_a_job_is_there_for_whoever_ordered_it() {
+    let (server, store) = server().await;
+    let [own, other] = [token(&store, Role::Editor, None).await, token(&store, Role::Owner, None).await];
+    let order = request_of(&own, &Method::POST, "/api/v1/grow");
+    let order = order.header(header::CONTENT_TYPE, "application/json");
+    let body = r#"{"template":"oak","format":"mtg"}"#;
+    let answer = server.clone().oneshot(order.body(Body::from(body)).unwrap()).await.unwrap();
+    assert_eq!(answer.status(), StatusCode::ACCEPTED);
+    let address = answer.headers()[header::LOCATION].to_str().unwrap();
+    let file = format!("{address}/results/1");
+    let by = |token: &str, method, path: &str| status(&server, request_of(token, &method, path), "");
+    for path in [address, &file] {
+        let named = reason(&server, request_of(&other, &Method::GET, path)).await;
+        assert_eq!(named, (StatusCode::NOT_FOUND, Some("none-such".into())), "{path}");
+    }
+    assert_eq!(by(&other, Method::DELETE, address).await, StatusCode::NOT_FOUND);
+    assert_eq!(by(&own, Method::GET, address).await, StatusCode::OK);
+    assert_eq!(status(&server, request(&Method::GET, address), "").await, StatusCode::OK);
+    assert_eq!(by(&own, Method::DELETE, address).await, StatusCode::NO_CONTENT);
+    assert_eq!(by(&own, Method::GET, address).await, StatusCode::NOT_FOUND);
+}
+
+#[tokio::test]
+async fn rg1_a_document_is_sent_in_parts() {
+    let (server, _) = server().await;
+    let path = "/api/v1/trees/ash/versions/1/document";
+    let ask = async |range: Option<&str>| {
+        let asked = request(&Method::GET, path);
+        let asked = range.into_iter().fold(asked, |asked, range| asked.header(header::RANGE, range));
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let status = answer.status();
+        (status, axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap())
+    };
+    let (status, whole) = ask(None).await;
+    assert_eq!(status, StatusCode::OK);
+    assert_eq!(ask(Some("bytes=1-")).await, (StatusCode::PARTIAL_CONTENT, whole.slice(1..)));
+    assert_eq!(ask(Some("bytes=1000000-")).await.0, StatusCode::RANGE_NOT_SATISFIABLE);
+}
+
+#[tokio::test]
+async fn ac7_whoever_guesses_waits() {
+    let (server, _) = server().await;
+    let guess = || {
+        let request = request(&Method::POST, "/api/v1/redeem").extension(Peer([192, 168, 1, 9].into()));
+        let request = request.header(header::CONTENT_TYPE, "application/json");
+        server.clone().oneshot(request.body(Body::from(r#"{"secret":"guess"}"#)).unwrap())
+    };
+    for _ in 0..5 {
+        assert_eq!(guess().await.unwrap().status(), StatusCode::NOT_FOUND);
+    }
+    let refused = guess().await.unwrap();
+    assert_eq!(refused.status(), StatusCode::TOO_MANY_REQUESTS);
+    let wait: u64 = refused.headers()[header::RETRY_AFTER].to_str().unwrap().parse().unwrap();
+    assert!((1..=30).contains(&wait), "{wait}");
+    let others = request(&Method::POST, "/api/v1/redeem");
+    assert_eq!(status(&server, others, r#"{"secret":"guess"}"#).await, StatusCode::NOT_FOUND);
+}
+
+#[tokio::test]
+async fn ac5_a_guest_lists_their_tree_alone() {
+    let (server, store) = server().await;
+    let token = token(&store, Role::Viewer, Some("ash")).await;
+    for (asked, expected) in [
+        (request(&Method::GET, "/api/v1/trees"), vec!["yew", "ash"]),
+        (request_of(&token, &Method::GET, "/api/v1/trees"), vec!["ash"]),
+        (request_of(&token, &Method::GET, "/api/v1/trees?q=yew"), vec![]),
+    ] {
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let page: TreePage = serde_json::from_slice(&bytes).unwrap();
+        assert_eq!(page.trees.iter().map(|tree| &*tree.id).collect::<Vec<_>>(), expected);
+    }
+}
+
+#[tokio::test]
+async fn ac8_everybody_is_told_what_they_may() {
+    let (server, store) = server().await;
+    let guest = token(&store, Role::Viewer, Some("ash")).await;
+    for (asked, expected) in [
+        (request(&Method::GET, "/api/v1/me"), json!({ "role": "admin", "way": "machine" })),
+        (
+            request_of(&guest, &Method::GET, "/api/v1/me"),
+            json!({ "role": "viewer", "way": "token", "name": "script", "tree": "ash" }),
+        ),
+    ] {
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap(), expected);
+    }
+}
+
+#[tokio::test]
+async fn ac6_a_token_decides_alone_and_never_beside_a_cookie() {
+    let (server, store) = server().await;
+    let token = token(&store, Role::Viewer, None).await;
+    let delete = |token: &str| request_of(token, &Method::DELETE, "/api/v1/trees/ash");
+    assert_eq!(
+        status(&server, delete(&token), "").await,
+        StatusCode::FORBIDDEN,
+        "also at the machine itself"
+    );
+    let both = delete(&token).header(header::COOKIE, "espalier-7700=x");
+    assert_eq!(status(&server, both, "").await, StatusCode::BAD_REQUEST);
+    let wrong = delete("Bearer esp_of-nobody");
+    assert_eq!(status(&server, wrong, "").await, StatusCode::UNAUTHORIZED);
+}
+
+async fn reason(server: &Router, request: Builder) -> (StatusCode, Option<String>) {
+    let answer = server.clone().oneshot(request.body(Body::empty()).unwrap()).await.unwrap();
+    let status = answer.status();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    let problem: Value = serde_json::from_slice(&bytes).unwrap_or_default();
+    (status, problem["reason"].as_str().map(str::to_owned))
+}
+
+#[tokio::test]
+async fn gu1_nothing_is_answered_under_another_name() {
+    let (server, _) = server().await;
+    for path in ["/", "/s/oak", "/icon.svg", "/health", "/nothing", "/api/v1/trees"] {
+        for host in [Some("evil.example:7700"), None] {
+            let request = Request::builder().uri(path);
+            let request = host.into_iter().fold(request, |request, host| request.header(header::HOST, host));
+            let expected = (StatusCode::MISDIRECTED_REQUEST, Some("unknown-host".into()));
+            assert_eq!(reason(&server, request).await, expected, "{path} at {host:?}");
+        }
+    }
+}
+
+#[tokio::test]
+async fn gu2_pages_of_other_sites_get_nothing_of_the_api() {
+    let (server, _) = server().await;
+    let refused = (StatusCode::FORBIDDEN, Some("other-site".into()));
+    let site = HeaderName::from_static("sec-fetch-site");
+    for (name, value) in [(site.clone(), "cross-site"), (header::ORIGIN, "http://evil.example")] {
+        for Route { address, .. } in routes().into_iter().chain(downloads()) {
+            let request = request(&method_of(&address), &filled(path_of(&address))).header(&name, value);
+            assert_eq!(reason(&server, request).await, refused, "{address}");
+        }
+        let socket =
+            request(&Method::GET, "/api/v1/sessions/oak/socket").header(header::UPGRADE, "websocket");
+        assert_eq!(reason(&server, socket.header(&name, value)).await, refused);
+        assert_eq!(reason(&server, request(&Method::POST, "/").header(&name, value)).await, refused);
+        // A link leads to the page.
+        for path in ["/", "/s/oak", "/icon.svg", "/health"] {
+            let found = reason(&server, request(&Method::GET, path).header(&name, value)).await;
+            assert_eq!(found.0, StatusCode::OK, "{path}");
+        }
+    }
+    let own = request(&Method::GET, "/api/v1/trees").header(site, "same-origin");
+    assert_eq!(reason(&server, own).await.0, StatusCode::OK);
+}
+
+#[tokio::test]
+async fn au1_a_key_that_is_none_is_refused() {
+    let (server, _) = server().await;
+    for (key, expected) in [
+        (Some("browser-1"), StatusCode::OK),
+        (None, StatusCode::OK),
+        (Some("short"), StatusCode::BAD_REQUEST),
+        (Some("outside"), StatusCode::BAD_REQUEST),
+    ] {
+        let asked = request(&Method::GET, "/api/v1/trees");
+        let asked = key.into_iter().fold(asked, |asked, key| asked.header(guard::CLIENT, key));
+        assert_eq!(status(&server, asked, "").await, expected, "{key:?}");
+    }
+}
