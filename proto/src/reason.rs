@@ -82,7 +82,7 @@ reasons! {
     TooMany {
         /// A list has too many entries.
         TooMany,
-        /// Secrets are tried too often.
+        /// Something is tried or done too often.
         TooOften,
         /// Too many commands wait to be done.
         Behind,

@@ -112,6 +112,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         trusts_local,
         tries: Arc::default(),
         tries_for: Arc::default(),
+        sessions_begun: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
     };

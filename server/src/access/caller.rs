@@ -155,6 +155,13 @@ impl Caller {
         Me { role: self.grant.role, way, name, tree: self.grant.tree.clone() }
     }
 
+    /// As whom what they do is counted; whoever sits at the machine may do everything as often as they like.
+    pub fn counted_as(&self) -> Option<SecretHash> {
+        let held = self.pass.as_ref()?;
+        // A user who logs in again is the same.
+        Some(if held.kind == PassKind::Login { hash(&held.name) } else { held.hash })
+    }
+
     /// Whether they may lose what they have while they are here.
     pub fn is_revocable(&self) -> bool {
         self.pass.is_some()

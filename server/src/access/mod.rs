@@ -3,6 +3,7 @@
 use espalier_proto::{Problem, Reason};
 
 pub mod admission;
+mod allowance;
 mod caller;
 pub mod cookie;
 pub mod password;
@@ -11,6 +12,7 @@ mod table;
 mod tries;
 
 pub use self::{
+    allowance::Allowances,
     caller::{Caller, Object, Peer, Unknown, address, way_of},
     secret::{Secret, SecretHash, hash},
     table::{Action, Reach},

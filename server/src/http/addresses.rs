@@ -24,7 +24,7 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, description, description::About, entry, exports, failure, failure::Path,
-    imports, jobs, obstacles, schematic, sessions, species, trees, versions,
+    imports, jobs, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -36,9 +36,9 @@ use crate::{
 const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail as base64, with room for the rest of the request.
 const MAX_TREE_BODY: usize = MAX_THUMBNAIL_BYTES.div_ceil(3) * 4 + 8 * 1024;
-/// Uploads of obstacles at once: each holds a file and its triangles.
+/// Obstacles read at once: each holds a file and its triangles.
 const MAX_UPLOADS: usize = 2;
-/// Files at once that become trees: a section of a document may unpack to 2 GB.
+/// Files read at once that become trees: a section of a document may unpack to 2 GB.
 const MAX_IMPORTS: usize = 1;
 /// Exports made at once: each holds a scene of its own.
 const MAX_EXPORTS: usize = 1;
@@ -139,7 +139,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
-        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer((body(MAX_GLB_BYTES), at_once(MAX_UPLOADS))), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
+        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_GLB_BYTES, MAX_UPLOADS)), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
         route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
@@ -150,7 +150,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
         route("POST /api/v1/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
-        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer((body(MAX_WOOD_BYTES), at_once(MAX_IMPORTS))), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(uploads(MAX_WOOD_BYTES, MAX_IMPORTS)), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),

@@ -126,12 +126,8 @@ async fn note<T>(
     shared.note(format!("{} {name}", way.name()).trim_end().to_owned(), peer, action, None, outcome).await;
 }
 
-/// How long to wait, in whole seconds.
 fn too_often(field: &str, wait: Duration) -> Response {
-    let seconds = wait.as_secs() + u64::from(wait.subsec_nanos() > 0);
-    let problem = Problem::new(Reason::TooOften, "There were too many tries.")
-        .at(field, format!("another try after {seconds} s"));
-    ([(header::RETRY_AFTER, seconds.to_string())], Failure::from(problem)).into_response()
+    Failure::too_often(field, "There were too many tries.", wait).into_response()
 }
 
 fn no_invitation() -> Failure {

@@ -1,6 +1,6 @@
 //! What went wrong, as a status and a [`Problem`]; causes go to the log and nowhere else.
 
-use std::fmt;
+use std::{fmt, time::Duration};
 
 use axum::{
     Extension, Json,
@@ -28,6 +28,8 @@ use crate::{
 pub struct Failure {
     status: StatusCode,
     problem: Problem,
+    /// Seconds to wait before trying again, where they are known.
+    wait: Option<u16>,
 }
 
 impl Failure {
@@ -37,6 +39,18 @@ impl Failure {
 
     pub(super) fn status(&self) -> StatusCode {
         self.status
+    }
+
+    /// The same may be tried again after so long.
+    pub(super) fn after(self, wait: Duration) -> Self {
+        Self { wait: Some(whole_seconds(wait)), ..self }
+    }
+
+    /// What `field` asks for was asked for too often; it can be asked for again after so long.
+    pub(super) fn too_often(field: &str, sentence: &str, wait: Duration) -> Self {
+        let problem = Problem::new(Reason::TooOften, sentence)
+            .at(field, format!("another try after {} s", whole_seconds(wait)));
+        Self::from(problem).after(wait)
     }
 
     /// There is no such thing as `field` names; `allowed` there is what is.
@@ -93,7 +107,7 @@ impl From<Problem> for Failure {
             (_, ProblemCode::Stale) => StatusCode::PRECONDITION_FAILED,
             (_, ProblemCode::Unavailable) => StatusCode::SERVICE_UNAVAILABLE,
         };
-        Self { status, problem }
+        Self { status, problem, wait: None }
     }
 }
 
@@ -187,13 +201,21 @@ impl IntoResponse for Failure {
             // How a program comes in; a page has a cookie.
             response.headers_mut().insert(header::WWW_AUTHENTICATE, HeaderValue::from_static("Bearer"));
         }
+        if let Some(wait) = self.wait {
+            response.headers_mut().insert(header::RETRY_AFTER, wait.into());
+        }
         response
     }
 }
 
+fn whole_seconds(wait: Duration) -> u16 {
+    let seconds = wait.as_secs() + u64::from(wait.subsec_nanos() > 0);
+    seconds.try_into().unwrap_or(u16::MAX)
+}
+
 /// The most bytes that the body of a request may have.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MostBytes(usize);
+pub(super) struct MostBytes(pub(super) usize);
 
 impl Default for MostBytes {
     /// What is taken where no [`body_limit`] is set.
@@ -219,37 +241,20 @@ pub(super) fn body_limit(most: usize) -> (DefaultBodyLimit, Extension<MostBytes>
 }
 
 /// The field of a problem with a body as a whole.
-const BODY: &str = "body";
+pub(super) const BODY: &str = "body";
 
-/// The bytes of a body; `large` and `cut_off` are why they are refused.
-async fn arrived<S: Send + Sync>(
-    request: Request,
-    state: &S,
-    what: &str,
-    [large, cut_off]: [Reason; 2],
-) -> Result<Bytes, Failure> {
+/// The bytes of a body.
+async fn arrived<S: Send + Sync>(request: Request, state: &S) -> Result<Bytes, Failure> {
     let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
     Bytes::from_request(request, state).await.map_err(|rejection| {
         let problem = if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-            Problem::new(large, format!("The {what} is larger than {most}.")).at(BODY, most.to_string())
+            let problem = Problem::new(Reason::LargeRequest, format!("The request is larger than {most}."));
+            problem.at(BODY, most.to_string())
         } else {
-            Problem::new(cut_off, format!("The {what} did not arrive whole."))
-                .at(BODY, format!("a whole {what}"))
+            Problem::new(Reason::Malformed, "The request did not arrive whole.").at(BODY, "a whole request")
         };
         problem.into()
     })
-}
-
-/// The body of a request as a file, or a problem where it did not arrive.
-#[derive(Debug)]
-pub(super) struct File(pub(super) Bytes);
-
-impl<S: Send + Sync> FromRequest<S> for File {
-    type Rejection = Failure;
-
-    async fn from_request(request: Request, state: &S) -> Result<Self, Failure> {
-        arrived(request, state, "file", [Reason::LargeFile, Reason::FileCutOff]).await.map(Self)
-    }
 }
 
 /// The body of a request, or a problem that says what is wrong with it.
@@ -264,7 +269,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
             let problem = Problem::new(Reason::Malformed, "The request must be application/json.");
             return Err(problem.at("content-type", "application/json").into());
         }
-        let bytes = arrived(request, state, "request", [Reason::LargeRequest, Reason::Malformed]).await?;
+        let bytes = arrived(request, state).await?;
         let text =
             str::from_utf8(&bytes).map_err(|_| reading::unexpected(BODY, "no text", "JSON in UTF-8"))?;
         // A problem with no part of the body is one with all of it.

@@ -9,8 +9,9 @@ use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Failure, File, Query},
+    failure::{Failure, Query},
     trees,
+    uploads::File,
     versions::{self, Said},
 };
 use crate::{
@@ -38,7 +39,7 @@ pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
     Query(upload): Query<Upload>,
-    File(file): File,
+    File(file, _turn): File,
 ) -> Result<impl IntoResponse, Failure> {
     let name = text::name("name", &upload.name)?;
     let unit = upload.unit.unwrap_or(1.0);

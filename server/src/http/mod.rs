@@ -19,14 +19,14 @@ mod schematic;
 mod sessions;
 mod species;
 mod trees;
+mod uploads;
 mod versions;
 
-use std::{net::IpAddr, sync::Arc};
+use std::{net::IpAddr, sync::Arc, time::Duration};
 
 use axum::{
     Router,
     extract::{MatchedPath, State},
-    http::header,
     middleware::{from_fn, from_fn_with_state, map_response},
     routing::{MethodRouter, any, get},
 };
@@ -41,7 +41,7 @@ use self::{
 };
 pub use self::{audit::described, exports::Progresses};
 use crate::{
-    access::{SecretHash, Tries, password::Passwords},
+    access::{Allowances, SecretHash, Tries, password::Passwords},
     hosts::Hosts,
     jobs::Jobs,
     live::Sessions,
@@ -52,6 +52,9 @@ use crate::{
 
 /// A request for a session is tiny.
 const MAX_SMALL_BODY: usize = 4 * 1024;
+
+/// When whoever finds no place may try again.
+const AGAIN: Duration = Duration::from_secs(5);
 
 /// What the handlers work with.
 #[derive(Clone, Debug)]
@@ -74,6 +77,8 @@ pub struct Shared {
     pub tries: Arc<Tries<IpAddr>>,
     /// How often passwords were tried, by the name that they were for.
     pub tries_for: Arc<Tries<SecretHash>>,
+    /// How many sessions were begun, by whom.
+    pub sessions_begun: Arc<Allowances>,
     /// Checks passwords.
     pub passwords: Arc<Passwords>,
     /// Held by whoever opens a tree.
@@ -131,9 +136,8 @@ pub fn crowded(shared: &Shared) -> Router {
     Router::new()
         .route("/health", get(health))
         .fallback(async || {
-            let failure =
-                Failure::new(Reason::ManyPeople, "As many connections as may be are open; try again.");
-            ([(header::RETRY_AFTER, "5")], failure)
+            let sentence = "As many connections as may be are open; try again.";
+            Failure::new(Reason::ManyPeople, sentence).after(AGAIN)
         })
         .layer(
             ServiceBuilder::new()

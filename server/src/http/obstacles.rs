@@ -15,8 +15,9 @@ use espalier_session::Principal;
 
 use super::{
     Shared,
-    failure::{Failure, File, Path},
+    failure::{Failure, Path},
     sessions,
+    uploads::File,
 };
 
 /// What the mesh of an upload may have (`LM6`).
@@ -27,7 +28,7 @@ pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
     Path(session): Path<String>,
-    File(file): File,
+    File(file, _turn): File,
 ) -> Result<impl IntoResponse, Failure> {
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;

@@ -1,6 +1,9 @@
 //! Sessions: making one, its socket.
 
-use std::{future::pending, time::Duration};
+use std::{
+    future::pending,
+    time::{Duration, Instant},
+};
 
 use axum::{
     Extension, Json,
@@ -51,6 +54,7 @@ pub(super) async fn create(
         shared.ask(&caller, Action::BeginSession, Named::Server).await?;
     }
     let Some(tree) = new.tree else {
+        count(&shared, &caller)?;
         let seed = new.seed.unwrap_or_else(rand::random);
         let snapshot = Session::seedling(seed, shared.metamer_budget);
         return Ok((StatusCode::CREATED, begin(&shared, &principal, seed, snapshot, None).await?));
@@ -68,10 +72,18 @@ pub(super) async fn create(
     {
         return Ok((StatusCode::OK, Json(session)));
     }
+    count(&shared, &caller)?;
     let version = new.version.unwrap_or(stored.head.number);
     let snapshot = planted(&shared, &tree, version).await?;
     let of = (!new.template).then_some((tree, version));
     Ok((StatusCode::CREATED, begin(&shared, &principal, new.seed.unwrap_or_default(), snapshot, of).await?))
+}
+
+/// Counts that somebody begins a session (`LM17`).
+fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
+    let Some(by) = caller.counted_as() else { return Ok(()) };
+    let counted = shared.sessions_begun.count(by, Instant::now());
+    counted.map_err(|wait| Failure::too_often("body", "Too many sessions were begun.", wait))
 }
 
 /// Begins a session.

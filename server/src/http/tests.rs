@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use axum::{
     body::Body,
-    http::{HeaderName, Method, Request, StatusCode, request::Builder},
+    http::{HeaderName, Method, Request, StatusCode, header, request::Builder},
 };
 use espalier_proto::{access::Role, library::TreePage};
 use serde_json::{Value, json};
@@ -53,6 +53,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
         trusts_local: true,
         tries: Arc::default(),
         tries_for: Arc::default(),
+        sessions_begun: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
         progresses: Progresses::default(),
@@ -288,6 +289,34 @@ async fn ac6_a_token_decides_alone_and_never_beside_a_cookie() {
     assert_eq!(status(&server, both, "").await, StatusCode::BAD_REQUEST);
     let wrong = delete("Bearer esp_of-nobody");
     assert_eq!(status(&server, wrong, "").await, StatusCode::UNAUTHORIZED);
+}
+
+#[tokio::test]
+async fn lm17_whoever_begins_many_sessions_waits() {
+    let (server, store) = server().await;
+    let [one, other] = [token(&store, Role::Editor, None).await, token(&store, Role::Editor, None).await];
+    let begin = |token: &str| {
+        let begin = request_of(token, &Method::POST, "/api/v1/sessions");
+        server
+            .clone()
+            .oneshot(begin.header(header::CONTENT_TYPE, "application/json").body(Body::from("{}")).unwrap())
+    };
+    let begun = async |token: &str| {
+        let mut begun = 0;
+        while begun < 1000 && begin(token).await.unwrap().status() == StatusCode::CREATED {
+            begun += 1;
+        }
+        begun
+    };
+    assert!((20..1000).contains(&begun(&one).await));
+    let refused = begin(&one).await.unwrap();
+    assert_eq!(refused.status(), StatusCode::TOO_MANY_REQUESTS);
+    assert!(refused.headers().contains_key(header::RETRY_AFTER));
+    assert_eq!(begin(&other).await.unwrap().status(), StatusCode::CREATED, "others are free");
+    for _ in 0..100 {
+        let local = request(&Method::POST, "/api/v1/sessions");
+        assert_eq!(status(&server, local, "{}").await, StatusCode::CREATED, "and so is the machine");
+    }
 }
 
 async fn reason(server: &Router, request: Builder) -> (StatusCode, Option<String>) {
