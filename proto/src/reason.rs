@@ -152,6 +152,14 @@ reasons! {
         FutureDamaged,
         /// A collection cannot lie in itself.
         CollectionInItself,
+        /// Another request had this key.
+        KeyOfAnother,
+        /// The request with this key is under way.
+        KeyUnderWay,
+        /// The request with this key was done, and its answer is not kept.
+        AnswerNotKept,
+        /// The server stopped while the request with this key was under way.
+        OutcomeUnknown,
         /// A newer program wrote this.
         NewerProgram,
         /// What is stored of a session is damaged.

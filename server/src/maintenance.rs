@@ -10,8 +10,9 @@ use tokio::time::{interval, sleep};
 use tokio_util::sync::CancellationToken;
 
 use crate::{
+    http,
     live::Sessions,
-    store::{AnyStore, Audit, Library, Passes, Store, StoreError},
+    store::{Answers, AnyStore, Audit, Library, Passes, Store, StoreError},
     time::written,
 };
 
@@ -70,6 +71,7 @@ pub async fn watch(store: Arc<AnyStore>, sessions: Sessions, stop: CancellationT
 async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<(), StoreError> {
     let before = |span| written(now - span);
     store.purge_passes(&written(now)).await?;
+    store.purge_answers(&before(http::KEPT)).await?;
     store.purge_events(&before(EVENTS)).await?;
     while store.purge(&before(UNDELETABLE), STEP).await? > 0 {
         sleep(PAUSE).await;
@@ -92,7 +94,7 @@ async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<()
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::{Deletion, MemoryStore, NewSession, TreeChange, tree};
+    use crate::store::{AnswerKey, Deletion, MemoryStore, NewSession, TreeChange, tree};
 
     const UNSAVED: Duration = Duration::from_hours(90 * 24);
 
@@ -125,5 +127,18 @@ mod tests {
             left.push((is_there("seedling").await, is_there("unsaved").await));
         }
         assert_eq!(left, [(true, true), (false, true), (false, true), (false, false)]);
+    }
+
+    #[tokio::test]
+    async fn ik4_answers_go_after_a_day() {
+        let store = AnyStore::Memory(MemoryStore::default());
+        let key = |byte| AnswerKey { caller: [1; 32], key: [byte; 32] };
+        for (byte, at) in [(1, "2026-05-30T11:59:59.999Z"), (2, "2026-05-30T12:00:00.000Z")] {
+            assert!(store.begin_answer(key(byte), at, "2026").await.unwrap());
+        }
+        let now = humantime::parse_rfc3339("2026-05-31T12:00:00Z").unwrap();
+        once(&store, UNSAVED, now).await.unwrap();
+        assert_eq!(store.answer(key(1)).await.unwrap(), None);
+        assert!(store.answer(key(2)).await.unwrap().is_some());
     }
 }

@@ -109,6 +109,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         portraits: Portraits::default(),
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
+        under_way: http::UnderWay::default(),
         trusts_local,
         tries: Arc::default(),
         tries_for: Arc::default(),

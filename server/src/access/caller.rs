@@ -6,6 +6,7 @@ use std::{
 };
 
 use axum::http::{HeaderMap, header};
+use base64::{Engine, prelude::BASE64_URL_SAFE_NO_PAD};
 use espalier_proto::access::{Me, Role, Way};
 
 use super::{
@@ -15,7 +16,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Pass, PassKind, Passes, StoreError},
+    store::{Pass, PassKind, Passes, StoreError, folded},
     time::written,
 };
 
@@ -134,6 +135,15 @@ impl Caller {
         };
         let is_admin = self.grant.role == Role::Admin && self.grant.tree.is_none();
         is_admin || self.pass == other.pass || user(self).is_some() && user(self) == user(other)
+    }
+
+    /// Whom what they do counts for: whoever sits at the machine, the user, or the device or program.
+    pub fn person(&self) -> String {
+        match &self.pass {
+            None => "machine".to_owned(),
+            Some(Held { kind: PassKind::Login, name, .. }) => format!("login {}", folded(name)),
+            Some(Held { hash, .. }) => format!("pass {}", BASE64_URL_SAFE_NO_PAD.encode(hash)),
+        }
     }
 
     /// The only tree that they may see, if it is one.

@@ -23,8 +23,8 @@ use espalier_settings::ParameterValues;
 use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
-    Shared, audit, collections, description, description::About, entry, exports, failure, failure::Path,
-    imports, jobs, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
+    Shared, audit, collections, description, description::About, entry, exports, failure::Path, imports,
+    jobs, keys::Shown, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -32,6 +32,8 @@ use crate::{
     export_options::ExportOptions,
 };
 
+/// A request for a session is tiny.
+const MAX_SMALL_BODY: usize = 4 * 1024;
 /// A note of 2000 characters, with room for the rest of the request.
 const MAX_SAID_BODY: usize = 32 * 1024;
 /// A thumbnail as base64, with room for the rest of the request.
@@ -59,6 +61,10 @@ pub(super) struct Route {
     pub answer: MethodRouter<Shared>,
     /// How the list of what was done calls it, if it is noted there.
     pub noted: Option<&'static str>,
+    /// Bytes that the body of a request may have.
+    pub most_bytes: usize,
+    /// What becomes of the answer to a request with a key.
+    pub shown: Shown,
     pub about: About,
 }
 
@@ -68,6 +74,17 @@ impl Route {
         self.noted = Some(noted);
         self
     }
+
+    /// The body of a request may have so many bytes.
+    fn up_to(mut self, most_bytes: usize) -> Self {
+        self.most_bytes = most_bytes;
+        self
+    }
+
+    /// Whether a request may have a key (`IK1`): something is made there, by somebody who was let in.
+    pub(super) fn takes_keys(&self) -> bool {
+        self.address.starts_with("POST ") && self.action.is_some_and(|action| action != Action::Look)
+    }
 }
 
 fn route(
@@ -76,7 +93,15 @@ fn route(
     answer: MethodRouter<Shared>,
     about: About,
 ) -> Route {
-    Route { address: address.into(), action: action.into(), answer, noted: None, about }
+    Route {
+        address: address.into(),
+        action: action.into(),
+        answer,
+        noted: None,
+        most_bytes: MAX_SMALL_BODY,
+        shown: Shown::Again,
+        about,
+    }
 }
 
 /// The path of an address.
@@ -125,7 +150,6 @@ pub(super) fn downloads() -> Vec<Route> {
 /// The rest of the API, but for the socket.
 pub(super) fn routes() -> Vec<Route> {
     let at_once = GlobalConcurrencyLimitLayer::new;
-    let body = failure::body_limit;
     vec![
         route("POST /api/v1/redeem", None, post(entry::redeem), About::new("Come in by an invitation (AC3); the answer sets a cookie.").takes::<Redeem>().gives::<Admitted>(200)),
         route("GET /api/v1/entry", None, get(entry::entrance), About::new("What one can come in by.").gives::<Entrance>(200)),
@@ -139,23 +163,23 @@ pub(super) fn routes() -> Vec<Route> {
         route("GET /api/v1/sessions/{session}/exports/{ticket}", Action::TakeTree, get(exports::progress), About::new("How far a file is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
-        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_GLB_BYTES, MAX_UPLOADS)), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)),
+        route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)).up_to(MAX_GLB_BYTES),
         route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
         route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
-        route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow).layer(body(MAX_SAID_BODY)), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)),
+        route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/jobs/{job}", Action::GrowTrees, get(jobs::find), About::new("How far a job is, and its files so far (JB2).").gives::<jobs::JobNow>(200)),
         route("DELETE /api/v1/jobs/{job}", Action::GrowTrees, delete(jobs::give_up), About::new("Give a job up; its files go (JB4).").gives_nothing()),
         route("GET /api/v1/jobs/{job}/results/{seed}", Action::GrowTrees, get(jobs::result), About::new("A file of a job (JB3).").gives_parts("application/octet-stream")),
         route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
-        route("POST /api/v1/trees", Action::SaveTree, post(trees::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)),
-        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(uploads(MAX_WOOD_BYTES, MAX_IMPORTS)), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)),
+        route("POST /api/v1/trees", Action::SaveTree, post(trees::save), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)).up_to(MAX_TREE_BODY),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(uploads(MAX_IMPORTS)), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)).up_to(MAX_WOOD_BYTES),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
-        route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()),
+        route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()).up_to(MAX_SAID_BODY),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
         route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()).noted("undelete"),
-        route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy).layer(body(MAX_SAID_BODY)), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)),
+        route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)).up_to(MAX_SAID_BODY),
         route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
         route("GET /api/v1/tags", Action::SeeLibrary, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),
@@ -165,8 +189,8 @@ pub(super) fn routes() -> Vec<Route> {
         route("PATCH /api/v1/collections/{collection}", Action::ChangeCollections, patch(collections::change), About::new("Rename or move a collection; 409 where it would lie in itself.").takes::<ChangeCollection>().gives::<TreeCollection>(200)),
         route("DELETE /api/v1/collections/{collection}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
         route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
-        route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save).layer(body(MAX_TREE_BODY)), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()),
-        route("PATCH /api/v1/trees/{tree}/versions/{version}", Action::ChangeTree, patch(versions::change).layer(body(MAX_SAID_BODY)), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()),
+        route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()).up_to(MAX_TREE_BODY),
+        route("PATCH /api/v1/trees/{tree}/versions/{version}", Action::ChangeTree, patch(versions::change), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()).up_to(MAX_SAID_BODY),
         route("POST /api/v1/trees/{tree}/versions/{version}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()).noted("restore"),
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
         route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),

@@ -7,7 +7,10 @@ use espalier_proto::Problem;
 use schemars::{JsonSchema, SchemaGenerator, generate::SchemaSettings};
 use serde_json::{Map, Value, json};
 
-use super::addresses::{SOCKET, about_socket, downloads, routes};
+use super::{
+    addresses::{SOCKET, about_socket, downloads, routes},
+    keys,
+};
 use crate::access::{Action, cookie};
 
 /// Writes a type's schema into a generator.
@@ -30,6 +33,7 @@ pub(super) struct About {
     takes: Option<Content>,
     gives: Vec<(u16, Content)>,
     is_revised: bool,
+    takes_keys: bool,
 }
 
 fn schema_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Value {
@@ -39,7 +43,8 @@ fn schema_of<T: JsonSchema>(generator: &mut SchemaGenerator) -> Value {
 impl About {
     /// Says in a sentence what is done there.
     pub fn new(does: impl Into<Cow<'static, str>>) -> Self {
-        Self { does: does.into(), asks: None, among: None, takes: None, gives: Vec::new(), is_revised: false }
+        let (does, gives) = (does.into(), Vec::new());
+        Self { does, asks: None, among: None, takes: None, gives, is_revised: false, takes_keys: false }
     }
 
     /// What may stand behind the question mark.
@@ -114,7 +119,10 @@ impl About {
 /// All addresses in the order of the list, each with what is said of it.
 fn all() -> Vec<(String, Option<Action>, About)> {
     let listed = routes().into_iter().chain(downloads());
-    let listed = listed.map(|route| (route.address.into_owned(), route.action, route.about));
+    let listed = listed.map(|route| {
+        let about = About { takes_keys: route.takes_keys(), ..route.about };
+        (route.address.into_owned(), route.action, about)
+    });
     listed.chain([(SOCKET.to_owned(), Some(Action::JoinSession), about_socket())]).collect()
 }
 
@@ -196,6 +204,13 @@ fn operation(method: &str, path: &str, about: &About, generator: &mut SchemaGene
         parameters.push(
             json!({ "name": "If-Match", "in": "header", "description": description, "schema": schema }),
         );
+    }
+    if about.takes_keys {
+        let schema = json!({ "type": "string", "minLength": 1, "maxLength": keys::LONGEST });
+        let description = "The same request with the same key is answered again and not done again (IK1).";
+        let name = "Idempotency-Key";
+        parameters
+            .push(json!({ "name": name, "in": "header", "description": description, "schema": schema }));
     }
     if about.gives.iter().any(|(status, _)| *status == 206) {
         let schema = json!({ "type": "string" });

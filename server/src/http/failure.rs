@@ -95,6 +95,7 @@ impl From<Problem> for Failure {
             (Reason::WrongMethod, _) => StatusCode::METHOD_NOT_ALLOWED,
             (Reason::TooOften, _) => StatusCode::TOO_MANY_REQUESTS,
             (Reason::NotLetIn | Reason::WrongPassword, _) => StatusCode::UNAUTHORIZED,
+            (Reason::KeyOfAnother, _) => StatusCode::UNPROCESSABLE_ENTITY,
             (Reason::UnknownHost, _) => StatusCode::MISDIRECTED_REQUEST,
             (Reason::LargeFile | Reason::LargeRequest | Reason::LargeThumbnail, _) => {
                 StatusCode::PAYLOAD_TOO_LARGE
@@ -215,12 +216,19 @@ fn whole_seconds(wait: Duration) -> u16 {
 
 /// The most bytes that the body of a request may have.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct MostBytes(pub(super) usize);
+pub(super) struct MostBytes(usize);
 
 impl Default for MostBytes {
     /// What is taken where no [`body_limit`] is set.
     fn default() -> Self {
         Self(2 << 20)
+    }
+}
+
+impl MostBytes {
+    /// How many.
+    pub(super) const fn bytes(self) -> usize {
+        self.0
     }
 }
 

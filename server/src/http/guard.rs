@@ -12,7 +12,7 @@ use axum::{
 use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
 
-use super::{Shared, audit, failure::Failure};
+use super::{Shared, audit, failure::Failure, keys::Repeated};
 use crate::{
     access::{Action, Caller, Object, Peer},
     store::Library,
@@ -111,6 +111,8 @@ pub(super) async fn ask(
         }
         Err(failure) => failure.into_response(),
     };
+    // What was answered again was noted when it was done.
+    let note = note.filter(|_| response.extensions().get::<Repeated>().is_none());
     if let Some((noted, object, who, peer)) = note {
         shared.note(who, peer, noted, Some(object), audit::outcome(response.status())).await;
     }

@@ -11,6 +11,7 @@ mod failure;
 mod guard;
 mod imports;
 mod jobs;
+mod keys;
 mod obstacles;
 mod origin;
 mod ranges;
@@ -38,8 +39,13 @@ use self::{
     addresses::{Route, SOCKET, downloads, methods, path_of, routes},
     failure::Failure,
     guard::Asked,
+    keys::Keyed,
 };
-pub use self::{audit::described, exports::Progresses};
+pub use self::{
+    audit::described,
+    exports::Progresses,
+    keys::{KEPT, UnderWay},
+};
 use crate::{
     access::{Allowances, SecretHash, Tries, password::Passwords},
     hosts::Hosts,
@@ -49,9 +55,6 @@ use crate::{
     portrait::Portraits,
     store::{AnyStore, Store},
 };
-
-/// A request for a session is tiny.
-const MAX_SMALL_BODY: usize = 4 * 1024;
 
 /// When whoever finds no place may try again.
 const AGAIN: Duration = Duration::from_secs(5);
@@ -87,6 +90,8 @@ pub struct Shared {
     pub progresses: Progresses,
     /// Trees that are grown on request.
     pub jobs: Jobs,
+    /// Requests with keys that are being done.
+    pub under_way: UnderWay,
 }
 
 /// Everything the server answers.
@@ -95,8 +100,16 @@ pub fn router(shared: Shared) -> Router {
         let asked = Asked { shared: shared.clone(), action, noted };
         answer.layer(from_fn_with_state(asked, guard::ask))
     };
+    let keyed = |answer: MethodRouter<Shared>, shown| {
+        let keyed = Keyed { shared: shared.clone(), shown };
+        answer.layer(from_fn_with_state(keyed, keys::once))
+    };
     let api = |routes: Vec<Route>| {
-        routes.into_iter().fold(Router::new(), |router, Route { address, action, answer, noted, .. }| {
+        routes.into_iter().fold(Router::new(), |router, route| {
+            let takes_keys = route.takes_keys();
+            let Route { address, action, answer, noted, most_bytes, shown, .. } = route;
+            let answer = if takes_keys { keyed(answer, shown) } else { answer };
+            let answer = answer.layer(failure::body_limit(most_bytes));
             let answer = action.map_or(answer.clone(), |action| asked(answer, action, noted));
             router.route(path_of(&address), answer.layer(from_fn(failure::legible)))
         })
@@ -105,7 +118,6 @@ pub fn router(shared: Shared) -> Router {
     let requests = api(routes())
         .route("/api/{*unknown}", any(failure::unknown_route))
         .route("/health", get(health))
-        .layer(failure::body_limit(MAX_SMALL_BODY))
         .layer(from_fn(guard::time_limit));
     Router::new()
         .merge(requests)

@@ -1,5 +1,6 @@
 mod audit;
 mod files;
+mod keys;
 mod login;
 mod paths;
 mod refusals;
@@ -57,6 +58,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
         passwords: Arc::default(),
         opening: Arc::default(),
         progresses: Progresses::default(),
+        under_way: UnderWay::default(),
     };
     (router(shared), store)
 }

@@ -42,16 +42,14 @@ const AGAIN: Duration = Duration::from_secs(30);
 /// What an address does with the files that it takes.
 #[derive(Clone, Debug)]
 pub(super) struct Uploads {
-    most: MostBytes,
     arriving: Places,
     reading: Arc<Semaphore>,
     patience: Duration,
 }
 
-/// Takes files up to this many bytes, and reads so many at once.
-pub(super) fn uploads(most: usize, at_once: usize) -> Extension<Uploads> {
+/// Takes files, and reads so many at once.
+pub(super) fn uploads(at_once: usize) -> Extension<Uploads> {
     Extension(Uploads {
-        most: MostBytes(most),
         arriving: Places::new(ARRIVING, ARRIVING_OF_ONE),
         reading: Arc::new(Semaphore::new(at_once)),
         patience: PATIENCE,
@@ -81,7 +79,8 @@ impl Uploads {
     async fn take(self, from: IpAddr, request: Request) -> Result<File, Failure> {
         let place = self.arriving.take(from);
         let place = place.ok_or_else(|| Failure::too_often(BODY, "Too many files arrive already.", AGAIN))?;
-        let file = self.arrive(request).await?;
+        let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
+        let file = self.arrive(request, most).await?;
         drop(place);
         let turn = self.reading.acquire_owned().await;
         let turn = turn.map_err(|error| failed(&io::Error::other(error)))?;
@@ -90,7 +89,7 @@ impl Uploads {
     }
 
     /// A file on disk, when all of it has come.
-    async fn arrive(&self, request: Request) -> Result<OnDisk, Failure> {
+    async fn arrive(&self, request: Request, most: MostBytes) -> Result<OnDisk, Failure> {
         let mut pieces = request.into_body().into_data_stream();
         let mut file = on_disk(tempfile::tempfile).await.map_err(|error| failed(&error))?;
         let (mut waiting, mut arrived) = (Vec::new(), 0);
@@ -102,8 +101,8 @@ impl Uploads {
             let is_whole = piece.is_none();
             let piece = piece.unwrap_or_default();
             arrived += piece.len();
-            if arrived > self.most.0 {
-                return Err(self.too_large());
+            if arrived > most.bytes() {
+                return Err(too_large(most));
             }
             waiting.extend_from_slice(&piece);
             if is_whole || waiting.len() >= PIECE {
@@ -116,12 +115,11 @@ impl Uploads {
             }
         }
     }
+}
 
-    fn too_large(&self) -> Failure {
-        let most = self.most;
-        let problem = Problem::new(Reason::LargeFile, format!("The file is larger than {most}."));
-        problem.at(BODY, most.to_string()).into()
-    }
+fn too_large(most: MostBytes) -> Failure {
+    let problem = Problem::new(Reason::LargeFile, format!("The file is larger than {most}."));
+    problem.at(BODY, most.to_string()).into()
 }
 
 fn cut_off() -> Failure {
@@ -155,11 +153,11 @@ mod tests {
     use futures_util::stream;
     use tower::ServiceExt;
 
-    use super::*;
+    use super::{super::failure::body_limit, *};
 
     /// An address that takes files of up to ten bytes and reads one at once; it answers with their bytes.
     fn address() -> Router {
-        Router::new().route("/", post(async |File(bytes, _turn): File| bytes).layer(uploads(10, 1)))
+        Router::new().route("/", post(async |File(bytes, _turn): File| bytes).layer(uploads(1)).layer(body_limit(10)))
     }
 
     fn sent(body: Body) -> Request {
@@ -207,7 +205,7 @@ mod tests {
 
     #[tokio::test]
     async fn lm18_a_file_of_which_nothing_arrives_is_given_up() {
-        let Extension(uploads) = uploads(10, 1);
+        let Extension(uploads) = uploads(1);
         let uploads = Uploads { patience: Duration::from_millis(10), ..uploads };
         let failure = uploads.take([10, 0, 0, 1].into(), sent(begun())).await.unwrap_err();
         assert_eq!(failure, Failure::new(Reason::Late, "The file takes too long to arrive."));

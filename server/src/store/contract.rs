@@ -1,5 +1,6 @@
 //! What every store must do, as tests: `contract::all(make)` runs them on stores that `make` gives, each empty.
 
+mod answers;
 mod audit;
 mod finding;
 mod library;
@@ -11,6 +12,7 @@ use std::{collections::BTreeSet, ops::RangeInclusive};
 use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
+use self::answers::{an_answer_is_kept_for_one_request, answers_of_one_caller_are_bounded};
 use self::audit::events_are_listed_newest_first;
 use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
@@ -29,12 +31,12 @@ use self::passes::{
 };
 use self::users::{a_login_has_the_role_of_its_user, a_name_is_one_person};
 use super::{
-    Audit, Damage, Finding, Lease, Library, NewSession, NewSnapshot, Passes, Store, StoreError,
+    Answers, Audit, Damage, Finding, Lease, Library, NewSession, NewSnapshot, Passes, Store, StoreError,
     StoredSession, Users,
 };
 
 /// A store whose rows a test can damage.
-pub trait Breakable: Store + Library + Finding + Passes + Users + Audit {
+pub trait Breakable: Store + Library + Finding + Passes + Users + Audit + Answers {
     /// Changes a command in the row of the journal that begins with an entry.
     async fn break_journal(&self, session: &str, first: u64);
     /// Deletes the row of the journal that begins with an entry.
@@ -102,6 +104,8 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,
         events_are_listed_newest_first,
+        an_answer_is_kept_for_one_request,
+        answers_of_one_caller_are_bounded,
         a_closed_store_takes_nothing,
     );
 }

@@ -1,5 +1,6 @@
 //! The model of a store: what the contract means, in the plainest way. It forgets all when it is dropped.
 
+mod answers;
 mod audit;
 mod finding;
 mod library;
@@ -39,6 +40,8 @@ struct Kept {
     /// Principals and trees.
     favourites: BTreeSet<(String, String)>,
     passes: Vec<(SecretHash, Pass)>,
+    /// In the order in which they began.
+    answers: Vec<answers::Begun>,
     /// By their numbers.
     events: BTreeMap<u64, Event>,
     /// By their folded names.

@@ -175,6 +175,19 @@ export const REFUSALS = {
     "A collection cannot lie in itself.",
     "Eine Sammlung kann nicht in sich selbst liegen.",
   ],
+  "problems.key-of-another": [
+    "Another request had the key of this one.",
+    "Eine andere Anfrage hatte schon den Schlüssel von dieser.",
+  ],
+  "problems.key-under-way": ["This is being done already.", "Das wird gerade schon getan."],
+  "problems.answer-not-kept": [
+    "This was done already; what came of it is shown once only.",
+    "Das wurde schon getan; was dabei herauskam, wird nur einmal gezeigt.",
+  ],
+  "problems.outcome-unknown": [
+    "The server stopped while it did this; look whether it was done.",
+    "Der Server hielt währenddessen an; sieh nach, ob es getan wurde.",
+  ],
   "problems.newer-program": [
     "This tree was made by a newer Espalier; the server must be updated to open it.",
     "Diesen Baum hat ein neueres Espalier gemacht; um ihn zu öffnen, muss der Server aktualisiert werden.",

@@ -1,5 +1,6 @@
 //! A store in one SQLite file: one writer that commits in groups, and readers beside it.
 
+mod answers;
 mod audit;
 mod care;
 mod finding;

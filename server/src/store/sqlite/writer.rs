@@ -12,6 +12,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{
     super::{StoreError, lease::Leases},
+    answers::AnswerWrite,
     audit::AuditWrite,
     finding::FindingWrite,
     parts::{self, Orphans, Part},
@@ -44,6 +45,7 @@ pub(super) enum Write {
     Pass(PassWrite),
     User(UserWrite),
     Audit(AuditWrite),
+    Answer(AnswerWrite),
     #[cfg(test)]
     Raw(String),
 }
@@ -61,6 +63,7 @@ impl Write {
             Self::Pass(write) => write.apply(connection).await,
             Self::User(write) => write.apply(connection).await,
             Self::Audit(write) => write.apply(connection).await,
+            Self::Answer(write) => write.apply(connection).await,
             #[cfg(test)]
             Self::Raw(sql) => {
                 let query = sqlx::query(sqlx::AssertSqlSafe(sql.clone()));

@@ -1,0 +1,314 @@
+//! Requests with a key of their sender's own (`IK`): each is done once, and answered again when it comes again.
+
+use std::{
+    collections::BTreeSet,
+    sync::{Arc, Mutex, PoisonError},
+    time::{Duration, SystemTime},
+};
+
+use axum::{
+    Extension,
+    body::{self, Body, Bytes, HttpBody},
+    extract::{Request, State},
+    http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header},
+    middleware::Next,
+    response::{IntoResponse, Response},
+};
+use espalier_proto::{Problem, Reason};
+use espalier_session::Principal;
+use futures_util::{StreamExt, TryStreamExt, stream};
+use sha2::{Digest, Sha256};
+
+use super::{
+    Shared,
+    failure::{Failure, MostBytes},
+};
+use crate::{
+    access::{Caller, SecretHash, hash},
+    store::{Answer, AnswerKey, Answering, Answers},
+    time::written,
+};
+
+/// The key, as draft-ietf-httpapi-idempotency-key-header has it.
+pub(super) const KEY: HeaderName = HeaderName::from_static("idempotency-key");
+/// What a key is.
+const KEYS: &str = "1 to 255 visible characters of ASCII, also in quotes";
+/// Characters of a key.
+pub(super) const LONGEST: usize = 255;
+/// How long an answer is kept.
+pub const KEPT: Duration = Duration::from_hours(24);
+/// Answers with more bytes are not kept.
+const MAX_ANSWER: usize = 32 * 1024;
+/// The headers that are part of an answer.
+const HEADERS: [HeaderName; 3] = [header::CONTENT_TYPE, header::LOCATION, header::ETAG];
+
+/// What becomes of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shown {
+    /// It is given again.
+    Again,
+    /// It has a secret that is kept nowhere.
+    Once,
+}
+
+/// What is known at an address that takes keys.
+#[derive(Clone, Debug)]
+pub(super) struct Keyed {
+    pub(super) shared: Shared,
+    pub(super) shown: Shown,
+}
+
+/// Says of a response that it is the answer to an earlier request, so that nothing was done.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Repeated;
+
+/// Requests with keys that this server is at.
+#[derive(Clone, Debug, Default)]
+pub struct UnderWay(Arc<Mutex<BTreeSet<AnswerKey>>>);
+
+/// The only request with its key, until it is dropped.
+struct Place(UnderWay, AnswerKey);
+
+impl UnderWay {
+    /// None where there is such a request already.
+    fn enter(&self, key: AnswerKey) -> Option<Place> {
+        let is_first = self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(key);
+        is_first.then(|| Place(self.clone(), key))
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        self.0.0.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.1);
+    }
+}
+
+/// Does a request with a key once. It goes on where whoever asked no longer waits, so that they find its answer.
+pub(super) async fn once(
+    State(Keyed { shared, shown }): State<Keyed>,
+    Extension(caller): Extension<Caller>,
+    Extension(principal): Extension<Principal>,
+    request: Request,
+    next: Next,
+) -> Response {
+    let key = match key_of(request.headers()) {
+        Ok(None) => return next.run(request).await,
+        Ok(Some(key)) => answer_key(&caller, &principal, &key),
+        Err(problem) => return Failure::from(problem).into_response(),
+    };
+    let Some(place) = shared.under_way.enter(key) else {
+        return refused(Reason::KeyUnderWay, "The request with this key is under way.").into_response();
+    };
+    match found(&shared, key).await {
+        Err(failure) => failure.into_response(),
+        Ok(Some(Answering::UnderWay)) => {
+            let sentence =
+                "The server stopped while the request with this key was under way; look whether it was done.";
+            refused(Reason::OutcomeUnknown, sentence).into_response()
+        }
+        Ok(Some(Answering::Answered(answer))) => match digest(request).await {
+            Ok(digest) if digest == answer.request => again(answer),
+            Ok(_) => refused(Reason::KeyOfAnother, "Another request had this key.").into_response(),
+            Err(failure) => failure.into_response(),
+        },
+        Ok(None) => {
+            let (request, seen) = watched(request);
+            let work = tokio::spawn(async move {
+                let response = keep(&shared, key, shown, &seen, next.run(request).await).await;
+                drop(place);
+                response
+            });
+            work.await.unwrap_or_else(|error| {
+                tracing::error!(%error, "a request with a key failed");
+                Failure::new(Reason::Failed, "The server failed to compute this.").into_response()
+            })
+        }
+    }
+}
+
+/// What is known of an earlier request with a key; where there is none, this one is under way from now on.
+async fn found(shared: &Shared, key: AnswerKey) -> Result<Option<Answering>, Failure> {
+    let now = SystemTime::now();
+    loop {
+        if shared.store.begin_answer(key, &written(now), &written(now - KEPT)).await? {
+            return Ok(None);
+        }
+        // It may have gone in between, for those of one caller are bounded.
+        if let Some(answering) = shared.store.answer(key).await? {
+            return Ok(Some(answering));
+        }
+    }
+}
+
+/// The key that a request has.
+fn key_of(headers: &HeaderMap) -> Result<Option<String>, Problem> {
+    let mut all = headers.get_all(KEY).iter();
+    let (first, second) = (all.next(), all.next());
+    let Some(value) = first else { return Ok(None) };
+    let text = value.to_str().unwrap_or_default().trim();
+    let text = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
+    let is_one = second.is_none() && (1..=LONGEST).contains(&text.len());
+    if is_one && text.bytes().all(|byte| byte.is_ascii_graphic() && byte != b'"') {
+        return Ok(Some(text.to_owned()));
+    }
+    Err(Problem::new(Reason::Malformed, "The request cannot be read: its idempotency key is none.")
+        .at(KEY.as_str(), KEYS))
+}
+
+/// What a key is kept by. Those who act in other names, or as other callers, do not meet.
+pub(super) fn answer_key(caller: &Caller, principal: &Principal, key: &str) -> AnswerKey {
+    let person = caller.person();
+    AnswerKey { caller: hash(&person), key: hash(&format!("{person}\n{principal}\n{key}")) }
+}
+
+/// What is seen of a request while it is read.
+struct Seen {
+    digest: Sha256,
+    is_whole: bool,
+}
+
+/// Of what a request asks for, without its body: the address, and the revision that it is for.
+fn digest_of_head(request: &Request) -> Sha256 {
+    let revision = request.headers().get(header::IF_MATCH).map_or(&b""[..], HeaderValue::as_bytes);
+    let head = format!("{} {}\n{}\n", request.method(), request.uri(), String::from_utf8_lossy(revision));
+    Sha256::new_with_prefix(head)
+}
+
+/// Has the body looked at while it is read, so that no request is held twice.
+fn watched(request: Request) -> (Request, Arc<Mutex<Seen>>) {
+    let (digest, is_whole) = (digest_of_head(&request), request.body().is_end_stream());
+    let seen = Arc::new(Mutex::new(Seen { digest, is_whole }));
+    if is_whole {
+        return (request, seen);
+    }
+    let (reading, read) = (Arc::clone(&seen), Arc::clone(&seen));
+    let request = request.map(|body| {
+        let bytes = body.into_data_stream().inspect_ok(move |bytes| lock(&reading).digest.update(bytes));
+        let end = stream::once(async move {
+            lock(&read).is_whole = true;
+            Ok(Bytes::new())
+        });
+        Body::from_stream(bytes.chain(end))
+    });
+    (request, seen)
+}
+
+fn lock(seen: &Mutex<Seen>) -> std::sync::MutexGuard<'_, Seen> {
+    seen.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The hash of a request that comes again.
+async fn digest(request: Request) -> Result<SecretHash, Failure> {
+    let mut digest = digest_of_head(&request);
+    let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
+    let cut_off = |_| {
+        Problem::new(Reason::Malformed, "The request did not arrive whole.").at("body", "a whole request")
+    };
+    let (mut length, mut bytes) = (0, request.into_body().into_data_stream());
+    while let Some(some) = bytes.next().await {
+        let some = some.map_err(cut_off)?;
+        length += some.len();
+        if length > most.bytes() {
+            let problem = Problem::new(Reason::LargeRequest, format!("The request is larger than {most}."));
+            return Err(problem.at("body", most.to_string()).into());
+        }
+        digest.update(some);
+    }
+    Ok(digest.finalize().into())
+}
+
+/// Keeps what a request was answered, unless it is to be tried again.
+async fn keep(
+    shared: &Shared,
+    key: AnswerKey,
+    shown: Shown,
+    seen: &Mutex<Seen>,
+    response: Response,
+) -> Response {
+    let request =
+        Some(lock(seen)).filter(|seen| seen.is_whole).map(|seen| seen.digest.clone().finalize().into());
+    let status = response.status();
+    let is_kept = !status.is_server_error() && status != StatusCode::TOO_MANY_REQUESTS;
+    let (kept, response) = match request.filter(|_| is_kept) {
+        None => (shared.store.forget_answer(key).await, response),
+        Some(request) => match answer_of(request, response).await {
+            Err(failure) => return failure.into_response(),
+            Ok((answer, response)) => {
+                let is_given_again = shown == Shown::Again || !status.is_success();
+                let kept = if is_given_again && answer.body.len() <= MAX_ANSWER {
+                    Ok(answer)
+                } else {
+                    let sentence = "The request with this key was done; its answer is not kept.";
+                    let instead = refused(Reason::AnswerNotKept, sentence).into_response();
+                    answer_of(request, instead).await.map(|(answer, _)| answer)
+                };
+                match kept {
+                    Err(failure) => return failure.into_response(),
+                    Ok(kept) => (shared.store.keep_answer(key, kept).await, response),
+                }
+            }
+        },
+    };
+    if let Err(error) = kept {
+        tracing::error!(%error, "the answer to a request with a key could not be kept");
+    }
+    response
+}
+
+/// What is kept of a response, and the response.
+async fn answer_of(request: SecretHash, response: Response) -> Result<(Answer, Response), Failure> {
+    let (parts, body) = response.into_parts();
+    let body = body::to_bytes(body, usize::MAX).await.map_err(|error| {
+        tracing::error!(%error, "an answer cannot be read");
+        Failure::new(Reason::Failed, "The server failed to answer this.")
+    })?;
+    let text = |name: &HeaderName| {
+        let value = parts.headers.get(name)?.to_str().ok()?;
+        Some((name.to_string(), value.to_owned()))
+    };
+    let headers = HEADERS.iter().filter_map(text).collect();
+    let answer = Answer { request, status: parts.status.as_u16(), headers, body: body.to_vec() };
+    Ok((answer, Response::from_parts(parts, Body::from(body))))
+}
+
+/// The response that was given before.
+fn again(Answer { status, headers, body, .. }: Answer) -> Response {
+    let mut response = Response::new(Body::from(body));
+    *response.status_mut() = StatusCode::from_u16(status).unwrap_or_default();
+    for (name, value) in headers {
+        let header = HeaderName::try_from(name).ok().zip(HeaderValue::try_from(value).ok());
+        header.map(|(name, value)| response.headers_mut().insert(name, value));
+    }
+    response.extensions_mut().insert(Repeated);
+    response
+}
+
+fn refused(reason: Reason, sentence: &str) -> Failure {
+    Problem::new(reason, sentence).at(KEY.as_str(), "the key of no other request").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ik1_a_key_is_written_with_quotes_or_without() {
+        let of = |values: &[&str]| {
+            let all = values.iter().map(|value| (KEY, HeaderValue::from_str(value).unwrap()));
+            key_of(&all.fold(HeaderMap::new(), |mut all, (name, value)| {
+                all.append(name, value);
+                all
+            }))
+        };
+        assert_eq!(of(&[]), Ok(None));
+        for text in ["8e03978e-40d5", "\"8e03978e-40d5\"", " 8e03978e-40d5 "] {
+            assert_eq!(of(&[text]), Ok(Some("8e03978e-40d5".to_owned())), "{text}");
+        }
+        let longest = "k".repeat(LONGEST);
+        assert_eq!(of(&[&longest]), Ok(Some(longest.clone())));
+        for values in [&["one", "two"][..], &[""], &["\"\""], &["a b"], &["\"a"], &[&format!("{longest}k")]] {
+            let problem = of(values).unwrap_err();
+            assert_eq!(problem.field.as_deref(), Some("idempotency-key"), "{values:?}");
+        }
+    }
+}

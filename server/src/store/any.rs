@@ -1,0 +1,280 @@
+//! The store that the server was started with: each call goes on to it.
+
+use std::collections::BTreeSet;
+
+use espalier_proto::Notice;
+use espalier_session::JournalEntry;
+
+#[cfg(test)]
+use super::MemoryStore;
+use super::{
+    Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Damage, Event, Finding,
+    Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Pass, PassKind, Passes, Picture,
+    SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree, StoredVersion, TreeChange,
+    TreeDocument, TreeQuery, User, UserChange, Users,
+};
+use crate::access::SecretHash;
+
+/// The store that the server was started with.
+#[derive(Debug)]
+pub enum AnyStore {
+    /// A file of SQLite.
+    Sqlite(SqliteStore),
+    /// The model, for tests.
+    #[cfg(test)]
+    Memory(MemoryStore),
+}
+
+/// Hands a call on to the store there is.
+macro_rules! delegate {
+    ($self:ident.$method:ident($($argument:expr),*)) => {
+        match $self {
+            Self::Sqlite(store) => store.$method($($argument),*).await,
+            #[cfg(test)]
+            Self::Memory(store) => store.$method($($argument),*).await,
+        }
+    };
+}
+
+impl Store for AnyStore {
+    async fn create_session(&self, new: NewSession) -> Result<(), StoreError> {
+        delegate!(self.create_session(new))
+    }
+
+    async fn has_session(&self, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.has_session(name))
+    }
+
+    async fn acquire(&self, session: &str) -> Result<Lease, StoreError> {
+        delegate!(self.acquire(session))
+    }
+
+    async fn release(&self, lease: Lease) {
+        delegate!(self.release(lease));
+    }
+
+    async fn load_session(
+        &self,
+        name: &str,
+        before: Option<u64>,
+    ) -> Result<Option<StoredSession>, StoreError> {
+        delegate!(self.load_session(name, before))
+    }
+
+    async fn set_aside(
+        &self,
+        lease: &Lease,
+        damage: &[Damage],
+        notices: &[Notice],
+    ) -> Result<(), StoreError> {
+        delegate!(self.set_aside(lease, damage, notices))
+    }
+
+    async fn forget_notices(&self, lease: &Lease) -> Result<(), StoreError> {
+        delegate!(self.forget_notices(lease))
+    }
+
+    async fn append(
+        &self,
+        lease: &Lease,
+        simulation_version: u32,
+        entries: &[JournalEntry],
+    ) -> Result<(), StoreError> {
+        delegate!(self.append(lease, simulation_version, entries))
+    }
+
+    async fn keep_snapshot(&self, lease: &Lease, snapshot: NewSnapshot) -> Result<(), StoreError> {
+        delegate!(self.keep_snapshot(lease, snapshot))
+    }
+
+    async fn purge_sessions(&self, saved: &str, unsaved: &str, limit: u32) -> Result<u64, StoreError> {
+        delegate!(self.purge_sessions(saved, unsaved, limit))
+    }
+
+    async fn shrink(&self) -> Result<bool, StoreError> {
+        delegate!(self.shrink())
+    }
+
+    async fn check_place(&self) -> Result<(), StoreError> {
+        delegate!(self.check_place())
+    }
+
+    async fn close(&self) {
+        delegate!(self.close());
+    }
+}
+
+impl Library for AnyStore {
+    async fn add_tree(&self, tree: NewTree) -> Result<(), StoreError> {
+        delegate!(self.add_tree(tree))
+    }
+
+    async fn add_version(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        version: NewVersion,
+    ) -> Result<u32, StoreError> {
+        delegate!(self.add_version(tree, expected, version))
+    }
+
+    async fn change_tree(
+        &self,
+        tree: &str,
+        expected: Option<u64>,
+        change: TreeChange,
+    ) -> Result<(), StoreError> {
+        delegate!(self.change_tree(tree, expected, change))
+    }
+
+    async fn trees(&self, query: &TreeQuery) -> Result<Vec<StoredTree>, StoreError> {
+        delegate!(self.trees(query))
+    }
+
+    async fn tree(&self, id: &str) -> Result<Option<StoredTree>, StoreError> {
+        delegate!(self.tree(id))
+    }
+
+    async fn versions(
+        &self,
+        tree: &str,
+        limit: u32,
+        before: Option<u32>,
+    ) -> Result<Vec<StoredVersion>, StoreError> {
+        delegate!(self.versions(tree, limit, before))
+    }
+
+    async fn document(&self, tree: &str, version: u32) -> Result<Option<TreeDocument>, StoreError> {
+        delegate!(self.document(tree, version))
+    }
+
+    async fn thumbnail(&self, tree: &str, version: u32) -> Result<Option<Picture>, StoreError> {
+        delegate!(self.thumbnail(tree, version))
+    }
+
+    async fn tree_of(&self, session: &str) -> Result<Option<SessionTree>, StoreError> {
+        delegate!(self.tree_of(session))
+    }
+
+    async fn purge(&self, before: &str, limit: u32) -> Result<u64, StoreError> {
+        delegate!(self.purge(before, limit))
+    }
+}
+
+impl Finding for AnyStore {
+    async fn collections(&self) -> Result<Vec<Collection>, StoreError> {
+        delegate!(self.collections())
+    }
+
+    async fn add_collection(&self, new: Collection) -> Result<(), StoreError> {
+        delegate!(self.add_collection(new))
+    }
+
+    async fn change_collection(&self, id: &str, change: CollectionChange) -> Result<(), StoreError> {
+        delegate!(self.change_collection(id, change))
+    }
+
+    async fn delete_collection(&self, id: &str) -> Result<(), StoreError> {
+        delegate!(self.delete_collection(id))
+    }
+
+    async fn tags(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        delegate!(self.tags())
+    }
+
+    async fn authors(&self) -> Result<Vec<(String, u32)>, StoreError> {
+        delegate!(self.authors())
+    }
+
+    async fn favourites(&self, principal: &str) -> Result<BTreeSet<String>, StoreError> {
+        delegate!(self.favourites(principal))
+    }
+
+    async fn set_favourite(&self, principal: &str, tree: &str, is_one: bool) -> Result<(), StoreError> {
+        delegate!(self.set_favourite(principal, tree, is_one))
+    }
+}
+
+impl Passes for AnyStore {
+    async fn add_pass(&self, hash: SecretHash, pass: Pass) -> Result<(), StoreError> {
+        delegate!(self.add_pass(hash, pass))
+    }
+
+    async fn pass(&self, hash: SecretHash, now: &str) -> Result<Option<Pass>, StoreError> {
+        delegate!(self.pass(hash, now))
+    }
+
+    async fn passes(&self, kind: PassKind, now: &str) -> Result<Vec<Pass>, StoreError> {
+        delegate!(self.passes(kind, now))
+    }
+
+    async fn extend_pass(&self, id: &str, expires_at: &str) -> Result<(), StoreError> {
+        delegate!(self.extend_pass(id, expires_at))
+    }
+
+    async fn take_pass(&self, id: &str) -> Result<bool, StoreError> {
+        delegate!(self.take_pass(id))
+    }
+
+    async fn purge_passes(&self, now: &str) -> Result<(), StoreError> {
+        delegate!(self.purge_passes(now))
+    }
+}
+
+impl Users for AnyStore {
+    async fn add_user(&self, user: User) -> Result<(), StoreError> {
+        delegate!(self.add_user(user))
+    }
+
+    async fn user(&self, name: &str) -> Result<Option<User>, StoreError> {
+        delegate!(self.user(name))
+    }
+
+    async fn users(&self) -> Result<Vec<User>, StoreError> {
+        delegate!(self.users())
+    }
+
+    async fn change_user(&self, name: &str, change: UserChange) -> Result<bool, StoreError> {
+        delegate!(self.change_user(name, change))
+    }
+
+    async fn remove_user(&self, name: &str) -> Result<bool, StoreError> {
+        delegate!(self.remove_user(name))
+    }
+}
+
+impl Audit for AnyStore {
+    async fn note(&self, event: Event) -> Result<(), StoreError> {
+        delegate!(self.note(event))
+    }
+
+    async fn events(&self, limit: u32, before: Option<u64>) -> Result<Vec<(u64, Event)>, StoreError> {
+        delegate!(self.events(limit, before))
+    }
+
+    async fn purge_events(&self, before: &str) -> Result<(), StoreError> {
+        delegate!(self.purge_events(before))
+    }
+}
+
+impl Answers for AnyStore {
+    async fn begin_answer(&self, key: AnswerKey, at: &str, since: &str) -> Result<bool, StoreError> {
+        delegate!(self.begin_answer(key, at, since))
+    }
+
+    async fn answer(&self, key: AnswerKey) -> Result<Option<Answering>, StoreError> {
+        delegate!(self.answer(key))
+    }
+
+    async fn keep_answer(&self, key: AnswerKey, answer: Answer) -> Result<(), StoreError> {
+        delegate!(self.keep_answer(key, answer))
+    }
+
+    async fn forget_answer(&self, key: AnswerKey) -> Result<(), StoreError> {
+        delegate!(self.forget_answer(key))
+    }
+
+    async fn purge_answers(&self, before: &str) -> Result<(), StoreError> {
+        delegate!(self.purge_answers(before))
+    }
+}
