@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::bounded::LinkHours;
+
 /// What somebody may do; each may do what those before it may.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema, TS,
@@ -132,6 +134,70 @@ pub struct AuditEvent {
     pub object: Option<String>,
     /// `done`, or the status that it was refused with.
     pub outcome: String,
+}
+
+/// `POST /api/v1/trees/{tree}/links`: let somebody in for one tree (`AC12`).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct NewLink {
+    /// What they may do.
+    pub role: LinkRole,
+    /// For how many hours, from now on; without it as long as they come every month, half a year at most, and the link
+    /// waits for a year.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub hours: Option<LinkHours>,
+    /// What their device is called.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub name: Option<String>,
+}
+
+/// What a link may allow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(rename_all = "snake_case")]
+pub enum LinkRole {
+    /// As the role.
+    Viewer,
+    /// As the role.
+    Editor,
+}
+
+impl From<LinkRole> for Role {
+    fn from(role: LinkRole) -> Self {
+        match role {
+            LinkRole::Viewer => Self::Viewer,
+            LinkRole::Editor => Self::Editor,
+        }
+    }
+}
+
+/// `GET /api/v1/trees/{tree}/links`: somebody who was invited to a tree.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TreeLink {
+    /// Its identifier, which stays that of the device that came by it; no secret.
+    pub id: String,
+    /// What their device is called.
+    pub name: String,
+    /// What they may do.
+    pub role: Role,
+    /// When it was made or, where somebody has come by it, when that was; in UTC.
+    pub since: String,
+    /// When it ends, unless they come again before.
+    pub until: String,
+    /// Whether somebody has come by it.
+    pub used: bool,
+}
+
+/// A link as it is shown once.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct MadeLink {
+    /// Its identifier.
+    pub id: String,
+    /// What to open on the device that is to be let in.
+    pub url: String,
 }
 
 /// How somebody has come in.

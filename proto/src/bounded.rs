@@ -13,7 +13,8 @@ use crate::{
     reading::NotAllowed,
     schema::{between, list, schemas},
     version::{
-        MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND, MIN_DIAMETER,
+        MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_LINK_HOURS, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND,
+        MIN_DIAMETER,
     },
 };
 
@@ -159,6 +160,8 @@ bounded! {
     Age: u32 from 0, to MAX_AGE, read deserialize_u32;
     /// Simulation steps of a prediction (`LM10`).
     PredictedSteps: u32 from 0, to MAX_PREDICTED_STEPS, read deserialize_u32;
+    /// How long a link lets in, in hours (`AC12`).
+    LinkHours: u32 from 1, to MAX_LINK_HOURS, read deserialize_u32;
     /// The radius of the brush, in internode lengths (`LM2`).
     BrushRadius: f32 from 0.0, to 40.0, read deserialize_f32;
     /// The depth of a lasso's body against its width (`LM5`).

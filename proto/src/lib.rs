@@ -17,6 +17,7 @@ pub mod ghost;
 pub mod library;
 pub mod mesh;
 pub mod obstacle;
+pub mod permission;
 pub mod place;
 pub mod problem;
 pub mod programme;
@@ -34,7 +35,8 @@ pub mod version;
 
 pub use bend::{BendFrame, RowMotion};
 pub use bounded::{
-    Age, BrushRadius, Depth, Diameter, List, PredictedSteps, Scale, Share, SphereRadius, Steps, Touches,
+    Age, BrushRadius, Depth, Diameter, LinkHours, List, PredictedSteps, Scale, Share, SphereRadius, Steps,
+    Touches,
 };
 pub use command::{Action, Command, StrokeSample};
 pub use control::{

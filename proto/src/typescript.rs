@@ -7,8 +7,9 @@ use serde::Serialize;
 use ts_rs::{Config, TS};
 
 use crate::{
-    access, bounded, command, control, envelope, frame, library, obstacle, place, problem, programme, reason,
-    schematic, species, thumbnail, timeline, version,
+    access::{self, Role},
+    bounded, command, control, envelope, frame, library, obstacle, permission, place, problem, programme,
+    reason, schematic, species, thumbnail, timeline, version,
 };
 
 /// The generated file's contents; `client/src/wire/generated.ts` must equal it.
@@ -156,7 +157,7 @@ pub fn declarations() -> String {
         library::ChangeCollection::decl(&config),
         library::TreeTag::decl(&config),
         library::TreeAuthor::decl(&config),
-        access::Role::decl(&config),
+        Role::decl(&config),
         access::Redeem::decl(&config),
         access::Admitted::decl(&config),
         access::LogIn::decl(&config),
@@ -165,6 +166,10 @@ pub fn declarations() -> String {
         access::AuditEvent::decl(&config),
         access::Me::decl(&config),
         access::Way::decl(&config),
+        access::NewLink::decl(&config),
+        access::LinkRole::decl(&config),
+        access::TreeLink::decl(&config),
+        access::MadeLink::decl(&config),
     ] {
         out.push_str(&format!("\nexport {declaration}\n"));
     }
@@ -173,6 +178,17 @@ pub fn declarations() -> String {
 
 /// The tables of settings, and what everything is set to at first.
 fn add_tables(out: &mut String) {
+    let roles: Vec<_> = Role::ALL.iter().map(|role| role.name()).collect();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        out,
+        "\n/** Each may do what those before it may. */\nexport const ROLES = {roles:?} as const satisfies readonly Role[];"
+    );
+    out.push_str("\n/** The least role that may do something (AC5). */\nexport const LEAST_ROLES = {\n");
+    for (action, name) in permission::Action::ALL {
+        let _ = writeln!(out, "  {name}: {:?},", action.least().name());
+    }
+    out.push_str("} as const satisfies Record<string, Role>;\n");
     let table = |indent: &str, rows: &[Setting]| -> String {
         rows.iter().map(|row| format!("{indent}  {}: {},\n", row.name, json(row))).collect()
     };

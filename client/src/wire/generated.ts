@@ -39,6 +39,7 @@ export const BOUNDS = {
   Steps: { least: 1, most: 1000 },
   Age: { least: 0, most: 10000 },
   PredictedSteps: { least: 0, most: 100 },
+  LinkHours: { least: 1, most: 8760 },
   BrushRadius: { least: 0, most: 40 },
   Depth: { least: 0.1, most: 1 },
   Share: { least: 0, most: 1 },
@@ -68,6 +69,32 @@ export const FrameKind = {
   Bend: 2,
   Ghost: 3,
 } as const;
+
+/** Each may do what those before it may. */
+export const ROLES = ["viewer", "editor", "owner", "admin"] as const satisfies readonly Role[];
+
+/** The least role that may do something (AC5). */
+export const LEAST_ROLES = {
+  Look: "viewer",
+  EnterSession: "viewer",
+  GrowTrees: "editor",
+  BeginSession: "editor",
+  SeeSession: "viewer",
+  JoinSession: "viewer",
+  EditSession: "editor",
+  TakeTree: "viewer",
+  SeeObstacle: "viewer",
+  ListTrees: "viewer",
+  SeeLibrary: "viewer",
+  SaveTree: "editor",
+  OpenTree: "viewer",
+  SeeTree: "viewer",
+  ChangeTree: "editor",
+  DeleteTree: "owner",
+  ShareTree: "owner",
+  ChangeCollections: "editor",
+  SeePeople: "admin",
+} as const satisfies Record<string, Role>;
 
 export const PARAMETERS = {
   internode_length: {"kind":"number","least":0.005,"most":1.0,"step":0.005,"symbol":"l","unit":"m","group":"wood"},
@@ -2174,3 +2201,56 @@ name?: string,
 tree?: string, };
 
 export type Way = "machine" | "device" | "login" | "token";
+
+export type NewLink = { 
+/**
+ * What they may do.
+ */
+role: LinkRole, 
+/**
+ * For how many hours, from now on; without it as long as they come every month, half a year at most, and the link
+ * waits for a year.
+ */
+hours?: number, 
+/**
+ * What their device is called.
+ */
+name?: string, };
+
+export type LinkRole = "viewer" | "editor";
+
+export type TreeLink = { 
+/**
+ * Its identifier, which stays that of the device that came by it; no secret.
+ */
+id: string, 
+/**
+ * What their device is called.
+ */
+name: string, 
+/**
+ * What they may do.
+ */
+role: Role, 
+/**
+ * When it was made or, where somebody has come by it, when that was; in UTC.
+ */
+since: string, 
+/**
+ * When it ends, unless they come again before.
+ */
+until: string, 
+/**
+ * Whether somebody has come by it.
+ */
+used: boolean, };
+
+export type MadeLink = { 
+/**
+ * Its identifier.
+ */
+id: string, 
+/**
+ * What to open on the device that is to be let in.
+ */
+url: string, };

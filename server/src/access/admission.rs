@@ -43,23 +43,34 @@ impl Default for Invite {
 
 /// Invites somebody; whoever redeems the secret first has come.
 pub async fn invite(store: &impl Passes, invite: Invite, now: SystemTime) -> Result<Secret, StoreError> {
-    let secret = Secret::short();
+    let waits = invite.lasts.unwrap_or(INVITATION_LIFE);
+    Ok(invite_for(store, invite, waits, now).await?.0)
+}
+
+/// The same with an invitation that waits so long; with its identifier.
+pub async fn invite_for(
+    store: &impl Passes,
+    invite: Invite,
+    waits: Duration,
+    now: SystemTime,
+) -> Result<(Secret, String), StoreError> {
+    let (secret, id) = (Secret::short(), name::unguessable());
     let Invite { name, role, tree, lasts } = invite;
     let pass = Pass {
-        id: name::unguessable(),
+        id: id.clone(),
         kind: PassKind::Invitation,
         name,
         role,
         tree,
         created_at: written(now),
-        expires_at: written(now + lasts.unwrap_or(INVITATION_LIFE)),
+        expires_at: written(now + waits),
         ends_at: written(now + lasts.unwrap_or(LONGEST)),
     };
     store.add_pass(secret.hash(), pass).await?;
-    Ok(secret)
+    Ok((secret, id))
 }
 
-/// Makes a device of whoever has the secret of an invitation, which is used up by that.
+/// Makes a device of whoever has the secret of an invitation, which is used up by that; the device has its identifier.
 pub async fn redeem(
     store: &impl Passes,
     secret: &str,
@@ -80,7 +91,7 @@ pub async fn log_in(
     now: SystemTime,
 ) -> Result<(Secret, Pass), StoreError> {
     let ends_at = written(now + DEVICE_LIFE);
-    let (id, created_at, expires_at) = (String::new(), String::new(), ends_at.clone());
+    let (id, created_at, expires_at) = (name::unguessable(), String::new(), ends_at.clone());
     let pass = Pass { id, kind: PassKind::Login, name, role, tree: None, created_at, expires_at, ends_at };
     come_in(store, pass, now).await
 }
@@ -90,7 +101,6 @@ async fn come_in(store: &impl Passes, like: Pass, now: SystemTime) -> Result<(Se
     let secret = Secret::long("");
     let ends_at = written(now + DEVICE_LIFE).min(like.ends_at);
     let pass = Pass {
-        id: name::unguessable(),
         created_at: written(now),
         expires_at: written(now + DEVICE_IDLE).min(ends_at.clone()),
         ends_at,

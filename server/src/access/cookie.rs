@@ -32,9 +32,13 @@ pub fn forgetting(headers: &HeaderMap) -> Option<HeaderValue> {
     set("", Duration::ZERO, headers)
 }
 
+/// Whether a request came by https to a proxy.
+pub fn is_secure(headers: &HeaderMap) -> bool {
+    headers.get("x-forwarded-proto").is_some_and(|protocol| protocol == "https")
+}
+
 fn set(text: &str, lasts: Duration, headers: &HeaderMap) -> Option<HeaderValue> {
-    let is_secure = headers.get("x-forwarded-proto").is_some_and(|protocol| protocol == "https");
-    let (begins, more) = if is_secure { (SECURE, "; Secure") } else { ("", "") };
+    let (begins, more) = if is_secure(headers) { (SECURE, "; Secure") } else { ("", "") };
     let (name, lasts) = (name(headers), lasts.as_secs());
     let cookie = format!("{begins}{name}={text}; Path=/; HttpOnly; SameSite=Strict; Max-Age={lasts}{more}");
     HeaderValue::try_from(cookie).ok()

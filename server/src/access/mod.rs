@@ -1,5 +1,6 @@
 //! Who may do what: who asks, what they may, and the one place that decides.
 
+pub use espalier_proto::permission::{Action, Reach};
 use espalier_proto::{Problem, Reason};
 
 pub mod admission;
@@ -7,15 +8,15 @@ mod allowance;
 mod caller;
 pub mod cookie;
 pub mod password;
+mod rate;
 mod secret;
-mod table;
 mod tries;
 
 pub use self::{
     allowance::Allowances,
     caller::{Caller, Object, Peer, Unknown, address, way_of},
+    rate::Rate,
     secret::{Secret, SecretHash, hash},
-    table::{Action, Reach},
     tries::{Tries, network},
 };
 

@@ -7,7 +7,7 @@ use axum::{
     routing::{MethodRouter, delete, get, patch, post, put},
 };
 use espalier_proto::{
-    access::{Admitted, AuditEvent, Entrance, ListedUser, LogIn, Me, Redeem},
+    access::{Admitted, AuditEvent, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem, TreeLink},
     library::{
         ChangeCollection, ChangeTree, ChangeVersion, CopyTree, ExportFormat, ExportProgress, NewCollection,
         NewSession, RestoreVersion, SaveTree, SaveVersion, SavedTree, SessionCreated, TreeAuthor,
@@ -24,7 +24,7 @@ use tower::limit::GlobalConcurrencyLimitLayer;
 
 use super::{
     Shared, audit, collections, description, description::About, entry, exports, failure::Path, imports,
-    jobs, keys::Shown, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
+    jobs, keys::Shown, links, obstacles, schematic, sessions, species, trees, uploads::uploads, versions,
 };
 use crate::{
     access::Action,
@@ -78,6 +78,12 @@ impl Route {
     /// The body of a request may have so many bytes.
     fn up_to(mut self, most_bytes: usize) -> Self {
         self.most_bytes = most_bytes;
+        self
+    }
+
+    /// Its answer has a secret, and is given once.
+    fn once(mut self) -> Self {
+        self.shown = Shown::Once;
         self
     }
 
@@ -180,6 +186,9 @@ pub(super) fn routes() -> Vec<Route> {
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
         route("POST /api/v1/trees/{tree}/undelete", Action::DeleteTree, post(trees::undelete), About::new("Take a deleted tree back.").gives::<SavedTree>(200).revised()).noted("undelete"),
         route("POST /api/v1/trees/{tree}/copies", Action::OpenTree, post(trees::copy), About::new("Duplicate a tree, or branch from a version; the answer is the new tree.").takes::<CopyTree>().gives::<SavedTree>(201)).up_to(MAX_SAID_BODY),
+        route("GET /api/v1/trees/{tree}/links", Action::ShareTree, get(links::list), About::new("Who was invited to this tree alone, newest first (AC12).").gives::<Vec<TreeLink>>(200)),
+        route("POST /api/v1/trees/{tree}/links", Action::ShareTree, post(links::add), About::new("Make a link that lets one device in for this tree; it is shown this once.").takes::<NewLink>().gives::<MadeLink>(201)).noted("link").once(),
+        route("DELETE /api/v1/trees/{tree}/links/{link}", Action::ShareTree, delete(links::revoke), About::new("Revoke a link; who came by it is let in no longer.").gives_nothing()).noted("unlink"),
         route("PUT /api/v1/trees/{tree}/favourite", Action::SeeTree, put(collections::like), About::new("It is a favourite of whoever asks.").gives_nothing()),
         route("DELETE /api/v1/trees/{tree}/favourite", Action::SeeTree, delete(collections::unlike), About::new("It is none.").gives_nothing()),
         route("GET /api/v1/tags", Action::SeeLibrary, get(collections::tags), About::new("All tags.").gives::<Vec<TreeTag>>(200)),

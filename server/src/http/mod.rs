@@ -12,6 +12,7 @@ mod guard;
 mod imports;
 mod jobs;
 mod keys;
+mod links;
 mod obstacles;
 mod origin;
 mod ranges;

@@ -1,18 +1,18 @@
 import { computed, type Signal } from "@preact/signals";
-import type { Me, Role } from "../../wire/generated";
+import { LEAST_ROLES, type Me, ROLES, type Role } from "../../wire/generated";
 import { kept } from "../page/settings";
 import { ask } from "../requests/request";
 
-/** Which roles change trees; the others look at them. */
-const CHANGES: Record<Role, boolean> = { viewer: false, editor: true, owner: true, admin: true };
-/** Which roles delete them. */
-const DELETES: Record<Role, boolean> = { viewer: false, editor: false, owner: true, admin: true };
+/** What a role may do, as the server's table says. */
+function may(role: Role, action: keyof typeof LEAST_ROLES): boolean {
+  return ROLES.indexOf(role) >= ROLES.indexOf(LEAST_ROLES[action]);
+}
 
 /** What whoever is at this page may do (`AC8`). Until the server has said it, it is what it said last time. */
 export class Rights {
   readonly me: Signal<Me | null>;
   /** Whether they may draw, save, and whatever else changes trees. */
-  readonly mayChange = computed(() => CHANGES[this.me.value?.role ?? "owner"]);
+  readonly mayChange = computed(() => may(this.me.value?.role ?? "owner", "EditSession"));
   /** The only tree they may see; null where the library is open to them. */
   readonly onlyTree = computed(() => this.me.value?.tree ?? null);
   /** The question on its way. */
@@ -29,7 +29,7 @@ export class Rights {
 
   /** Whether they may delete trees, and take that back. */
   get mayDelete(): boolean {
-    return DELETES[this.me.value?.role ?? "owner"] && this.onlyTree.value === null;
+    return may(this.me.value?.role ?? "owner", "DeleteTree") && this.onlyTree.value === null;
   }
 
   /** Asks the server, once for all who want to know; fails where it does not say, and what was known before stays. */
@@ -55,5 +55,5 @@ function askWho(): Promise<Me> {
 }
 
 function isMe(value: unknown): boolean {
-  return typeof value === "object" && value !== null && "role" in value && Object.hasOwn(CHANGES, String(value.role));
+  return typeof value === "object" && value !== null && "role" in value && ROLES.includes(value.role as Role);
 }

@@ -49,6 +49,11 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
         ("PATCH /api/v1/collections/{collection}", vec![], json!({ "name": "Woods", "parent": "" })),
         ("POST /api/v1/trees/{tree}/copies", names(&["name"]), with(json!({ "name": "Oak", "version": 1 }))),
         (
+            "POST /api/v1/trees/{tree}/links",
+            names(&["role"]),
+            json!({ "role": "viewer", "hours": 1, "name": "Ada's tablet" }),
+        ),
+        (
             "POST /api/v1/trees/{tree}/versions",
             names(&["session"]),
             with(json!({ "session": "oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" })),

@@ -1,6 +1,6 @@
 //! What can be asked for, and the least role that may have it.
 
-use espalier_proto::access::Role::{self, Admin, Editor, Owner, Viewer};
+use crate::access::Role::{self, Admin, Editor, Owner, Viewer};
 
 /// Who of those that are in for one tree alone may ask for something of the server as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +21,9 @@ macro_rules! table {
         }
 
         impl Action {
+            /// All of them, each with its name.
+            pub const ALL: &'static [(Self, &'static str)] = &[$((Self::$action, stringify!($action)),)+];
+
             /// The least role that may do it.
             pub const fn least(self) -> Role {
                 match self { $(Self::$action => $least,)+ }
@@ -67,6 +70,8 @@ table! {
     ChangeTree: Editor, Library;
     /// Deletes a tree, or takes that back.
     DeleteTree: Owner, Library;
+    /// Makes, lists and revokes links that let people in for a tree.
+    ShareTree: Owner, Library;
     /// Makes, changes and deletes collections.
     ChangeCollections: Editor, Library;
     /// Sees who can come in, and what was done.

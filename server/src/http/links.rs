@@ -1,0 +1,104 @@
+//! Links that let people in for one tree (`AC12`).
+
+use std::time::{Duration, SystemTime};
+
+use axum::{
+    Json,
+    extract::State,
+    http::{HeaderMap, StatusCode, header},
+    response::IntoResponse,
+};
+use espalier_proto::{
+    Problem, Reason,
+    access::{MadeLink, NewLink, TreeLink},
+    version::MAX_LINK_HOURS,
+};
+
+use super::{
+    Shared,
+    failure::{Body, Failure, Path},
+    trees,
+};
+use crate::{
+    access::{
+        admission::{self, Invite},
+        cookie,
+    },
+    store::{Missing, Pass, PassKind, Passes},
+    text,
+    time::now,
+};
+
+/// Links of one tree.
+const MOST: usize = 100;
+/// How long a link waits that is for no time of its own.
+const WAITS: Duration = Duration::from_hours(MAX_LINK_HOURS as u64);
+/// What a device is called that nobody has named.
+const UNNAMED: &str = "link";
+
+pub(super) async fn list(
+    State(shared): State<Shared>,
+    Path(tree): Path<String>,
+) -> Result<Json<Vec<TreeLink>>, Failure> {
+    there(&shared, &tree).await?;
+    let described = |pass: Pass| TreeLink {
+        id: pass.id,
+        name: pass.name,
+        role: pass.role,
+        since: pass.created_at,
+        until: pass.expires_at,
+        used: pass.kind == PassKind::Device,
+    };
+    Ok(Json(of(&shared, &tree).await?.into_iter().map(described).collect()))
+}
+
+pub(super) async fn add(
+    State(shared): State<Shared>,
+    Path(tree): Path<String>,
+    headers: HeaderMap,
+    Body(NewLink { role, hours, name }): Body<NewLink>,
+) -> Result<impl IntoResponse, Failure> {
+    there(&shared, &tree).await?;
+    let name = name.map_or_else(|| Ok(UNNAMED.to_owned()), |name| text::name("name", &name))?;
+    if of(&shared, &tree).await?.len() >= MOST {
+        let problem = Problem::new(Reason::TooMany, format!("The tree has {MOST} links; revoke one first."));
+        return Err(problem.at("tree", format!("a tree with fewer than {MOST} links")).into());
+    }
+    let lasts = hours.map(|hours| Duration::from_hours(hours.get().into()));
+    let invite = Invite { name, role: role.into(), tree: Some(tree), lasts };
+    let waits = lasts.unwrap_or(WAITS);
+    let (secret, id) = admission::invite_for(&*shared.store, invite, waits, SystemTime::now()).await?;
+    let scheme = if cookie::is_secure(&headers) { "https" } else { "http" };
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
+    let url = format!("{scheme}://{host}/pair#{}", secret.text());
+    Ok((StatusCode::CREATED, Json(MadeLink { id, url })))
+}
+
+pub(super) async fn revoke(
+    State(shared): State<Shared>,
+    Path((tree, link)): Path<(String, String)>,
+) -> Result<StatusCode, Failure> {
+    // Also of a tree that is deleted, which may come back.
+    trees::stored(&shared, &tree).await?;
+    let is_there = of(&shared, &tree).await?.iter().any(|pass| pass.id == link);
+    if is_there && shared.store.take_pass(&link).await? {
+        return Ok(StatusCode::NO_CONTENT);
+    }
+    Err(Failure::none_such("link", "link", "the identifier of a link of this tree"))
+}
+
+/// What lets people in for this tree alone, newest first.
+async fn of(shared: &Shared, tree: &str) -> Result<Vec<Pass>, Failure> {
+    let now = now();
+    let mut all = shared.store.passes(PassKind::Invitation, &now).await?;
+    all.extend(shared.store.passes(PassKind::Device, &now).await?);
+    all.retain(|pass| pass.tree.as_deref() == Some(tree));
+    all.sort_by(|a, b| (&b.created_at, &b.id).cmp(&(&a.created_at, &a.id)));
+    Ok(all)
+}
+
+/// Nobody is let in for a tree that is deleted.
+async fn there(shared: &Shared, tree: &str) -> Result<(), Failure> {
+    let found = trees::stored(shared, tree).await?;
+    if found.deleted_at.is_some() { Err(Missing::Tree.into()) } else { Ok(()) }
+}

@@ -1,0 +1,110 @@
+//! Links for one tree.
+
+use serde_json::{Value, json};
+
+use super::*;
+
+const LINKS: &str = "/api/v1/trees/ash/links";
+
+async fn asked(server: &Router, asked: Builder, body: &str) -> (u16, Value) {
+    let asked = asked.header(header::CONTENT_TYPE, "application/json");
+    let answer = server.clone().oneshot(asked.body(Body::from(body.to_owned())).unwrap()).await.unwrap();
+    let status = answer.status().as_u16();
+    let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+    (status, serde_json::from_slice(&bytes).unwrap_or_default())
+}
+
+/// A cookie of whoever comes by a link, as a header.
+async fn come(server: &Router, url: &str) -> Option<String> {
+    let (_, secret) = url.split_once("/pair#").unwrap();
+    let body = json!({ "secret": secret }).to_string();
+    let asked = request(&Method::POST, "/api/v1/redeem").extension(Peer([192, 168, 1, 9].into()));
+    let asked = asked.header(header::CONTENT_TYPE, "application/json").body(Body::from(body)).unwrap();
+    let answer = server.clone().oneshot(asked).await.unwrap();
+    let set = answer.headers().get(header::SET_COOKIE)?.to_str().unwrap().to_owned();
+    set.split(';').next().map(str::to_owned)
+}
+
+/// What somebody with a cookie is answered from afar.
+async fn by(server: &Router, cookie: &str, method: &Method, path: &str) -> (u16, Value) {
+    let from_afar = request(method, path).extension(Peer([192, 168, 1, 9].into()));
+    asked(server, from_afar.header(header::COOKIE, cookie), "{}").await
+}
+
+#[tokio::test]
+async fn ac12_owners_invite_to_a_tree_and_take_that_back() {
+    let (server, store) = server().await;
+    let owner = token(&store, Role::Owner, None).await;
+    let of_owner = |method: &Method, path: &str| request_of(&owner, method, path);
+    let body = r#"{"role":"editor","hours":1,"name":"Bo"}"#;
+    let (status, made) = asked(&server, of_owner(&Method::POST, LINKS), body).await;
+    assert_eq!(status, 201, "{made}");
+    let (id, url) = (made["id"].as_str().unwrap(), made["url"].as_str().unwrap());
+    assert!(url.starts_with("http://localhost:7700/pair#"), "{url}");
+
+    let list = async || asked(&server, of_owner(&Method::GET, LINKS), "").await.1;
+    let waiting = list().await;
+    assert_eq!(
+        [&waiting[0]["id"], &waiting[0]["name"], &waiting[0]["role"], &waiting[0]["used"]],
+        [&json!(id), &json!("Bo"), &json!("editor"), &json!(false)]
+    );
+    assert!(!waiting.to_string().contains(url.split('#').nth(1).unwrap()), "the secret is shown once");
+    let cookie = come(&server, url).await.expect("the link lets in");
+    assert_eq!(come(&server, url).await, None, "one device");
+    let me = by(&server, &cookie, &Method::GET, "/api/v1/me").await.1;
+    assert_eq!((&me["role"], &me["tree"]), (&json!("editor"), &json!("ash")));
+    let used = list().await;
+    assert_eq!((&used[0]["id"], &used[0]["used"]), (&json!(id), &json!(true)));
+    assert_eq!(used[0]["until"], waiting[0]["until"], "the hour is that of the link");
+
+    let own = format!("{LINKS}/{id}");
+    let elsewhere = format!("/api/v1/trees/yew/links/{id}");
+    assert_eq!(asked(&server, of_owner(&Method::DELETE, &elsewhere), "").await.0, 404);
+    assert_eq!(by(&server, &cookie, &Method::DELETE, &own).await.0, 403, "editors invite nobody");
+    assert_eq!(asked(&server, of_owner(&Method::DELETE, &own), "").await.0, 204);
+    assert_eq!(by(&server, &cookie, &Method::GET, "/api/v1/me").await.0, 401);
+    assert_eq!(list().await, json!([]));
+
+    let events = asked(&server, request(&Method::GET, "/api/v1/audit"), "").await.1;
+    let events: Vec<_> = events.as_array().unwrap().iter().map(|event| event["action"].clone()).collect();
+    assert_eq!(events, ["unlink", "unlink", "unlink", "come-in", "come-in", "link"]);
+}
+
+#[tokio::test]
+async fn ac12_a_link_is_for_viewers_or_editors_from_an_hour_to_a_year() {
+    let (server, _) = server().await;
+    let add = async |body: &str| asked(&server, request(&Method::POST, LINKS), body).await;
+    for body in [r#"{"role":"viewer"}"#, r#"{"role":"viewer","hours":8760}"#] {
+        assert_eq!(add(body).await.0, 201, "{body}");
+    }
+    for (body, field) in [
+        (r#"{"role":"owner"}"#, "role"),
+        (r#"{"role":"viewer","hours":0}"#, "hours"),
+        (r#"{"role":"viewer","hours":8761}"#, "hours"),
+        (r#"{"role":"viewer","name":""}"#, "name"),
+    ] {
+        let (status, problem) = add(body).await;
+        assert_eq!((status, problem["field"].as_str()), (400, Some(field)), "{body}");
+    }
+    for _ in 2..100 {
+        assert_eq!(add(r#"{"role":"viewer"}"#).await.0, 201);
+    }
+    assert_eq!(add(r#"{"role":"viewer"}"#).await.1["reason"], "too-many");
+    let gone = asked(&server, request(&Method::DELETE, "/api/v1/trees/ash"), "").await;
+    assert_eq!(gone.0, 204);
+    assert_eq!(add(r#"{"role":"viewer"}"#).await.0, 404);
+}
+
+#[tokio::test]
+async fn ik3_a_link_is_shown_once_also_to_whoever_has_its_key() {
+    let (server, _) = server().await;
+    let add = async || {
+        let keyed = request(&Method::POST, LINKS).header("idempotency-key", "one");
+        asked(&server, keyed, r#"{"role":"viewer"}"#).await
+    };
+    assert_eq!(add().await.0, 201);
+    let (status, problem) = add().await;
+    assert_eq!((status, &problem["reason"]), (409, &json!("answer-not-kept")));
+    let links = asked(&server, request(&Method::GET, LINKS), "").await.1;
+    assert_eq!(links.as_array().unwrap().len(), 1);
+}
