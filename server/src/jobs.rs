@@ -1,11 +1,12 @@
-//! Jobs: trees that are grown on request, one job after the other, beneath those who draw. Their files lie on disk until the
-//! job is given up, is old, or the server stops.
+//! Jobs: trees that are grown on request, one tree after the other and in turns of those who ordered them, beneath those
+//! who draw. Their files lie on disk until the job is given up, is old, or the server stops.
 
 mod job;
 mod place;
+mod queue;
 
 use std::{
-    collections::{BTreeMap, VecDeque},
+    collections::BTreeMap,
     env, io,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
@@ -16,14 +17,25 @@ use tokio::{sync::Notify, time::sleep};
 use tokio_util::sync::CancellationToken;
 
 pub use self::job::{Grown, Job, Order, Progress, State};
-use self::place::Place;
-use crate::{access::Caller, name, pool::SimulationPool};
+use self::{place::Place, queue::Queue};
+use crate::{
+    access::{Action, Caller},
+    name,
+    pool::SimulationPool,
+    store::AnyStore,
+};
 
-/// Jobs that may wait.
-pub const MOST_WAITING: usize = 64;
-/// Jobs that are kept, those that have ended included.
-pub const MOST_KEPT: usize = 1000;
-/// Bytes that the files of all jobs may have.
+/// Jobs of one person that may wait,
+pub const WAITING_OF_ONE: usize = 64;
+/// and of all.
+pub const MOST_WAITING: usize = 256;
+/// Jobs of one person that are kept, those that have ended included,
+pub const KEPT_OF_ONE: usize = 1000;
+/// and of all.
+pub const MOST_KEPT: usize = 4000;
+/// Bytes that the files of one person's jobs may have,
+pub const BYTES_OF_ONE: u64 = 12 << 30;
+/// and of all.
 pub const MOST_BYTES: u64 = 16 << 30;
 /// How long a job that has ended is kept.
 const KEPT: Duration = Duration::from_hours(1);
@@ -45,7 +57,8 @@ struct Inner {
 #[derive(Debug, Default)]
 struct Table {
     jobs: BTreeMap<String, Arc<Job>>,
-    waiting: VecDeque<String>,
+    /// Jobs with trees to grow.
+    waiting: Queue,
     /// Made for the first job.
     place: Option<Place>,
 }
@@ -56,6 +69,9 @@ pub enum NotTaken {
     /// As many jobs wait, or are kept, as may.
     #[error("{MOST_WAITING} jobs wait or {MOST_KEPT} are kept already")]
     Full,
+    /// As many of theirs wait, or are kept, as may.
+    #[error("{WAITING_OF_ONE} of your jobs wait or {KEPT_OF_ONE} are kept already")]
+    Share,
     /// The server stops.
     #[error("the server is stopping")]
     Stopping,
@@ -70,15 +86,17 @@ impl Jobs {
         Self(Arc::new(Inner { table: Mutex::default(), added: Notify::new(), pool, stop }))
     }
 
-    /// Does one job after the other until the server stops; then all files go.
-    pub async fn run(self) {
+    /// Does what is ordered until the server stops; then all files go. The store says who is still let in.
+    pub async fn run(self, store: Arc<AnyStore>) {
         let tidied = tokio::task::spawn_blocking(|| place::remove_left(&env::temp_dir())).await;
         if let Err(error) = tidied {
             tracing::error!(%error, "files that jobs of earlier servers left were not looked for");
         }
         while !self.0.stop.is_cancelled() {
-            if let Some(job) = self.next() {
-                self.work(&job).await;
+            if let Some((name, job)) = self.next() {
+                if self.work(&job, &store).await {
+                    self.table().waiting.remove(&name);
+                }
                 continue;
             }
             tokio::select! {
@@ -106,13 +124,18 @@ impl Jobs {
         if table.waiting.len() >= MOST_WAITING || table.jobs.len() >= MOST_KEPT {
             return Err(NotTaken::Full);
         }
+        let person = order.by.person();
+        let kept = table.jobs.values().filter(|job| job.order.by.person() == person).count();
+        if table.waiting.of(&person) >= WAITING_OF_ONE || kept >= KEPT_OF_ONE {
+            return Err(NotTaken::Share);
+        }
         let place = match table.place.take().filter(Place::is_there) {
             Some(place) => place,
             None => Place::new_in(&env::temp_dir())?,
         };
         let folder = table.place.insert(place).folder()?;
         table.jobs.insert(name.clone(), Arc::new(Job::new(order, folder, &self.0.stop)));
-        table.waiting.push_back(name);
+        table.waiting.add(person, name);
         self.0.added.notify_one();
         Ok(())
     }
@@ -121,7 +144,10 @@ impl Jobs {
     pub fn find(&self, name: &str, caller: &Caller) -> Option<(Arc<Job>, usize)> {
         let table = self.table();
         let job = table.jobs.get(name).filter(|job| caller.has_what_is_of(&job.order.by)).cloned()?;
-        let ahead = table.waiting.iter().position(|other| other == name).unwrap_or(0);
+        let is_waiting =
+            |name: &&str| table.jobs.get(*name).is_some_and(|job| job.lock().state == State::Waiting);
+        let ahead = table.waiting.in_order().into_iter().filter(is_waiting).position(|other| other == name);
+        let ahead = ahead.unwrap_or(0);
         Some((job, ahead))
     }
 
@@ -132,7 +158,7 @@ impl Jobs {
         if !table.jobs.get(name).is_some_and(is_theirs) {
             return false;
         }
-        table.waiting.retain(|other| other != name);
+        table.waiting.remove(name);
         let job = table.jobs.remove(name);
         drop(table);
         job.inspect(|job| job.give_up()).is_some()
@@ -146,57 +172,67 @@ impl Jobs {
         table
     }
 
-    fn next(&self) -> Option<Arc<Job>> {
+    /// The job whose turn it is, with its name.
+    fn next(&self) -> Option<(String, Arc<Job>)> {
         let mut table = self.table();
-        let name = table.waiting.pop_front()?;
-        table.jobs.get(&name).cloned()
+        let name = table.waiting.next()?;
+        let job = table.jobs.get(&name).cloned()?;
+        Some((name, job))
     }
 
-    /// Bytes that may still be written.
-    fn bytes_left(&self) -> u64 {
+    /// Bytes that may still be written for somebody.
+    fn bytes_left(&self, person: &str) -> u64 {
         let held = |job: &Arc<Job>| job.lock().grown.iter().map(|grown| grown.bytes).sum::<u64>();
-        MOST_BYTES.saturating_sub(self.table().jobs.values().map(held).sum())
+        let table = self.table();
+        let of_one = table.jobs.values().filter(|job| job.order.by.person() == person).map(held).sum();
+        let of_all = table.jobs.values().map(held).sum();
+        MOST_BYTES.saturating_sub(of_all).min(BYTES_OF_ONE.saturating_sub(of_one))
     }
 
-    async fn work(&self, job: &Arc<Job>) {
-        job.lock().state = State::Growing;
-        for &seed in &job.order.seeds {
-            if job.is_given_up() {
-                return;
-            }
-            job.lock().seed = Some(seed);
-            let (this, pool, bytes_left) = (Arc::clone(job), self.0.pool.clone(), self.bytes_left());
-            let made = tokio::task::spawn_blocking(move || this.make(seed, &pool, bytes_left)).await;
-            let made = made.unwrap_or_else(|error| {
-                tracing::error!(%error, seed, "a tree of a job failed");
-                Err(Problem::new(Reason::Failed, "The server failed to compute this."))
-            });
-            let mut progress = job.lock();
-            match made {
-                Ok(grown) => progress.grown.push(grown),
-                Err(problem) if problem.reason == Reason::JobsDiskFull => {
-                    (progress.state, progress.problem) = (State::Failed, Some(problem));
-                    break;
-                }
-                Err(problem) => progress.failed.push((seed, problem)),
-            }
+    /// Grows the next tree of a job; whether that was the last.
+    async fn work(&self, job: &Arc<Job>, store: &AnyStore) -> bool {
+        let Some(seed) = job.next_seed().filter(|_| !job.is_given_up()) else { return true };
+        if !may_go_on(&job.order.by, store).await {
+            job.end(Some(Problem::new(Reason::Forbidden, "Whoever ordered this may grow trees no longer.")));
+            return true;
         }
-        let mut progress = job.lock();
-        if progress.state == State::Growing {
-            progress.state = State::Done;
+        job.begin(seed);
+        let (this, pool) = (Arc::clone(job), self.0.pool.clone());
+        let bytes_left = self.bytes_left(&job.order.by.person());
+        let made = tokio::task::spawn_blocking(move || this.make(seed, &pool, bytes_left)).await;
+        let made = made.unwrap_or_else(|error| {
+            tracing::error!(%error, seed, "a tree of a job failed");
+            Err(Problem::new(Reason::Failed, "The server failed to compute this."))
+        });
+        match made {
+            Err(problem) if problem.reason == Reason::JobsDiskFull => job.end(Some(problem)),
+            made => job.made(seed, made),
         }
-        (progress.seed, progress.gone_at) = (None, Some(Instant::now() + KEPT));
+        job.has_ended()
     }
+}
+
+/// Whether whoever ordered a job may still have it done. Where nobody can say, they may as before.
+async fn may_go_on(by: &Caller, store: &AnyStore) -> bool {
+    by.still_may(Action::GrowTrees, store).await.unwrap_or_else(|error| {
+        tracing::warn!(%error, "whether a job may go on is not known");
+        true
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use std::num::NonZeroUsize;
 
-    use espalier_proto::Steps;
+    use espalier_proto::{Steps, access::Role};
 
     use super::*;
-    use crate::{document::FORMATS, export_options::ExportOptions, recipe::Recipe};
+    use crate::{
+        document::FORMATS,
+        export_options::ExportOptions,
+        recipe::Recipe,
+        store::{MemoryStore, User, UserChange, Users},
+    };
 
     fn order(seeds: &[u32], steps: u32) -> Order {
         let steps = Some(Steps::nearest(steps));
@@ -240,19 +276,86 @@ mod tests {
     }
 
     fn has_ended(job: &Job) -> bool {
-        job.progress().seed.is_none() && matches!(job.progress().state, State::Done | State::Failed)
+        job.has_ended()
+    }
+
+    fn store() -> Arc<AnyStore> {
+        Arc::new(AnyStore::Memory(MemoryStore::default()))
+    }
+
+    /// An order of somebody who has logged in.
+    fn order_of(name: &str, seeds: &[u32]) -> Order {
+        Order { by: Caller::logged_in(name, Role::Editor), ..order(seeds, 1) }
+    }
+
+    async fn store_with(name: &str, role: Role) -> Arc<AnyStore> {
+        let store = store();
+        let user = User { name: name.into(), role, password: "none".into(), created_at: "2026".into() };
+        store.add_user(user).await.unwrap();
+        store
     }
 
     #[tokio::test]
-    async fn jb2_jobs_are_done_in_their_order_and_64_wait() {
+    async fn jb6_people_take_turns_and_nobody_fills_the_queue() {
+        let (jobs, store) = (jobs(), store_with("Bo", Role::Editor).await);
+        let names: Vec<_> = (0..WAITING_OF_ONE).map(|_| added(&jobs, order(&[1, 2], 1))).collect();
+        assert!(matches!(jobs.add(order(&[1], 1)), Err(NotTaken::Share)));
+        let [first, second] = [&names[0], &names[1]];
+        let others = added(&jobs, order_of("Bo", &[5, 6]));
+        assert_eq!(find(&jobs, &others).map(|(_, ahead)| ahead), Some(1), "not behind 64 jobs");
+        for name in ["Cy", "Di"] {
+            (0..WAITING_OF_ONE).for_each(|_| drop(added(&jobs, order_of(name, &[1]))));
+        }
+        (1..WAITING_OF_ONE).for_each(|_| drop(added(&jobs, order_of("Bo", &[1]))));
+        assert!(matches!(jobs.add(order_of("Eve", &[1])), Err(NotTaken::Full)));
+        let kept = jobs.table().jobs.clone();
+        for (name, job) in kept {
+            let is_of = |other: &str| job.order.by.person().ends_with(other);
+            if is_of("cy") || is_of("di") {
+                assert!(jobs.give_up(&name, &Caller::local()));
+            }
+        }
+        // A tree of each in turn, and one job of each at a time.
+        for expected in [first, &others, first, &others, second] {
+            let (name, job) = jobs.next().unwrap();
+            assert_eq!(name, *expected);
+            if jobs.work(&job, &store).await {
+                jobs.table().waiting.remove(&name);
+            }
+        }
+    }
+
+    #[tokio::test]
+    async fn jb7_a_job_ends_where_whoever_ordered_it_may_no_longer() {
         let jobs = jobs();
-        let names: Vec<_> = (0..MOST_WAITING).map(|_| added(&jobs, order(&[1], 1))).collect();
-        assert!(matches!(jobs.add(order(&[1], 1)), Err(NotTaken::Full)));
+        for change in [Some(UserChange::Role(Role::Viewer)), None] {
+            let store = store_with("Ada", Role::Editor).await;
+            let id = added(&jobs, order_of("Ada", &[1, 2, 3]));
+            let (name, job) = jobs.next().unwrap();
+            assert!(!jobs.work(&job, &store).await);
+            store.change_user("Ada", UserChange::Role(Role::Owner)).await.unwrap();
+            assert!(!jobs.work(&job, &store).await, "who may more may go on");
+            match change {
+                Some(change) => store.change_user("Ada", change).await.unwrap(),
+                None => store.remove_user("Ada").await.unwrap(),
+            };
+            assert!(jobs.work(&job, &store).await);
+            let Progress { state, grown, problem, .. } = find(&jobs, &id).unwrap().0.progress();
+            assert_eq!((state, grown.len()), (State::Failed, 2), "what was made stays");
+            assert_eq!(problem.map(|problem| problem.reason), Some(Reason::Forbidden));
+            jobs.table().waiting.remove(&name);
+        }
+    }
+
+    #[tokio::test]
+    async fn jb2_jobs_of_one_are_done_in_their_order() {
+        let jobs = jobs();
+        let names: Vec<_> = (0..WAITING_OF_ONE).map(|_| added(&jobs, order(&[1], 1))).collect();
         assert_eq!(find(&jobs, &names[5]).map(|(_, ahead)| ahead), Some(5));
         assert!(jobs.give_up(&names[2], &Caller::local()));
         assert_eq!(find(&jobs, &names[5]).map(|(_, ahead)| ahead), Some(4));
-        tokio::spawn(jobs.clone().run());
-        let last = until(&jobs, &names[MOST_WAITING - 1], has_ended).await;
+        tokio::spawn(jobs.clone().run(store()));
+        let last = until(&jobs, &names[WAITING_OF_ONE - 1], has_ended).await;
         assert_eq!(last.progress().grown.len(), 1);
         let others = names.iter().enumerate().filter(|(index, _)| *index != 2);
         assert!(others.into_iter().all(|(_, name)| has_ended(&find(&jobs, name).unwrap().0)));
@@ -261,7 +364,7 @@ mod tests {
     #[tokio::test]
     async fn jb3_files_are_kept_for_an_hour_within_their_room() {
         let jobs = jobs();
-        tokio::spawn(jobs.clone().run());
+        tokio::spawn(jobs.clone().run(store()));
         let id = added(&jobs, order(&[7, 3], 4));
         let job = until(&jobs, &id, has_ended).await;
         let Progress { grown, failed, state, .. } = job.progress();
@@ -287,7 +390,7 @@ mod tests {
     #[tokio::test]
     async fn jb2_a_tree_that_cannot_be_grown_is_told_with_its_problem() {
         let jobs = jobs();
-        tokio::spawn(jobs.clone().run());
+        tokio::spawn(jobs.clone().run(store()));
         let mut small = endless();
         small.recipe.budget = 20;
         let id = added(&jobs, small);
@@ -299,7 +402,7 @@ mod tests {
     #[tokio::test]
     async fn jb4_a_job_that_is_given_up_ends_at_once_with_its_files() {
         let jobs = jobs();
-        tokio::spawn(jobs.clone().run());
+        tokio::spawn(jobs.clone().run(store()));
         let (id, next) = (added(&jobs, endless()), added(&jobs, order(&[1], 2)));
         let job = until(&jobs, &id, |job| job.under_way().0 > 0).await;
         let file = job.path(1).unwrap();
@@ -313,7 +416,7 @@ mod tests {
     #[tokio::test]
     async fn jb3_when_the_server_stops_all_files_go() {
         let jobs = jobs();
-        let running = tokio::spawn(jobs.clone().run());
+        let running = tokio::spawn(jobs.clone().run(store()));
         let (id, waiting) = (added(&jobs, endless()), added(&jobs, endless()));
         let job = until(&jobs, &id, |job| job.under_way().0 > 0).await;
         let folders = [job, find(&jobs, &waiting).unwrap().0].map(|job| job.path(1).unwrap());

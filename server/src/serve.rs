@@ -117,7 +117,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         passwords: Arc::default(),
         opening: Arc::default(),
     };
-    let growing = tokio::spawn(jobs.run());
+    let growing = tokio::spawn(jobs.run(Arc::clone(&store)));
     let unsaved = Duration::from_hours(24 * u64::from(options.keep_unsaved));
     let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     hosts,
-    store::{Pass, PassKind, Passes, StoreError, folded},
+    store::{Pass, PassKind, Passes, StoreError, Users, folded},
     time::written,
 };
 
@@ -156,6 +156,25 @@ impl Caller {
         let Some(held) = &self.pass else { return Ok(true) };
         let pass = store.pass(held.hash, &written(SystemTime::now())).await?;
         Ok(pass.is_some_and(|pass| Grant { role: pass.role, tree: pass.tree } == self.grant))
+    }
+
+    /// Whether they may still do it to the server as a whole. A user may who has logged out.
+    pub async fn still_may(&self, action: Action, store: &(impl Passes + Users)) -> Result<bool, StoreError> {
+        let Some(held) = &self.pass else { return Ok(true) };
+        let role = if held.kind == PassKind::Login {
+            store.user(&held.name).await?.map(|user| user.role)
+        } else {
+            store.pass(held.hash, &written(SystemTime::now())).await?.map(|pass| pass.role)
+        };
+        let now = |role| Self { grant: Grant { role, ..self.grant.clone() }, pass: None };
+        Ok(role.is_some_and(|role| now(role).may(action, Object::Server)))
+    }
+
+    /// Somebody who has logged in.
+    #[cfg(test)]
+    pub fn logged_in(name: &str, role: Role) -> Self {
+        let held = Held { hash: hash(name), kind: PassKind::Login, name: name.to_owned() };
+        Self { grant: Grant { role, tree: None }, pass: Some(held) }
     }
 
     /// Who they are, for themselves.

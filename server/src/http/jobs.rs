@@ -335,7 +335,7 @@ pub(super) async fn give_up(
 impl From<NotTaken> for Failure {
     fn from(error: NotTaken) -> Self {
         match error {
-            NotTaken::Full => {
+            NotTaken::Full | NotTaken::Share => {
                 Self::new(Reason::JobsFull, format!("{error}; try again when one has ended or was given up."))
             }
             NotTaken::Stopping => Self::new(Reason::Stopping, "The server is stopping."),

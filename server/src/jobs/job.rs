@@ -18,7 +18,7 @@ use espalier_session::{Document, Principal};
 use tempfile::TempDir;
 use tokio_util::sync::CancellationToken;
 
-use super::MOST_BYTES;
+use super::{BYTES_OF_ONE, KEPT, MOST_BYTES};
 use crate::{
     access::Caller,
     document::{self, FileError, FormatRow},
@@ -128,6 +128,45 @@ impl Job {
         lock(&self.progress)
     }
 
+    /// The seed whose turn it is.
+    pub(super) fn next_seed(&self) -> Option<u32> {
+        let progress = self.lock();
+        self.order.seeds.get(progress.grown.len() + progress.failed.len()).copied()
+    }
+
+    /// Its tree of a seed is under way.
+    pub(super) fn begin(&self, seed: u32) {
+        let mut progress = self.lock();
+        (progress.state, progress.seed) = (State::Growing, Some(seed));
+    }
+
+    /// A tree is made, or cannot be; the last one ends the job.
+    pub(super) fn made(&self, seed: u32, made: Result<Grown, Problem>) {
+        let mut progress = self.lock();
+        match made {
+            Ok(grown) => progress.grown.push(grown),
+            Err(problem) => progress.failed.push((seed, problem)),
+        }
+        progress.seed = None;
+        drop(progress);
+        if self.next_seed().is_none() {
+            self.end(None);
+        }
+    }
+
+    /// Ends it; a problem says why before it was done.
+    pub(super) fn end(&self, problem: Option<Problem>) {
+        let mut progress = self.lock();
+        progress.state = if problem.is_none() { State::Done } else { State::Failed };
+        (progress.problem, progress.seed) = (problem, None);
+        progress.gone_at = Some(Instant::now() + KEPT);
+    }
+
+    /// Whether it has ended.
+    pub(super) fn has_ended(&self) -> bool {
+        matches!(self.lock().state, State::Done | State::Failed)
+    }
+
     /// Whether nobody wants it any more.
     pub(super) fn is_given_up(&self) -> bool {
         self.given_up.is_cancelled()
@@ -226,8 +265,10 @@ fn problem_of(error: &JobError, seed: u32) -> Problem {
         }
         JobError::Grow(GrowError::GivenUp) => given_up(),
         JobError::File(error) if kind_of(error) == Some(ErrorKind::QuotaExceeded) => {
-            let sentence =
-                format!("The files of all jobs have {} GiB and may not have more.", MOST_BYTES >> 30);
+            let [one, all] = [BYTES_OF_ONE, MOST_BYTES].map(|bytes| bytes >> 30);
+            let sentence = format!(
+                "The files of your jobs have {one} GiB, or those of all {all} GiB, and may not have more."
+            );
             Problem::new(Reason::JobsDiskFull, sentence)
         }
         JobError::File(error) if kind_of(error) == Some(ErrorKind::StorageFull) => {

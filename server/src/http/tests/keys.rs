@@ -9,7 +9,7 @@ use tokio::sync::oneshot;
 use super::*;
 use crate::{
     http::keys::{KEY, answer_key},
-    jobs::MOST_WAITING,
+    jobs::WAITING_OF_ONE,
     store::Answers,
 };
 
@@ -157,7 +157,7 @@ async fn ik3_refusals_are_repeated_and_what_is_to_be_tried_again_is_not() {
     let body = r#"{"template":"oak","format":"mtg"}"#;
     // One job waits there from the start.
     let mut last = String::new();
-    for number in 1..MOST_WAITING {
+    for number in 1..WAITING_OF_ONE {
         let key = number.to_string();
         let taken = told(send(&server, grow(&key), body).await).await;
         assert_eq!(taken.0, 202);
