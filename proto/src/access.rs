@@ -134,6 +134,12 @@ pub struct AuditEvent {
     pub object: Option<String>,
     /// `done`, or the status that it was refused with.
     pub outcome: String,
+    /// How often: what is refused again, or taken again, within a day is counted here.
+    pub times: u32,
+    /// When it came last, where it came again.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub last_at: Option<String>,
 }
 
 /// `POST /api/v1/trees/{tree}/links`: let somebody in for one tree (`AC12`).

@@ -2179,7 +2179,15 @@ object?: string,
 /**
  * `done`, or the status that it was refused with.
  */
-outcome: string, };
+outcome: string, 
+/**
+ * How often: what is refused again, or taken again, within a day is counted here.
+ */
+times: number, 
+/**
+ * When it came last, where it came again.
+ */
+last_at?: string, };
 
 export type Me = { 
 /**

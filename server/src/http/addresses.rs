@@ -30,6 +30,7 @@ use crate::{
     access::Action,
     document::{FORMATS, FormatRow},
     export_options::ExportOptions,
+    store::EXPORT,
 };
 
 /// A request for a session is tiny.
@@ -48,9 +49,6 @@ const MAX_EXPORTS: usize = 1;
 const MAX_PICTURES: usize = 1;
 /// Schematics grown at once; each takes some milliseconds.
 const MAX_SCHEMATICS: usize = 4;
-
-/// How the list of what was done calls the taking of a tree.
-const EXPORT: &str = "export";
 
 /// An address of the API.
 pub(super) struct Route {

@@ -12,7 +12,7 @@ use super::{
 };
 use crate::{
     access::{Caller, Peer},
-    store::{Audit, Event},
+    store::{Audit, DONE, Event, Noted},
     text::shown,
     time::now,
 };
@@ -42,14 +42,14 @@ pub(super) async fn list(
 }
 
 /// An event as it is told.
-pub fn described((number, event): (u64, Event)) -> AuditEvent {
+pub fn described(Noted { number, event, times, last_at }: Noted) -> AuditEvent {
     let Event { at, who, address, action, object, outcome } = event;
-    AuditEvent { number, at, who, address, action, object, outcome }
+    AuditEvent { number, at, who, address, action, object, outcome, times, last_at }
 }
 
 /// What an answer says has come of an action.
 pub(super) fn outcome(status: StatusCode) -> String {
-    if status.is_success() || status.is_redirection() { "done".into() } else { status.as_u16().to_string() }
+    if status.is_success() || status.is_redirection() { DONE.into() } else { status.as_u16().to_string() }
 }
 
 impl Shared {

@@ -4,7 +4,7 @@ use super::{PeopleError, at, print};
 use crate::{
     cli,
     http::described,
-    store::{Audit, Event},
+    store::{Audit, Event, Noted},
 };
 
 /// `espalier audit`.
@@ -15,10 +15,12 @@ pub fn audit(options: &cli::Audit) -> Result<(), PeopleError> {
             // Plain values always have a JSON form.
             print(&serde_json::to_string(&described(event)).unwrap_or_default());
         } else {
-            let (_, Event { at, who, address, action, object, outcome }) = event;
+            let Noted { event: Event { at, who, address, action, object, outcome }, times, last_at, .. } =
+                event;
             let from = address.map(|address| format!(" from {address}")).unwrap_or_default();
             let object = object.map(|object| format!(" {object}")).unwrap_or_default();
-            print(&format!("{at}  {who}{from}: {action}{object}: {outcome}"));
+            let again = last_at.map(|last| format!(", {times} times until {last}")).unwrap_or_default();
+            print(&format!("{at}  {who}{from}: {action}{object}: {outcome}{again}"));
         }
     }
     Ok(())

@@ -9,7 +9,7 @@ use espalier_session::JournalEntry;
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Damage, Event, Finding,
-    Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Pass, PassKind, Passes, Picture,
+    Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture,
     SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree, StoredVersion, TreeChange,
     TreeDocument, TreeQuery, User, UserChange, Users,
 };
@@ -248,7 +248,7 @@ impl Audit for AnyStore {
         delegate!(self.note(event))
     }
 
-    async fn events(&self, limit: u32, before: Option<u64>) -> Result<Vec<(u64, Event)>, StoreError> {
+    async fn events(&self, limit: u32, before: Option<u64>) -> Result<Vec<Noted>, StoreError> {
         delegate!(self.events(limit, before))
     }
 

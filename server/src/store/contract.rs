@@ -13,7 +13,7 @@ use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
 use self::answers::{an_answer_is_kept_for_one_request, answers_of_one_caller_are_bounded};
-use self::audit::events_are_listed_newest_first;
+use self::audit::{events_are_listed_newest_first, events_that_come_again_are_counted};
 use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
     searching_is_looking_into_every_text, tags_and_favourites_find_trees,
@@ -104,6 +104,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         a_name_is_one_person,
         a_login_has_the_role_of_its_user,
         events_are_listed_newest_first,
+        events_that_come_again_are_counted,
         an_answer_is_kept_for_one_request,
         answers_of_one_caller_are_bounded,
         a_closed_store_takes_nothing,

@@ -17,7 +17,7 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 use super::{
-    Collection, Damage, Event, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Pass, Store, StoreError,
+    Collection, Damage, KEPT_SNAPSHOTS, Lease, NewSession, NewSnapshot, Noted, Pass, Store, StoreError,
     StoredSession, User,
     lease::Leases,
     seal::{Found, JournalRow, SessionRow, SnapshotRow},
@@ -43,7 +43,8 @@ struct Kept {
     /// In the order in which they began.
     answers: Vec<answers::Begun>,
     /// By their numbers.
-    events: BTreeMap<u64, Event>,
+    events: BTreeMap<u64, Noted>,
+    last_event: u64,
     /// By their folded names.
     users: BTreeMap<String, User>,
 }

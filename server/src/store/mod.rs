@@ -27,7 +27,7 @@ use espalier_session::JournalEntry;
 pub use self::{
     answers::{Answer, AnswerKey, Answering, Answers, MOST_OF_ALL, MOST_OF_ONE},
     any::AnyStore,
-    audit::{Audit, Event, MOST_EVENTS},
+    audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},
     folding::folded,
     lease::Lease,

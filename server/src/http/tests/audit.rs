@@ -35,6 +35,12 @@ async fn ac10_what_was_done_and_refused_is_listed_with_by_whom() {
         json!(["token script", "127.0.0.1", "delete", "ash", "403"]),
     ];
     assert_eq!(listed, expected);
+    for _ in 0..3 {
+        let again = request_of(&editor, &Method::DELETE, "/api/v1/trees/ash");
+        assert_eq!(status(&server, again, "").await, StatusCode::FORBIDDEN);
+    }
+    let counted = &events(&server, "").await[2];
+    assert_eq!((&counted["times"], counted["last_at"].is_string()), (&json!(4), true));
     let all = events(&server, "?limit=1").await;
     assert_eq!(all.len(), 1);
     assert_eq!(
