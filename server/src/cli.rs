@@ -17,7 +17,7 @@ use crate::{hosts::HostName, import, recipe::SeedRange};
 
 pub use self::{
     people::{
-        Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, Revoked, RoleOfUser, Scope, Token, User,
+        Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, RemovedUser, Revoked, RoleOfUser, Scope, Token, User,
     },
     results::{NoFormat, Results},
 };

@@ -45,6 +45,12 @@ pub enum PeopleError {
     /// Somebody goes by the name.
     #[error("There is a user {0} already; `espalier user passwd` gives them another password.")]
     Taken(String),
+    /// Nobody else is an administrator.
+    #[error(
+        "{0} is the last administrator: nobody would look after who comes in over the network. \
+         `espalier user add --admin NAME` adds another one; --force does it all the same."
+    )]
+    LastAdmin(String),
     /// It is no password.
     #[error("The password cannot be taken: {0}.")]
     Password(String),

@@ -49,7 +49,7 @@ pub enum User {
     /// Give somebody another role, at once wherever they are logged in.
     Role(RoleOfUser),
     /// Let somebody log in no longer; an open page of theirs ends within seconds.
-    Remove(NamedUser),
+    Remove(RemovedUser),
 }
 
 /// Options of `user add`.
@@ -68,12 +68,25 @@ pub struct NewUser {
     pub database: Database,
 }
 
-/// Options of `user passwd` and `user remove`.
+/// Options of `user passwd`.
 #[derive(Debug, Args)]
 pub struct NamedUser {
     /// Their name, as `ls` lists it.
     #[arg(value_name = "NAME")]
     pub name: String,
+    #[command(flatten)]
+    pub database: Database,
+}
+
+/// Options of `user remove`.
+#[derive(Debug, Args)]
+pub struct RemovedUser {
+    /// Their name, as `ls` lists it.
+    #[arg(value_name = "NAME")]
+    pub name: String,
+    /// Also where they are the last administrator.
+    #[arg(long)]
+    pub force: bool,
     #[command(flatten)]
     pub database: Database,
 }
@@ -87,6 +100,9 @@ pub struct RoleOfUser {
     /// What they may do from now on.
     #[arg(value_parser = roles())]
     pub role: Role,
+    /// Also where they are the last administrator.
+    #[arg(long)]
+    pub force: bool,
     #[command(flatten)]
     pub database: Database,
 }

@@ -19,10 +19,36 @@ use super::{
     failure::{Body, Failure},
 };
 use crate::{
-    access::{self, Caller, Peer, Secret, admission, cookie, network},
+    access::{self, Caller, Peer, Rate, Secret, SecretHash, admission, cookie, network},
     store::{Missing, Pass, Passes, StoreError, User, Users, folded},
     time::now,
 };
+
+/// Right logins from one network in ten minutes: a class may come in together.
+const LOGINS_FROM: u32 = 100;
+/// Right logins of one user in ten minutes.
+const LOGINS_OF: u32 = 20;
+const LOGINS_TIME: Duration = Duration::from_mins(10);
+
+/// How often people have logged in (`AC11`): each login is kept, and who logs in without end would fill the database.
+#[derive(Debug)]
+pub struct Logins {
+    from: Rate<IpAddr>,
+    of: Rate<SecretHash>,
+}
+
+impl Default for Logins {
+    fn default() -> Self {
+        Self { from: Rate::new(LOGINS_FROM, LOGINS_TIME), of: Rate::new(LOGINS_OF, LOGINS_TIME) }
+    }
+}
+
+impl Logins {
+    fn count(&self, from: IpAddr, by_name: SecretHash, now: Instant) -> Result<(), Duration> {
+        self.from.count(from, now)?;
+        self.of.count(by_name, now)
+    }
+}
 
 /// Has the browser of whoever came in keep their cookie.
 type Welcome = (Option<[(HeaderName, HeaderValue); 1]>, Json<Admitted>);
@@ -60,7 +86,14 @@ pub(super) async fn log_in(
     let counted = shared.tries.count(from, Instant::now());
     let counted = counted.and_then(|()| shared.tries_for.count(by_name, Instant::now()));
     counted.map_err(|wait| too_often("password", wait))?;
-    let come = check(&shared, name, &password).await;
+    let user = check(&shared, name, &password).await;
+    if user.is_ok() {
+        shared.logins.count(from, by_name, Instant::now()).map_err(|wait| too_often("password", wait))?;
+    }
+    let come = match user {
+        Ok(user) => let_in(&shared, user).await,
+        Err(failure) => Err(failure),
+    };
     note(&shared, Way::Login, name, peer, "log-in", &come).await;
     let come = come.map_err(Failure::into_response)?;
     shared.tries.forget(from);
@@ -68,11 +101,15 @@ pub(super) async fn log_in(
     Ok(welcome(come, &headers))
 }
 
-async fn check(shared: &Shared, name: &str, password: &str) -> Result<(Secret, Pass), Failure> {
+/// The user with this password.
+async fn check(shared: &Shared, name: &str, password: &str) -> Result<User, Failure> {
     let user = shared.store.user(name).await?;
     let kept = user.as_ref().map(|user| user.password.clone());
     let is_right = shared.passwords.is_right(password, kept).await;
-    let user = user.filter(|_| is_right).ok_or_else(wrong_password)?;
+    user.filter(|_| is_right).ok_or_else(wrong_password)
+}
+
+async fn let_in(shared: &Shared, user: User) -> Result<(Secret, Pass), Failure> {
     match admission::log_in(&*shared.store, user, SystemTime::now()).await {
         // They were removed just now.
         Err(StoreError::NotFound(Missing::User)) => Err(wrong_password()),

@@ -44,6 +44,7 @@ use self::{
 };
 pub use self::{
     audit::described,
+    entry::Logins,
     exports::Progresses,
     keys::{KEPT, UnderWay},
 };
@@ -83,6 +84,8 @@ pub struct Shared {
     pub tries_for: Arc<Tries<SecretHash>>,
     /// How many sessions were begun, by whom.
     pub sessions_begun: Arc<Allowances>,
+    /// How often people have logged in.
+    pub logins: Arc<Logins>,
     /// Checks passwords.
     pub passwords: Arc<Passwords>,
     /// Held by whoever opens a tree.

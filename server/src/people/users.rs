@@ -10,8 +10,8 @@ use espalier_proto::access::Role;
 use super::{PeopleError, at, print};
 use crate::{
     access::password::Password,
-    cli::{self, NamedUser, NewUser, RoleOfUser},
-    store::{Audit, Event, StoreError, User, UserChange, Users},
+    cli::{self, NamedUser, NewUser, RemovedUser, RoleOfUser},
+    store::{Audit, Event, StoreError, User, UserChange, Users, folded},
     time::now,
 };
 
@@ -43,11 +43,17 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
             change(&database.path, "user-passwd", name, password)?;
             print(&format!("{name} has another password, and is logged in nowhere."));
         }
-        cli::User::Role(RoleOfUser { name, role, database }) => {
+        cli::User::Role(RoleOfUser { name, role, force, database }) => {
+            if *role != Role::Admin && !force {
+                leaves_one(&database.path, name)?;
+            }
             change(&database.path, "user-role", name, UserChange::Role(*role))?;
             print(&format!("{name} is {} from now on.", role.name()));
         }
-        cli::User::Remove(NamedUser { name, database }) => {
+        cli::User::Remove(RemovedUser { name, force, database }) => {
+            if !force {
+                leaves_one(&database.path, name)?;
+            }
             at(&database.path, async |store| {
                 found(store.remove_user(name).await?, name)?;
                 Ok(store.note(Event::at_machine("user-remove", name)).await?)
@@ -62,6 +68,18 @@ pub fn user(command: &cli::User) -> Result<(), PeopleError> {
 fn known(database: &Path, name: &str) -> Result<(), PeopleError> {
     let user = at(database, async |store| Ok(store.user(name).await?))?;
     found(user.is_some(), name)
+}
+
+/// Whether an administrator is left without somebody; where they are none, nothing changes.
+fn leaves_one(database: &Path, name: &str) -> Result<(), PeopleError> {
+    let users = at(database, async |store| Ok(store.users().await?))?;
+    let mut admins = users.iter().filter(|user| user.role == Role::Admin);
+    match (admins.next(), admins.next()) {
+        (Some(last), None) if folded(&last.name) == folded(name) => {
+            Err(PeopleError::LastAdmin(last.name.clone()))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn change(database: &Path, action: &str, name: &str, change: UserChange) -> Result<(), PeopleError> {

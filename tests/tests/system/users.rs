@@ -104,3 +104,23 @@ fn ac9_a_name_that_is_taken_or_of_nobody_and_a_short_password_are_refused() {
         assert!(refused.stderr.contains(expected), "{arguments:?}: {}", refused.stderr);
     }
 }
+
+#[test]
+fn ac13_the_last_administrator_stays_unless_it_is_forced() {
+    let scratch = Scratch::new();
+    let database = scratch.path("trees.db");
+    assert_eq!(user(&["add", "--admin", "Ada"], &database, "correct horse").code, 0);
+    assert_eq!(user(&["add", "Bo"], &database, "battery staple").code, 0);
+    for arguments in [&["remove", "ADA"][..], &["role", "ada", "owner"]] {
+        let refused = user(arguments, &database, "");
+        assert_eq!(refused.code, 1, "{arguments:?}");
+        assert!(refused.stderr.contains("Ada is the last administrator"), "{}", refused.stderr);
+    }
+    assert!(user(&["ls"], &database, "").stdout.contains("Ada: admin"), "nothing has changed");
+    assert_eq!(user(&["role", "Ada", "admin"], &database, "").code, 0);
+    assert_eq!(user(&["remove", "Bo"], &database, "").code, 0, "others may go");
+    // With another one she is not the last.
+    assert_eq!(user(&["add", "--admin", "Cy"], &database, "battery staple").code, 0);
+    assert_eq!(user(&["role", "Ada", "owner"], &database, "").code, 0);
+    assert_eq!(user(&["remove", "--force", "Cy"], &database, "").code, 0);
+}

@@ -98,6 +98,34 @@ async fn ac9_passwords_are_guessed_slowly_from_an_address_and_for_a_name() {
 }
 
 #[tokio::test]
+async fn ac11_right_logins_are_limited_for_a_user_and_an_address() {
+    let (server, store) = with_ada(Role::Viewer).await;
+    // Addresses of their own, so that the user is counted.
+    for host in 1..=20 {
+        let come = log_in(&server, "Ada", "correct horse", [10, 0, 0, host]).await;
+        assert_eq!(come.status(), StatusCode::OK, "{host}");
+    }
+    let late = log_in(&server, "ADA", "correct horse", [10, 0, 0, 99]).await;
+    assert_eq!(late.status(), StatusCode::TOO_MANY_REQUESTS);
+    let wait: u64 = late.headers()[header::RETRY_AFTER].to_str().unwrap().parse().unwrap();
+    assert!((1..=600).contains(&wait), "{wait}");
+    assert_eq!(store.passes(PassKind::Login, "2026").await.unwrap().len(), 20, "none is kept of the last");
+    // Users of their own, so that the address is counted. All have one password, for hashes take long.
+    let password = store.user("Ada").await.unwrap().unwrap().password;
+    for number in 0..5 {
+        let name = format!("User {number}");
+        let user = User { name, role: Role::Viewer, password: password.clone(), created_at: "2026".into() };
+        store.add_user(user).await.unwrap();
+    }
+    let mut come = 0;
+    for number in (0..5).cycle().take(101) {
+        let answer = log_in(&server, &format!("User {number}"), "correct horse", AFAR).await;
+        come += u32::from(answer.status() == StatusCode::OK);
+    }
+    assert_eq!(come, 100);
+}
+
+#[tokio::test]
 async fn ac9_the_page_is_told_whether_to_ask_for_a_password() {
     for (server, expected) in [(server().await.0, false), (with_ada(Role::Viewer).await.0, true)] {
         let asked = from_afar(&Method::GET, "/api/v1/entry", AFAR).body(Body::empty()).unwrap();
