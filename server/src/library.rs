@@ -2,13 +2,13 @@
 
 use std::{
     fs,
-    io::{self, Write},
+    io::{self, Cursor, Write},
     path::PathBuf,
 };
 
 use espalier_growth::DEFAULT_METAMER_BUDGET;
-use espalier_proto::Problem;
-use espalier_session::{DocumentError, Principal};
+use espalier_proto::{Problem, thumbnail::MAX_THUMBNAIL_BYTES};
+use espalier_session::{Document, DocumentError, Principal};
 use serde::Serialize;
 
 use crate::{
@@ -16,18 +16,21 @@ use crate::{
         self, Database,
         library::{ExportTree, Find, Get, LibraryCommand, List, Listing, Of, Put, RestoreVersion, Versions},
     },
-    document::{FORMATS, Format, Stored},
-    export_options::NotOfFormat,
+    document::{self, FORMATS, Format, Stored},
+    export_options::{ExportOptions, NotOfFormat, Size},
     import, name,
     output::{OutputError, Target},
     progress::Bar,
     store::{
-        Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Saved, SqliteStore, Store,
-        StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
+        Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved, SqliteStore,
+        Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
     },
     text,
     time::now,
 };
+
+/// Pixels of a picture across and down, as pages make them: the first whose file is not too large.
+const PICTURES: [usize; 3] = [512, 384, 256];
 
 /// It could not be done; each message is one sentence.
 #[derive(Debug, thiserror::Error)]
@@ -245,10 +248,12 @@ async fn put(options: &Put) -> Result<(), LibraryError> {
         metamers: DEFAULT_METAMER_BUDGET,
     };
     let bar = Bar::turning("making a tree of the file");
-    let document = import::document(&bytes, &import)
+    let mut document = import::document(&bytes, &import)
         .map_err(|cause| LibraryError::Import { path: path.clone(), cause })?;
+    let thumbnail = picture(&mut document);
     drop(bar);
-    let version = new_version(note, Contents::New(Box::new(Saved::of(&document))));
+    let saved = Saved { thumbnail, ..Saved::of(&document) };
+    let version = new_version(note, Contents::New(Box::new(saved)));
     let tree = match &options.to {
         Some(tree) => Some(found(&LibraryFile::open(&options.database.path).await?, tree).await?),
         None => None,
@@ -280,6 +285,17 @@ async fn restore(options: &RestoreVersion) -> Result<(), LibraryError> {
     })?;
     say(&format!("{tree} has version {newest}, which is as version {number}."));
     Ok(())
+}
+
+/// A picture of a tree as pages make them. A tree is saved without one rather than not at all.
+fn picture(document: &mut Document) -> Option<Picture> {
+    PICTURES.into_iter().find_map(|size| {
+        let options = ExportOptions { size: Some(Size(size, size)), ..ExportOptions::default() };
+        let mut file = Cursor::new(Vec::new());
+        document::write(document, None, Format::Picture, &options, &mut file).ok()?;
+        let bytes = file.into_inner();
+        (bytes.len() <= MAX_THUMBNAIL_BYTES).then(|| Picture { media_type: "image/png".into(), bytes })
+    })
 }
 
 fn new_version(note: String, contents: Contents) -> NewVersion {

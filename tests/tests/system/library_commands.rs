@@ -86,6 +86,15 @@ async fn trees_are_read_beside_a_server_and_changed_without_one() {
     assert_eq!(versions[0]["restored"], 1);
     let found = lines(&library(&database, &["find", "kept", "--json"]));
     assert_eq!((found.len(), &found[0]["name"]), (1, &json!("Kept oak")));
+    let put = found[0]["id"].as_str().expect("an identifier");
+    let server = Server::start(&database);
+    for (tree, version) in [(put, 1), (oak.as_str(), 2)] {
+        let path = format!("/api/v1/trees/{tree}/versions/{version}/thumbnail");
+        let picture = http::get(server.port(), &path).expect("the server answers");
+        assert_eq!((picture.status, picture.header("content-type")), (200, Some("image/png")));
+        assert!(picture.body.starts_with(b"\x89PNG") && picture.body.len() > 2000, "{}", picture.body.len());
+    }
+    assert!(server.terminate().success());
     let missing = run(&database, &["restore", &oak, "7"]);
     assert!(missing.code == 1 && missing.stderr.contains("no version 7"), "{}", missing.stderr);
     let unseen = run(&database, &["put", document, "--name", "\u{202e}"]);
