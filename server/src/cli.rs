@@ -17,7 +17,8 @@ use crate::{hosts::HostName, import, recipe::SeedRange};
 
 pub use self::{
     people::{
-        Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, RemovedUser, Revoked, RoleOfUser, Scope, Token, User,
+        Audit, Device, Invite, Listed, NamedUser, NewToken, NewUser, RemovedUser, Revoked, RoleOfUser, Scope,
+        Token, User,
     },
     results::{NoFormat, Results},
 };
@@ -148,6 +149,16 @@ pub struct Serve {
         value_parser = parse_host_name
     )]
     pub host_names: Vec<HostName>,
+    /// Address of a proxy in front, whose X-Forwarded-For, X-Forwarded-Proto and X-Forwarded-Host are believed; may be
+    /// given again.
+    #[arg(
+        id = "trusted-proxy",
+        long = "trusted-proxy",
+        env = "ESPALIER_TRUSTED_PROXY",
+        value_name = "ADDRESS",
+        value_delimiter = ','
+    )]
+    pub trusted_proxies: Vec<IpAddr>,
     /// Invite also whoever sits at this machine; for machines that strangers have accounts on.
     #[arg(long, env = "ESPALIER_NO_LOCAL")]
     pub no_local: bool,

@@ -110,6 +110,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
         under_way: http::UnderWay::default(),
+        proxies: http::Proxies::new(&options.trusted_proxies),
         trusts_local,
         tries: Arc::default(),
         tries_for: Arc::default(),

@@ -15,6 +15,7 @@ mod keys;
 mod links;
 mod obstacles;
 mod origin;
+mod proxies;
 mod ranges;
 mod revision;
 mod schematic;
@@ -47,6 +48,7 @@ pub use self::{
     entry::Logins,
     exports::Progresses,
     keys::{KEPT, UnderWay},
+    proxies::Proxies,
 };
 use crate::{
     access::{Allowances, SecretHash, Tries, password::Passwords},
@@ -76,6 +78,8 @@ pub struct Shared {
     pub portraits: Portraits,
     /// The names that requests may come under.
     pub hosts: Hosts,
+    /// The proxies in front.
+    pub proxies: Proxies,
     /// Whether whoever sits at this machine may do everything.
     pub trusts_local: bool,
     /// How often secrets and passwords were tried, by the network that they came from.
@@ -141,6 +145,7 @@ pub fn router(shared: Shared) -> Router {
         .layer(
             ServiceBuilder::new()
                 .layer(map_response(guard::headers))
+                .layer(from_fn_with_state(shared.proxies.clone(), proxies::believe))
                 .layer(from_fn_with_state(shared.hosts.clone(), origin::known_host))
                 .layer(from_fn(origin::same_site)),
         )

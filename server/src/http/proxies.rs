@@ -1,0 +1,104 @@
+//! What a proxy says of the request that it passes on (`AC14`).
+
+use std::{
+    collections::BTreeSet,
+    net::{IpAddr, SocketAddr},
+    sync::Arc,
+};
+
+use axum::{
+    extract::{Request, State},
+    http::{HeaderMap, HeaderName, HeaderValue, header},
+    middleware::Next,
+    response::Response,
+};
+
+use crate::access::Peer;
+
+const FOR: HeaderName = HeaderName::from_static("x-forwarded-for");
+const HOST: HeaderName = HeaderName::from_static("x-forwarded-host");
+const PROTO: HeaderName = HeaderName::from_static("x-forwarded-proto");
+
+/// The proxies that are believed.
+#[derive(Clone, Debug, Default)]
+pub struct Proxies(Arc<BTreeSet<IpAddr>>);
+
+impl Proxies {
+    /// Those with these addresses.
+    pub fn new(addresses: &[IpAddr]) -> Self {
+        Self(Arc::new(addresses.iter().map(IpAddr::to_canonical).collect()))
+    }
+
+    fn has(&self, address: IpAddr) -> bool {
+        self.0.contains(&address.to_canonical())
+    }
+
+    /// Where a request comes from that a proxy passes on: the last address in its header that is no proxy's. Those before
+    /// it may be made up.
+    fn origin(&self, headers: &HeaderMap, proxy: IpAddr) -> IpAddr {
+        let values = headers.get_all(FOR).iter().filter_map(|value| value.to_str().ok());
+        let hops: Vec<_> = values.flat_map(|value| value.split(',')).map(|hop| address(hop.trim())).collect();
+        let mut origin = proxy;
+        for hop in hops.into_iter().rev() {
+            let Some(hop) = hop else { break };
+            origin = hop;
+            if !self.has(hop) {
+                break;
+            }
+        }
+        origin
+    }
+}
+
+/// An address, with a port or without.
+fn address(text: &str) -> Option<IpAddr> {
+    text.parse().ok().or_else(|| text.parse::<SocketAddr>().ok().map(|address| address.ip()))
+}
+
+/// Has a request be as its proxy got it. What anybody else says is taken away, but for that somebody said it.
+pub(super) async fn believe(State(proxies): State<Proxies>, mut request: Request, next: Next) -> Response {
+    let proxy = request.extensions().get::<Peer>().map(|Peer(address)| *address);
+    if let Some(proxy) = proxy.filter(|&peer| proxies.has(peer)) {
+        let origin = proxies.origin(request.headers(), proxy);
+        request.extensions_mut().insert(Peer(origin));
+        if let Some(host) = request.headers().get(HOST).cloned() {
+            request.headers_mut().insert(header::HOST, host);
+        }
+    } else {
+        let headers = request.headers_mut();
+        let said = [HOST, PROTO].map(|name| headers.remove(name).is_some());
+        if said.contains(&true) {
+            // A request that was passed on never comes from whoever sits at the machine (`AC1`).
+            headers.entry(FOR).or_insert(HeaderValue::from_static("unknown"));
+        }
+    }
+    next.run(request).await
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ac14_the_last_address_that_is_no_proxys_counts() {
+        let proxies = Proxies::new(&["10.0.0.1", "10.0.0.2"].map(|address| address.parse().unwrap()));
+        let own = "10.0.0.1".parse().unwrap();
+        for (values, expected) in [
+            (&["203.0.113.5"][..], "203.0.113.5"),
+            (&["198.51.100.1, 203.0.113.5"], "203.0.113.5"),
+            (&["198.51.100.1", "203.0.113.5, 10.0.0.2"], "203.0.113.5"),
+            (&["203.0.113.5:4711"], "203.0.113.5"),
+            (&["[2001:db8::1]:4711"], "2001:db8::1"),
+            (&["203.0.113.5, unknown"], "10.0.0.1"),
+            (&["10.0.0.2"], "10.0.0.2"),
+            (&[], "10.0.0.1"),
+        ] {
+            let headers = values.iter().map(|value| (FOR, HeaderValue::from_static(value)));
+            let headers = headers.fold(HeaderMap::new(), |mut all, (name, value)| {
+                all.append(name, value);
+                all
+            });
+            assert_eq!(proxies.origin(&headers, own), expected.parse::<IpAddr>().unwrap(), "{values:?}");
+        }
+    }
+}
