@@ -1,8 +1,11 @@
 mod audit;
 mod files;
+mod jobs;
 mod keys;
+mod links;
 mod login;
 mod paths;
+mod proxies;
 mod refusals;
 
 use std::collections::BTreeSet;
@@ -51,10 +54,12 @@ async fn server() -> (Router, Arc<AnyStore>) {
         metamer_budget: 1000,
         portraits: Portraits::default(),
         hosts: Hosts::new(&[]),
+        proxies: Proxies::new(&[PROXY.into()]),
         trusts_local: true,
         tries: Arc::default(),
         tries_for: Arc::default(),
         sessions_begun: Arc::default(),
+        logins: Arc::default(),
         passwords: Arc::default(),
         opening: Arc::default(),
         progresses: Progresses::default(),
@@ -62,6 +67,9 @@ async fn server() -> (Router, Arc<AnyStore>) {
     };
     (router(shared), store)
 }
+
+/// Where the proxy is.
+const PROXY: [u8; 4] = [10, 0, 0, 1];
 
 /// The name of a job.
 const JOB: &str = "a-job";
@@ -118,6 +126,7 @@ fn filled(path: &str) -> String {
         .replace("{slug}", "of-no-species")
         .replace("{version}", "1")
         .replace("{job}", JOB)
+        .replace("{link}", "a-link")
         .replace("{seed}", "1")
 }
 
@@ -183,29 +192,6 @@ async fn au1_what_a_request_names_is_asked_for_as_well() {
         let found = status(&server, request_of(&token, &Method::GET, path), "").await;
         assert_eq!(found != StatusCode::FORBIDDEN, may, "{path}: {found}");
     }
-}
-
-#[tokio::test]
-async fn jb5_a_job_is_there_for_whoever_ordered_it() {
-    let (server, store) = server().await;
-    let [own, other] = [token(&store, Role::Editor, None).await, token(&store, Role::Owner, None).await];
-    let order = request_of(&own, &Method::POST, "/api/v1/grow");
-    let order = order.header(header::CONTENT_TYPE, "application/json");
-    let body = r#"{"template":"oak","format":"mtg"}"#;
-    let answer = server.clone().oneshot(order.body(Body::from(body)).unwrap()).await.unwrap();
-    assert_eq!(answer.status(), StatusCode::ACCEPTED);
-    let address = answer.headers()[header::LOCATION].to_str().unwrap();
-    let file = format!("{address}/results/1");
-    let by = |token: &str, method, path: &str| status(&server, request_of(token, &method, path), "");
-    for path in [address, &file] {
-        let named = reason(&server, request_of(&other, &Method::GET, path)).await;
-        assert_eq!(named, (StatusCode::NOT_FOUND, Some("none-such".into())), "{path}");
-    }
-    assert_eq!(by(&other, Method::DELETE, address).await, StatusCode::NOT_FOUND);
-    assert_eq!(by(&own, Method::GET, address).await, StatusCode::OK);
-    assert_eq!(status(&server, request(&Method::GET, address), "").await, StatusCode::OK);
-    assert_eq!(by(&own, Method::DELETE, address).await, StatusCode::NO_CONTENT);
-    assert_eq!(by(&own, Method::GET, address).await, StatusCode::NOT_FOUND);
 }
 
 #[tokio::test]
