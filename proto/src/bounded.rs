@@ -2,84 +2,21 @@
 
 use std::{borrow::Cow, fmt, marker::PhantomData, ops::Deref};
 
+use espalier_reading::{Between, Bounded, NotAllowed};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{
     Deserialize, Deserializer, Serialize,
-    de::{DeserializeSeed, Error, IgnoredAny, SeqAccess, Unexpected, Visitor},
+    de::{Error, IgnoredAny, SeqAccess, Visitor},
 };
 use ts_rs::{Config, TS};
 
 use crate::{
-    reading::NotAllowed,
     schema::{between, list, schemas},
     version::{
         MAX_AGE, MAX_BEND_TOUCHES, MAX_DIAMETER, MAX_LINK_HOURS, MAX_PREDICTED_STEPS, MAX_STEPS_PER_COMMAND,
         MIN_DIAMETER,
     },
 };
-
-/// The least and the most of a number.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Between<T>(pub T, pub T);
-
-impl<T: fmt::Display> fmt::Display for Between<T> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} to {}", self.0, self.1)
-    }
-}
-
-/// Reads a number between bounds; `.1` says what is allowed.
-pub(crate) struct Bounded<'a, T>(pub Between<T>, pub &'a str);
-
-impl Visitor<'_> for Bounded<'_, u32> {
-    type Value = u32;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.1)
-    }
-
-    fn visit_u64<E: Error>(self, value: u64) -> Result<u32, E> {
-        let Between(least, most) = self.0;
-        let allowed = u32::try_from(value).ok().filter(|value| (least..=most).contains(value));
-        allowed.ok_or_else(|| E::invalid_value(Unexpected::Unsigned(value), &self))
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<u32, E> {
-        Err(E::invalid_value(Unexpected::Signed(value), &self))
-    }
-}
-
-impl Visitor<'_> for Bounded<'_, f32> {
-    type Value = f32;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.1)
-    }
-
-    fn visit_f64<E: Error>(self, value: f64) -> Result<f32, E> {
-        let (Between(least, most), value) = (self.0, value as f32);
-        if (least..=most).contains(&value) {
-            return Ok(value);
-        }
-        Err(E::invalid_value(Unexpected::Other(&value.to_string()), &self))
-    }
-
-    fn visit_u64<E: Error>(self, value: u64) -> Result<f32, E> {
-        self.visit_f64(value as f64)
-    }
-
-    fn visit_i64<E: Error>(self, value: i64) -> Result<f32, E> {
-        self.visit_f64(value as f64)
-    }
-}
-
-impl<'de> DeserializeSeed<'de> for Bounded<'_, f32> {
-    type Value = f32;
-
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<f32, D::Error> {
-        deserializer.deserialize_f32(self)
-    }
-}
 
 /// Types that are written in TypeScript as another one.
 macro_rules! written_as {
@@ -138,7 +75,7 @@ macro_rules! bounded {
 
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                deserializer.$read(Bounded(Self::RANGE, &Self::RANGE.to_string())).map(Self)
+                deserializer.$read(Bounded(Self::RANGE, &Self::RANGE)).map(Self)
             }
         }
 

@@ -103,10 +103,24 @@ impl ClientMessage {
     ///
     /// It is no known message; a problem names the field and what is allowed there.
     pub fn from_json(text: &str) -> Result<Self, Unreadable> {
-        let value = reading::parse(text).map_err(|problem| Unreadable { id: None, problem })?;
+        let (value, twice) = match reading::parse(text) {
+            Ok(value) => (value, None),
+            // One in which a name stands twice may still say which command it is.
+            Err(problem) => match serde_json::from_str(text) {
+                Ok(value) => (value, Some(problem)),
+                Err(_) => return Err(Unreadable { id: None, problem }),
+            },
+        };
         let is_command = value.get("type").is_some_and(|kind| kind == "command");
         let id = value.get("id").and_then(Value::as_u64).filter(|_| is_command);
         let id = id.and_then(|id| u32::try_from(id).ok());
+        if let Some(mut problem) = twice {
+            let field = problem.field.take().unwrap_or_default();
+            let id = id.filter(|_| !matches!(&*field, "id" | "type"));
+            let inner = field.strip_prefix("command.").filter(|_| id.is_some()).map(str::to_owned);
+            problem.field = Some(inner.unwrap_or(field));
+            return Err(Unreadable { id, problem });
+        }
         let command = value.get("command").filter(|_| id.is_some()).cloned();
         reading::from_value(value).map_err(|problem| {
             let command = command.map(reading::from_value::<Command>);

@@ -11,13 +11,11 @@ use std::{
     },
 };
 
+use espalier_reading::{Between, Bounded};
 use flate2::{Compress, Compression, FlushCompress, read::DeflateDecoder};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-use crate::{
-    bounded::{Between, Bounded},
-    schema::{between, schemas},
-};
+use crate::schema::{between, schemas};
 
 /// Bytes before the body.
 pub const HEADER_BYTES: usize = 16;
@@ -59,7 +57,7 @@ impl Serialize for FrameKind {
 impl<'de> Deserialize<'de> for FrameKind {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let codes = Self::CODES;
-        let code = deserializer.deserialize_u32(Bounded(codes, &codes.to_string()))?;
+        let code = deserializer.deserialize_u32(Bounded(codes, &codes))?;
         let kind = u8::try_from(code).ok().and_then(Self::from_code);
         kind.ok_or_else(|| D::Error::custom(format_args!("invalid value: {code}, expected {codes}")))
     }

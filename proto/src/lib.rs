@@ -43,6 +43,7 @@ pub use control::{
     ClientMessage, DocumentState, Hint, HintReason, Notice, Resume, ServerMessage, Unreadable,
 };
 pub use envelope::FrameKind;
+pub use espalier_reading::NotAllowed;
 pub use frame::{ChunkChange, Column, Frame, FrameError, Rows, Values};
 pub use ghost::GhostFrame;
 pub use mesh::{Mesh, MeshError};
@@ -50,7 +51,6 @@ pub use obstacle::{Obstacle, PlacedObstacle, PlacedShape, Pose, Shape, SimpleSha
 pub use place::{BoxSize, Direction, DrawingPlane, PlanePoint, Position, UnitRotation};
 pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};
-pub use reading::NotAllowed;
 pub use reason::Reason;
 pub use schematic::Schematic;
 pub use timeline::{OperationKind, Timeline, TimelineFuture, TimelineOperation, WidthConstraint};

@@ -1,5 +1,6 @@
 //! Obstacles: what stands in the way of growth and light.
 
+use espalier_reading::NotAllowed;
 use schemars::{JsonSchema, json_schema};
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
@@ -8,7 +9,7 @@ use crate::{
     bounded::{Scale, SphereRadius, written_as},
     mesh::Mesh,
     place::{BoxSize, Position, UnitRotation},
-    reading::{NotAllowed, tagged_enum},
+    reading::tagged_enum,
     schema::schemas,
 };
 

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use espalier_reading::{Between, Bounded, NotAllowed};
 use glam::{Quat, Vec2, Vec3};
 use schemars::JsonSchema;
 use serde::{
@@ -11,8 +12,7 @@ use serde::{
 use ts_rs::TS;
 
 use crate::{
-    bounded::{Between, Bounded, BoxSide, written_as},
-    reading::NotAllowed,
+    bounded::{BoxSide, written_as},
     schema::{numbers, schemas},
 };
 

@@ -1,5 +1,6 @@
 //! Programmes: which parameters trees grow by at which age, and what guides them then (`PG1`).
 
+use espalier_reading::NotAllowed;
 use espalier_settings::{ParameterValues, ParametersPatch};
 use schemars::{JsonSchema, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, de::Error};
@@ -9,7 +10,7 @@ use crate::{
     bounded::{Age, List, written_as},
     command::StrokeSample,
     place::Position,
-    reading::{NotAllowed, tagged_enum},
+    reading::tagged_enum,
     schema::schemas,
     version::{MAX_STAGES, MAX_STROKE_SAMPLES},
 };

@@ -1,24 +1,14 @@
 //! JSON and queries of addresses read into types; what cannot be read is a problem that names the field and what is allowed there.
-//!
-//! Every type says in its `expecting` text, or in the `allowed` of a [`NotAllowed`], what it takes. A path-tracking
-//! deserialiser says where. Nothing else knows the fields, so there is no second schema to keep.
 
-mod by_name;
-
-use std::fmt;
-
+use espalier_reading::{Fault, Kind, Refusal, Unread, joined, plain, shortened};
 use percent_encoding::percent_decode_str;
 use serde::{
     Deserialize, Deserializer,
-    de::{DeserializeOwned, Error, Unexpected},
+    de::{DeserializeOwned, DeserializeSeed, Error, Unexpected},
 };
 use serde_json::{Map, Value};
 
-use self::by_name::ByName;
 use crate::{problem::Problem, reason::Reason};
-
-/// Characters of what was found that a problem tells again.
-const LONGEST: usize = 120;
 
 /// Reads JSON text.
 ///
@@ -47,15 +37,16 @@ pub fn from_query<T: DeserializeOwned>(query: &str) -> Result<T, Problem> {
     }
     // A text that a field does not take may be the text of a number. Each field changes once at most.
     let mut value = Value::Object(fields);
-    while let Err(Fault { path, text }) = read::<T>(&value) {
-        let is_text = text.starts_with("invalid type: string ");
-        let Some(Value::String(found)) = value.get_mut(&path).filter(|_| is_text).map(Value::take) else {
+    while let Err(fault) = espalier_reading::from_value::<T>(&value) {
+        let path = fault.path();
+        let Some(Value::String(found)) = value.get_mut(path).filter(|_| fault.is_of_text()).map(Value::take)
+        else {
             break;
         };
         match serde_json::from_str(&found) {
-            Ok(plain @ (Value::Number(_) | Value::Bool(_))) => value[&path] = plain,
+            Ok(plain @ (Value::Number(_) | Value::Bool(_))) => value[path] = plain,
             _ => {
-                value[&path] = found.into();
+                value[path] = found.into();
                 break;
             }
         }
@@ -80,14 +71,24 @@ fn check_text(query: &str) -> Result<(), Problem> {
 ///
 /// # Errors
 ///
-/// The text is no JSON.
+/// The text is no JSON, or a name stands twice in an object of it.
 pub fn parse(text: &str) -> Result<Value, Problem> {
-    serde_json::from_str(text).or_else(|error| {
-        serde_json::from_str(&with_quoted_numbers(text)).map_err(|_| {
-            let message = format!("the message is not JSON: {error}");
-            Problem { allowed: Some("JSON".into()), ..Problem::new(Reason::Malformed, message) }
-        })
-    })
+    let unread = match espalier_reading::value(text) {
+        Ok(value) => return Ok(value),
+        Err(unread) => unread,
+    };
+    let told = match unread {
+        Unread::Refused(refusal) => return Err(refusal.into()),
+        Unread::NotJson { line, column, what } => format!("{what} at line {line} column {column}"),
+    };
+    match espalier_reading::value(&with_quoted_numbers(text)) {
+        Ok(value) => Ok(value),
+        Err(Unread::Refused(refusal)) => Err(refusal.into()),
+        Err(Unread::NotJson { .. }) => {
+            let message = format!("the message is not JSON: {told}");
+            Err(Problem { allowed: Some("JSON".into()), ..Problem::new(Reason::Malformed, message) })
+        }
+    }
 }
 
 /// Reads a JSON value.
@@ -96,18 +97,49 @@ pub fn parse(text: &str) -> Result<Value, Problem> {
 ///
 /// A problem names the field and what is allowed there.
 pub fn from_value<T: DeserializeOwned>(mut value: Value) -> Result<T, Problem> {
-    let fault = match read(&value) {
+    let fault = match espalier_reading::from_value(&value) {
         Ok(read) => return Ok(read),
         Err(fault) => fault,
     };
-    let Some(name) = quoted(&fault.text, "missing field `") else { return Err(fault.problem()) };
-    let field = joined(&fault.path, name);
+    let Some(name) = fault.missing() else { return Err(fault.refusal().into()) };
+    let field = joined(fault.path(), name);
     // What may stand in a field that is missing, the type says where the field holds nothing.
-    insert_null(&mut value, &fault.path, name);
-    let allowed = read::<T>(&value).err().filter(|nothing| nothing.path == field);
-    let allowed = allowed.and_then(|nothing| nothing.problem().allowed);
-    let message = format!("{field} is missing{}", and_allowed(allowed.as_deref()));
-    Err(Problem { field: Some(field), allowed, ..Problem::new(Reason::Malformed, message) })
+    insert_null(&mut value, fault.path(), name);
+    let nothing = espalier_reading::from_value::<T>(&value).err().filter(|nothing| nothing.path() == field);
+    Err(Refusal::missing(&field, nothing.and_then(|nothing| nothing.refusal().allowed)).into())
+}
+
+/// Reads a value that stands in a field, by a visitor that knows more than its type.
+///
+/// # Errors
+///
+/// A problem names the field and what is allowed there.
+pub fn in_field<'de, S: DeserializeSeed<'de>>(
+    field: &str,
+    value: &'de Value,
+    seed: S,
+) -> Result<S::Value, Problem> {
+    seed.deserialize(value).map_err(|error| {
+        let refusal = Fault::at(field, &error).refusal();
+        refusal.into()
+    })
+}
+
+impl From<Refusal> for Problem {
+    fn from(Refusal { field, kind, what, allowed }: Refusal) -> Self {
+        let reason = match kind {
+            Kind::Malformed => Reason::Malformed,
+            Kind::OutOfRange => Reason::OutOfRange,
+            Kind::TooFew => Reason::TooFew,
+            Kind::TooMany => Reason::TooMany,
+            Kind::Named(name) => Reason::deserialize(Value::String(name)).unwrap_or(Reason::OutOfRange),
+        };
+        let named = if field.is_empty() { "the message" } else { &field };
+        let told = allowed.as_deref().map(|allowed| format!("; allowed: {allowed}")).unwrap_or_default();
+        let message = format!("{named} {what}{told}");
+        let field = Some(field).filter(|field| !field.is_empty());
+        Self { field, allowed, ..Self::new(reason, message) }
+    }
 }
 
 /// A text that stands for no value of the type that serde calls `expected`.
@@ -115,36 +147,6 @@ pub fn unexpected(field: &str, found: &str, expected: &str) -> Problem {
     let (found, allowed) = (shortened(found), plain(expected));
     Problem::new(Reason::Malformed, format!("{field} is {found}; allowed: {allowed}")).at(field, allowed)
 }
-
-/// A value that a type does not take.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NotAllowed {
-    /// The field at fault inside the value; empty for the value itself.
-    pub at: String,
-    /// What stands there.
-    pub found: String,
-    /// What may.
-    pub allowed: String,
-}
-
-impl NotAllowed {
-    /// A value as a whole.
-    pub fn new(found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self { at: String::new(), found: found.into(), allowed: allowed.into() }
-    }
-}
-
-impl fmt::Display for NotAllowed {
-    /// In the words of serde, for [`from_value`] to take apart.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if !self.at.is_empty() {
-            write!(f, "at `{}`: ", self.at)?;
-        }
-        write!(f, "invalid value: {}, expected {}", self.found, self.allowed)
-    }
-}
-
-impl std::error::Error for NotAllowed {}
 
 /// The fields of an object that is read in parts.
 pub(crate) fn object<'de, D: Deserializer<'de>>(
@@ -164,7 +166,7 @@ pub(crate) fn object<'de, D: Deserializer<'de>>(
 
 /// Reads a part of an object; an error keeps its path.
 pub(crate) fn part<T: DeserializeOwned, E: Error>(at: &str, value: &Value) -> Result<T, E> {
-    read(value).map_err(|fault| E::custom(format!("at `{}`: {}", joined(at, &fault.path), fault.text)))
+    espalier_reading::from_value(value).map_err(|fault| E::custom(fault.within(at)))
 }
 
 /// The variant that an object names under `tag`, and its other fields.
@@ -237,100 +239,6 @@ macro_rules! tagged_enum {
     };
 }
 pub(crate) use tagged_enum;
-
-/// What serde said, and where.
-struct Fault {
-    path: String,
-    text: String,
-}
-
-fn read<T: DeserializeOwned>(value: &Value) -> Result<T, Fault> {
-    serde_path_to_error::deserialize(ByName(value)).map_err(|error| {
-        let path = error.path().iter().next().map(|_| error.path().to_string()).unwrap_or_default();
-        let text = error.inner().to_string();
-        // What was read in parts names the rest of the path.
-        match text.strip_prefix("at `").and_then(|rest| rest.split_once("`: ")) {
-            Some((inner, text)) => Fault { path: joined(&path, inner), text: text.to_owned() },
-            None => Fault { path, text },
-        }
-    })
-}
-
-impl Fault {
-    fn problem(self) -> Problem {
-        let Self { path, text } = self;
-        let field = shortened(&path);
-        if text.starts_with("unknown field `") {
-            let allowed =
-                text.rsplit_once(", expected ").map_or_else(|| "no field".into(), |(_, e)| plain(e));
-            let message = format!("{field} is no known field; allowed: {allowed}");
-            return Problem::new(Reason::Malformed, message).at(field, allowed);
-        }
-        let (said, allowed) = match text.rsplit_once(", expected ") {
-            Some((said, expected)) => (said, Some(plain(expected))),
-            None => (text.as_str(), None),
-        };
-        let said = &*shortened(said);
-        let named = if field.is_empty() { "the message" } else { &field };
-        let (reason, sentence) = if let Some(found) = said.strip_prefix("invalid value: ") {
-            let number = ["integer `", "floating point `"].into_iter().find_map(|kind| quoted(found, kind));
-            let found = number.unwrap_or(found);
-            (Reason::OutOfRange, format!("{named} is {found}"))
-        } else if let Some(count) = said.strip_prefix("too few: ") {
-            (Reason::TooFew, format!("{named} has {count}"))
-        } else if let Some(count) = said.strip_prefix("too many: ") {
-            (Reason::TooMany, format!("{named} has {count}"))
-        } else if let Some(variant) =
-            quoted(said, "unknown variant `").or_else(|| quoted(said, "unknown name `"))
-        {
-            (Reason::Malformed, format!("{named} is {variant}"))
-        } else {
-            (Reason::Malformed, format!("{named} cannot be read: {said}"))
-        };
-        let message = format!("{sentence}{}", and_allowed(allowed.as_deref()));
-        let field = Some(field).filter(|field| !field.is_empty());
-        Problem { field, allowed, ..Problem::new(reason, message) }
-    }
-}
-
-fn and_allowed(allowed: Option<&str>) -> String {
-    allowed.map(|allowed| format!("; allowed: {allowed}")).unwrap_or_default()
-}
-
-/// The beginning of a text that came from outside; a whole message need not be sent back.
-fn shortened(text: &str) -> String {
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{} …", &text[..end]),
-        None => text.to_owned(),
-    }
-}
-
-/// What serde expects, in words for people.
-fn plain(expected: &str) -> String {
-    match expected {
-        "u8" => "a whole number from 0 to 255".into(),
-        "u32" => format!("a whole number from 0 to {}", u32::MAX),
-        "u64" => "a whole number, 0 or more".into(),
-        "f32" | "f64" => "a number".into(),
-        "a boolean" => "true, false".into(),
-        "a string" => "a text".into(),
-        "a sequence" => "a list".into(),
-        "string or map" => "a name".into(),
-        other if other.starts_with("struct ") => "an object".into(),
-        other => other.trim_start_matches("one of ").replace("` or `", ", ").replace('`', ""),
-    }
-}
-
-/// What stands in backticks behind a beginning that ends with one.
-fn quoted<'a>(text: &'a str, beginning: &str) -> Option<&'a str> {
-    text.strip_prefix(beginning)?.split_once('`').map(|(name, _)| name)
-}
-
-/// `radius` inside `samples[3]` is `samples[3].radius`.
-fn joined(outer: &str, inner: &str) -> String {
-    let dot = if outer.is_empty() || inner.is_empty() || inner.starts_with('[') { "" } else { "." };
-    format!("{outer}{dot}{inner}")
-}
 
 /// Puts a field that holds nothing into the object at a path.
 fn insert_null(value: &mut Value, path: &str, name: &str) {

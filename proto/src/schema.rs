@@ -2,13 +2,13 @@
 
 use std::fmt::Display;
 
+use espalier_reading::Between;
 use schemars::{
     JsonSchema, Schema, SchemaGenerator, generate::SchemaSettings, json_schema, transform::RecursiveTransform,
 };
 use serde_json::{Map, Value};
 
 use crate::{
-    bounded::Between,
     command::Command,
     control::{ClientMessage, ServerMessage},
 };

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use base64::{Engine, engine::general_purpose::STANDARD};
+use espalier_reading::{Refusal, Unread, from_slice};
 
 use crate::{ImportError, damaged, document::Document};
 
@@ -21,8 +22,17 @@ pub(crate) struct File<'a> {
 /// Takes a file apart.
 pub(crate) fn open(bytes: &[u8]) -> Result<File<'_>, ImportError> {
     let (json, binary) = if bytes.starts_with(MAGIC) { chunks(bytes)? } else { (bytes, None) };
-    let document: Document =
-        serde_json::from_slice(json).map_err(|error| ImportError::NotGltf(error.to_string()))?;
+    let document: Document = from_slice(json).map_err(|unread| match unread {
+        Unread::NotJson { line, column, what } => {
+            ImportError::NotGltf(format!("{what} at line {line} column {column}"))
+        }
+        Unread::Refused(Refusal { field, what, .. }) if field.is_empty() => ImportError::NotGltf(what),
+        Unread::Refused(Refusal { field, what, allowed, .. }) => ImportError::Member {
+            field,
+            what,
+            allowed: allowed.unwrap_or_else(|| "what glTF 2.0 says".into()),
+        },
+    })?;
     if !document.asset.version.starts_with("2.") {
         return Err(ImportError::Version(document.asset.version));
     }

@@ -50,6 +50,16 @@ pub enum ImportError {
     /// Parts contradict each other.
     #[error("it is damaged: {0}")]
     Damaged(String),
+    /// A member of its JSON is not what the format allows there.
+    #[error("{field} {what}; allowed: {allowed}")]
+    Member {
+        /// Which: `nodes[0].children`.
+        field: String,
+        /// What is wrong with it, as what is said of it.
+        what: String,
+        /// What is allowed there.
+        allowed: String,
+    },
     /// Points or lines alone, or nothing.
     #[error("it shows no triangles")]
     Empty,

@@ -15,8 +15,8 @@ use crate::{
 const TRIANGLES: u32 = 4;
 const TRIANGLE_STRIP: u32 = 5;
 const TRIANGLE_FAN: u32 = 6;
-/// Nodes and primitives visited at most. A node may only have one parent; files that break this could go on for
-/// ever.
+/// Nodes and primitives visited at most. A node may only have one parent; files that break this could double the visits
+/// with each node.
 const MAX_PARTS: usize = 300_000;
 
 /// Where a node puts what it holds.
@@ -29,6 +29,13 @@ struct Transform {
 /// All triangles of the scene the file opens with; of all nodes if it has no scene.
 pub(crate) fn triangles(file: &File<'_>, limits: Limits) -> Result<Triangles, ImportError> {
     let document = &file.document;
+    if let Some(node) = bears_itself(&document.nodes) {
+        return Err(ImportError::Member {
+            field: format!("nodes[{node}].children"),
+            what: "leads back to the node itself".into(),
+            allowed: "nodes that do not bear this one".into(),
+        });
+    }
     let here = Transform { linear: Mat3::IDENTITY, offset: Vec3::ZERO };
     // Last in, first out: put in backwards, nodes come in the order of the file.
     let mut open: Vec<(usize, Transform)> = roots(file)?.into_iter().rev().map(|node| (node, here)).collect();
@@ -57,8 +64,46 @@ pub(crate) fn triangles(file: &File<'_>, limits: Limits) -> Result<Triangles, Im
     Ok(welded.triangles)
 }
 
+/// A node that is borne by a node which it bears, directly or by way of others.
+fn bears_itself(nodes: &[Node]) -> Option<usize> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum State {
+        New,
+        /// On the way from a root to the node that is looked at, with as many of its children done.
+        Open(usize),
+        Done,
+    }
+    let mut states = vec![State::New; nodes.len()];
+    let mut way = Vec::new();
+    for root in 0..nodes.len() {
+        if states[root] == State::New {
+            states[root] = State::Open(0);
+            way.push(root);
+        }
+        while let Some(&node) = way.last() {
+            let State::Open(done) = states[node] else { break };
+            let Some(&child) = nodes[node].children.get(done) else {
+                states[node] = State::Done;
+                way.pop();
+                continue;
+            };
+            states[node] = State::Open(done + 1);
+            match states.get(child) {
+                Some(State::Open(_)) => return Some(child),
+                Some(State::New) => {
+                    states[child] = State::Open(0);
+                    way.push(child);
+                }
+                // A child that is not there is found where nodes are visited.
+                Some(State::Done) | None => {}
+            }
+        }
+    }
+    None
+}
+
 fn too_many_parts() -> ImportError {
-    damaged(format!("it has more than {MAX_PARTS} nodes and meshes, or nodes that bear each other"))
+    damaged(format!("it has more than {MAX_PARTS} nodes and meshes"))
 }
 
 fn roots(file: &File<'_>) -> Result<Vec<usize>, ImportError> {

@@ -263,9 +263,40 @@ fn damaged_files_are_refused() {
 }
 
 #[test]
+fn what_is_refused_in_a_file_names_its_member() {
+    for (at, value, member) in [
+        ("/nodes/0/mesh", json!(-1), "nodes[0].mesh"),
+        ("/nodes/0", json!([[], 0]), "nodes[0]"),
+        ("/meshes/0/primitives/0/attributes", json!([0]), "meshes[0].primitives[0].attributes"),
+        ("/accessors/1/count", json!("many"), "accessors[1].count"),
+        ("/asset", json!(["2.0"]), "asset"),
+        ("/asset", json!({}), "asset.version"),
+    ] {
+        let mut document = one_node();
+        set(&mut document, at, value.clone());
+        let refused = read(&document);
+        let Err(ImportError::Member { field, allowed, .. }) = &refused else { panic!("{at}: {refused:?}") };
+        assert_eq!(field, member, "{at} = {value}");
+        assert!(!allowed.is_empty() && !allowed.contains("struct"), "{at} = {value}: {allowed}");
+    }
+    for whole in ["[]", "5", r#"[{"version":"2.0"}]"#] {
+        assert!(matches!(read_file(whole.as_bytes()), Err(ImportError::NotGltf(_))), "{whole}");
+    }
+}
+
+#[test]
 fn nodes_that_bear_themselves_come_to_an_end() {
-    let circle = document(json!([{ "mesh": 0, "children": [1] }, { "children": [0] }]));
-    assert!(read(&circle).is_err());
+    for (nodes, field) in [
+        (json!([{ "mesh": 0, "children": [0] }]), "nodes[0].children"),
+        (json!([{ "mesh": 0, "children": [1] }, { "children": [0] }]), "nodes[0].children"),
+        (json!([{ "children": [2, 1] }, { "mesh": 0, "children": [1] }, {}]), "nodes[1].children"),
+    ] {
+        let refused = read(&document(nodes.clone()));
+        let Err(ImportError::Member { field: at, .. }) = &refused else { panic!("{nodes}: {refused:?}") };
+        assert_eq!(at, field, "{nodes}");
+    }
+    let shared = document(json!([{ "children": [1, 2] }, { "children": [2] }, { "mesh": 0 }]));
+    assert!(read(&shared).is_ok(), "what is borne twice is no circle");
     // Two of each at every level: 2^60 in all.
     let levels: Vec<Value> = (0..60).map(|i| json!({ "children": [i + 1, i + 1] })).collect();
     let mut doubling = document(json!(levels));

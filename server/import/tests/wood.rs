@@ -4,6 +4,7 @@ use espalier_growth::{Parameters, transplant};
 use espalier_import::{Fault, FaultKind, Place, WoodFormat, WoodOptions, read_wood};
 use espalier_plant::{MetamerId, Plant, Wood, checks};
 use glam::Vec3;
+use serde_json::{Value, json};
 
 fn options() -> WoodOptions {
     WoodOptions { internode_length: 0.1, unit: 1.0, shoot: 4, nodes: 10_000, extent: 1000.0 }
@@ -262,16 +263,83 @@ fn bad_skeletons_are_named_by_member_or_place() {
         (
             r#""version":2"#,
             r#""version":3"#,
-            FaultKind::Malformed,
+            FaultKind::OutOfRange,
             Place::Member("version".into()),
-            "versions 1 and 2",
+            "allowed: 1 or 2",
         ),
-        ("0.01", "NaN", FaultKind::Malformed, Place::Cell(3, 52), "no skeleton"),
+        ("0.01", "NaN", FaultKind::Malformed, Place::Cell(3, 52), "allowed: JSON"),
     ];
     for (from, to, kind, place, what) in cases {
         let found = fault(WoodFormat::Skeleton, &SKELETON.replacen(from, to, 1));
         assert_eq!((found.kind, found.place.as_ref()), (kind, Some(&place)), "{to}: {found}");
         assert!(found.to_string().contains(what), "{found}");
+    }
+}
+
+#[test]
+fn what_is_refused_in_a_skeleton_names_its_member_and_what_is_allowed_there() {
+    let whole: Value = serde_json::from_str(SKELETON).expect("JSON");
+    let metamer = |name: &str| (format!("/metamers/1/{name}"), format!("metamers[1].{name}"));
+    let top = |name: &str| (format!("/{name}"), name.to_owned());
+    let parent = "null, or the number of a metamer that stands before this one, from 0";
+    for ((at, member), value, allowed) in [
+        (metamer("parent"), json!(-1), parent),
+        (metamer("parent"), json!("x"), parent),
+        (metamer("parent"), json!(0.5), parent),
+        (metamer("axis"), json!("x"), "the number of an axis, from 0"),
+        (metamer("axis"), json!(null), "the number of an axis, from 0"),
+        (metamer("position"), json!("x"), "three numbers"),
+        (metamer("position"), json!([0, 1]), "three numbers"),
+        (metamer("position"), json!([0, 1, 2, 3]), "three numbers"),
+        (metamer("radius"), json!("x"), "0 and more"),
+        (metamer("radius"), json!(-0.1), "0 and more"),
+        (metamer("radius"), json!({}), "0 and more"),
+        (metamer("birth"), json!(-1), "0 to 100000"),
+        (metamer("birth"), json!(100_001), "0 to 100000"),
+        (metamer("birth"), json!("x"), "0 to 100000"),
+        (top("metamers"), json!([]), "a list of 1 metamer or more, seeds first"),
+        (top("metamers"), json!({}), "a list of 1 metamer or more, seeds first"),
+        (top("axes"), json!(5), "a list of 1 axis or more"),
+        (top("version"), json!(3), "1 or 2"),
+        (top("version"), json!(0), "1 or 2"),
+        (top("version"), json!("2"), "1 or 2"),
+        (top("format"), json!(5), "espalier-skeleton"),
+        (top("format"), json!("mtg"), "espalier-skeleton"),
+        (("/axes/0".into(), "axes[0]".into()), json!([null, null, true]), "an object"),
+        (("/metamers/0".into(), "metamers[0]".into()), json!([null, 0, [0, 0, 0], 0]), "an object"),
+    ] {
+        let mut other = whole.clone();
+        *other.pointer_mut(&at).unwrap_or_else(|| panic!("{at}")) = value.clone();
+        let found = fault(WoodFormat::Skeleton, &other.to_string());
+        let expected = (Some(Place::Member(member)), Some(allowed));
+        assert_eq!(
+            (found.place, found.allowed.as_deref()),
+            expected.clone(),
+            "{at} = {value}: {}",
+            found.what
+        );
+        // The same where it is not there at all.
+        let (outer, name) = at.rsplit_once('/').expect("a path");
+        if let Some(object) = other.pointer_mut(outer).and_then(Value::as_object_mut)
+            && !matches!(name, "parent" | "radius")
+        {
+            object.remove(name);
+            let found = fault(WoodFormat::Skeleton, &other.to_string());
+            assert_eq!((found.place, found.allowed.as_deref()), expected, "no {at}");
+        }
+    }
+    let deep = SKELETON.replace("[0,0.1,0]", "[0,\"up\",0]");
+    let found = fault(WoodFormat::Skeleton, &deep);
+    assert_eq!(found.place, Some(Place::Member("metamers[1].position[1]".into())), "{found}");
+    let twice = SKELETON.replace(r#""radius":0.01"#, r#""radius":0.01,"radius":0.02"#);
+    let found = fault(WoodFormat::Skeleton, &twice);
+    assert_eq!(
+        (found.place.as_ref(), found.allowed.as_deref()),
+        (Some(&Place::Member("metamers[1].radius".into())), Some("once"))
+    );
+    for whole in ["[]", "5", "null", "\"x\""] {
+        let found = fault(WoodFormat::Skeleton, whole);
+        assert_eq!((found.place, found.allowed.as_deref()), (None, Some("an object")), "{whole}");
     }
 }
 

@@ -62,6 +62,10 @@ const GLTF: &str = "glTF 2.0 as .glb, or as .gltf with its buffers inside";
 
 /// Why a file cannot be an obstacle, and what one must have.
 fn no_obstacle(error: &ImportError) -> Problem {
+    let message = format!("The file cannot be an obstacle: {error}.");
+    if let ImportError::Member { field, allowed, .. } = error {
+        return Problem::new(Reason::GltfDamaged, message).at(field, allowed);
+    }
     let gltf = || GLTF.to_owned();
     let (reason, allowed, cause) = match error {
         ImportError::NotGltf(_) => (Reason::NotGltf, gltf(), None),
@@ -70,13 +74,15 @@ fn no_obstacle(error: &ImportError) -> Problem {
         ImportError::Unsupported(what) => {
             (Reason::GltfNeeds, format!("{GLTF}, without {what}"), Some(what.clone()))
         }
-        ImportError::Damaged(_) | ImportError::NotFinite => (Reason::GltfDamaged, gltf(), None),
+        ImportError::Damaged(_) | ImportError::Member { .. } | ImportError::NotFinite => {
+            (Reason::GltfDamaged, gltf(), None)
+        }
         ImportError::Empty => (Reason::EmptyMesh, "at least one triangle".to_owned(), None),
         ImportError::TooLarge(Limits { vertices, triangles }) => {
             (Reason::LargeMesh, format!("up to {triangles} triangles and {vertices} vertices"), None)
         }
     };
-    let problem = Problem::new(reason, format!("The file cannot be an obstacle: {error}."));
+    let problem = Problem::new(reason, message);
     Problem { cause, ..problem.at("body", allowed) }
 }
 

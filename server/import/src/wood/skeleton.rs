@@ -1,32 +1,29 @@
 //! Skeletons as this program writes them, of both versions.
 
+mod values;
+
 use espalier_plant::{Wood, WoodAxis, WoodNode, wood::as_written};
+use espalier_reading::{Kind, Refusal, Unread, from_slice};
 use espalier_settings::ParametersPatch;
 use glam::{DVec3, Vec3};
-use serde::Deserialize;
+use serde::{Deserialize, de::DeserializeOwned};
 
-use super::{Fault, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many};
-
-/// What says how to read the rest.
-#[derive(Deserialize)]
-struct Head {
-    format: String,
-    version: u32,
-}
+use self::values::{Axes, AxisNumber, Bearer, Birth, Girth, Head, Metamers, Order, Parent, Vector, Version};
+use super::{Fault, FaultKind, MAX_STEP, Place, WoodFile, WoodOptions, malformed, out_of_range, too_many};
 
 /// Version 1, which knew neither metres nor axes.
 #[derive(Deserialize)]
 struct First {
-    metamers: Vec<FirstMetamer>,
+    metamers: Metamers<FirstMetamer>,
 }
 
 #[derive(Deserialize)]
 struct FirstMetamer {
-    parent: Option<u32>,
-    position: [f64; 3],
-    radius: f64,
-    order: u32,
-    birth: u32,
+    parent: Option<Parent>,
+    position: Vector<f64>,
+    radius: Girth,
+    order: Order,
+    birth: Birth,
 }
 
 #[derive(Deserialize)]
@@ -35,14 +32,14 @@ struct Second {
     seed: Option<u32>,
     #[serde(default)]
     parameters: ParametersPatch,
-    axes: Vec<Axis>,
-    metamers: Vec<Metamer>,
+    axes: Axes<Axis>,
+    metamers: Metamers<Metamer>,
 }
 
 #[derive(Deserialize)]
 struct Axis {
-    bearer: Option<u32>,
-    direction: Option<[f32; 3]>,
+    bearer: Option<Bearer>,
+    direction: Option<Vector<f32>>,
     #[serde(default = "yes")]
     bud: bool,
 }
@@ -53,40 +50,41 @@ fn yes() -> bool {
 
 #[derive(Deserialize)]
 struct Metamer {
-    parent: Option<u32>,
-    axis: u32,
-    position: [f64; 3],
-    normal: Option<[f32; 3]>,
-    radius: Option<f64>,
-    birth: u32,
-    width: Option<f64>,
+    parent: Option<Parent>,
+    axis: AxisNumber,
+    position: Vector<f64>,
+    normal: Option<Vector<f32>>,
+    radius: Option<Girth>,
+    birth: Birth,
+    width: Option<Girth>,
 }
 
 /// The wood of a skeleton.
 pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<WoodFile, Fault> {
-    let head: Head = json(bytes)?;
-    if head.format != "espalier-skeleton" {
-        return Err(malformed(Some(Place::Member("format".into())), "it is not `espalier-skeleton`"));
-    }
-    let file = match head.version {
-        1 => first(json(bytes)?, options),
-        2 => second(json(bytes)?, options),
-        later => {
-            let what = format!("it is {later}; versions 1 and 2 are read");
-            return Err(malformed(Some(Place::Member("version".into())), what));
-        }
+    let Head { version, .. } = json(bytes)?;
+    let file = match version {
+        Version::First => first(json(bytes)?, options),
+        Version::Second => second(json(bytes)?, options),
     }?;
     check(&file.wood, options)?;
     Ok(file)
 }
 
-fn json<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T, Fault> {
-    serde_json::from_slice(bytes).map_err(|error| {
-        let place = Place::Cell(error.line() as u64, error.column() as u64);
-        // The place stands before the message.
-        let text = error.to_string();
-        let what = text.rsplit_once(" at line ").map_or(&*text, |(what, _)| what);
-        malformed(Some(place), format!("it is no skeleton: {what}"))
+fn json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
+    from_slice(bytes).map_err(|unread| match unread {
+        Unread::NotJson { line, column, what } => {
+            let fault = malformed(Some(Place::Cell(line, column)), format!("it is no JSON: {what}"));
+            Fault { allowed: Some("JSON".into()), ..fault }
+        }
+        Unread::Refused(Refusal { field, kind, what, allowed }) => {
+            let kind = match kind {
+                Kind::OutOfRange => FaultKind::OutOfRange,
+                Kind::TooMany => FaultKind::TooMany,
+                Kind::Malformed | Kind::TooFew | Kind::Named(_) => FaultKind::Malformed,
+            };
+            let place = Some(field).filter(|field| !field.is_empty()).map(Place::Member);
+            Fault { kind, place, what: format!("it {what}"), allowed }
+        }
     })
 }
 
@@ -94,10 +92,11 @@ fn first(First { metamers }: First, options: &WoodOptions) -> Result<WoodFile, F
     limit(metamers.len(), options)?;
     let (mut nodes, mut axes) = (Vec::<WoodNode>::with_capacity(metamers.len()), Vec::new());
     for (metamer, at) in metamers.iter().zip(0u32..) {
-        let FirstMetamer { parent, position, radius, order, birth } = *metamer;
+        let FirstMetamer { position, radius, order: Order(order), birth: Birth(birth), .. } = *metamer;
+        let parent = metamer.parent.map(|Parent(parent)| parent);
         let below = match parent {
             Some(parent) if parent >= at => return Err(behind(at, parent)),
-            Some(parent) => Some((metamers[parent as usize].order, nodes[parent as usize].axis, parent)),
+            Some(parent) => Some((metamers[parent as usize].order.0, nodes[parent as usize].axis, parent)),
             None => None,
         };
         let axis = match below {
@@ -107,7 +106,7 @@ fn first(First { metamers }: First, options: &WoodOptions) -> Result<WoodFile, F
                 axes.len() as u32 - 1
             }
         };
-        let end = within(at, DVec3::from_array(position), options)?;
+        let end = within(at, DVec3::from_array(position.0), options)?;
         let radius = girth(at, "radius", parent.map(|_| radius), 1.0)?;
         nodes.push(WoodNode { parent, axis, end, normal: None, radius, birth });
     }
@@ -125,18 +124,21 @@ fn second(file: Second, options: &WoodOptions) -> Result<WoodFile, Fault> {
     let scale = as_written(length);
     let (mut nodes, mut widths) = (Vec::with_capacity(file.metamers.len()), Vec::new());
     for (metamer, at) in file.metamers.iter().zip(0u32..) {
-        let &Metamer { parent, axis, position, normal, radius, birth, width } = metamer;
+        let &Metamer { axis: AxisNumber(axis), position, normal, radius, birth: Birth(birth), width, .. } =
+            metamer;
+        let parent = metamer.parent.map(|Parent(parent)| parent);
         if let Some(parent) = parent.filter(|&parent| parent >= at) {
             return Err(behind(at, parent));
         }
-        let end = within(at, DVec3::from_array(position) / scale, options)?;
+        let end = within(at, DVec3::from_array(position.0) / scale, options)?;
         let radius = girth(at, "radius", radius.filter(|_| parent.is_some()), scale)?;
         widths.extend(girth(at, "width", width, scale)?.map(|width| (at, width)));
-        nodes.push(WoodNode { parent, axis, end, normal: normal.map(Vec3::from_array), radius, birth });
+        let normal = normal.map(|Vector(normal)| Vec3::from_array(normal));
+        nodes.push(WoodNode { parent, axis, end, normal, radius, birth });
     }
     let axis = |axis: &Axis| WoodAxis {
-        bearer: axis.bearer,
-        direction: axis.direction.map(Vec3::from_array),
+        bearer: axis.bearer.map(|Bearer(bearer)| bearer),
+        direction: axis.direction.map(|Vector(direction)| Vec3::from_array(direction)),
         has_bud: axis.bud,
     };
     let wood = Wood { nodes, axes: file.axes.iter().map(axis).collect(), widths, has_buds: true };
@@ -194,11 +196,12 @@ fn within(at: u32, place: DVec3, options: &WoodOptions) -> Result<Vec3, Fault> {
 }
 
 /// A radius or diameter in internodes; none where it is 0.
-fn girth(at: u32, name: &str, metres: Option<f64>, scale: f64) -> Result<Option<f32>, Fault> {
-    let Some(metres) = metres else { return Ok(None) };
+fn girth(at: u32, name: &str, metres: Option<Girth>, scale: f64) -> Result<Option<f32>, Fault> {
+    let Some(Girth(metres)) = metres else { return Ok(None) };
     let internodes = (metres / scale) as f32;
-    if metres < 0.0 || !internodes.is_finite() {
-        return Err(out_of_range(member(at as usize, name), format!("it is {metres}"), "0 and more"));
+    if !internodes.is_finite() {
+        let allowed = format!("0 to {:e}", f64::from(f32::MAX) * scale);
+        return Err(out_of_range(member(at as usize, name), format!("it is {metres}"), allowed));
     }
     Ok(Some(internodes).filter(|&internodes| internodes > 0.0))
 }
