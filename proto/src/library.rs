@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
+use crate::text::{Name, Note, Tags};
+
 /// `POST /api/v1/sessions`: start a session, or come into the one of a tree.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
@@ -59,15 +61,15 @@ pub struct SaveTree {
     /// The session; it belongs to the tree from then on.
     pub session: String,
     /// 1 to 80 characters.
-    pub name: String,
+    pub name: Name,
     /// What is said of this version: up to 2000 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub note: Option<String>,
+    pub note: Option<Note>,
     /// How whoever saves it wants to be called: 1 to 80 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub author: Option<String>,
+    pub author: Option<Name>,
     /// A picture as a data URL, PNG, JPEG or WebP, at most 192 KiB.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -83,11 +85,11 @@ pub struct SaveVersion {
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub note: Option<String>,
+    pub note: Option<Note>,
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub author: Option<String>,
+    pub author: Option<Name>,
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -101,11 +103,11 @@ pub struct RestoreVersion {
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub note: Option<String>,
+    pub note: Option<Note>,
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub author: Option<String>,
+    pub author: Option<Name>,
 }
 
 /// `POST /api/v1/trees/ID/copies`: a new tree that begins with a version of this one.
@@ -113,7 +115,7 @@ pub struct RestoreVersion {
 #[serde(deny_unknown_fields)]
 pub struct CopyTree {
     /// The new tree's name: 1 to 80 characters.
-    pub name: String,
+    pub name: Name,
     /// The version it begins with; the newest one if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -121,11 +123,11 @@ pub struct CopyTree {
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub note: Option<String>,
+    pub note: Option<Note>,
     /// As in `SaveTree`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub author: Option<String>,
+    pub author: Option<Name>,
 }
 
 /// `GET /api/v1/trees`: some trees of the library, in the order that was asked for.
@@ -276,11 +278,11 @@ pub struct ChangeTree {
     /// Its name: 1 to 80 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub name: Option<String>,
+    pub name: Option<Name>,
     /// What is said of it: up to 2000 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub note: Option<String>,
+    pub note: Option<Note>,
     /// Whether new trees are begun with it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -288,7 +290,7 @@ pub struct ChangeTree {
     /// All of its tags: up to 32, each of 1 to 80 characters without a comma.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub tags: Option<Vec<String>>,
+    pub tags: Option<Tags>,
     /// The collection it lies in; an empty text for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -316,7 +318,7 @@ pub struct TreeCollection {
 #[serde(deny_unknown_fields)]
 pub struct NewCollection {
     /// 1 to 80 characters.
-    pub name: String,
+    pub name: Name,
     /// The collection it lies in, if it lies in one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -330,7 +332,7 @@ pub struct ChangeCollection {
     /// 1 to 80 characters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub name: Option<String>,
+    pub name: Option<Name>,
     /// The collection it lies in; an empty text for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
@@ -365,5 +367,5 @@ pub const IMPORT_ENDINGS: [&str; 4] = ["espalier", "mtg", "csv", "json"];
 #[serde(deny_unknown_fields)]
 pub struct ChangeVersion {
     /// Up to 2000 characters.
-    pub note: String,
+    pub note: Note,
 }

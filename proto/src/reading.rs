@@ -1,6 +1,6 @@
 //! JSON and queries of addresses read into types; what cannot be read is a problem that names the field and what is allowed there.
 
-use espalier_reading::{Fault, Kind, Refusal, Unread, joined, plain, shortened};
+use espalier_reading::{Fault, Kind, NotAllowed, Refusal, Unread, joined, plain, shortened};
 use percent_encoding::percent_decode_str;
 use serde::{
     Deserialize, Deserializer,
@@ -123,6 +123,11 @@ pub fn in_field<'de, S: DeserializeSeed<'de>>(
         let refusal = Fault::at(field, &error).refusal();
         refusal.into()
     })
+}
+
+/// The problem with what a type does not take in a field.
+pub(crate) fn told(field: &str, fault: &NotAllowed) -> Problem {
+    Fault::at(field, &serde_json::Error::custom(fault)).refusal().into()
 }
 
 impl From<Refusal> for Problem {

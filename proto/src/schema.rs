@@ -92,6 +92,11 @@ pub(crate) fn numbers(ranges: &[Between<f32>]) -> Schema {
     json_schema!({ "type": "array", "prefixItems": items, "minItems": count, "maxItems": count })
 }
 
+/// A text of `least` to `most` characters.
+pub(crate) fn text(least: usize, most: usize) -> Schema {
+    json_schema!({ "type": "string", "minLength": least, "maxLength": most })
+}
+
 /// A list of `least` to `most` entries.
 pub(crate) fn list<T: JsonSchema>(generator: &mut SchemaGenerator, least: usize, most: usize) -> Schema {
     let items = generator.subschema_for::<T>();

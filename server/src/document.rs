@@ -9,14 +9,11 @@ use espalier_growth::{
     species::{self, Species, Stage},
 };
 use espalier_mesh::Style;
-use espalier_proto::library::ExportFormat;
+use espalier_proto::{library::ExportFormat, text::Name};
 use espalier_session::{Document, DocumentError, style_options};
 use espalier_settings::{Appearance, ParameterValues};
 
-use crate::{
-    export_options::{ExportOptions, Size, option},
-    text::Name,
-};
+use crate::export_options::{ExportOptions, Size, option};
 
 /// Pixels of a picture across and down.
 const PICTURE: Size = Size(1000, 1000);

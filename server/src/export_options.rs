@@ -4,12 +4,10 @@ use std::{borrow::Cow, str::FromStr};
 
 use clap::Args;
 use espalier_export::{Detail, Model, picture::Camera};
-use espalier_proto::NotAllowed;
+use espalier_proto::{NotAllowed, text::Name};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde_json::Value;
-
-use crate::text::Name;
 
 /// The most pixels of a picture: each takes some 170 bytes while it is drawn.
 const MOST_PIXELS: usize = 4_000_000;

@@ -7,7 +7,7 @@ use std::{
 };
 
 use espalier_growth::DEFAULT_METAMER_BUDGET;
-use espalier_proto::{Problem, thumbnail::MAX_THUMBNAIL_BYTES};
+use espalier_proto::{Problem, text, thumbnail::MAX_THUMBNAIL_BYTES};
 use espalier_session::{Document, DocumentError, Principal};
 use serde::Serialize;
 
@@ -25,7 +25,6 @@ use crate::{
         Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved, SqliteStore,
         Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
     },
-    text,
     time::now,
 };
 

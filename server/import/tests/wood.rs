@@ -267,7 +267,7 @@ fn bad_skeletons_are_named_by_member_or_place() {
             Place::Member("version".into()),
             "allowed: 1 or 2",
         ),
-        ("0.01", "NaN", FaultKind::Malformed, Place::Cell(3, 52), "allowed: JSON"),
+        ("0.01", "NaN", FaultKind::Malformed, Place::Cell(3, 52), "it is no JSON"),
     ];
     for (from, to, kind, place, what) in cases {
         let found = fault(WoodFormat::Skeleton, &SKELETON.replacen(from, to, 1));

@@ -6,10 +6,10 @@ use clap::{
     Args, Subcommand, ValueEnum,
     builder::{PossibleValuesParser, TypedValueParser},
 };
-use espalier_proto::access::Role;
+use espalier_proto::{access::Role, text::Name};
 
 use super::Database;
-use crate::{access::admission::LONGEST, store::folded, text::Name};
+use crate::{access::admission::LONGEST, store::folded};
 
 /// Options of `invite`.
 #[derive(Debug, Args)]

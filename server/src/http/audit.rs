@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::{
     Shared,
     failure::{Failure, Query},
-    trees::limit_of,
+    limit::Limit,
 };
 use crate::{
     access::{Caller, Peer},
@@ -28,7 +28,8 @@ const MAX_EVENTS: u32 = 1000;
 #[schemars(inline)]
 pub(super) struct Page {
     /// How many at most, 1 to 1000.
-    limit: Option<u32>,
+    #[serde(default)]
+    limit: Limit<MAX_EVENTS>,
     /// Those before this number.
     before: Option<u64>,
 }
@@ -37,7 +38,7 @@ pub(super) async fn list(
     State(shared): State<Shared>,
     Query(page): Query<Page>,
 ) -> Result<Json<Vec<AuditEvent>>, Failure> {
-    let events = shared.store.events(limit_of(page.limit, MAX_EVENTS)?, page.before).await?;
+    let events = shared.store.events(page.limit.get(), page.before).await?;
     Ok(Json(events.into_iter().map(described).collect()))
 }
 

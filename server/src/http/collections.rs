@@ -11,7 +11,6 @@ use super::{
 use crate::{
     name,
     store::{Collection, CollectionChange, Finding, Missing},
-    text,
 };
 
 pub(super) async fn list(State(shared): State<Shared>) -> Result<Json<Vec<TreeCollection>>, Failure> {
@@ -23,7 +22,7 @@ pub(super) async fn add(
     State(shared): State<Shared>,
     Body(new): Body<NewCollection>,
 ) -> Result<impl IntoResponse, Failure> {
-    let (id, name) = (name::unguessable(), text::name("name", &new.name)?);
+    let (id, name) = (name::unguessable(), new.name.into());
     let new = Collection { id, name, parent: new.parent, trees: 0 };
     shared.store.add_collection(new.clone()).await?;
     Ok((StatusCode::CREATED, Json(to_proto(new))))
@@ -35,7 +34,7 @@ pub(super) async fn change(
     Body(change): Body<ChangeCollection>,
 ) -> Result<Json<TreeCollection>, Failure> {
     let change = CollectionChange {
-        name: change.name.map(|name| text::name("name", &name)).transpose()?,
+        name: change.name.map(String::from),
         parent: change.parent.map(Some).map(|id| id.filter(|id| !id.is_empty())),
     };
     shared.store.change_collection(&id, change).await?;

@@ -52,6 +52,11 @@ impl About {
         Self { asks: Some(schema_of::<T>), ..self }
     }
 
+    /// Whether nothing may.
+    pub fn asks_nothing(&self) -> bool {
+        self.asks.is_none()
+    }
+
     /// Only these of the options.
     pub fn among(self, options: &'static [&'static str]) -> Self {
         Self { among: Some(options), ..self }

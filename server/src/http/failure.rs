@@ -14,7 +14,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{Problem, ProblemCode, Reason, reading};
-use serde::de::DeserializeOwned;
+use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::{
     access::{self, Unknown},
@@ -302,6 +302,16 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Query<T> {
     async fn from_request_parts(parts: &mut Parts, _: &S) -> Result<Self, Failure> {
         Ok(Self(reading::from_query(parts.uri.query().unwrap_or_default())?))
     }
+}
+
+/// Nothing stands behind the question mark.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Nothing {}
+
+/// Refuses a query where none is read, so that a name that is mistyped is not taken for one that was obeyed.
+pub(super) async fn without_query(_: Query<Nothing>, request: Request, next: Next) -> Response {
+    next.run(request).await
 }
 
 /// What stands in the path of an address where its row has names, or a problem that says what is wrong with it.

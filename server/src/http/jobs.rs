@@ -1,5 +1,7 @@
 //! Jobs: trees that are grown on request (`JB`).
 
+use std::{borrow::Cow, collections::BTreeSet, fmt};
+
 use axum::{
     Json,
     extract::State,
@@ -7,11 +9,15 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_growth::species;
-use espalier_proto::{NotAllowed, Problem, Reason, Steps};
+use espalier_proto::{NotAllowed, Problem, Reason, Steps, reading::in_field};
+use espalier_reading::{Between, Bounded};
 use espalier_session::{Document, DocumentError};
 use espalier_settings::{AppearancePatch, ParametersPatch};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{Deserialize, Deserializer, Serialize, de::Error};
+use serde::{
+    Deserialize, Deserializer, Serialize,
+    de::{Error, Visitor},
+};
 use serde_json::Value;
 
 use super::{
@@ -23,7 +29,7 @@ use super::{
 };
 use crate::{
     access::{Action, Caller},
-    document::FORMATS,
+    document::{FORMATS, FormatRow},
     export_options::{ExportOptions, NotOfFormat},
     jobs::{self, Job, NotTaken, Order},
     recipe::{Recipe, SeedRange},
@@ -52,12 +58,56 @@ pub(super) struct GrowTrees {
     /// Steps to grow on for.
     steps: Option<Steps>,
     /// Living metamers to grow on to.
-    metamers: Option<u32>,
+    #[schemars(with = "Option<u32>")]
+    metamers: Option<Value>,
     /// How the names of files of the format end, as `GET /api/v1/formats` tells them.
-    format: String,
+    format: Ending,
     /// Options of the format.
     #[serde(default)]
     options: ExportOptions,
+}
+
+/// How the names of files of a format end.
+#[derive(Debug)]
+struct Ending(&'static FormatRow);
+
+impl<'de> Deserialize<'de> for Ending {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+
+        impl Visitor<'_> for Reader {
+            type Value = Ending;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(&endings().join(", "))
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Ending, E> {
+                let found = FORMATS.iter().find(|row| row.ending == text).map(Ending);
+                found.ok_or_else(|| E::custom(NotAllowed::new(text, endings().join(", "))))
+            }
+        }
+
+        deserializer.deserialize_str(Reader)
+    }
+}
+
+impl JsonSchema for Ending {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "ExportEnding".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "string", "enum": endings() })
+    }
+}
+
+fn endings() -> Vec<&'static str> {
+    FORMATS.iter().map(|row| row.ending).collect()
 }
 
 /// Seeds, each once.
@@ -71,29 +121,52 @@ impl Default for WantedSeeds {
 }
 
 impl WantedSeeds {
-    fn read(value: &Value) -> Option<Self> {
+    fn allowed() -> String {
+        format!("a list of 1 to {MOST_SEEDS} different seeds, or a text as 1-50")
+    }
+
+    fn read(value: &Value) -> Result<Self, NotAllowed> {
+        let not_allowed = |found: String| NotAllowed::new(found, Self::allowed());
         let seeds: Vec<u32> = match value {
             Value::String(text) => {
-                let SeedRange(seeds) = text.parse().ok()?;
+                let SeedRange(seeds) = text.parse().map_err(|_| not_allowed(format!("\"{text}\"")))?;
                 seeds.take(MOST_SEEDS + 1).collect()
             }
-            Value::Array(list) if list.len() <= MOST_SEEDS => {
-                list.iter().map(|seed| seed.as_u64()?.try_into().ok()).collect::<Option<_>>()?
+            Value::Array(list) => {
+                list.iter().take(MOST_SEEDS + 1).enumerate().map(read_seed).collect::<Result<_, _>>()?
             }
-            _ => return None,
+            other => return Err(not_allowed(other.to_string())),
         };
-        let mut different = seeds.clone();
-        different.sort_unstable();
-        different.dedup();
-        ((1..=MOST_SEEDS).contains(&seeds.len()) && different.len() == seeds.len()).then_some(Self(seeds))
+        match seeds.len() {
+            0 => return Err(NotAllowed { kind: Some("too-few"), ..not_allowed("no seed".into()) }),
+            1..=MOST_SEEDS => {}
+            _ => {
+                let found = format!("more than {MOST_SEEDS} seeds");
+                return Err(NotAllowed { kind: Some("too-many"), ..not_allowed(found) });
+            }
+        }
+        let mut before = BTreeSet::new();
+        match seeds.iter().position(|seed| !before.insert(*seed)) {
+            Some(again) => Err(NotAllowed {
+                at: format!("[{again}]"),
+                ..NotAllowed::new(format!("{}, which stands before it as well", seeds[again]), "another seed")
+            }),
+            None => Ok(Self(seeds)),
+        }
     }
+}
+
+fn read_seed((at, seed): (usize, &Value)) -> Result<u32, NotAllowed> {
+    let read = seed.as_u64().and_then(|seed| u32::try_from(seed).ok());
+    read.ok_or_else(|| NotAllowed {
+        at: format!("[{at}]"),
+        ..NotAllowed::new(seed.to_string(), Between(0, u32::MAX).to_string())
+    })
 }
 
 impl<'de> Deserialize<'de> for WantedSeeds {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let value = Value::deserialize(deserializer)?;
-        let allowed = format!("a list of 1 to {MOST_SEEDS} different seeds, or a text as 1-50");
-        Self::read(&value).ok_or_else(|| D::Error::custom(NotAllowed::new("none", allowed)))
+        Self::read(&Value::deserialize(deserializer)?).map_err(D::Error::custom)
     }
 }
 
@@ -102,7 +175,7 @@ impl JsonSchema for WantedSeeds {
         true
     }
 
-    fn schema_name() -> std::borrow::Cow<'static, str> {
+    fn schema_name() -> Cow<'static, str> {
         "Seeds".into()
     }
 
@@ -234,10 +307,7 @@ pub(super) async fn grow(
     Body(wanted): Body<GrowTrees>,
 ) -> Result<impl IntoResponse, Failure> {
     let GrowTrees { template, parameters, appearance, seeds, steps, metamers, format, options } = wanted;
-    let row = FORMATS.iter().find(|row| row.ending == format).ok_or_else(|| {
-        let endings: Vec<_> = FORMATS.iter().map(|row| row.ending).collect();
-        Problem::out_of_range("format", &format, endings.join(", "))
-    })?;
+    let Ending(row) = format;
     let checked = match &options.ticket {
         // Progress is asked for by the name of the job.
         Some(_) => Err(NotOfFormat("ticket")),
@@ -245,10 +315,10 @@ pub(super) async fn grow(
     };
     checked.map_err(|error| not_of(row, &error).within("options"))?;
     let budget = shared.metamer_budget;
-    if metamers.is_some_and(|metamers| !(1..=budget).contains(&metamers)) {
-        let problem = Problem::out_of_range("metamers", metamers.unwrap_or(0), format!("1 to {budget}"));
-        return Err(problem.into());
-    }
+    // Read here, for no type knows how many this server allows.
+    let range = Between(1, budget);
+    let metamers = metamers.map(|metamers| in_field("metamers", &metamers, Bounded(range, &range)));
+    let metamers = metamers.transpose()?;
     let (recipe, species) = match &template {
         None if steps.is_none() && metamers.is_none() => {
             let message = "There is no template, so that nothing says how far the trees grow.";

@@ -13,6 +13,7 @@ mod imports;
 mod jobs;
 mod keys;
 mod links;
+mod limit;
 mod obstacles;
 mod origin;
 mod proxies;
@@ -115,7 +116,11 @@ pub fn router(shared: Shared) -> Router {
     let api = |routes: Vec<Route>| {
         routes.into_iter().fold(Router::new(), |router, route| {
             let takes_keys = route.takes_keys();
-            let Route { address, action, answer, noted, most_bytes, shown, .. } = route;
+            let Route { address, action, answer, noted, most_bytes, shown, about } = route;
+            let answer = match about.asks_nothing() {
+                true => answer.layer(from_fn(failure::without_query)),
+                false => answer,
+            };
             let answer = if takes_keys { keyed(answer, shown) } else { answer };
             let answer = answer.layer(failure::body_limit(most_bytes));
             let answer = action.map_or(answer.clone(), |action| asked(answer, action, noted));

@@ -50,6 +50,7 @@ pub(super) async fn create(
     caller: Caller,
     Body(new): Body<NewSession>,
 ) -> Result<impl IntoResponse, Failure> {
+    check(&new)?;
     if new.tree.is_none() || new.template {
         shared.ask(&caller, Action::BeginSession, Named::Server).await?;
     }
@@ -76,7 +77,22 @@ pub(super) async fn create(
     let version = new.version.unwrap_or(stored.head.number);
     let snapshot = planted(&shared, &tree, version).await?;
     let of = (!new.template).then_some((tree, version));
-    Ok((StatusCode::CREATED, begin(&shared, &principal, new.seed.unwrap_or_default(), snapshot, of).await?))
+    Ok((StatusCode::CREATED, begin(&shared, &principal, 0, snapshot, of).await?))
+}
+
+/// Refuses what would have no effect: without a tree there is no version, and a tree has its own seed.
+fn check(new: &NewSession) -> Result<(), Problem> {
+    let of_tree = "nothing without a tree";
+    let (field, allowed) = match new {
+        NewSession { tree: None, version: Some(_), .. } => ("version", of_tree),
+        NewSession { tree: None, template: true, .. } => ("template", of_tree),
+        NewSession { tree: Some(_), seed: Some(_), .. } => {
+            ("seed", "nothing beside a tree, which has its own")
+        }
+        _ => return Ok(()),
+    };
+    let message = format!("{field} would have no effect; allowed: {allowed}");
+    Err(Problem::new(Reason::Malformed, message).at(field, allowed))
 }
 
 /// Counts that somebody begins a session (`LM17`).

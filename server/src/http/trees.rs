@@ -7,7 +7,7 @@ use base64::{Engine, engine::general_purpose::URL_SAFE_NO_PAD};
 use espalier_proto::{
     Problem, Reason,
     library::{ChangeTree, CopyTree, Origin, SaveTree, SavedTree, TreePage},
-    version::MAX_TAGS,
+    text::{self, Identifier, Name},
 };
 use espalier_session::Principal;
 use schemars::JsonSchema;
@@ -17,6 +17,7 @@ use super::{
     Shared,
     failure::{Body, Failure, Path, Query},
     guard::Named,
+    limit::Limit,
     revision::{self, Expected},
     versions::{self, Said, Saving},
 };
@@ -27,7 +28,6 @@ use crate::{
         Contents, Deletion, Finding, Library, NewTree, NewVersion, Sort, StoredTree, TreeChange, TreePlace,
         TreeQuery,
     },
-    text::{self, Name},
     time::{Time, now},
 };
 
@@ -42,7 +42,8 @@ const MAX_WORDS: usize = 8;
 #[schemars(inline)]
 pub(super) struct Page {
     /// How many at most, 1 to 500.
-    limit: Option<u32>,
+    #[serde(default)]
+    limit: Limit<MAX_TREES>,
     /// The `next` of the page before.
     after: Option<String>,
     /// Those that were deleted, the last first.
@@ -57,12 +58,12 @@ pub(super) struct Page {
     #[serde(default)]
     tags: String,
     /// A collection; an empty text for none.
-    collection: Option<String>,
+    collection: Option<Identifier>,
     /// Only favourites of whoever asks.
     #[serde(default)]
     favourite: bool,
     /// The short name of a species.
-    species: Option<String>,
+    species: Option<Identifier>,
     /// Who saved it last.
     author: Option<Name>,
     /// Only those that whoever asks saved last.
@@ -121,16 +122,22 @@ impl Page {
                 format!("min_metamers, {least}, or more"),
             ));
         }
+        if let (Some(from), Some(before)) = (&self.saved_from, &self.saved_before)
+            && before.0 <= from.0
+        {
+            let allowed = format!("a time after saved_from, {}", from.0);
+            return Err(Problem::out_of_range("saved_before", &before.0, allowed));
+        }
         let whoever = || Some(principal.to_string());
         Ok(TreeQuery {
             is_deleted: self.deleted,
             is_template: self.template,
             words,
             tags,
-            collection: self.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
+            collection: self.collection.map(String::from).map(Some).map(|id| id.filter(|id| !id.is_empty())),
             favourites_of: self.favourite.then(whoever).flatten(),
             only: caller.only_tree().map(str::to_owned),
-            species: self.species,
+            species: self.species.map(String::from),
             author: self.author.map(String::from),
             saved_by: self.mine.then(whoever).flatten(),
             metamers: least..=most,
@@ -143,7 +150,7 @@ impl Page {
                 Order::Largest => Sort::Largest,
                 Order::Smallest => Sort::Smallest,
             },
-            limit: limit_of(self.limit, MAX_TREES)?,
+            limit: self.limit.get(),
             after: self.after.as_deref().map(read_place).transpose()?,
         })
     }
@@ -165,16 +172,6 @@ pub(super) async fn list(
         listed.push(to_proto(&shared, tree, &favourites).await?);
     }
     Ok(Json(TreePage { trees: listed, next }))
-}
-
-/// How many were asked for.
-pub(super) fn limit_of(limit: Option<u32>, most: u32) -> Result<u32, Problem> {
-    let limit = limit.unwrap_or(most);
-    if (1..=most).contains(&limit) {
-        Ok(limit)
-    } else {
-        Err(Problem::out_of_range("limit", limit, format!("1 to {most}")))
-    }
 }
 
 /// A place in a list, as whoever lists hands it back unread.
@@ -207,11 +204,10 @@ pub(super) async fn save(
     caller: Caller,
     Body(save): Body<SaveTree>,
 ) -> Result<impl IntoResponse, Failure> {
-    let name = text::name("name", &save.name)?;
-    let SaveTree { session, note, author, thumbnail, .. } = save;
+    let SaveTree { session, name, note, author, thumbnail } = save;
     let version =
         versions::read(&shared, &caller, &principal, Saving { session, note, author, thumbnail }).await?;
-    Ok((StatusCode::CREATED, add(&shared, &principal, name, version).await?))
+    Ok((StatusCode::CREATED, add(&shared, &principal, name.into(), version).await?))
 }
 
 pub(super) async fn copy(
@@ -222,15 +218,14 @@ pub(super) async fn copy(
     Body(copy): Body<CopyTree>,
 ) -> Result<impl IntoResponse, Failure> {
     shared.ask(&caller, Action::SaveTree, Named::Server).await?;
-    let name = text::name("name", &copy.name)?;
-    let said = Said::parse(copy.author.as_deref(), copy.note.as_deref())?;
+    let said = Said::new(copy.author, copy.note);
     let version = match copy.version {
         Some(version) => version,
         None => stored(&shared, &id).await?.head.number,
     };
     let contents = Contents::Of { tree: id, version };
     let version = versions::new(&principal, said, contents);
-    Ok((StatusCode::CREATED, add(&shared, &principal, name, version).await?))
+    Ok((StatusCode::CREATED, add(&shared, &principal, copy.name.into(), version).await?))
 }
 
 /// Puts a new tree into the library.
@@ -253,34 +248,15 @@ pub(super) async fn change(
     Body(change): Body<ChangeTree>,
 ) -> Result<impl IntoResponse, Failure> {
     let change = TreeChange {
-        name: change.name.map(|name| text::name("name", &name)).transpose()?,
-        note: change.note.map(|note| text::note(&note)).transpose()?,
+        name: change.name.map(String::from),
+        note: change.note.map(String::from),
         is_template: change.template,
-        tags: change.tags.map(|tags| parse_tags(&tags)).transpose()?,
+        tags: change.tags.map(Vec::from),
         collection: change.collection.map(Some).map(|id| id.filter(|id| !id.is_empty())),
         ..TreeChange::default()
     };
     shared.store.change_tree(&id, expected, change).await?;
     answer(&shared, &principal, &id).await
-}
-
-fn parse_tags(tags: &[String]) -> Result<Vec<String>, Problem> {
-    if tags.len() > MAX_TAGS {
-        let (found, allowed) = (format!("{} tags", tags.len()), format!("up to {MAX_TAGS} tags"));
-        let problem = Problem::out_of_range("tags", found, allowed);
-        return Err(Problem { reason: Reason::ManyTags, ..problem });
-    }
-    let parse = |(number, tag): (usize, &String)| {
-        let field = format!("tags[{number}]");
-        match text::name(&field, tag)? {
-            tag if tag.contains(',') => {
-                let problem = Problem::out_of_range(field, "two tags", "no comma");
-                Err(Problem { reason: Reason::TagComma, ..problem })
-            }
-            tag => Ok(tag),
-        }
-    };
-    tags.iter().enumerate().map(parse).collect()
 }
 
 pub(super) async fn delete(

@@ -9,8 +9,8 @@ use axum::{
     response::{IntoResponse, Response},
 };
 use espalier_proto::{
-    Problem,
     library::{ChangeVersion, RestoreVersion, SaveVersion, TreeVersion},
+    text::{Name, Note},
     thumbnail,
 };
 use espalier_session::Principal;
@@ -21,16 +21,15 @@ use super::{
     Shared,
     failure::{Body, Failure, Path, Query},
     guard::Named,
+    limit::Limit,
     ranges,
     revision::{self, Expected},
-    sessions,
-    trees::{self, limit_of},
+    sessions, trees,
 };
 use crate::{
     SIMULATION_VERSION,
     access::{Action, Caller},
     store::{Contents, Library, NewVersion, Saved, StoredVersion, TreeChange, TreeDocument},
-    text,
     time::now,
 };
 
@@ -45,7 +44,8 @@ const FOR_GOOD: (HeaderName, &str) = (header::CACHE_CONTROL, "private, max-age=3
 #[schemars(inline)]
 pub(super) struct Page {
     /// How many at most, 1 to 200.
-    limit: Option<u32>,
+    #[serde(default)]
+    limit: Limit<MAX_VERSIONS>,
     /// Those before this number.
     before: Option<u32>,
 }
@@ -55,17 +55,16 @@ pub(super) async fn list(
     Path(tree): Path<String>,
     Query(page): Query<Page>,
 ) -> Result<Json<Vec<TreeVersion>>, Failure> {
-    let limit = limit_of(page.limit, MAX_VERSIONS)?;
     trees::stored(&shared, &tree).await?;
-    let versions = shared.store.versions(&tree, limit, page.before).await?;
+    let versions = shared.store.versions(&tree, page.limit.get(), page.before).await?;
     Ok(Json(versions.into_iter().map(|version| to_proto(&tree, version)).collect()))
 }
 
 /// What is saved of a session.
 pub(super) struct Saving {
     pub(super) session: String,
-    pub(super) note: Option<String>,
-    pub(super) author: Option<String>,
+    pub(super) note: Option<Note>,
+    pub(super) author: Option<Name>,
     pub(super) thumbnail: Option<String>,
 }
 
@@ -78,7 +77,7 @@ pub(super) async fn read(
 ) -> Result<NewVersion, Failure> {
     let Saving { session, note, author, thumbnail } = saving;
     let thumbnail = thumbnail.as_deref().map(thumbnail::from_data_url).transpose()?;
-    let said = Said::parse(author.as_deref(), note.as_deref())?;
+    let said = Said::new(author, note);
     shared.ask(caller, Action::TakeTree, Named::Session(&session)).await?;
     let read = sessions::open(shared, &session).await?.read().await?;
     let document = TreeDocument { simulation_version: SIMULATION_VERSION, bytes: read.bytes };
@@ -95,9 +94,8 @@ pub(super) struct Said {
 }
 
 impl Said {
-    pub(super) fn parse(author: Option<&str>, note: Option<&str>) -> Result<Self, Problem> {
-        let author = author.map(|author| text::name("author", author)).transpose()?;
-        Ok(Self { author, note: text::note(note.unwrap_or_default())? })
+    pub(super) fn new(author: Option<Name>, note: Option<Note>) -> Self {
+        Self { author: author.map(String::from), note: note.map(String::from).unwrap_or_default() }
     }
 }
 
@@ -129,7 +127,7 @@ pub(super) async fn restore(
     Body(restore): Body<RestoreVersion>,
 ) -> Result<impl IntoResponse, Failure> {
     let contents = Contents::Of { tree: tree.clone(), version: number };
-    let said = Said::parse(restore.author.as_deref(), restore.note.as_deref())?;
+    let said = Said::new(restore.author, restore.note);
     let version = new(&principal, said, contents);
     add(&shared, &tree, expected, version).await
 }
@@ -152,8 +150,7 @@ pub(super) async fn change(
     Expected(expected): Expected,
     Body(change): Body<ChangeVersion>,
 ) -> Result<impl IntoResponse, Failure> {
-    let change =
-        TreeChange { version_note: Some((number, text::note(&change.note)?)), ..TreeChange::default() };
+    let change = TreeChange { version_note: Some((number, change.note.into())), ..TreeChange::default() };
     shared.store.change_tree(&tree, expected, change).await?;
     let revision = trees::stored(&shared, &tree).await?.revision;
     Ok((revision::tag(revision), Json(version_of(&shared, &tree, number).await?)))

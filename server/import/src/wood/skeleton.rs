@@ -73,8 +73,7 @@ pub(super) fn read(bytes: &[u8], options: &WoodOptions) -> Result<WoodFile, Faul
 fn json<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Fault> {
     from_slice(bytes).map_err(|unread| match unread {
         Unread::NotJson { line, column, what } => {
-            let fault = malformed(Some(Place::Cell(line, column)), format!("it is no JSON: {what}"));
-            Fault { allowed: Some("JSON".into()), ..fault }
+            malformed(Some(Place::Cell(line, column)), format!("it is no JSON: {what}"))
         }
         Unread::Refused(Refusal { field, kind, what, allowed }) => {
             let kind = match kind {

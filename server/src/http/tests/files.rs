@@ -75,7 +75,7 @@ fn refused() -> Vec<Refused> {
         tree(MTG, "CODE:\tFORM-A\nMTG:\n", "body", "a multiscale tree graph (.mtg)"),
         tree(MTG, SCAN, "line 1", "a multiscale tree graph (.mtg)"),
         tree(SKELETON, "", "line 1, column 0", "a skeleton (.json)"),
-        tree(SKELETON, "{}", "line 1, column 2", "a skeleton (.json)"),
+        tree(SKELETON, "{}", "format", "espalier-skeleton"),
         tree(DOCUMENT, "", "body", "a document (.espalier)"),
         tree(DOCUMENT, "an oak", "body", "a document (.espalier)"),
         (DOCUMENT, LATER[..20].to_vec(), "not-a-tree-file", "body", "a document (.espalier)"),

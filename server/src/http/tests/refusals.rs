@@ -22,11 +22,8 @@ pub(super) fn bodies() -> Vec<(&'static str, Vec<String>, Value)> {
     let names = |names: &[&str]| names.iter().copied().map(str::to_owned).collect();
     let saved = json!({ "session": "oak", "name": "Oak", "thumbnail": "data:image/png;base64,iVBORw0KGgo=" });
     vec![
-        (
-            "POST /api/v1/sessions",
-            vec![],
-            json!({ "seed": 1, "tree": "ash", "version": 1, "template": true }),
-        ),
+        ("POST /api/v1/sessions", vec![], json!({ "tree": "ash", "version": 1, "template": true })),
+        ("POST /api/v1/sessions", vec![], json!({ "seed": 1 })),
         ("POST /api/v1/schematic", every, parameters),
         ("POST /api/v1/redeem", names(&["secret"]), json!({ "secret": "x" })),
         (
@@ -151,8 +148,12 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
 }
 
 async fn answer(server: &Router, address: &str, query: &str, body: &Value) -> (StatusCode, Value) {
-    let (method, path) = (method_of(address), filled(path_of(address)));
     let body = if body.is_null() { String::new() } else { body.to_string() };
+    answer_to_text(server, address, query, body).await
+}
+
+async fn answer_to_text(server: &Router, address: &str, query: &str, body: String) -> (StatusCode, Value) {
+    let (method, path) = (method_of(address), filled(path_of(address)));
     let request = request(&method, &format!("{path}?{query}"));
     let request = request.header(header::CONTENT_TYPE, "application/json").body(Body::from(body)).unwrap();
     let answer = server.clone().oneshot(request).await.unwrap();
@@ -244,12 +245,100 @@ async fn every_refused_query_names_the_field_and_what_is_allowed() {
     }
     let tried: BTreeSet<String> = queries().into_iter().map(|(address, ..)| address).collect();
     let mut reading = BTreeSet::new();
-    for Route { address, .. } in routes().into_iter().chain(downloads()) {
+    for Route { address, about, .. } in routes().into_iter().chain(downloads()) {
         let answer = answer(&server, &address, "sap=1", &Value::Null).await;
-        if answer.1["field"] == "sap" {
-            assert_names("sap", &answer, &address);
+        assert_names("sap", &answer, &address);
+        if !about.asks_nothing() {
             reading.insert(address.into_owned());
         }
     }
     assert_eq!(tried, reading, "every address that reads a query is tried");
+}
+
+/// What is of another type is told the same range as what is out of it.
+#[tokio::test]
+async fn what_cannot_be_read_is_told_the_range_that_holds() {
+    let (server, _) = server().await;
+    let list = "GET /api/v1/trees";
+    let import = "POST /api/v1/trees/import";
+    let long = "x".repeat(65);
+    let identifier = "0 to 64 characters";
+    for (address, query, field, allowed) in [
+        (list, "limit=abc", "limit", "1 to 500"),
+        (list, "limit=501", "limit", "1 to 500"),
+        ("GET /api/v1/trees/{tree}/versions", "limit=abc", "limit", "1 to 200"),
+        ("GET /api/v1/audit", "limit=-1", "limit", "1 to 1000"),
+        (list, &format!("species={long}"), "species", identifier),
+        (list, &format!("collection={long}"), "collection", identifier),
+        (
+            list,
+            "saved_from=2026-02-01T00:00:00Z&saved_before=2026-01-01T00:00:00Z",
+            "saved_before",
+            "a time after saved_from, 2026-02-01T00:00:00.000Z",
+        ),
+        (import, "format=csv", "name", "1 to 80 characters"),
+        (import, "name=&format=csv", "name", "1 to 80 characters"),
+        (import, "name=Oak&format=csv&unit=abc", "unit", "more than 0"),
+        (import, "name=Oak&format=csv&unit=-1", "unit", "more than 0"),
+        (import, "name=Oak&format=csv&internode_length=abc", "internode_length", "0.005 to 1"),
+        (import, "name=Oak&format=csv&internode_length=2", "internode_length", "0.005 to 1"),
+    ] {
+        let (status, problem) = answer(&server, address, query, &Value::Null).await;
+        let found = (status, problem["field"].as_str(), problem["allowed"].as_str());
+        assert_eq!(found, (StatusCode::BAD_REQUEST, Some(field), Some(allowed)), "{address}?{query}");
+    }
+    let tree = json!({ "session": "oak", "name": "Oak" });
+    let grow = json!({ "template": "oak", "format": "glb" });
+    let endings: Vec<_> = FORMATS.iter().map(|row| row.ending).collect();
+    let (trees, jobs) = ("POST /api/v1/trees", "POST /api/v1/grow");
+    let seeds = "a list of 1 to 1000 different seeds, or a text as 1-50";
+    for (address, body, name, wrong, field, allowed) in [
+        (trees, &tree, "name", None, "name", "1 to 80 characters"),
+        (trees, &tree, "name", Some(json!(5)), "name", "1 to 80 characters"),
+        (trees, &tree, "name", Some(json!("")), "name", "1 to 80 characters"),
+        (trees, &tree, "note", Some(json!(5)), "note", "0 to 2000 characters"),
+        ("PATCH /api/v1/trees/{tree}", &json!({}), "tags", Some(json!(5)), "tags", "up to 32 tags"),
+        ("PATCH /api/v1/trees/{tree}", &json!({}), "tags", Some(json!(["a,b"])), "tags[0]", "no comma"),
+        (jobs, &grow, "metamers", Some(json!(-1)), "metamers", "1 to 1000"),
+        (jobs, &grow, "metamers", Some(json!("many")), "metamers", "1 to 1000"),
+        (jobs, &grow, "metamers", Some(json!(1001)), "metamers", "1 to 1000"),
+        (jobs, &grow, "format", None, "format", &endings.join(", ")),
+        (jobs, &grow, "format", Some(json!(5)), "format", &endings.join(", ")),
+        (jobs, &grow, "format", Some(json!("exe")), "format", &endings.join(", ")),
+        (jobs, &grow, "seeds", Some(json!([1, 1])), "seeds[1]", "another seed"),
+        (jobs, &grow, "seeds", Some(json!([1, -1])), "seeds[1]", "0 to 4294967295"),
+        (jobs, &grow, "seeds", Some(json!([])), "seeds", seeds),
+        (jobs, &grow, "seeds", Some(json!("many")), "seeds", seeds),
+    ] {
+        let mut other = body.clone();
+        match &wrong {
+            Some(wrong) => other[name] = wrong.clone(),
+            None => drop(other.as_object_mut().unwrap().remove(name)),
+        }
+        let (status, problem) = answer(&server, address, "", &other).await;
+        let found = (status, problem["field"].as_str(), problem["allowed"].as_str());
+        assert_eq!(
+            found,
+            (StatusCode::BAD_REQUEST, Some(field), Some(allowed)),
+            "{address} {other}: {problem}"
+        );
+    }
+}
+
+/// What a request says is obeyed or refused, and never passed over.
+#[tokio::test]
+async fn nothing_that_is_said_is_passed_over() {
+    let (server, _) = server().await;
+    let sessions = "POST /api/v1/sessions";
+    for (address, text, field) in [
+        (sessions, r#"{"version":1}"#, "version"),
+        (sessions, r#"{"template":true}"#, "template"),
+        (sessions, r#"{"tree":"ash","seed":1}"#, "seed"),
+        (sessions, r#"{"seed":1,"seed":1}"#, "seed"),
+        ("PATCH /api/v1/trees/{tree}", r#"{"name":"Oak","note":"","name":"Ash"}"#, "name"),
+        ("POST /api/v1/grow", r#"{"format":"glb","options":{"lod":1,"lod":2}}"#, "options.lod"),
+    ] {
+        let answer = answer_to_text(&server, address, "", text.into()).await;
+        assert_names(field, &answer, &format!("{address} {text}"));
+    }
 }
