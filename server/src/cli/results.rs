@@ -13,9 +13,8 @@ use crate::{
 /// What comes out, and with how many threads.
 #[derive(Clone, Debug, Args)]
 pub struct Results {
-    /// Write the plants to a file, in the format of its ending: .glb, .obj.zip, .usda, .usdz, .json, .mtg, .csv, .ply,
-    /// .png or .espalier; docs/formats.md says what is in them, and which options each has. `-` is standard output.
-    #[arg(long, value_name = "OUT", value_parser = parse_export)]
+    /// Write the plants to a file.
+    #[arg(long, value_name = "OUT", value_parser = parse_export, help = export_help())]
     pub export: Option<Export>,
     /// The format, by its ending, whatever the file is called; needed for `-`.
     #[arg(long, value_name = "ENDING", requires = "export", value_parser = parse_format)]
@@ -87,6 +86,16 @@ pub(super) fn parse_format(ending: &str) -> Result<&'static FormatRow, String> {
     found.ok_or_else(|| format!("it must be one of: {}", endings()))
 }
 
+fn export_help() -> String {
+    let all: Vec<_> = FORMATS.iter().map(|row| format!(".{}", row.ending)).collect();
+    let (last, others) = all.split_last().map_or(("", &[][..]), |(last, others)| (last, others));
+    format!(
+        "Write the plants to a file, in the format of its ending: {} or {last}; docs/formats.md says what is in them, and \
+         which options each has. `-` is standard output",
+        others.join(", ")
+    )
+}
+
 fn endings() -> String {
     let all: Vec<_> = FORMATS.iter().map(|row| format!(".{} ({})", row.ending, row.what)).collect();
     all.join(", ")
@@ -106,6 +115,16 @@ mod tests {
         assert_eq!(format("tree.png"), Ok(Format::Picture));
         for bad in ["tree", "tree.obj", "glb", ".json"] {
             assert!(parse_export(bad).unwrap_err().contains(".glb"), "{bad}");
+        }
+    }
+
+    #[test]
+    fn help_lists_every_format() {
+        let command = Results::augment_args(clap::Command::new("grow"));
+        let export = command.get_arguments().find(|argument| argument.get_id() == "export");
+        let help = export.and_then(|export| export.get_help()).map(ToString::to_string).unwrap_or_default();
+        for row in FORMATS {
+            assert!(help.contains(&format!(".{}", row.ending)), "{}: {help}", row.ending);
         }
     }
 
