@@ -15,6 +15,7 @@ pub mod message;
 pub mod mtg;
 pub mod qsm;
 pub mod query;
+pub mod range;
 pub mod script;
 pub mod section;
 pub mod skeleton;
@@ -33,7 +34,7 @@ pub struct Target {
 }
 
 /// All readers.
-pub const TARGETS: [Target; 14] = [
+pub const TARGETS: [Target; 15] = [
     Target { name: "command", read: command::read, seeds: command::seeds },
     Target { name: "document", read: document::read, seeds: document::seeds },
     Target { name: "frame", read: frame::read, seeds: frame::seeds },
@@ -44,6 +45,7 @@ pub const TARGETS: [Target; 14] = [
     Target { name: "mtg", read: mtg::read, seeds: mtg::seeds },
     Target { name: "qsm", read: qsm::read, seeds: qsm::seeds },
     Target { name: "query", read: query::read, seeds: query::seeds },
+    Target { name: "range", read: range::read, seeds: range::seeds },
     Target { name: "script", read: script::read, seeds: script::seeds },
     Target { name: "section", read: section::read, seeds: section::seeds },
     Target { name: "skeleton", read: skeleton::read, seeds: skeleton::seeds },

@@ -173,6 +173,11 @@ fn queries_survive_damage() {
 }
 
 #[test]
+fn ranges_survive_damage() {
+    check("range", 5000);
+}
+
+#[test]
 fn frames_survive_damage() {
     check("frame", 10000);
 }
