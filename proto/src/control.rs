@@ -108,7 +108,7 @@ impl ClientMessage {
             // One in which a name stands twice may still say which command it is.
             Err(problem) => match serde_json::from_str(text) {
                 Ok(value) => (value, Some(problem)),
-                Err(_) => return Err(Unreadable { id: None, problem }),
+                Err(_) => return Err(Unreadable { id: None, problem: of_whole(problem) }),
             },
         };
         let is_command = value.get("type").is_some_and(|kind| kind == "command");
@@ -125,9 +125,14 @@ impl ClientMessage {
         reading::from_value(value).map_err(|problem| {
             let command = command.map(reading::from_value::<Command>);
             let inner = command.and_then(Result::err).filter(|problem| problem.field.is_some());
-            Unreadable { id, problem: inner.unwrap_or(problem) }
+            Unreadable { id, problem: inner.unwrap_or_else(|| of_whole(problem)) }
         })
     }
+}
+
+/// A problem with no part of a message is one with all of it.
+fn of_whole(problem: Problem) -> Problem {
+    Problem { field: problem.field.or_else(|| Some("message".into())), ..problem }
 }
 
 /// Figures of the document as a whole, sent after each change.

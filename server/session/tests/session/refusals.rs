@@ -1,6 +1,6 @@
 //! Every refusal of a message names the field at fault and what is allowed there (`CM3`, `CM8`).
 
-use espalier_proto::{ClientMessage, Problem, Reason};
+use espalier_proto::{ClientMessage, Problem, Reason, Unreadable};
 use espalier_session::{Document, Principal, read_command};
 use serde_json::{Value, json};
 
@@ -230,6 +230,31 @@ fn cm3_every_refused_command_names_field_and_range() {
 fn cm8_every_refused_message_names_field_and_range() {
     let read = |text: &str| ClientMessage::from_json(text).map(drop).map_err(|unread| unread.problem);
     check(&count(&messages(), read), 150);
+}
+
+#[test]
+fn cm8_what_is_no_message_at_all_is_named_as_the_message() {
+    for (text, allowed) in
+        [("{", "JSON"), ("", "JSON"), ("[]", "an object with type"), ("5", "an object with type")]
+    {
+        let Unreadable { id, problem } = ClientMessage::from_json(text).expect_err(text);
+        let found = (id, problem.field.as_deref(), problem.allowed.as_deref());
+        assert_eq!(found, (None, Some("message"), Some(allowed)), "{text}");
+    }
+}
+
+#[test]
+fn cm3_a_name_that_stands_twice_is_refused() {
+    for (text, id, field) in [
+        (r#"{"type":"command","id":7,"command":{"kind":"grow","steps":1,"steps":2}}"#, Some(7), "steps"),
+        (r#"{"type":"command","id":7,"id":8,"command":{"kind":"undo"}}"#, None, "id"),
+        (r#"{"type":"ping","nonce":1,"nonce":1}"#, None, "nonce"),
+    ] {
+        let unread = ClientMessage::from_json(text).expect_err(text);
+        let problem = &unread.problem;
+        let found = (unread.id, problem.field.as_deref(), problem.allowed.as_deref());
+        assert_eq!(found, (id, Some(field), Some("once")), "{text}");
+    }
 }
 
 #[test]
