@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use ts_rs::TS;
 
-use crate::bounded::LinkHours;
+use crate::{bounded::LinkHours, text::Name};
 
 /// What somebody may do; each may do what those before it may.
 #[derive(
@@ -156,7 +156,7 @@ pub struct NewLink {
     /// What their device is called.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[ts(optional)]
-    pub name: Option<String>,
+    pub name: Option<Name>,
 }
 
 /// What a link may allow.

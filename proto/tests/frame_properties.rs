@@ -97,7 +97,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(128))]
 
     #[test]
-    fn decode_undoes_encode(frame in bend_frame()) {
+    fn decode_undoes_encode(frame in frame()) {
         prop_assert_eq!(Frame::decode(&frame.encode()), Ok(frame));
     }
 
@@ -130,7 +130,7 @@ proptest! {
     }
 
     #[test]
-    fn a_flipped_bit_is_an_error_or_another_frame(frame in bend_frame(), at: prop::sample::Index, bit in 0..8u8) {
+    fn a_flipped_bit_is_an_error_or_another_frame(frame in frame(), at: prop::sample::Index, bit in 0..8u8) {
         let mut bytes = frame.encode();
         let at = at.index(bytes.len());
         bytes[at] ^= 1 << bit;
@@ -142,7 +142,7 @@ proptest! {
     }
 
     #[test]
-    fn a_frame_cut_short_is_an_error(frame in bend_frame(), at: prop::sample::Index) {
+    fn a_frame_cut_short_is_an_error(frame in frame(), at: prop::sample::Index) {
         let bytes = frame.encode();
         prop_assert!(Frame::decode(&bytes[..at.index(bytes.len())]).is_err());
     }

@@ -4,7 +4,6 @@ pub use espalier_proto::permission::{Action, Reach};
 use espalier_proto::{Problem, Reason};
 
 pub mod admission;
-mod allowance;
 mod caller;
 pub mod cookie;
 pub mod password;
@@ -13,7 +12,6 @@ mod secret;
 mod tries;
 
 pub use self::{
-    allowance::Allowances,
     caller::{Caller, Object, Peer, Unknown, address, way_of},
     rate::Rate,
     secret::{Secret, SecretHash, hash},

@@ -1,6 +1,9 @@
 //! The door: coming in by an invitation or a password, as whom one is in, and going out.
 
-use std::time::{Duration, Instant, SystemTime};
+use std::{
+    net::IpAddr,
+    time::{Duration, Instant, SystemTime},
+};
 
 use axum::{
     Extension, Json,

@@ -12,8 +12,8 @@ mod guard;
 mod imports;
 mod jobs;
 mod keys;
-mod links;
 mod limit;
+mod links;
 mod obstacles;
 mod origin;
 mod proxies;
@@ -50,9 +50,10 @@ pub use self::{
     exports::Progresses,
     keys::{KEPT, UnderWay},
     proxies::Proxies,
+    sessions::SessionsBegun,
 };
 use crate::{
-    access::{Allowances, SecretHash, Tries, password::Passwords},
+    access::{SecretHash, Tries, password::Passwords},
     hosts::Hosts,
     jobs::Jobs,
     live::Sessions,
@@ -88,7 +89,7 @@ pub struct Shared {
     /// How often passwords were tried, by the name that they were for.
     pub tries_for: Arc<Tries<SecretHash>>,
     /// How many sessions were begun, by whom.
-    pub sessions_begun: Arc<Allowances>,
+    pub sessions_begun: Arc<SessionsBegun>,
     /// How often people have logged in.
     pub logins: Arc<Logins>,
     /// Checks passwords.

@@ -31,11 +31,25 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
-    access::{self, Action, Caller, Peer},
+    access::{self, Action, Caller, Peer, Rate, SecretHash},
     live::{self, OpenError, SessionHandle},
     name,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
 };
+
+/// Sessions that somebody from elsewhere begins in two minutes.
+const BEGUN_OF: u32 = 20;
+const BEGUN_TIME: Duration = Duration::from_mins(2);
+
+/// How many sessions were begun, by whom (`LM17`).
+#[derive(Debug)]
+pub struct SessionsBegun(Rate<SecretHash>);
+
+impl Default for SessionsBegun {
+    fn default() -> Self {
+        Self(Rate::new(BEGUN_OF, BEGUN_TIME))
+    }
+}
 
 /// How often it is looked whether somebody is still let in.
 const LOOKING: Duration = Duration::from_secs(1);
@@ -98,7 +112,7 @@ fn check(new: &NewSession) -> Result<(), Problem> {
 /// Counts that somebody begins a session (`LM17`).
 fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
     let Some(by) = caller.counted_as() else { return Ok(()) };
-    let counted = shared.sessions_begun.count(by, Instant::now());
+    let counted = shared.sessions_begun.0.count(by, Instant::now());
     counted.map_err(|wait| Failure::too_often("body", "Too many sessions were begun.", wait))
 }
 

@@ -157,8 +157,12 @@ mod tests {
 
     /// An address that takes files of up to ten bytes and reads one at once; it answers with their bytes.
     fn address() -> Router {
-        Router::new()
-            .route("/", post(async |File(bytes, _turn): File| bytes).layer(uploads(1)).layer(body_limit(10)))
+        Router::new().route(
+            "/",
+            post(async |File(bytes, _turn): File| bytes)
+                .layer::<_, std::convert::Infallible>(uploads(1))
+                .layer(body_limit(10)),
+        )
     }
 
     fn sent(body: Body) -> Request {
