@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { randoms } from "../../test/randoms";
-import { decodeFrame, FrameError } from "./frame";
 import { decodeBend } from "./bend-frame";
+import { decodeFrame, FrameError } from "./frame";
 import { decodeServerFrame } from "./server-frame";
 
 function headed(body: number[], header: { codec?: number; flags?: number; length?: number } = {}): ArrayBuffer {

@@ -1,8 +1,8 @@
+import { type BendFrame, decodeBend } from "./bend-frame";
 import { kindOf } from "./envelope";
 import { decodeFrame, type Frame } from "./frame";
 import { FrameKind } from "./generated";
 import { decodeGhost, type GhostFrame } from "./ghost";
-import { decodeBend, type BendFrame } from "./bend-frame";
 
 /** Any binary message. `received` answers each with its sequence and, unless it is 1, its kind (FL1). */
 export type ServerFrame =

@@ -52,7 +52,10 @@ it("files of every species are glTF without error or warning, says Khronos' vali
 const TOGETHER = [
   [["--lod", "set", "--hull", "--by-limb", "--quantised"], []],
   // The validator does not know these two, and says so as information.
-  [["--compressed", "--instanced", "--hull"], ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"]],
+  [
+    ["--compressed", "--instanced", "--hull"],
+    ["UNSUPPORTED_EXTENSION", "UNUSED_OBJECT"],
+  ],
 ] as const;
 
 it.each(TOGETHER)(

@@ -1,7 +1,7 @@
 import { BendIcon } from "../../ui/shaping-icons";
 import type { ToolDescriptor } from "../descriptor";
-import { OthersBends } from "./others-bends";
 import type { BendTool } from "./bend-tool";
+import { OthersBends } from "./others-bends";
 
 export const BEND: ToolDescriptor<BendTool> = {
   key: "N",
