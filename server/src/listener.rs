@@ -2,7 +2,7 @@
 
 mod paced;
 
-use std::{sync::Arc, time::Duration};
+use std::{collections::BTreeSet, net::IpAddr, sync::Arc, time::Duration};
 
 use axum::Router;
 use futures_util::future::join_all;
@@ -68,12 +68,18 @@ struct Listening {
     stop: CancellationToken,
 }
 
-/// Serves until `stop` is cancelled, then until every connection has ended.
-pub async fn serve(listeners: Vec<TcpListener>, answers: Answers, limits: Limits, stop: CancellationToken) {
+/// Serves until `stop` is cancelled, then until every connection has ended. Proxies have connections for many networks.
+pub async fn serve(
+    listeners: Vec<TcpListener>,
+    answers: Answers,
+    limits: Limits,
+    proxies: BTreeSet<IpAddr>,
+    stop: CancellationToken,
+) {
     let listening = Arc::new(Listening {
         answers,
         limits,
-        places: Places::new(limits.connections, limits.of_one),
+        places: Places::with_proxies(limits.connections, limits.of_one, proxies),
         told: Arc::new(Semaphore::new(limits.told)),
         connections: TaskTracker::new(),
         stop,

@@ -1,14 +1,15 @@
 //! Places that one network alone cannot take: of connections, sockets and uploads.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     net::IpAddr,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use crate::access::network;
 
-/// A number of places. This machine itself may take all of them, any other network a share.
+/// A number of places. This machine itself and those who speak for many may take all of them, any other network a
+/// share.
 #[derive(Clone, Debug)]
 pub struct Places(Arc<Inner>);
 
@@ -16,6 +17,8 @@ pub struct Places(Arc<Inner>);
 struct Inner {
     most: usize,
     most_of_one: usize,
+    /// Who speaks for many: proxies.
+    for_many: BTreeSet<IpAddr>,
     taken: Mutex<Taken>,
 }
 
@@ -36,12 +39,18 @@ pub struct Place {
 impl Places {
     /// So many places, of which one network has `most_of_one` at most.
     pub fn new(most: usize, most_of_one: usize) -> Self {
-        Self(Arc::new(Inner { most, most_of_one, taken: Mutex::default() }))
+        Self::with_proxies(most, most_of_one, BTreeSet::new())
+    }
+
+    /// The same, where these addresses speak for many networks.
+    pub fn with_proxies(most: usize, most_of_one: usize, for_many: BTreeSet<IpAddr>) -> Self {
+        Self(Arc::new(Inner { most, most_of_one, for_many, taken: Mutex::default() }))
     }
 
     /// A place for somebody who comes from this address, if there is one.
     pub fn take(&self, from: IpAddr) -> Option<Place> {
-        let network = (!from.to_canonical().is_loopback()).then(|| network(from));
+        let from = from.to_canonical();
+        let network = (!from.is_loopback() && !self.0.for_many.contains(&from)).then(|| network(from));
         let mut taken = self.taken();
         let of_one = network.and_then(|network| taken.by_network.get(&network).copied()).unwrap_or(0);
         if taken.all >= self.0.most || of_one >= self.0.most_of_one {
@@ -104,5 +113,13 @@ mod tests {
         drop(taken);
         assert!(places.taken().by_network.is_empty());
         assert_eq!(places.taken().all, 0);
+    }
+
+    #[test]
+    fn lm16_a_trusted_proxy_may_take_all() {
+        let places = Places::with_proxies(3, 1, BTreeSet::from([at("10.0.0.1")]));
+        let _taken = ["10.0.0.1", "::ffff:10.0.0.1"].map(|from| places.take(at(from)).unwrap());
+        let _other = places.take(at("10.0.0.2")).unwrap();
+        assert!(places.take(at("10.0.0.1")).is_none(), "all are taken");
     }
 }

@@ -100,6 +100,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let stop = CancellationToken::new();
     let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
     let jobs = Jobs::new(pool.clone(), stop.clone());
+    let proxies = http::Proxies::new(&options.trusted_proxies);
     let shared = Shared {
         jobs: jobs.clone(),
         store: Arc::clone(&store),
@@ -110,7 +111,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
         under_way: http::UnderWay::default(),
-        proxies: http::Proxies::new(&options.trusted_proxies),
+        proxies: proxies.clone(),
         trusts_local,
         tries: Arc::default(),
         tries_for: Arc::default(),
@@ -124,7 +125,13 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let caring = tokio::spawn(maintenance::run(Arc::clone(&store), unsaved, stop.clone()));
     let watching = tokio::spawn(maintenance::watch(Arc::clone(&store), sessions.clone(), stop.clone()));
     let answers = Answers { crowded: http::crowded(&shared), all: http::router(shared) };
-    let serving = tokio::spawn(listener::serve(listeners, answers, Limits::default(), stop.clone()));
+    let serving = tokio::spawn(listener::serve(
+        listeners,
+        answers,
+        Limits::default(),
+        proxies.addresses(),
+        stop.clone(),
+    ));
 
     let asked_to_stop = stop_requested();
     let medium = if io::stdout().is_terminal() { Medium::Terminal } else { Medium::Plain };

@@ -29,6 +29,11 @@ impl Proxies {
         Self(Arc::new(addresses.iter().map(IpAddr::to_canonical).collect()))
     }
 
+    /// Their addresses.
+    pub fn addresses(&self) -> BTreeSet<IpAddr> {
+        self.0.as_ref().clone()
+    }
+
     fn has(&self, address: IpAddr) -> bool {
         self.0.contains(&address.to_canonical())
     }

@@ -69,7 +69,7 @@ mod tests {
         };
         let range = (header::RANGE, "bytes=0-3");
         assert_eq!(asked(&[]), Ok(None));
-        assert_eq!(asked(&[range.clone()]), Ok(Some(0..4)));
+        assert_eq!(asked(std::slice::from_ref(&range)), Ok(Some(0..4)));
         assert_eq!(asked(&[range, (header::IF_RANGE, "\"x\"")]), Ok(None));
         assert_eq!(asked(&[(header::RANGE, "bytes=10-")]), Err(Beyond));
     }

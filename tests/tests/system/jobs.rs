@@ -110,7 +110,7 @@ fn jb1_what_is_wrong_is_refused_with_its_field() {
         (with(json!({ "format": "fbx" })), "format"),
         (with(json!({ "template": "triffid" })), "template"),
         (with(json!({ "seeds": [] })), "seeds"),
-        (with(json!({ "seeds": [1, 2, 1] })), "seeds"),
+        (with(json!({ "seeds": [1, 2, 1] })), "seeds[2]"),
         (with(json!({ "seeds": "1-1001" })), "seeds"),
         (with(json!({ "seeds": "5-1" })), "seeds"),
         (with(json!({ "seeds": -1 })), "seeds"),
