@@ -78,6 +78,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         damaged_entries_are_named_and_kept,
         damaged_snapshots_are_passed_over,
         lost_entries_are_noticed,
+        entries_lost_between_others_are_noticed,
         lost_snapshots_are_noticed,
         versions_are_covered,
         a_session_row_is_covered,
@@ -293,6 +294,21 @@ async fn lost_entries_are_noticed(store: &impl Breakable) {
     assert_eq!(load(store).await.damage, [], "it is noticed once");
     store.append(&lease, 3, &entries(3..=3)).await.unwrap();
     assert_eq!(load(store).await.entries, entries(3..=3));
+}
+
+async fn entries_lost_between_others_are_noticed(store: &impl Breakable) {
+    let lease = with_oak(store).await;
+    for numbers in [1..=2, 3..=3, 4..=5] {
+        store.append(&lease, 3, &entries(numbers)).await.unwrap();
+    }
+    store.lose_journal("oak", 3).await;
+    let stored = load(store).await;
+    assert_eq!((&stored.entries, &stored.damage), (&entries(1..=2), &vec![Damage::Journal(3)]));
+    store.set_aside(&lease, &stored.damage, &[]).await.unwrap();
+    let stored = load(store).await;
+    assert_eq!((&stored.entries, &stored.damage), (&entries(1..=2), &Vec::new()), "it is noticed once");
+    store.append(&lease, 3, &entries(3..=3)).await.unwrap();
+    assert_eq!(load(store).await.entries, entries(1..=3));
 }
 
 async fn lost_snapshots_are_noticed(store: &impl Breakable) {

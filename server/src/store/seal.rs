@@ -247,7 +247,12 @@ impl Found {
         }
         let mut next = stored.through.saturating_add(1);
         for journal in rows {
-            let entries = if journal.first <= next { journal.open(session)? } else { Vec::new() };
+            // A row is missing before this one.
+            if journal.first > next {
+                stored.damage.push(Damage::Journal(next));
+                return Ok(stored);
+            }
+            let entries = journal.open(session)?;
             let end = journal.first.saturating_add(entries.len() as u64);
             stored.entries.extend(entries.into_iter().filter(|entry| entry.number >= next));
             if end > next {
