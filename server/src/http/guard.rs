@@ -22,7 +22,7 @@ use crate::{
 pub(super) const CLIENT: HeaderName = HeaderName::from_static("espalier-client");
 
 /// A request whose body or answer takes longer is dropped.
-const TIME_LIMIT: Duration = Duration::from_secs(30);
+pub(super) const TIME_LIMIT: Duration = Duration::from_secs(30);
 
 /// Scripts come from this server only. Styles may stand in the page, pictures may be made by the page itself.
 const CONTENT_SECURITY_POLICY: &str = "default-src 'self'; \

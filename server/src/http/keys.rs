@@ -2,13 +2,14 @@
 
 use std::{
     collections::BTreeSet,
+    io,
     sync::{Arc, Mutex, PoisonError},
     time::{Duration, SystemTime},
 };
 
 use axum::{
     Extension,
-    body::{self, Body, Bytes, HttpBody},
+    body::{self, Body, HttpBody},
     extract::{Request, State},
     http::{HeaderMap, HeaderName, HeaderValue, StatusCode, header},
     middleware::Next,
@@ -18,10 +19,12 @@ use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
 use futures_util::{StreamExt, TryStreamExt, stream};
 use sha2::{Digest, Sha256};
+use tokio::time::{Instant, timeout_at};
 
 use super::{
     Shared,
     failure::{Failure, MostBytes},
+    guard,
 };
 use crate::{
     access::{Caller, SecretHash, hash},
@@ -112,7 +115,7 @@ pub(super) async fn once(
             Err(failure) => failure.into_response(),
         },
         Ok(None) => {
-            let (request, seen) = watched(request);
+            let (request, seen) = watched(request, guard::TIME_LIMIT);
             let work = tokio::spawn(async move {
                 let response = keep(&shared, key, shown, &seen, next.run(request).await).await;
                 drop(place);
@@ -174,21 +177,29 @@ fn digest_of_head(request: &Request) -> Sha256 {
     Sha256::new_with_prefix(head)
 }
 
-/// Has the body looked at while it is read, so that no request is held twice.
-fn watched(request: Request) -> (Request, Arc<Mutex<Seen>>) {
+/// Has the body looked at while it is read, so that no request is held twice. A body that has not come in this time is
+/// cut off, as it is where nobody goes on with a request that is given up.
+fn watched(request: Request, patience: Duration) -> (Request, Arc<Mutex<Seen>>) {
     let (digest, is_whole) = (digest_of_head(&request), request.body().is_end_stream());
     let seen = Arc::new(Mutex::new(Seen { digest, is_whole }));
     if is_whole {
         return (request, seen);
     }
-    let (reading, read) = (Arc::clone(&seen), Arc::clone(&seen));
+    let reading = Arc::clone(&seen);
     let request = request.map(|body| {
-        let bytes = body.into_data_stream().inspect_ok(move |bytes| lock(&reading).digest.update(bytes));
-        let end = stream::once(async move {
-            lock(&read).is_whole = true;
-            Ok(Bytes::new())
-        });
-        Body::from_stream(bytes.chain(end))
+        let end = Instant::now() + patience;
+        Body::from_stream(stream::try_unfold(body.into_data_stream(), move |mut bytes| {
+            let seen = Arc::clone(&reading);
+            async move {
+                let next = timeout_at(end, bytes.try_next()).await.map_err(io::Error::from)?;
+                let next = next.map_err(io::Error::other)?;
+                match &next {
+                    Some(some) => lock(&seen).digest.update(some),
+                    None => lock(&seen).is_whole = true,
+                }
+                Ok::<_, io::Error>(next.map(|some| (some, bytes)))
+            }
+        }))
     });
     (request, seen)
 }
@@ -290,6 +301,19 @@ fn refused(reason: Reason, sentence: &str) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[tokio::test]
+    async fn ik1_a_body_that_does_not_come_is_cut_off() {
+        let begun = stream::iter([Ok::<_, io::Error>("a")]).chain(stream::pending());
+        for (body, patience, is_whole) in [
+            (Body::from("whole"), Duration::from_hours(1), true),
+            (Body::from_stream(begun), Duration::ZERO, false),
+        ] {
+            let (request, seen) = watched(Request::new(body), patience);
+            let read = body::to_bytes(request.into_body(), 10).await;
+            assert_eq!((read.is_ok(), lock(&seen).is_whole), (is_whole, is_whole));
+        }
+    }
 
     #[test]
     fn ik1_a_key_is_written_with_quotes_or_without() {
