@@ -1,8 +1,11 @@
-//! The example client in Python does what it says, written from the documents alone.
+//! What others read and write in Python: the example client, written from the documents alone, and exports.
 
-use std::{path::Path, process::Command};
+use std::{
+    path::{Path, PathBuf},
+    process::Command,
+};
 
-use espalier_tests::{scratch::Scratch, server::Server};
+use espalier_tests::{program, scratch::Scratch, server::Server};
 
 /// Runs a command to its end; what it printed.
 fn run(command: &mut Command) -> String {
@@ -12,19 +15,60 @@ fn run(command: &mut Command) -> String {
     printed
 }
 
-#[test]
-fn the_example_client_draws_saves_and_exports() {
-    let scratch = Scratch::new();
-    let home = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/client");
+/// Python with the packages that a folder of the repository asks for.
+fn python(scratch: &Scratch, home: &Path) -> PathBuf {
     let place = scratch.path("python");
     run(Command::new("python3").args(["-m", "venv"]).arg(&place));
     let requirements = home.join("requirements.txt");
     run(Command::new(place.join("bin/pip")).args(["install", "--quiet", "-r"]).arg(requirements));
+    place.join("bin/python")
+}
+
+fn folder(of: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(of)
+}
+
+#[test]
+fn the_example_client_draws_saves_and_exports() {
+    let scratch = Scratch::new();
+    let home = folder("docs/client");
+    let python = python(&scratch, &home);
 
     let server = Server::start(&scratch.path("trees.db"));
     let address = format!("http://127.0.0.1:{}", server.port());
-    let printed = run(Command::new(place.join("bin/python")).arg(home.join("draw.py")).arg(address));
+    let printed = run(Command::new(python).arg(home.join("draw.py")).arg(address));
     let numbers: Vec<u32> = printed.split_whitespace().filter_map(|word| word.parse().ok()).collect();
     let [frames, 1, glb, metamers] = numbers[..] else { panic!("{printed}") };
     assert!(frames > 100 && glb > 10_000 && metamers > 50, "{printed}");
+}
+
+#[test]
+fn exports_open_in_other_programs() {
+    let scratch = Scratch::new();
+    let home = folder("tests/readers");
+    let python = python(&scratch, &home);
+    let grown = |species: &str, options: &[&str], name: &str| {
+        let file = scratch.path(name);
+        let grow = ["grow", "--species", species, "--export", file.to_str().expect("a plain path")];
+        let grown = program::run(&[&grow[..], options].concat());
+        assert_eq!(grown.code, 0, "{}", grown.stderr);
+        file
+    };
+
+    // Closed and wound outwards, says trimesh.
+    let mut files: Vec<PathBuf> = ["oak", "scots-pine", "weeping-willow", "baobab", "umbrella-acacia"]
+        .map(|species| grown(species, &["--lod", "set"], &format!("{species}.glb")))
+        .into();
+    files.push(grown("cherry", &["--by-limb"], "limbs.glb"));
+    let printed = run(Command::new(&python).arg(home.join("wood.py")).args(&files));
+    assert!(printed.lines().count() > 3 * 5 + 5, "{printed}");
+
+    // A scene with materials, says usd-core.
+    let scenes = [("usda", None), ("usdz", None), ("usda", Some("--instanced"))].map(|(ending, option)| {
+        let name = format!("cherry{}.{ending}", option.unwrap_or_default());
+        grown("cherry", &Vec::from_iter(option), &name)
+    });
+    let printed = run(Command::new(&python).arg(home.join("usd.py")).args(scenes));
+    assert_eq!(printed.lines().count(), 3, "{printed}");
+    assert!(!printed.lines().last().is_some_and(|last| last.contains(" 0 leaves as instances")), "{printed}");
 }
