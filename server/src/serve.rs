@@ -111,6 +111,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
         under_way: http::UnderWay::default(),
+        addresses: if bound.ip().is_loopback() { Arc::default() } else { announce::addresses(bound).into() },
         proxies: proxies.clone(),
         trusts_local,
         tries: Arc::default(),

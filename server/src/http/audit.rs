@@ -48,6 +48,10 @@ pub fn described(Noted { number, event, times, last_at }: Noted) -> AuditEvent {
     AuditEvent { number, at, who, address, action, object, outcome, times, last_at }
 }
 
+/// Says of a response what was made of that which its path names, for the list.
+#[derive(Clone, Debug)]
+pub(super) struct Made(pub(super) String);
+
 /// What an answer says has come of an action.
 pub(super) fn outcome(status: StatusCode) -> String {
     if status.is_success() || status.is_redirection() { DONE.into() } else { status.as_u16().to_string() }

@@ -69,7 +69,7 @@ pub(super) async fn redeem(
     let redeemed = admission::redeem(&*shared.store, &secret, SystemTime::now()).await;
     let come = redeemed.map_err(Failure::from).and_then(|come| come.ok_or_else(no_invitation));
     let name = come.as_ref().map_or("", |(_, pass)| &*pass.name);
-    note(&shared, Way::Device, name, peer, "come-in", &come).await;
+    note(&shared, Way::Device, name, peer, "come-in", passed(&come)).await;
     let welcome = welcome(come.map_err(Failure::into_response)?, &headers);
     shared.tries.forget(from);
     Ok(welcome)
@@ -97,7 +97,7 @@ pub(super) async fn log_in(
         Ok(user) => let_in(&shared, user).await,
         Err(failure) => Err(failure),
     };
-    note(&shared, Way::Login, name, peer, "log-in", &come).await;
+    note(&shared, Way::Login, name, peer, "log-in", passed(&come)).await;
     let come = come.map_err(Failure::into_response)?;
     shared.tries.forget(from);
     shared.tries_for.forget(by_name);
@@ -131,7 +131,7 @@ pub(super) async fn log_out(
     {
         shared.store.take_pass(&pass.id).await?;
         let peer = peer.map(|Extension(peer)| peer);
-        note(&shared, access::way_of(pass.kind), &pass.name, peer, "log-out", &Ok(())).await;
+        note(&shared, access::way_of(pass.kind), &pass.name, peer, "log-out", Ok(&pass)).await;
     }
     Ok((set(cookie::forgetting(&headers)), StatusCode::NO_CONTENT))
 }
@@ -152,18 +152,25 @@ pub(super) async fn users(State(shared): State<Shared>) -> Result<Json<Vec<Liste
     Ok(Json(shared.store.users().await?.into_iter().map(listed).collect()))
 }
 
-/// Notes that somebody came, went or tried to (`AC10`).
-async fn note<T>(
+/// By which pass somebody came in, or what they were answered.
+fn passed(come: &Result<(Secret, Pass), Failure>) -> Result<&Pass, StatusCode> {
+    come.as_ref().map(|(_, pass)| pass).map_err(Failure::status)
+}
+
+/// Notes that somebody came, went or tried to (`AC10`), and with which pass: a link keeps its identifier.
+async fn note(
     shared: &Shared,
     way: Way,
     name: &str,
     peer: Option<Peer>,
     action: &str,
-    done: &Result<T, Failure>,
+    pass: Result<&Pass, StatusCode>,
 ) {
-    let outcome = audit::outcome(done.as_ref().map_or_else(Failure::status, |_| StatusCode::OK));
+    let outcome = audit::outcome(pass.err().unwrap_or(StatusCode::OK));
+    let object =
+        pass.ok().map(|pass| pass.tree.iter().chain([&pass.id]).cloned().collect::<Vec<_>>().join("/"));
     let name: String = name.chars().take(MAX_NAME_CHARACTERS).collect();
-    shared.note(format!("{} {name}", way.name()).trim_end().to_owned(), peer, action, None, outcome).await;
+    shared.note(format!("{} {name}", way.name()).trim_end().to_owned(), peer, action, object, outcome).await;
 }
 
 fn too_often(field: &str, wait: Duration) -> Response {

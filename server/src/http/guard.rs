@@ -12,7 +12,12 @@ use axum::{
 use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
 
-use super::{Shared, audit, failure::Failure, keys::Repeated};
+use super::{
+    Shared,
+    audit::{self, Made},
+    failure::Failure,
+    keys::Repeated,
+};
 use crate::{
     access::{Action, Caller, Object, Peer},
     store::Library,
@@ -113,7 +118,10 @@ pub(super) async fn ask(
     };
     // What was answered again was noted when it was done.
     let note = note.filter(|_| response.extensions().get::<Repeated>().is_none());
-    if let Some((noted, object, who, peer)) = note {
+    if let Some((noted, mut object, who, peer)) = note {
+        if let Some(Made(id)) = response.extensions().get() {
+            object = format!("{object}/{id}");
+        }
         shared.note(who, peer, noted, Some(object), audit::outcome(response.status())).await;
     }
     response

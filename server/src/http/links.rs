@@ -3,7 +3,7 @@
 use std::time::{Duration, SystemTime};
 
 use axum::{
-    Json,
+    Extension, Json,
     extract::State,
     http::{HeaderMap, StatusCode, header},
     response::IntoResponse,
@@ -16,6 +16,7 @@ use espalier_proto::{
 
 use super::{
     Shared,
+    audit::Made,
     failure::{Body, Failure, Path},
     trees,
 };
@@ -24,6 +25,7 @@ use crate::{
         admission::{self, Invite},
         cookie,
     },
+    hosts,
     store::{Missing, Pass, PassKind, Passes},
     time::now,
 };
@@ -69,8 +71,11 @@ pub(super) async fn add(
     let (secret, id) = admission::invite_for(&*shared.store, invite, waits, SystemTime::now()).await?;
     let scheme = if cookie::is_secure(&headers) { "https" } else { "http" };
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
-    let url = format!("{scheme}://{host}/pair#{}", secret.text());
-    Ok((StatusCode::CREATED, Json(MadeLink { id, url })))
+    // What this machine calls itself leads nowhere from another one.
+    let reached = shared.addresses.first().filter(|_| hosts::is_loopback(host));
+    let server = reached.cloned().unwrap_or_else(|| format!("{scheme}://{host}"));
+    let url = format!("{server}/pair#{}", secret.text());
+    Ok((StatusCode::CREATED, Extension(Made(id.clone())), Json(MadeLink { id, url })))
 }
 
 pub(super) async fn revoke(

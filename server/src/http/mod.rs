@@ -80,6 +80,8 @@ pub struct Shared {
     pub portraits: Portraits,
     /// The names that requests may come under.
     pub hosts: Hosts,
+    /// Where other machines reach the server, where they do: the likeliest first.
+    pub addresses: Arc<[String]>,
     /// The proxies in front.
     pub proxies: Proxies,
     /// Whether whoever sits at this machine may do everything.

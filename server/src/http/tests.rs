@@ -54,6 +54,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
         metamer_budget: 1000,
         portraits: Portraits::default(),
         hosts: Hosts::new(&[]),
+        addresses: Arc::new([AT.into()]),
         proxies: Proxies::new(&[PROXY.into()]),
         trusts_local: true,
         tries: Arc::default(),
@@ -67,6 +68,9 @@ async fn server() -> (Router, Arc<AnyStore>) {
     };
     (router(shared), store)
 }
+
+/// Where other machines reach the server.
+const AT: &str = "http://192.168.1.5:7700";
 
 /// Where the proxy is.
 const PROXY: [u8; 4] = [10, 0, 0, 1];

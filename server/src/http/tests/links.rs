@@ -40,7 +40,7 @@ async fn ac12_owners_invite_to_a_tree_and_take_that_back() {
     let (status, made) = asked(&server, of_owner(&Method::POST, LINKS), body).await;
     assert_eq!(status, 201, "{made}");
     let (id, url) = (made["id"].as_str().unwrap(), made["url"].as_str().unwrap());
-    assert!(url.starts_with("http://localhost:7700/pair#"), "{url}");
+    assert!(url.starts_with(&format!("{AT}/pair#")), "{url}");
 
     let list = async || asked(&server, of_owner(&Method::GET, LINKS), "").await.1;
     let waiting = list().await;
@@ -66,8 +66,12 @@ async fn ac12_owners_invite_to_a_tree_and_take_that_back() {
     assert_eq!(list().await, json!([]));
 
     let events = asked(&server, request(&Method::GET, "/api/v1/audit"), "").await.1;
-    let events: Vec<_> = events.as_array().unwrap().iter().map(|event| event["action"].clone()).collect();
+    let noted = events.as_array().unwrap();
+    let events: Vec<_> = noted.iter().map(|event| event["action"].clone()).collect();
     assert_eq!(events, ["unlink", "unlink", "unlink", "come-in", "come-in", "link"]);
+    for event in [&noted[0], &noted[4], &noted[5]] {
+        assert_eq!(event["object"], format!("ash/{id}"), "{event}");
+    }
 }
 
 #[tokio::test]

@@ -27,7 +27,7 @@ async fn ac14_only_a_trusted_proxy_says_who_asks_and_how() {
     let owner = token(&store, Role::Owner, None).await;
     for (from, address, url, begins) in [
         (PROXY, "203.0.113.5", "https://192.168.1.50/pair#", "__Host-espalier="),
-        ([10, 0, 0, 9], "10.0.0.9", "http://localhost:7700/pair#", "espalier-7700="),
+        ([10, 0, 0, 9], "10.0.0.9", "http://192.168.1.5:7700/pair#", "espalier-7700="),
     ] {
         let link =
             passed_on(from, &Method::POST, "/api/v1/trees/ash/links").header(header::AUTHORIZATION, &owner);
