@@ -12,7 +12,7 @@ use futures_util::{
     SinkExt, StreamExt,
     stream::{SplitSink, SplitStream},
 };
-use tokio::time::{MissedTickBehavior, interval, sleep, timeout};
+use tokio::time::{Instant, MissedTickBehavior, interval, sleep, sleep_until, timeout};
 use tokio_tungstenite::tungstenite::{self, error::ProtocolError};
 
 use super::{
@@ -24,6 +24,9 @@ use super::{
 const PING_INTERVAL: Duration = Duration::from_secs(20);
 /// and after so long without any sign lets go: a tablet that fell asleep says no goodbye.
 const SILENCE: Duration = Duration::from_secs(60);
+/// The other side may ask so often; of one that asks oftener no more is read meanwhile, for answers that nobody reads
+/// would pile up.
+const PING_PAUSE: Duration = Duration::from_millis(50);
 /// How long what waits may take to go out once the socket is to be closed.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 /// How long the other side may take to answer a close.
@@ -92,12 +95,18 @@ async fn read(
     client: ClientId,
     closing: &Closing,
 ) -> Heard {
+    let mut next_ping = Instant::now();
     while let Ok(Some(message)) = timeout(SILENCE, stream.next()).await {
         let request = match message {
             Ok(Message::Text(text)) => Request::Text(client, text.as_str().into()),
             Ok(Message::Binary(_)) => Request::Binary(client),
             // A goodbye is answered while the next message is asked for, of which there is none.
-            Ok(Message::Close(_) | Message::Ping(_) | Message::Pong(_)) => continue,
+            Ok(Message::Close(_) | Message::Pong(_)) => continue,
+            Ok(Message::Ping(_)) => {
+                sleep_until(next_ping).await;
+                next_ping = Instant::now() + PING_PAUSE;
+                continue;
+            }
             Err(error) => {
                 let Some(farewell) = refusal(&error) else { return Heard::Nothing };
                 closing.decide(farewell);

@@ -219,6 +219,27 @@ async fn unfinished_messages_hold_little() {
     drop(unfinished);
 }
 
+#[test]
+fn a_flood_of_pings_is_held_back() {
+    const FLOOD: usize = 64 << 20;
+    let (server, session, _scratch) = house();
+    let mut raw = Raw::greeted(&server, &session);
+    raw.next().expect("a welcome");
+    let before = server.resident_bytes();
+    let mut ping = Raw::head(LAST | PING, 125);
+    ping.extend_from_slice(&[b'x'; 125]);
+    let pings = ping.repeat(1000);
+    raw.0.set_write_timeout(Some(std::time::Duration::from_secs(1))).expect("a socket has a time-out");
+    // Until the server takes no more, or has taken them all.
+    let mut sent = 0;
+    while sent < FLOOD && raw.0.write_all(&pings).is_ok() {
+        sent += pings.len();
+    }
+    let grown = server.resident_bytes().saturating_sub(before);
+    assert!(grown < 16 << 20, "{grown} bytes for pings");
+    assert_eq!(http::get(server.port(), "/health").expect("the server answers").status, 200);
+}
+
 #[tokio::test]
 async fn lm15_downloads_that_nobody_reads_end() {
     let (server, session, _scratch) = house();
