@@ -12,6 +12,7 @@ use espalier_growth::{DEFAULT_METAMER_BUDGET, species};
 use espalier_proto::Steps;
 use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
+use ipnet::IpNet;
 
 use crate::{hosts::HostName, import, recipe::SeedRange};
 
@@ -149,16 +150,17 @@ pub struct Serve {
         value_parser = parse_host_name
     )]
     pub host_names: Vec<HostName>,
-    /// Address of a proxy in front, whose X-Forwarded-For, X-Forwarded-Proto and X-Forwarded-Host are believed; may be
+    /// Address of a proxy in front, or the network of several, whose X-Forwarded-For, X-Forwarded-Proto and X-Forwarded-Host are believed; may be
     /// given again.
     #[arg(
         id = "trusted-proxy",
         long = "trusted-proxy",
         env = "ESPALIER_TRUSTED_PROXY",
         value_name = "ADDRESS",
+        value_parser = parse_proxies,
         value_delimiter = ','
     )]
-    pub trusted_proxies: Vec<IpAddr>,
+    pub trusted_proxies: Vec<IpNet>,
     /// Invite also whoever sits at this machine; for machines that strangers have accounts on.
     #[arg(long, env = "ESPALIER_NO_LOCAL")]
     pub no_local: bool,
@@ -358,6 +360,14 @@ fn parse_import(path: &str) -> Result<ImportFile, String> {
 
 fn parse_host_name(text: &str) -> Result<HostName, String> {
     HostName::parse(text).ok_or_else(|| "write a name alone, such as trees.example".to_owned())
+}
+
+/// A network, or an address as a network of its own.
+fn parse_proxies(text: &str) -> Result<IpNet, String> {
+    let address = || text.parse::<IpAddr>().map(IpNet::from);
+    text.parse()
+        .or_else(|_| address())
+        .map_err(|_| "allowed: an address, or a network as in 10.0.0.0/8".to_owned())
 }
 
 fn parse_unit(text: &str) -> Result<f64, String> {

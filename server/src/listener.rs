@@ -2,7 +2,7 @@
 
 mod paced;
 
-use std::{collections::BTreeSet, net::IpAddr, sync::Arc, time::Duration};
+use std::{sync::Arc, time::Duration};
 
 use axum::Router;
 use futures_util::future::join_all;
@@ -11,6 +11,7 @@ use hyper_util::{
     rt::{TokioIo, TokioTimer},
     service::TowerToHyperService,
 };
+use ipnet::IpNet;
 use tokio::{
     net::{TcpListener, TcpStream},
     sync::Semaphore,
@@ -73,7 +74,7 @@ pub async fn serve(
     listeners: Vec<TcpListener>,
     answers: Answers,
     limits: Limits,
-    proxies: BTreeSet<IpAddr>,
+    proxies: Vec<IpNet>,
     stop: CancellationToken,
 ) {
     let listening = Arc::new(Listening {

@@ -1,10 +1,12 @@
 //! Places that one network alone cannot take: of connections, sockets and uploads.
 
 use std::{
-    collections::{BTreeMap, BTreeSet},
+    collections::BTreeMap,
     net::IpAddr,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
+
+use ipnet::IpNet;
 
 use crate::access::network;
 
@@ -18,7 +20,7 @@ struct Inner {
     most: usize,
     most_of_one: usize,
     /// Who speaks for many: proxies.
-    for_many: BTreeSet<IpAddr>,
+    for_many: Vec<IpNet>,
     taken: Mutex<Taken>,
 }
 
@@ -39,18 +41,19 @@ pub struct Place {
 impl Places {
     /// So many places, of which one network has `most_of_one` at most.
     pub fn new(most: usize, most_of_one: usize) -> Self {
-        Self::with_proxies(most, most_of_one, BTreeSet::new())
+        Self::with_proxies(most, most_of_one, Vec::new())
     }
 
-    /// The same, where these addresses speak for many networks.
-    pub fn with_proxies(most: usize, most_of_one: usize, for_many: BTreeSet<IpAddr>) -> Self {
+    /// The same, where those in these networks speak for many.
+    pub fn with_proxies(most: usize, most_of_one: usize, for_many: Vec<IpNet>) -> Self {
         Self(Arc::new(Inner { most, most_of_one, for_many, taken: Mutex::default() }))
     }
 
     /// A place for somebody who comes from this address, if there is one.
     pub fn take(&self, from: IpAddr) -> Option<Place> {
         let from = from.to_canonical();
-        let network = (!from.is_loopback() && !self.0.for_many.contains(&from)).then(|| network(from));
+        let network = (!from.is_loopback() && !self.0.for_many.iter().any(|proxies| proxies.contains(&from)))
+            .then(|| network(from));
         let mut taken = self.taken();
         let of_one = network.and_then(|network| taken.by_network.get(&network).copied()).unwrap_or(0);
         if taken.all >= self.0.most || of_one >= self.0.most_of_one {
@@ -117,9 +120,9 @@ mod tests {
 
     #[test]
     fn lm16_a_trusted_proxy_may_take_all() {
-        let places = Places::with_proxies(3, 1, BTreeSet::from([at("10.0.0.1")]));
+        let places = Places::with_proxies(3, 1, vec!["10.0.0.0/8".parse().unwrap()]);
         let _taken = ["10.0.0.1", "::ffff:10.0.0.1"].map(|from| places.take(at(from)).unwrap());
-        let _other = places.take(at("10.0.0.2")).unwrap();
+        let _other = places.take(at("11.0.0.1")).unwrap();
         assert!(places.take(at("10.0.0.1")).is_none(), "all are taken");
     }
 }

@@ -130,7 +130,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         listeners,
         answers,
         Limits::default(),
-        proxies.addresses(),
+        proxies.networks(),
         stop.clone(),
     ));
 

@@ -1,7 +1,6 @@
 //! What a proxy says of the request that it passes on (`AC14`).
 
 use std::{
-    collections::BTreeSet,
     net::{IpAddr, SocketAddr},
     sync::Arc,
 };
@@ -12,6 +11,7 @@ use axum::{
     middleware::Next,
     response::Response,
 };
+use ipnet::IpNet;
 
 use crate::access::Peer;
 
@@ -21,21 +21,22 @@ const PROTO: HeaderName = HeaderName::from_static("x-forwarded-proto");
 
 /// The proxies that are believed.
 #[derive(Clone, Debug, Default)]
-pub struct Proxies(Arc<BTreeSet<IpAddr>>);
+pub struct Proxies(Arc<[IpNet]>);
 
 impl Proxies {
-    /// Those with these addresses.
-    pub fn new(addresses: &[IpAddr]) -> Self {
-        Self(Arc::new(addresses.iter().map(IpAddr::to_canonical).collect()))
+    /// Those in these networks.
+    pub fn new(networks: &[IpNet]) -> Self {
+        Self(networks.into())
     }
 
-    /// Their addresses.
-    pub fn addresses(&self) -> BTreeSet<IpAddr> {
-        self.0.as_ref().clone()
+    /// Where they are.
+    pub fn networks(&self) -> Vec<IpNet> {
+        self.0.to_vec()
     }
 
     fn has(&self, address: IpAddr) -> bool {
-        self.0.contains(&address.to_canonical())
+        let address = address.to_canonical();
+        self.0.iter().any(|network| network.contains(&address))
     }
 
     /// Where a request comes from that a proxy passes on: the last address in its header that is no proxy's. Those before
@@ -86,12 +87,14 @@ mod tests {
 
     #[test]
     fn ac14_the_last_address_that_is_no_proxys_counts() {
-        let proxies = Proxies::new(&["10.0.0.1", "10.0.0.2"].map(|address| address.parse().unwrap()));
+        let proxies =
+            Proxies::new(&["10.0.0.0/30", "2001:db8:1::/48"].map(|network| network.parse().unwrap()));
         let own = "10.0.0.1".parse().unwrap();
         for (values, expected) in [
             (&["203.0.113.5"][..], "203.0.113.5"),
             (&["198.51.100.1, 203.0.113.5"], "203.0.113.5"),
             (&["198.51.100.1", "203.0.113.5, 10.0.0.2"], "203.0.113.5"),
+            (&["203.0.113.5, 2001:db8:1::7"], "203.0.113.5"),
             (&["203.0.113.5:4711"], "203.0.113.5"),
             (&["[2001:db8::1]:4711"], "2001:db8::1"),
             (&["203.0.113.5, unknown"], "10.0.0.1"),

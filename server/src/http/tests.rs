@@ -55,7 +55,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
         portraits: Portraits::default(),
         hosts: Hosts::new(&[]),
         addresses: Arc::new([AT.into()]),
-        proxies: Proxies::new(&[PROXY.into()]),
+        proxies: Proxies::new(&[IpAddr::from(PROXY).into()]),
         trusts_local: true,
         tries: Arc::default(),
         tries_for: Arc::default(),

@@ -21,7 +21,7 @@ impl House {
         let all = Router::new().route("/endless", get(endless)).route("/health", get(async || "ok"));
         let crowded = Router::new().route("/health", get(async || "ok")).fallback(async || "no place");
         let stop = CancellationToken::new();
-        let serving = serve(vec![listener], Answers { all, crowded }, limits, BTreeSet::new(), stop.clone());
+        let serving = serve(vec![listener], Answers { all, crowded }, limits, Vec::new(), stop.clone());
         Self { at, stop, serving: tokio::spawn(serving) }
     }
 
