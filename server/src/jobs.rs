@@ -146,7 +146,9 @@ impl Jobs {
         let job = table.jobs.get(name).filter(|job| caller.has_what_is_of(&job.order.by)).cloned()?;
         let is_waiting =
             |name: &&str| table.jobs.get(*name).is_some_and(|job| job.lock().state == State::Waiting);
-        let ahead = table.waiting.in_order().into_iter().filter(is_waiting).position(|other| other == name);
+        let left = |name: &str| table.jobs.get(name).map_or(0, |job| job.left());
+        let ahead =
+            table.waiting.in_order(left).into_iter().filter(is_waiting).position(|other| other == name);
         let ahead = ahead.unwrap_or(0);
         Some((job, ahead))
     }

@@ -86,6 +86,13 @@ pub struct Progress {
     pub(super) gone_at: Option<Instant>,
 }
 
+impl Progress {
+    /// Seeds that are done with.
+    fn tried(&self) -> usize {
+        self.grown.len() + self.failed.len()
+    }
+}
+
 /// A job.
 #[derive(Debug)]
 pub struct Job {
@@ -131,7 +138,12 @@ impl Job {
     /// The seed whose turn it is.
     pub(super) fn next_seed(&self) -> Option<u32> {
         let progress = self.lock();
-        self.order.seeds.get(progress.grown.len() + progress.failed.len()).copied()
+        self.order.seeds.get(progress.tried()).copied()
+    }
+
+    /// Trees that it has still to grow.
+    pub(super) fn left(&self) -> usize {
+        self.order.seeds.len().saturating_sub(self.lock().tried())
     }
 
     /// Its tree of a seed is under way.

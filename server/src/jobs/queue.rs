@@ -45,18 +45,18 @@ impl Queue {
         Some(name)
     }
 
-    /// All jobs in the order in which they begin.
-    pub(super) fn in_order(&self) -> Vec<&str> {
-        let (mut jobs, mut turns, mut turn) =
-            (self.jobs.iter().collect::<Vec<_>>(), self.turns.clone(), self.turn);
-        let mut order = Vec::with_capacity(jobs.len());
-        while let Some(index) = first(jobs.iter().copied(), &turns) {
-            let (person, name) = jobs.remove(index);
-            turn += 1;
-            turns.insert(person.clone(), turn);
-            order.push(name.as_str());
+    /// All jobs in the order in which they begin, where so many trees of each are left: it has a turn for each of them.
+    pub(super) fn in_order(&self, left: impl Fn(&str) -> usize) -> Vec<&str> {
+        // Of each person, the turns that they have had before, and the place of their first job.
+        let mut had: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+        let mut all = Vec::with_capacity(self.jobs.len());
+        for (place, (person, name)) in self.jobs.iter().enumerate() {
+            let (turns, first) = had.entry(person).or_insert((0, place));
+            all.push(((*turns, self.turns.get(person).copied().unwrap_or(0), *first), name.as_str()));
+            *turns += left(name).max(1);
         }
-        order
+        all.sort_by_key(|(begins, _)| *begins);
+        all.into_iter().map(|(_, name)| name).collect()
     }
 }
 
@@ -84,7 +84,13 @@ mod tests {
     fn jb6_each_has_a_turn_before_anybody_has_another() {
         let mut queue =
             queue(&[("a", "a1"), ("a", "a2"), ("a", "a3"), ("b", "b1"), ("c", "c1"), ("b", "b2")]);
-        assert_eq!(queue.in_order(), ["a1", "b1", "c1", "a2", "b2", "a3"]);
+        assert_eq!(queue.in_order(|_| 1), ["a1", "b1", "c1", "a2", "b2", "a3"]);
+        let left = |name: &str| if name == "a1" { 2 } else { 1 };
+        assert_eq!(
+            queue.in_order(left),
+            ["a1", "b1", "c1", "b2", "a2", "a3"],
+            "a2 waits for both trees of a1"
+        );
         let turns: Vec<_> = (0..6).filter_map(|_| queue.next()).collect();
         assert_eq!(turns, ["a1", "b1", "c1", "a1", "b1", "c1"], "a job has turns until it is done");
         queue.remove("a1");
