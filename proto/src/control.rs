@@ -15,7 +15,7 @@ use crate::{
     problem::Problem,
     programme::Programme,
     reading::{self, tagged_enum},
-    timeline::{Timeline, WidthConstraint},
+    timeline::{Timeline, TimelineChange, WidthConstraint},
     version::MAX_PRUNED_ROWS,
 };
 
@@ -281,8 +281,10 @@ pub enum ServerMessage {
         /// In order of their ids.
         obstacles: Vec<PlacedObstacle>,
     },
-    /// What was done, line by line: after the welcome, and when it changed (`TT1`).
+    /// What was done, line by line: after the welcome (`TT1`).
     Timeline(Box<Timeline>),
+    /// What changed of it since it was told last (`TT6`).
+    TimelineChanged(Box<TimelineChange>),
     /// The width constraints in force, all of them: after the welcome if there are any, and when they change (`WI2`).
     Widths {
         /// In order of their rows.

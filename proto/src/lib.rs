@@ -55,4 +55,6 @@ pub use problem::{Problem, ProblemCode};
 pub use programme::{ParameterName, Programme, Slug, Stage};
 pub use reason::Reason;
 pub use schematic::Schematic;
-pub use timeline::{OperationKind, Timeline, TimelineFuture, TimelineOperation, WidthConstraint};
+pub use timeline::{
+    OperationKind, Timeline, TimelineChange, TimelineFuture, TimelineOperation, WidthConstraint,
+};

@@ -84,6 +84,56 @@ pub struct Timeline {
     pub futures: Vec<TimelineFuture>,
 }
 
+/// What became of the lines of time since they were told last (`TT6`).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema, TS)]
+#[serde(deny_unknown_fields)]
+pub struct TimelineChange {
+    /// The number of the present line.
+    pub line: u32,
+    /// The present step.
+    pub step: u32,
+    /// The last step of the present line.
+    pub last_step: u32,
+    /// How many of the operations are in force.
+    pub done: u32,
+    /// So many of the operations are as they were,
+    pub from: u32,
+    /// and these follow them, in the place of all others.
+    pub operations: Vec<TimelineOperation>,
+    /// All other lines, if any of them changed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[ts(optional)]
+    pub futures: Option<Vec<TimelineFuture>>,
+}
+
+impl Timeline {
+    /// What tells those who have this timeline of a later one.
+    pub fn change_to(&self, later: &Self) -> TimelineChange {
+        let pairs = self.operations.iter().zip(&later.operations);
+        let from = pairs.take_while(|(had, has)| had == has).count();
+        TimelineChange {
+            line: later.line,
+            step: later.step,
+            last_step: later.last_step,
+            done: later.done,
+            from: from as u32,
+            operations: later.operations[from..].to_vec(),
+            futures: (self.futures != later.futures).then(|| later.futures.clone()),
+        }
+    }
+
+    /// Takes in a change of the timeline that it was before.
+    pub fn change(&mut self, change: TimelineChange) {
+        let TimelineChange { line, step, last_step, done, from, operations, futures } = change;
+        (self.line, self.step, self.last_step, self.done) = (line, step, last_step, done);
+        self.operations.truncate(from as usize);
+        self.operations.extend(operations);
+        if let Some(futures) = futures {
+            self.futures = futures;
+        }
+    }
+}
+
 /// A metamer whose width somebody has set.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema, TS)]
 #[serde(deny_unknown_fields)]
@@ -94,4 +144,56 @@ pub struct WidthConstraint {
     pub diameter: f32,
     /// The diameter it has: more where it bears something thicker.
     pub effective: f32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn operation(author: u32, first: u32, last: u32) -> TimelineOperation {
+        TimelineOperation { kind: OperationKind::Stroke, author, first, last }
+    }
+
+    #[test]
+    fn tt6_a_change_gives_the_later_timeline_and_holds_no_more_than_the_difference() {
+        let long: Vec<_> = (0..100).map(|n| operation(n % 3, n, n + 1)).collect();
+        let future = |of: &[TimelineOperation]| TimelineFuture {
+            future: 1,
+            from: 2,
+            on: None,
+            steps: 3,
+            operations: of.to_vec(),
+        };
+        let timelines = [
+            Timeline::default(),
+            Timeline {
+                step: 100,
+                last_step: 100,
+                done: 100,
+                operations: long.clone(),
+                ..Timeline::default()
+            },
+            Timeline { step: 3, last_step: 100, done: 3, operations: long.clone(), ..Timeline::default() },
+            Timeline {
+                line: 1,
+                step: 4,
+                last_step: 4,
+                done: 4,
+                operations: [&long[..3], &[operation(0, 3, 9)]].concat(),
+                futures: vec![future(&long[3..])],
+            },
+        ];
+        for had in &timelines {
+            for has in &timelines {
+                let change = had.change_to(has);
+                let told = serde_json::to_string(&change).unwrap();
+                let mut page = had.clone();
+                page.change(serde_json::from_str(&told).unwrap());
+                assert_eq!(page, *has);
+                assert!(had != has || change.operations.is_empty() && change.futures.is_none());
+            }
+        }
+        let travelled = timelines[1].change_to(&timelines[2]);
+        assert_eq!((travelled.from, travelled.operations.len()), (100, 0));
+    }
 }

@@ -129,6 +129,7 @@ pub fn declarations() -> String {
         timeline::TimelineOperation::decl(&config),
         timeline::TimelineFuture::decl(&config),
         timeline::Timeline::decl(&config),
+        timeline::TimelineChange::decl(&config),
         timeline::WidthConstraint::decl(&config),
         control::Resume::decl(&config),
         control::DocumentState::decl(&config),

@@ -405,6 +405,7 @@ impl Client {
             }
             ServerMessage::Obstacles { obstacles } => self.obstacles = obstacles,
             ServerMessage::Timeline(timeline) => self.timeline = *timeline,
+            ServerMessage::TimelineChanged(change) => self.timeline.change(*change),
             ServerMessage::Widths { widths } => self.widths = widths,
             ServerMessage::Appearance { appearance } => {
                 self.appearance = *appearance;

@@ -61,6 +61,7 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.time.receive(timeline);
       page.unsaved.follow(timeline);
     },
+    timeline_changed: (change) => page.unsaved.follow(page.time.change(change)),
     widths: ({ widths }) => {
       page.widths.all.value = widths;
     },

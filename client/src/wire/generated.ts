@@ -1494,6 +1494,36 @@ operations: Array<TimelineOperation>,
  */
 futures: Array<TimelineFuture>, };
 
+export type TimelineChange = { 
+/**
+ * The number of the present line.
+ */
+line: number, 
+/**
+ * The present step.
+ */
+step: number, 
+/**
+ * The last step of the present line.
+ */
+last_step: number, 
+/**
+ * How many of the operations are in force.
+ */
+done: number, 
+/**
+ * So many of the operations are as they were,
+ */
+from: number, 
+/**
+ * and these follow them, in the place of all others.
+ */
+operations: Array<TimelineOperation>, 
+/**
+ * All other lines, if any of them changed.
+ */
+futures?: Array<TimelineFuture>, };
+
 export type WidthConstraint = { 
 /**
  * Its row.
@@ -1717,7 +1747,7 @@ appearance: Appearance, } | { "type": "obstacles",
 /**
  * In order of their ids.
  */
-obstacles: Array<PlacedObstacle>, } | { "type": "timeline" } & Timeline | { "type": "widths", 
+obstacles: Array<PlacedObstacle>, } | { "type": "timeline" } & Timeline | { "type": "timeline_changed" } & TimelineChange | { "type": "widths", 
 /**
  * In order of their rows.
  */

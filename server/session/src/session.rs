@@ -64,6 +64,8 @@ pub struct Session {
     appearance: Appearance,
     scenery: Scenery,
     timeline: Timeline,
+    /// As clients have it.
+    told_timeline: Timeline,
     widths: Vec<WidthConstraint>,
     /// Bends as they are sent to clients, by their numbers.
     bends: BTreeMap<u32, BendUpdate>,
@@ -208,6 +210,7 @@ impl Session {
             appearance: *work.document.appearance(),
             scenery: Scenery::of(&work.document),
             timeline: work.document.timeline(),
+            told_timeline: work.document.timeline(),
             widths: work.document.widths(),
             bends: bends.into_iter().map(|update| (update.bend, update)).collect(),
             predictions: 0,

@@ -99,7 +99,8 @@ impl Session {
         if !self.widths.is_empty() {
             self.send(client, &ServerMessage::Widths { widths: self.widths.clone() });
         }
-        self.send(client, &ServerMessage::Timeline(Box::new(self.timeline.clone())));
+        // As all others have it: what has changed since comes to everybody.
+        self.send(client, &ServerMessage::Timeline(Box::new(self.told_timeline.clone())));
         // Who resumes has been notified before, for the epoch is the same (`OP3`).
         let notices = if resumed { Vec::new() } else { self.notices.clone() };
         let is_notified = !notices.is_empty();

@@ -207,7 +207,9 @@ impl Session {
         }
         if self.upkeep.timeline_changed && self.now >= self.upkeep.timeline_due {
             self.upkeep.timeline_changed = false;
-            let text = text_of(&ServerMessage::Timeline(Box::new(self.timeline.clone())));
+            let change = self.told_timeline.change_to(&self.timeline);
+            self.told_timeline.clone_from(&self.timeline);
+            let text = text_of(&ServerMessage::TimelineChanged(Box::new(change)));
             self.upkeep.timeline_due = self.now + STATE_MS.max(text.len() as u64 / TIMELINE_BYTES_PER_MS);
             self.broadcast_text(&text);
         }

@@ -87,6 +87,7 @@ fn cm10_what_the_server_says_keeps_to_the_schema() {
         json!({ "type": "appearance", "appearance": espalier_settings::Appearance::default() }),
         json!({ "type": "parameters", "parameters": espalier_settings::ParameterValues::default() }),
         json!({ "type": "timeline", "line": 0, "step": 0, "last_step": 0, "done": 0, "operations": [], "futures": [] }),
+        json!({ "type": "timeline_changed", "line": 0, "step": 0, "last_step": 0, "done": 0, "from": 0, "operations": [] }),
     ] {
         let read: ServerMessage = serde_json::from_value(message).expect("it is one");
         let written = serde_json::to_value(read).expect("plain values");

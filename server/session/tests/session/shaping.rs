@@ -28,10 +28,16 @@ fn drag(x: f32) -> Value {
     json!({ "kind": "bend_move", "bend": 1, "targets": vec![[x, 6.0, 0.0]] })
 }
 
+/// The timeline as a client has it that was told it once, and then what changed (`TT6`).
 pub fn timeline(peer: &Peer) -> Timeline {
-    let notified = peer.texts.iter().rev().find_map(|text| match text {
-        ServerMessage::Timeline(timeline) => Some(Timeline::clone(timeline)),
-        _ => None,
+    let notified = peer.texts.iter().fold(None, |timeline: Option<Timeline>, text| match text {
+        ServerMessage::Timeline(whole) => Some(Timeline::clone(whole)),
+        ServerMessage::TimelineChanged(change) => {
+            let mut timeline = timeline.expect("TT1: the whole comes first");
+            timeline.change(change.as_ref().clone());
+            Some(timeline)
+        }
+        _ => timeline,
     });
     notified.expect("TT1: it follows the welcome")
 }
@@ -169,6 +175,27 @@ fn wi2_constraints_are_sent_to_all_and_to_newcomers() {
     world.settle();
     assert_eq!(widths(world.peer(carol)), Some(Vec::new()));
     assert_eq!(widths(world.peer(bob)), Some(Vec::new()));
+}
+
+#[test]
+fn tt6_what_is_told_of_the_timeline_does_not_grow_with_it() {
+    let (mut world, ann, bob) = grown();
+    let told = |world: &World| {
+        let texts =
+            world.peer(bob).texts.iter().filter(|text| matches!(text, ServerMessage::TimelineChanged(_)));
+        texts.map(|text| serde_json::to_string(text).unwrap().len()).collect::<Vec<_>>()
+    };
+    for id in 1..=60 {
+        let step = json!({ "kind": "grow", "steps": 1 });
+        let cut =
+            json!({ "kind": "set_parameters", "parameters": { "internode_length": f64::from(id) / 100.0 } });
+        world.command(ann, id, if id % 2 == 0 { step } else { cut });
+        world.settle();
+    }
+    let sizes = told(&world);
+    assert!(sizes.len() >= 60 && sizes.iter().all(|&size| size < 400), "{sizes:?}");
+    assert_eq!(timeline(world.peer(bob)), world.document().timeline());
+    assert!(timeline(world.peer(bob)).operations.len() >= 60);
 }
 
 #[test]

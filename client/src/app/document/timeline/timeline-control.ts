@@ -1,6 +1,6 @@
 import { computed, signal } from "@preact/signals";
-import type { Timeline } from "../../../wire/generated";
-import { edgeBeside, TimeScale } from "./timeline";
+import type { Timeline, TimelineChange } from "../../../wire/generated";
+import { changed, edgeBeside, NOTHING_DONE, TimeScale } from "./timeline";
 import { PATIENCE, TravelPacer } from "./timeline-pacer";
 
 export interface TimelineControlOptions {
@@ -44,6 +44,13 @@ export class TimelineControl {
       // Someone has begun another future: the steps pulled at are no longer on this line.
       this.stop();
     }
+  }
+
+  /** Takes in what changed since the timeline was told last (`TT6`); gives it as it is now. */
+  change(change: TimelineChange): Timeline {
+    const timeline = changed(this.timeline.peek() ?? NOTHING_DONE, change);
+    this.receive(timeline);
+    return timeline;
   }
 
   /** The user drags the playhead to a step, and keeps hold of it. */

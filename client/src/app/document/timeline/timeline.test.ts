@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { TimelineFuture, TimelineOperation } from "../../../wire/generated";
-import { branchings, clusters, edgeBeside, forks, peopleOf, TimeScale } from "./timeline";
+import { branchings, changed, clusters, edgeBeside, forks, NOTHING_DONE, peopleOf, TimeScale } from "./timeline";
 
 const operation = (kind: TimelineOperation["kind"], first: number, last: number): TimelineOperation => ({
   kind,
@@ -18,6 +18,27 @@ const LIFE = [
   operation("parameters", 17, 17),
   operation("growth", 17, 117),
 ];
+
+describe("a timeline that changes", () => {
+  const all = changed(NOTHING_DONE, { line: 0, step: 117, last_step: 117, done: 4, from: 0, operations: LIFE });
+
+  it("goes on behind what stays", () => {
+    const cut = operation("prune", 117, 118);
+    const later = changed(all, { line: 0, step: 118, last_step: 118, done: 5, from: 4, operations: [cut] });
+    expect(later.operations).toEqual([...LIFE, cut]);
+    expect([later.step, later.done]).toEqual([118, 5]);
+  });
+
+  it("has another end, and the old one as a future", () => {
+    const seed = operation("seed", 17, 18);
+    const change = { line: 1, step: 18, last_step: 18, done: 3, from: 2, operations: [seed], futures: [future(0, 17)] };
+    const later = changed(all, change);
+    expect(later.operations).toEqual([...LIFE.slice(0, 2), seed]);
+    expect(later.futures).toHaveLength(1);
+    const travelled = changed(later, { line: 1, step: 3, last_step: 18, done: 1, from: 3, operations: [] });
+    expect([travelled.operations, travelled.futures]).toEqual([later.operations, later.futures]);
+  });
+});
 
 describe("the scale of a line of time", () => {
   it("finds each step again at its place", () => {

@@ -1,4 +1,16 @@
-import type { Timeline, TimelineFuture, TimelineOperation } from "../../../wire/generated";
+import type { Timeline, TimelineChange, TimelineFuture, TimelineOperation } from "../../../wire/generated";
+
+/** The timeline of a document in which nothing was done. */
+export const NOTHING_DONE: Timeline = { line: 0, step: 0, last_step: 0, done: 0, operations: [], futures: [] };
+
+/** A timeline after a change of it. */
+export function changed(timeline: Timeline, { from, operations, futures, ...now }: TimelineChange): Timeline {
+  return {
+    ...now,
+    operations: [...timeline.operations.slice(0, from), ...operations],
+    futures: futures ?? timeline.futures,
+  };
+}
 
 /** Operations that run for long would push all others off the strip: length counts by its root. */
 const weightOf = ({ first, last }: TimelineOperation) => 1 + Math.sqrt(Math.max(0, last - first));
