@@ -1,94 +1,224 @@
-//! The simulation pool: heavy work runs here, so that sockets and acknowledgements never wait behind a tree.
+//! The simulation pool: heavy work runs here, in slices, so that sockets and acknowledgements never wait behind a tree,
+//! and nobody who draws behind somebody else's. Whose slice is next is decided in `turns.rs`.
+
+mod turns;
 
 use std::{
     num::NonZeroUsize,
     panic::{AssertUnwindSafe, catch_unwind},
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError, mpsc},
     thread,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 use tokio::sync::oneshot;
+
+pub use self::turns::{Class, Person};
+use self::turns::{Given, Turns};
 
 /// Work on the pool panicked; the panic itself has been printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("a computation failed")]
 pub struct Panicked;
 
-/// Threads for simulation, one for each core. What runs on them may itself use rayon and stays on them.
+/// A slice that others wait behind ends after so long, where it can.
+const SLICE: Duration = Duration::from_millis(3);
+
+/// Workers for simulation, one for each core and two at least. What runs on them may itself use rayon and stays on its
+/// worker, unless it has the pool to itself.
 #[derive(Clone, Debug)]
-pub struct SimulationPool(Arc<Shared>);
+pub struct SimulationPool(Arc<Handle>);
+
+/// The workers end with the last of these.
+#[derive(Debug)]
+struct Handle {
+    shared: Arc<Shared>,
+    workers: OnceLock<()>,
+}
 
 #[derive(Debug)]
 struct Shared {
-    threads: rayon::ThreadPool,
-    /// Pieces of work that somebody waits for.
-    at_work: Mutex<usize>,
+    /// All cores, for what runs alone.
+    wide: ThreadPool,
+    /// One, for what runs while the calling thread is held.
+    narrow: ThreadPool,
+    began: Instant,
+    state: Mutex<State>,
+    /// There may be something to do.
+    more: Condvar,
+    /// Nothing is left to do.
     idle: Condvar,
 }
 
-/// One of them, until it is done.
-struct Turn(Arc<Shared>);
+#[derive(Debug)]
+struct State {
+    turns: Turns<Slice>,
+    is_over: bool,
+}
 
-impl Turn {
-    fn of(shared: &Arc<Shared>) -> Self {
-        *shared.lock() += 1;
-        Self(Arc::clone(shared))
+/// A piece of work.
+struct Slice(Box<dyn FnOnce(&Turn<'_>) + Send>);
+
+impl std::fmt::Debug for Slice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Slice")
     }
 }
 
-impl Drop for Turn {
-    fn drop(&mut self) {
-        *self.0.lock() -= 1;
-        self.0.idle.notify_all();
-    }
+/// What work that can stop in between asks of the pool.
+#[derive(Debug)]
+pub struct Turn<'a> {
+    shared: &'a Shared,
+    begun: Instant,
 }
 
-impl Shared {
-    fn lock(&self) -> MutexGuard<'_, usize> {
-        self.at_work.lock().unwrap_or_else(PoisonError::into_inner)
+impl Turn<'_> {
+    /// Whether the work has had its time, and somebody else waits.
+    pub fn is_over(&self) -> bool {
+        self.begun.elapsed() >= SLICE && self.shared.lock().turns.waiting() > 0
     }
 }
 
 impl SimulationPool {
     /// A pool of this many threads, or one for each core.
-    pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, rayon::ThreadPoolBuildError> {
+    pub fn new(threads: Option<NonZeroUsize>) -> Result<Self, ThreadPoolBuildError> {
         let cores = thread::available_parallelism();
         let threads = threads.or(cores.ok()).map_or(1, NonZeroUsize::get);
-        let threads = rayon::ThreadPoolBuilder::new()
+        let wide = ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|number| format!("simulation-{number}"))
             .build()?;
-        Ok(Self(Arc::new(Shared { threads, at_work: Mutex::default(), idle: Condvar::new() })))
+        let narrow = ThreadPoolBuilder::new().num_threads(1).thread_name(|_| "held".into()).build()?;
+        // With one core two workers share it, so that a large step there does not stop those who draw.
+        let state = State { turns: Turns::new(threads.max(2)), is_over: false };
+        let shared = Arc::new(Shared {
+            wide,
+            narrow,
+            began: Instant::now(),
+            state: Mutex::new(state),
+            more: Condvar::new(),
+            idle: Condvar::new(),
+        });
+        Ok(Self(Arc::new(Handle { shared, workers: OnceLock::new() })))
     }
 
     /// Runs this on the pool and waits without holding a thread of the network.
     pub async fn run<T: Send + 'static>(
         &self,
-        work: impl FnOnce() -> T + Send + 'static,
+        class: Class,
+        person: Person,
+        work: impl FnOnce(&Turn<'_>) -> T + Send + 'static,
     ) -> Result<T, Panicked> {
         let (answer, answered) = oneshot::channel();
-        let turn = Turn::of(&self.0);
-        self.0.threads.spawn(move || {
-            let _turn = turn;
+        self.push(class, person, move |turn| {
             // Whoever asked may have gone, before it is begun or after; then the result is of no use.
             if answer.is_closed() {
                 return;
             }
-            let _ = answer.send(catch_unwind(AssertUnwindSafe(work)).map_err(|_| Panicked));
+            let _ = answer.send(catch_unwind(AssertUnwindSafe(|| work(turn))).map_err(|_| Panicked));
         });
         answered.await.unwrap_or(Err(Panicked))
     }
 
-    /// Holds the calling thread, which does what nobody waits for, while there is work on the pool, but not for ever.
-    pub fn give_way(&self, at_most: Duration) {
-        let is_busy = |at_work: &mut usize| *at_work > 0;
-        let _ = self.0.idle.wait_timeout_while(self.0.lock(), at_most, is_busy);
+    /// Waits for a turn, runs this, and holds the calling thread until it is done.
+    pub fn hold<T: Send>(&self, class: Class, person: Person, work: impl FnOnce() -> T + Send) -> T {
+        let (begin, begun) = mpsc::channel();
+        let (end, ended) = mpsc::channel::<()>();
+        self.push(class, person, move |_| {
+            // The worker sleeps meanwhile.
+            let _ = begin.send(()).map(|()| ended.recv());
+        });
+        let _ = begun.recv();
+        // Dropped at the end, also if the work panics.
+        let _end = end;
+        self.0.shared.narrow.install(work)
     }
 
-    /// Runs this on the pool and holds the calling thread until it is done.
+    fn push(&self, class: Class, person: Person, work: impl FnOnce(&Turn<'_>) + Send + 'static) {
+        let Handle { shared, workers } = &*self.0;
+        workers.get_or_init(|| shared.start());
+        let now = shared.began.elapsed();
+        shared.lock().turns.push(now, class, person, Slice(Box::new(work)));
+        shared.more.notify_one();
+    }
+
+    /// Holds the calling thread, which does what nobody waits for, while there is work on the pool, but not for ever.
+    pub fn give_way(&self, at_most: Duration) {
+        let shared = &self.0.shared;
+        let is_busy = |state: &mut State| !state.turns.is_idle();
+        let _ = shared.idle.wait_timeout_while(shared.lock(), at_most, is_busy);
+    }
+
+    /// Runs this with all cores and holds the calling thread until it is done, whoever else waits.
     pub fn block_on<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
-        self.0.threads.install(work)
+        self.0.shared.wide.install(work)
+    }
+}
+
+impl Drop for Handle {
+    fn drop(&mut self) {
+        self.shared.lock().is_over = true;
+        self.shared.more.notify_all();
+    }
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn start(self: &Arc<Self>) {
+        for number in 0..self.wide.current_num_threads().max(2) {
+            let shared = Arc::clone(self);
+            let worker = thread::Builder::new().name(format!("worker-{number}"));
+            if let Err(error) = worker.spawn(move || shared.work()) {
+                tracing::error!(%error, "a worker of the simulation pool could not be started");
+            }
+        }
+    }
+
+    /// What a worker does, until the pool is dropped.
+    fn work(&self) {
+        // What uses rayon here stays on this thread.
+        let _narrow = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+        while let Some(Given { class, person, slice: Slice(work), is_alone }) = self.next() {
+            let turn = Turn { shared: self, begun: Instant::now() };
+            if is_alone && self.wide.current_num_threads() > 1 {
+                self.wide.install(|| work(&turn));
+            } else {
+                work(&turn);
+            }
+            let took = turn.begun.elapsed();
+            let mut state = self.lock();
+            state.turns.done(class, &person, took);
+            if state.turns.is_idle() {
+                self.idle.notify_all();
+            }
+            drop(state);
+            // What was kept from another worker may be done there now.
+            self.more.notify_one();
+        }
+    }
+
+    /// Waits for the next slice; nothing when the pool is dropped and nothing is left.
+    fn next(&self) -> Option<Given<Slice>> {
+        let mut state = self.lock();
+        loop {
+            let now = self.began.elapsed();
+            if let Some(given) = state.turns.take(now) {
+                return Some(given);
+            }
+            if state.is_over && state.turns.waiting() == 0 {
+                return None;
+            }
+            state = match state.turns.look_again().and_then(|again| again.checked_sub(now)) {
+                Some(wait) => {
+                    self.more.wait_timeout(state, wait).map_or_else(|e| e.into_inner().0, |(state, _)| state)
+                }
+                None => self.more.wait(state).unwrap_or_else(PoisonError::into_inner),
+            };
+        }
     }
 }
 
@@ -96,47 +226,62 @@ impl SimulationPool {
 mod tests {
     use super::*;
 
+    fn pool(threads: usize) -> SimulationPool {
+        SimulationPool::new(NonZeroUsize::new(threads)).unwrap()
+    }
+
+    fn somebody() -> Person {
+        "somebody".into()
+    }
+
     #[tokio::test]
     async fn a_panic_leaves_the_pool_working() {
-        let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
-        assert_eq!(pool.run(|| panic!("on purpose, for a test")).await, Err::<(), _>(Panicked));
-        assert_eq!(pool.run(|| 6 * 7).await, Ok(42));
+        let pool = pool(1);
+        let panic = pool.run(Class::Growing, somebody(), |_| panic!("on purpose, for a test"));
+        assert_eq!(panic.await, Err::<(), _>(Panicked));
+        assert_eq!(pool.run(Class::Growing, somebody(), |_| 6 * 7).await, Ok(42));
+        let held =
+            catch_unwind(AssertUnwindSafe(|| pool.hold(Class::Upkeep, somebody(), || panic!("on purpose"))));
+        assert!(held.is_err());
+        assert_eq!(pool.hold(Class::Upkeep, somebody(), || 6 * 7), 42);
+    }
+
+    /// Holds one worker until the sender is dropped or sends.
+    fn hold(pool: &SimulationPool) -> (mpsc::Sender<()>, tokio::task::JoinHandle<Result<bool, Panicked>>) {
+        let (open, gate) = mpsc::channel::<()>();
+        let pool = pool.clone();
+        let held = async move { pool.run(Class::Growing, somebody(), move |_| gate.recv().is_ok()).await };
+        (open, tokio::spawn(held))
     }
 
     #[tokio::test]
     async fn work_that_nobody_waits_for_is_not_begun() {
-        let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
-        let (open, gate) = std::sync::mpsc::channel::<()>();
-        let (begun, has_begun) = std::sync::mpsc::channel::<()>();
-        let held = tokio::spawn({
-            let pool = pool.clone();
-            async move { pool.run(move || gate.recv().is_ok()).await }
-        });
+        let pool = pool(1);
+        let (begun, has_begun) = mpsc::channel::<()>();
+        let held = [hold(&pool), hold(&pool)];
         let given_up = tokio::time::timeout(Duration::from_millis(20), async {
             tokio::task::yield_now().await;
-            pool.run(move || begun.send(())).await
+            pool.run(Class::Growing, somebody(), move |_| begun.send(())).await
         });
-        assert!(given_up.await.is_err(), "the one thread is held");
-        open.send(()).unwrap();
-        assert_eq!(held.await.unwrap(), Ok(true));
-        assert_eq!(pool.run(|| 1).await, Ok(1), "the thread is free again");
+        assert!(given_up.await.is_err(), "both workers are held");
+        for (open, held) in held {
+            open.send(()).unwrap();
+            assert_eq!(held.await.unwrap(), Ok(true));
+        }
+        assert_eq!(pool.run(Class::Upkeep, somebody(), |_| 1).await, Ok(1), "a worker is free again");
         assert!(has_begun.recv().is_err(), "it was dropped, not begun");
     }
 
     #[tokio::test]
     async fn what_nobody_waits_for_gives_way() {
-        let pool = SimulationPool::new(NonZeroUsize::new(1)).unwrap();
-        let (open, gate) = std::sync::mpsc::channel::<()>();
-        let drawing = tokio::spawn({
-            let pool = pool.clone();
-            async move { pool.run(move || gate.recv().is_ok()).await }
-        });
-        while *pool.0.lock() == 0 {
+        let pool = pool(1);
+        let (open, drawing) = hold(&pool);
+        while pool.0.shared.lock().turns.is_idle() {
             tokio::task::yield_now().await;
         }
         // With work on the pool it goes on only because it has waited long enough.
         pool.give_way(Duration::from_millis(1));
-        assert_eq!(*pool.0.lock(), 1);
+        assert!(!pool.0.shared.lock().turns.is_idle());
         let beneath = thread::spawn({
             let pool = pool.clone();
             move || pool.give_way(Duration::MAX)
@@ -144,12 +289,50 @@ mod tests {
         open.send(()).unwrap();
         assert_eq!(drawing.await.unwrap(), Ok(true));
         beneath.join().unwrap();
-        assert_eq!(*pool.0.lock(), 0);
+        assert!(pool.0.shared.lock().turns.is_idle());
+    }
+
+    #[tokio::test]
+    async fn a_slice_is_over_only_if_somebody_waits() {
+        let pool = pool(1);
+        let held = [hold(&pool).0, hold(&pool).0];
+        let (first, second) = (pool.clone(), pool.clone());
+        let late = |turn: &Turn<'_>| {
+            thread::sleep(SLICE);
+            turn.is_over()
+        };
+        let first = tokio::spawn(async move { first.run(Class::Drawing, somebody(), late).await });
+        let second = tokio::spawn(async move { second.run(Class::Drawing, somebody(), late).await });
+        while pool.0.shared.lock().turns.waiting() < 4 - 2 {
+            tokio::task::yield_now().await;
+        }
+        drop(held);
+        let over = [first.await.unwrap(), second.await.unwrap()];
+        assert!(over.contains(&Ok(false)), "the last one may go on: {over:?}");
+    }
+
+    #[tokio::test]
+    async fn nested_parallel_work_stays_where_it_is() {
+        let pool = pool(3);
+        assert_eq!(pool.block_on(rayon::current_num_threads), 3);
+        let alone = pool.run(Class::Growing, somebody(), |_| rayon::current_num_threads()).await;
+        assert_eq!(alone, Ok(3), "what is alone has all threads");
+        let (_open, _held) = hold(&pool);
+        while pool.0.shared.lock().turns.is_idle() {
+            tokio::task::yield_now().await;
+        }
+        let beside = pool.run(Class::Drawing, somebody(), |_| rayon::current_num_threads()).await;
+        assert_eq!(beside, Ok(1));
     }
 
     #[test]
-    fn nested_parallel_work_stays_on_the_pool() {
-        let pool = SimulationPool::new(NonZeroUsize::new(3)).unwrap();
-        assert_eq!(pool.block_on(rayon::current_num_threads), 3);
+    fn the_workers_end_with_the_pool() {
+        let pool = pool(2);
+        assert_eq!(pool.hold(Class::Upkeep, somebody(), || 1), 1);
+        let shared = Arc::downgrade(&pool.0.shared);
+        drop(pool);
+        while shared.strong_count() > 0 {
+            thread::yield_now();
+        }
     }
 }

@@ -9,7 +9,7 @@ use espalier_proto::Problem;
 use espalier_session::{Document, Principal, script, style_options};
 use tokio::sync::OnceCell;
 
-use crate::pool::{Panicked, SimulationPool};
+use crate::pool::{Class, Panicked, Person, SimulationPool};
 
 /// The seed of pictures that are made once.
 const SEED: u32 = 1;
@@ -61,7 +61,10 @@ impl Portraits {
     pub async fn of(&self, slug: &str, pool: &SimulationPool) -> Result<Option<Print>, PortraitError> {
         let (Some(cell), Some(species)) = (self.0.get(slug), species::find(slug)) else { return Ok(None) };
         let made = cell.get_or_try_init(|| async {
-            let canvas = pool.run(|| portrait(species, SEED, SIZE).map(|canvas| canvas.png())).await??;
+            let canvas = pool.run(Class::Whole, Person::default(), |_| {
+                portrait(species, SEED, SIZE).map(|canvas| canvas.png())
+            });
+            let canvas = canvas.await??;
             Ok::<_, PortraitError>(Print { tag: tag_of(&canvas), png: canvas.into() })
         });
         made.await.map(|print| Some(print.clone()))

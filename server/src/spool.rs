@@ -17,7 +17,7 @@ use crate::pool::SimulationPool;
 /// Bytes that are made in one go: some milliseconds of work.
 const SLICE: usize = 256 * 1024;
 /// How long a slice waits at most for those who draw.
-pub const PATIENCE: Duration = Duration::from_millis(20);
+const PATIENCE: Duration = Duration::from_millis(20);
 
 /// A file that takes no more when nobody wants it.
 #[derive(Debug)]

@@ -69,9 +69,9 @@ pub enum Output {
     Close(ClientId, CloseCode, String),
     /// Write these entries; answer with `Journaled` or `JournalFailed`. There is one batch on the way at a time.
     Journal(Vec<JournalEntry>),
-    /// Run `work.run()` away from the network, then answer with `Worked`.
+    /// Run `work.run(..)` away from the network, then answer with `Worked`.
     Work(Box<Work>),
-    /// Call `prediction.run()` away from the network, beside any `Work`, until it says it is done; then answer with
+    /// Call `prediction.run(..)` away from the network, beside any `Work`, until it says it is done; then answer with
     /// `Predicted`.
     Predict(Box<PredictionRun>),
     /// Keep this snapshot; answer with `SnapshotKept` or `SnapshotFailed`. Once it is kept, entries up to `through` need

@@ -40,4 +40,4 @@ pub use session::Session;
 pub use snapshot::RestoreError;
 pub use species_script::{script, wire_species};
 pub use to_proto::{delta, style_options};
-pub use work::Work;
+pub use work::{Urgency, Work};

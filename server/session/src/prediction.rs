@@ -75,8 +75,9 @@ impl PredictionRun {
         }
     }
 
-    /// Does one slice; true when the prediction is done and goes back as [`crate::Input::Predicted`].
-    pub fn run(&mut self) -> bool {
+    /// Does one slice, which ends after the step at which `is_over` says so; true when the prediction is done and goes
+    /// back as [`crate::Input::Predicted`].
+    pub fn run(&mut self, is_over: impl Fn() -> bool) -> bool {
         let Some(mut simulation) = self.simulation.take() else { return true };
         if self.question.cancelled.load(Ordering::Relaxed) {
             return true;
@@ -94,6 +95,9 @@ impl PredictionRun {
             }
             simulation.step(&Step::Age { chosen: None, until: u32::MAX }, &mut NoObserver);
             self.left = if simulation.is_out_of_budget() { 0 } else { self.left - 1 };
+            if is_over() {
+                break;
+            }
         }
         if self.left > 0 {
             self.simulation = Some(simulation);

@@ -35,7 +35,7 @@ impl Principal {
     }
 
     /// The name that documents and snapshots keep of a principal; no two share one.
-    pub(crate) fn name(&self) -> &str {
+    pub fn name(&self) -> &str {
         &self.0
     }
 

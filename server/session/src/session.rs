@@ -168,13 +168,20 @@ impl Session {
         snapshot::to_bytes(0, &BTreeMap::new(), &document)
     }
 
-    /// The same for a session that opens a saved tree, from the bytes a [`Input::Read`] gave.
-    pub fn first_snapshot(document: &[u8], metamer_budget: u32) -> Result<Vec<u8>, RestoreError> {
+    /// A new session that begins with a saved tree, from the bytes a [`Input::Read`] gave, and its first snapshot,
+    /// which is to be kept as that of [`Session::seedling`] is.
+    pub fn of_tree(
+        name: impl Into<String>,
+        epoch: u32,
+        document: &[u8],
+        metamer_budget: u32,
+    ) -> Result<(Self, Vec<u8>), RestoreError> {
         let mut document = Document::from_bytes(document)?;
         document.set_metamer_budget(metamer_budget);
         // Strokes and bends in progress go on in the session that the tree was saved from.
         document.end_gestures();
-        Ok(snapshot::to_bytes(0, &BTreeMap::new(), &document))
+        let snapshot = snapshot::to_bytes(0, &BTreeMap::new(), &document);
+        Ok((Self::with_document(name.into(), epoch, document, 0, 0, BTreeMap::new()), snapshot))
     }
 
     fn with_document(

@@ -6,7 +6,7 @@ use std::{
 };
 
 use espalier_mesh::{RingTable, Style};
-use espalier_proto::{BendFrame, Command, Hint, PlacedObstacle, Position, Problem, RowMotion};
+use espalier_proto::{Action, BendFrame, Command, Hint, PlacedObstacle, Position, Problem, RowMotion};
 
 use crate::{
     author::{LastCommand, note_last},
@@ -25,6 +25,22 @@ pub(crate) const SLICE_STEPS: u32 = 4;
 const SLICE_METAMERS: u32 = 2000;
 /// After so many commands a slice ends.
 const SLICE_COMMANDS: u32 = 64;
+
+/// What a slice of work is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Urgency {
+    /// Somebody's hand is on the tree, or somebody waits to see it.
+    Drawing,
+    /// The tree grows alone.
+    Growing,
+    /// The tree is read or kept as a whole.
+    Keeping,
+}
+
+/// Whether trees grow alone by a command, for as long as it says.
+fn grows_alone(action: &Action) -> bool {
+    matches!(action, Action::Grow { .. } | Action::Lasso { .. })
+}
 
 /// A command in its place in the order.
 #[derive(Debug)]
@@ -120,6 +136,8 @@ pub struct Work {
     pub(crate) busy: bool,
     /// Whose command was taken on last, and its number.
     doing: Option<(Principal, u32)>,
+    /// Whether the tree grows by it alone, without a hand.
+    doing_alone: bool,
     /// The frame with all rows, kept while it is current: clients often join at the same time.
     complete: Option<(u32, Arc<[u8]>)>,
     /// The open bends as they were reported last.
@@ -158,6 +176,7 @@ impl Work {
             delta_wanted: false,
             busy,
             doing: None,
+            doing_alone: true,
             complete: None,
             bends: BTreeMap::new(),
             bend_sequence: 0,
@@ -168,9 +187,10 @@ impl Work {
         work
     }
 
-    /// Does one slice of what is to be done. Takes a while; the result goes back as [`crate::Input::Worked`].
-    pub fn run(&mut self) {
-        self.simulate();
+    /// Does one slice of what is to be done, which ends after the step or command at which `is_over` says so. Takes a
+    /// while; the result goes back as [`crate::Input::Worked`].
+    pub fn run(&mut self, is_over: impl Fn() -> bool) {
+        self.simulate(is_over);
         self.sync();
         self.report_bends();
         for CatchUp { client, held } in std::mem::take(&mut self.catch_ups) {
@@ -199,7 +219,29 @@ impl Work {
             || !self.questions.is_empty()
     }
 
-    fn simulate(&mut self) {
+    /// What the next slice is for.
+    pub fn urgency(&self) -> Urgency {
+        let next = match (self.busy, self.orders.front()) {
+            (true, _) => Some(self.doing_alone),
+            (false, Some(order)) => Some(grows_alone(&order.command.action)),
+            (false, None) => None,
+        };
+        match next {
+            Some(true) => Urgency::Growing,
+            Some(false) => Urgency::Drawing,
+            // What is shown of a tree that was just opened, or has rested.
+            None if !self.catch_ups.is_empty() => Urgency::Drawing,
+            None => Urgency::Keeping,
+        }
+    }
+
+    /// For whom the next slice is, if it is for one person.
+    pub fn whose(&self) -> Option<&Principal> {
+        let doing = self.doing.as_ref().filter(|_| self.busy).map(|(author, _)| author);
+        doing.or_else(|| self.orders.front().map(|order| &order.author))
+    }
+
+    fn simulate(&mut self, is_over: impl Fn() -> bool) {
         let mut steps = 0;
         let mut commands = 0;
         let start = self.document.metamers();
@@ -210,6 +252,7 @@ impl Work {
                     self.report_hints();
                     steps += 1;
                     if steps == SLICE_STEPS
+                        || is_over()
                         || self.document.metamers() >= start.saturating_add(SLICE_METAMERS)
                     {
                         return;
@@ -219,7 +262,7 @@ impl Work {
                 self.busy = false;
             }
             self.hand_out();
-            if commands == SLICE_COMMANDS {
+            if commands == SLICE_COMMANDS || commands > 0 && is_over() {
                 return;
             }
             let Some(order) = self.orders.pop_front() else { return };
@@ -234,6 +277,7 @@ impl Work {
         self.document.stop_at(self.stops.end_of(order.number));
         note_last(&mut self.last_commands, &order.author, LastCommand { id: order.id, entry: order.number });
         self.doing = Some((order.author.clone(), order.id));
+        self.doing_alone = grows_alone(&order.command.action);
         let begun = self.document.begin(&order.author, &order.command);
         if let Some(act) = order.act {
             let placed = begun.clone().map(|()| self.document.obstacles().pop());

@@ -23,6 +23,7 @@ use super::{
 };
 use crate::{
     import::{self, Import},
+    pool::Class,
     store::{Contents, Saved},
 };
 
@@ -121,7 +122,7 @@ pub(super) async fn upload(
         parameters,
         metamers: shared.metamer_budget,
     };
-    let made = shared.pool.run(move || {
+    let made = shared.pool.run(Class::Whole, principal.name().into(), move |_| {
         let document = import::document(&file, &import).map_err(|error| import.refusal(&error))?;
         Ok::<_, Problem>(Saved::of(&document))
     });

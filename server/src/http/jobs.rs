@@ -32,6 +32,7 @@ use crate::{
     document::{FORMATS, FormatRow},
     export_options::{ExportOptions, NotOfFormat},
     jobs::{self, Job, NotTaken, Order},
+    pool::Class,
     recipe::{Recipe, SeedRange},
     store::Library,
 };
@@ -354,7 +355,7 @@ async fn recipe_of(
         problem.at("template", "the name of a species, or of a saved tree")
     })?;
     let saved = sessions::saved_document(shared, template, tree.head.number).await?;
-    let read = shared.pool.run(move || {
+    let read = shared.pool.run(Class::Whole, template.into(), move |_| {
         let document = Document::from_bytes(&saved.bytes)?;
         Ok::<_, DocumentError>((document.variation(), document.species()))
     });

@@ -13,6 +13,8 @@ use espalier_proto::{
 };
 use espalier_session::Principal;
 
+use crate::pool::Class;
+
 use super::{
     Shared,
     failure::{Failure, Path},
@@ -32,7 +34,7 @@ pub(super) async fn upload(
 ) -> Result<impl IntoResponse, Failure> {
     let session = sessions::open(&shared, &session).await?;
     let metres = session.parameters().await?.internode_length;
-    let mesh = shared.pool.run(move || mesh_of(&file)).await?;
+    let mesh = shared.pool.run(Class::Whole, principal.name().into(), move |_| mesh_of(&file)).await?;
     let mesh = mesh.map_err(|error| no_obstacle(&error))?;
     let scale = Scale::try_from(1.0 / metres)
         .map_err(|fault| Problem::out_of_range("scale", fault.found, fault.allowed))?;

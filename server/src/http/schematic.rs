@@ -7,6 +7,8 @@ use espalier_proto::Reason;
 use espalier_settings::ParameterValues;
 use tokio::time::timeout;
 
+use crate::pool::{Class, Person};
+
 use super::{
     Shared,
     failure::{Body, Failure},
@@ -20,7 +22,8 @@ pub(super) async fn draw(
     State(shared): State<Shared>,
     Body(parameters): Body<ParameterValues>,
 ) -> Result<impl IntoResponse, Failure> {
-    let drawn = shared.pool.run(move || espalier_session::schematic(&parameters));
+    let drawn =
+        shared.pool.run(Class::Drawing, Person::default(), move |_| espalier_session::schematic(&parameters));
     let sentence = "The server is busy growing trees; the schematic took too long.";
     let late = |_| Failure::new(Reason::Busy, sentence);
     let schematic = timeout(TIME_LIMIT, drawn).await.map_err(late)???;

@@ -34,6 +34,7 @@ use crate::{
     access::{self, Action, Caller, Peer, Rate, SecretHash},
     live::{self, OpenError, SessionHandle},
     name,
+    pool::Class,
     store::{self, Library, Store, StoreError, StoredTree, TreeDocument},
 };
 
@@ -72,7 +73,8 @@ pub(super) async fn create(
         count(&shared, &caller)?;
         let seed = new.seed.unwrap_or_else(rand::random);
         let snapshot = Session::seedling(seed, shared.metamer_budget);
-        return Ok((StatusCode::CREATED, begin(&shared, &principal, seed, snapshot, None).await?));
+        let name = name::unguessable();
+        return Ok((StatusCode::CREATED, begin(&shared, &principal, name, seed, snapshot, None).await?));
     };
     shared.ask(&caller, Action::OpenTree, Named::Tree(&tree)).await?;
     let stored = trees::stored(&shared, &tree).await?;
@@ -89,9 +91,12 @@ pub(super) async fn create(
     }
     count(&shared, &caller)?;
     let version = new.version.unwrap_or(stored.head.number);
-    let snapshot = planted(&shared, &tree, version).await?;
+    let name = name::unguessable();
+    let (session, snapshot) = planted(&shared, &name, &tree, version).await?;
     let of = (!new.template).then_some((tree, version));
-    Ok((StatusCode::CREATED, begin(&shared, &principal, 0, snapshot, of).await?))
+    let begun = begin(&shared, &principal, name.clone(), 0, snapshot, of).await?;
+    shared.sessions.seat(&name, session).await;
+    Ok((StatusCode::CREATED, begun))
 }
 
 /// Refuses what would have no effect: without a tree there is no version, and a tree has its own seed.
@@ -120,11 +125,11 @@ fn count(shared: &Shared, caller: &Caller) -> Result<(), Failure> {
 async fn begin(
     shared: &Shared,
     principal: &Principal,
+    name: String,
     seed: u32,
     snapshot: Vec<u8>,
     tree: Option<(String, u32)>,
 ) -> Result<Json<SessionCreated>, Failure> {
-    let name = name::unguessable();
     let new = store::NewSession {
         name: name.clone(),
         seed,
@@ -268,11 +273,19 @@ pub(super) async fn saved_document(
     }
 }
 
-/// A snapshot of a new session that goes on with a saved tree.
-async fn planted(shared: &Shared, tree: &str, version: u32) -> Result<Vec<u8>, Failure> {
+/// A new session of this name that goes on with a saved tree, and its first snapshot.
+async fn planted(
+    shared: &Shared,
+    name: &str,
+    tree: &str,
+    version: u32,
+) -> Result<(Session, Vec<u8>), Failure> {
     let document = saved_document(shared, tree, version).await?;
-    let budget = shared.metamer_budget;
-    let planted = shared.pool.run(move || Session::first_snapshot(&document.bytes, budget)).await?;
+    let (name, epoch, budget) = (name.to_owned(), rand::random(), shared.metamer_budget);
+    let planted = shared
+        .pool
+        .run(Class::Whole, tree.into(), move |_| Session::of_tree(name, epoch, &document.bytes, budget));
+    let planted = planted.await?;
     planted.map_err(|error| match error {
         error @ RestoreError::Document(DocumentError::Later(_)) => OpenError::from(error).into(),
         RestoreError::Document(error) => unreadable(tree, &error),

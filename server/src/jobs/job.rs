@@ -23,9 +23,9 @@ use crate::{
     access::Caller,
     document::{self, FileError, FormatRow},
     export_options::ExportOptions,
-    pool::SimulationPool,
+    pool::{Class, Person, SimulationPool},
     recipe::{Gardener, GrowError, Recipe},
-    spool::{PATIENCE, Spool},
+    spool::Spool,
 };
 
 /// What is to be grown, and written.
@@ -321,11 +321,10 @@ impl Gardener for Plot<'_> {
     fn act(&mut self, command: &Command) -> Result<(), GrowError> {
         self.document.begin(&Principal::visitor(), command)?;
         loop {
-            self.pool.give_way(PATIENCE);
             if self.job.given_up.is_cancelled() {
                 return Err(GrowError::GivenUp);
             }
-            if !self.pool.block_on(|| self.document.advance()) {
+            if !self.pool.hold(Class::Upkeep, Person::default(), || self.document.advance()) {
                 return Ok(());
             }
             self.job.metamers.store(self.document.metamers(), Ordering::Relaxed);

@@ -10,7 +10,7 @@ use std::{
 use espalier_proto::{Command, Mesh, PlacedObstacle, Problem, version::CloseCode};
 use espalier_session::{
     Access, ActId, ClientId, Input, JournalEntry, Output, PredictionRun, Principal, ReadDocument, ReadId,
-    Session, Work,
+    Session, Urgency, Work,
 };
 use espalier_settings::ParameterValues;
 use tokio::{
@@ -22,14 +22,16 @@ use tokio_util::sync::CancellationToken;
 use super::outbox::{Outbox, Outgoing};
 use crate::{
     SIMULATION_VERSION,
-    pool::SimulationPool,
+    pool::{Class, Person, SimulationPool},
     store::{AnyStore, Lease, NewSnapshot, Store},
 };
 
 /// Requests waiting for a session; beyond that, sockets stop reading.
 const MAILBOX: usize = 256;
-/// A session without clients for so long is unloaded.
+/// A session without clients for so long is unloaded,
 const IDLE: Duration = Duration::from_secs(60);
+/// and one that nobody has asked for anything yet after so long.
+const UNVISITED: Duration = Duration::from_secs(10);
 /// How long a session that ends waits for its journal, its last commands and a snapshot that contains them.
 const LAST_WRITES: Duration = Duration::from_secs(8);
 
@@ -161,6 +163,8 @@ pub(super) struct Actor {
     wake_at: Option<Instant>,
     /// When somebody was here last.
     empty_since: Instant,
+    /// How long it then waits for somebody.
+    patience: Duration,
     /// Tasks that are still running.
     under_way: usize,
 }
@@ -199,6 +203,7 @@ impl Actor {
             next_act: 1,
             wake_at: None,
             empty_since: Instant::now(),
+            patience: UNVISITED,
             under_way: 0,
         };
         (actor, handle)
@@ -237,7 +242,7 @@ impl Actor {
         loop {
             let wake_at = self.wake_at;
             let was_empty = self.clients.is_empty();
-            let idle_at = self.may_leave().then_some(self.empty_since + IDLE);
+            let idle_at = self.may_leave().then(|| self.empty_since + self.patience);
             let input = tokio::select! {
                 biased;
                 () = self.services.stop.cancelled() => return Ok(End::Stopping),
@@ -281,6 +286,7 @@ impl Actor {
     }
 
     fn requested(&mut self, request: Request) -> Option<Input> {
+        self.patience = IDLE;
         Some(match request {
             Request::Join(outbox, access, answer) => {
                 let client = ClientId(self.next_client);
@@ -412,8 +418,9 @@ impl Actor {
         let (pool, task) = (self.services.pool.clone(), self.task.clone());
         self.under_way += 1;
         tokio::spawn(async move {
-            let done = pool.run(move || {
-                work.run();
+            let (class, person) = turn_of(&work);
+            let done = pool.run(class, person, move |turn| {
+                work.run(|| turn.is_over());
                 work
             });
             let _ = task.send(done.await.map_or(ActorTask::WorkFailed, ActorTask::Worked));
@@ -423,11 +430,12 @@ impl Actor {
     /// Makes a prediction slice by slice, so that the trees people work on have their turns between.
     fn start_prediction(&mut self, mut prediction: Box<PredictionRun>) {
         let (pool, task) = (self.services.pool.clone(), self.task.clone());
+        let person: Person = self.name.as_str().into();
         self.under_way += 1;
         tokio::spawn(async move {
             loop {
-                let slice = pool.run(move || {
-                    let is_done = prediction.run();
+                let slice = pool.run(Class::Growing, Arc::clone(&person), move |turn| {
+                    let is_done = prediction.run(|| turn.is_over());
                     (prediction, is_done)
                 });
                 match slice.await {
@@ -473,6 +481,16 @@ impl Actor {
             outbox.close(code, sentence.into());
         }
     }
+}
+
+/// Whose turn on the pool a slice of work is.
+fn turn_of(work: &Work) -> (Class, Person) {
+    let class = match work.urgency() {
+        Urgency::Drawing => Class::Drawing,
+        Urgency::Growing => Class::Growing,
+        Urgency::Keeping => Class::Whole,
+    };
+    (class, work.whose().map_or_else(Person::default, |person| person.name().into()))
 }
 
 /// The session must be loaded again from what is durable.

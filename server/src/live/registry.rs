@@ -6,7 +6,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
 };
 
-use espalier_session::Principal;
+use espalier_session::{Principal, Session};
 use tokio::{sync::OnceCell, time::Instant};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
@@ -17,7 +17,7 @@ use super::{
 use crate::{
     places::{self, Places},
     pool::{Panicked, SimulationPool},
-    store::{AnyStore, Store},
+    store::{AnyStore, Lease, Store, StoreError},
 };
 
 /// Sockets at a time, over all sessions,
@@ -81,6 +81,21 @@ impl Sessions {
         }
     }
 
+    /// Puts a session that was just begun and kept into memory, for whoever comes next, so that it need not be read
+    /// again. It leaves soon if nobody does.
+    pub async fn seat(&self, name: &str, session: Session) {
+        let slot = Arc::clone(self.0.slots().entry(name.to_owned()).or_default());
+        let seated = slot.get_or_try_init(|| async {
+            let lease = self.0.services.store.acquire(name).await?;
+            Ok::<_, StoreError>(self.start(name, &slot, session, lease))
+        });
+        if let Err(error) = seated.await {
+            // Whoever comes loads it, or hears why not.
+            tracing::warn!(session = name, %error, "a new session was not put into memory");
+            self.forget(name, slot);
+        }
+    }
+
     /// Who is in the session of this name; nobody where it is not in memory.
     pub async fn people(&self, name: &str) -> Vec<Principal> {
         let slot = self.0.slots().get(name).cloned();
@@ -117,7 +132,7 @@ impl Sessions {
     }
 
     async fn load(&self, name: &str, slot: &Arc<Slot>) -> Result<SessionHandle, Unloaded> {
-        let Inner { services, tasks, .. } = &*self.0;
+        let services = &self.0.services;
         let lease = services.store.acquire(name).await?;
         let restored = restoring::restored(services, name, &lease).await;
         let session =
@@ -128,6 +143,12 @@ impl Sessions {
                     return Err(unloaded);
                 }
             };
+        Ok(self.start(name, slot, session, lease))
+    }
+
+    /// Runs a session in this slot.
+    fn start(&self, name: &str, slot: &Arc<Slot>, session: Session, lease: Lease) -> SessionHandle {
+        let Inner { services, tasks, .. } = &*self.0;
         let (actor, handle) = Actor::new(name.to_owned(), session, lease, services.clone());
         let place = Place {
             sessions: Arc::downgrade(&self.0),
@@ -139,7 +160,7 @@ impl Sessions {
             let _place = place;
             actor.run().await;
         });
-        Ok(handle)
+        handle
     }
 
     /// Drops an empty slot unless somebody else is about to fill it.

@@ -6,7 +6,7 @@ use espalier_session::{DocumentError, JournalEntry, RestoreError, Session};
 use super::actor::Services;
 use crate::{
     SIMULATION_VERSION,
-    pool::Panicked,
+    pool::{Class, Panicked},
     store::{Damage, Lease, Store, StoreError, StoredSession},
 };
 
@@ -136,9 +136,9 @@ async fn restore(
     }
     let StoredSession { seed, snapshot, entries, damage, notices, written_by, .. } = stored;
     let epoch = rand::random();
-    let made = services.pool.run({
+    let made = services.pool.run(Class::Whole, name.into(), {
         let name = name.to_owned();
-        move || make(name, epoch, snapshot.as_deref(), seed, entries)
+        move |_| make(name, epoch, snapshot.as_deref(), seed, entries)
     });
     let mut session = made.await?.map_err(|error| match error {
         // Its row is sealed, so this is what was written.

@@ -56,6 +56,6 @@ fn own() -> Vec<Vec<u8>> {
     // What is being drawn or bent cannot be kept.
     document.end_gestures();
     let bytes = document.to_bytes();
-    let snapshot = Session::first_snapshot(&bytes, METAMERS);
+    let snapshot = Session::of_tree("tree", 1, &bytes, METAMERS).map(|(_, snapshot)| snapshot);
     [document.to_saved_bytes(), bytes].into_iter().chain(snapshot).collect()
 }

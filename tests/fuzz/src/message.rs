@@ -75,7 +75,7 @@ impl House {
                     }
                     Output::Work(mut work) if self.slices < SLICES => {
                         self.slices += 1;
-                        work.run();
+                        work.run(|| false);
                         inputs.push(Input::Worked(work));
                     }
                     Output::Text(client, _) => inputs.push(Input::Written(client, 1)),

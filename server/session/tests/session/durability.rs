@@ -310,10 +310,14 @@ fn a_saved_tree_opens_as_a_session() {
     world.handle(Input::Read(ReadId(1)));
     world.settle();
     let (_, read) = world.documents.pop().unwrap();
-    let snapshot = Session::first_snapshot(&read.bytes, 1_000_000).unwrap();
+    let (begun, snapshot) = Session::of_tree("opened", 1, &read.bytes, 1_000_000).unwrap();
     let opened = Session::restore("opened", 1, Some(&snapshot), 0, []).unwrap();
-    assert_eq!(opened.document().unwrap().hash(), world.document().hash());
-    assert!(Session::first_snapshot(b"not a tree", 1_000_000).is_err());
+    for session in [&begun, &opened] {
+        assert_eq!(session.document().unwrap().hash(), world.document().hash());
+    }
+    let bytes = |session: &Session| session.document().unwrap().to_bytes();
+    assert!(bytes(&begun) == bytes(&opened), "the one in memory and the one that was kept");
+    assert!(Session::of_tree("tree", 1, b"not a tree", 1_000_000).is_err());
 }
 
 #[test]

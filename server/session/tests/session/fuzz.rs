@@ -134,7 +134,7 @@ static LARGE_TREE: LazyLock<Vec<u8>> = LazyLock::new(|| {
             &Action::Grow { steps: Steps::nearest(18), until: None, bud: None }.into(),
         )
         .unwrap();
-    Session::first_snapshot(&document.to_bytes(), 1_000_000).unwrap()
+    Session::of_tree("tree", 1, &document.to_bytes(), 1_000_000).unwrap().1
 });
 
 /// Changes to a large tree: little ones, and some back and forth in time.

@@ -207,7 +207,7 @@ impl World {
             let write = self.writing.as_ref().map(|(due, _)| *due);
             let work = self.working.as_ref().map(|(due, _)| *due);
             if let Some(mut prediction) = self.predictions.pop() {
-                match prediction.run() {
+                match prediction.run(|| false) {
                     true => self.handle(Input::Predicted(Box::new(prediction))),
                     false => self.predictions.push(prediction),
                 }
@@ -223,7 +223,7 @@ impl World {
                 self.handle(Input::Journaled(through));
             } else if work == Some(due) {
                 let (_, mut work) = self.working.take().unwrap();
-                work.run();
+                work.run(|| false);
                 self.handle(Input::Worked(work));
             } else {
                 self.wake_at = None;

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     SIMULATION_VERSION,
+    pool::{Class, Person, Turn},
     store::{Breakable, Lease, MemoryStore, NewSession, NewSnapshot},
 };
 
@@ -183,7 +184,7 @@ async fn a_damaged_snapshot_falls_back_to_the_one_before() {
     visitor.acknowledged().await;
     let tree = visitor.reached(3).await;
 
-    let start = Session::first_snapshot(&tree.bytes, 1_000_000).unwrap();
+    let start = Session::of_tree("elm", 1, &tree.bytes, 1_000_000).unwrap().1;
     house.begin("elm", SIMULATION_VERSION, Some(start)).await;
     let lease = house.store.acquire("elm").await.unwrap();
     house.store.append(&lease, SIMULATION_VERSION, &[grown(1)]).await.unwrap();
@@ -196,6 +197,25 @@ async fn a_damaged_snapshot_falls_back_to_the_one_before() {
     assert!(metamers > tree.metamers, "the tree it began with, grown on");
     let stored = house.store.load_session("elm", None).await.unwrap().unwrap();
     assert_ne!(stored.snapshot.as_deref(), Some(b"damaged".as_slice()), "it is put aside");
+}
+
+#[tokio::test]
+async fn a_session_that_was_begun_is_in_memory_for_whoever_comes_and_leaves_if_nobody_does() {
+    let house = House::new().await;
+    let tree = Document::new(7).to_bytes();
+    let (session, snapshot) = Session::of_tree("elm", 3, &tree, 1_000_000).unwrap();
+    house.begin("elm", SIMULATION_VERSION, Some(snapshot)).await;
+    house.sessions.seat("elm", session).await;
+    let (epoch, ..) = house.visit_to("elm").await.welcome().await;
+    assert_eq!(epoch, 3, "it was not loaded again");
+
+    let (session, snapshot) = Session::of_tree("ash", 4, &tree, 1_000_000).unwrap();
+    house.begin("ash", SIMULATION_VERSION, Some(snapshot)).await;
+    house.sessions.seat("ash", session).await;
+    let seated = house.sessions.0.slots().get("ash").cloned().unwrap();
+    seated.get().unwrap().gone.cancelled().await;
+    assert!(!house.sessions.0.slots().contains_key("ash"));
+    assert!(house.sessions.0.slots().contains_key("elm"), "somebody is there");
 }
 
 #[tokio::test]
@@ -383,12 +403,15 @@ async fn a_load_that_nobody_waits_for_any_more_leaves_nothing_behind() {
     let house = House::new().await;
     let (open, gate) = std::sync::mpsc::channel::<()>();
     let pool = house.sessions.0.services.pool.clone();
-    let threads = pool.block_on(rayon::current_num_threads);
+    let workers = pool.block_on(rayon::current_num_threads).max(2);
     let gate = Arc::new(Mutex::new(gate));
-    let held: Vec<_> = (0..threads)
+    let held: Vec<_> = (0..workers)
         .map(|_| {
             let (pool, gate) = (pool.clone(), Arc::clone(&gate));
-            tokio::spawn(async move { pool.run(move || gate.lock().unwrap().recv().is_ok()).await })
+            tokio::spawn(async move {
+                let wait = move |_: &Turn<'_>| gate.lock().unwrap().recv().is_ok();
+                pool.run(Class::Growing, Person::default(), wait).await
+            })
         })
         .collect();
     tokio::task::yield_now().await;
