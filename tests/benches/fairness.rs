@@ -55,7 +55,7 @@ async fn main() {
     let opening: JoinSet<()> =
         (0..OPENED).map(|_| open_again_and_again(Arc::clone(&server), tree.clone())).collect();
     println!("  beside {OPENED} trees of {LARGE} that are opened: {}", drawn(&server).await);
-    drop(opening);
+    opening.join_all().await;
 }
 
 /// Everybody draws for as long as is measured.
@@ -83,15 +83,15 @@ async fn draw(server: Arc<Server>, number: u32) -> Vec<Duration> {
     ticks.set_missed_tick_behavior(MissedTickBehavior::Delay);
     let (begun, mut delays) = (Instant::now(), Vec::new());
     client.send(json!({ "kind": "stroke_begin", "stroke": 1 })).await;
-    let mut turn = 0.0_f32;
+    let mut height = 0.0_f32;
     while begun.elapsed() < LONG {
         ticks.tick().await;
-        turn += 0.15;
-        let position = [3.0 * turn.sin(), 2.0 + turn * 0.4, 3.0 * turn.cos()];
-        let sample = json!({ "position": position, "radius": 2.0 });
+        height += 0.4;
+        let sample = json!({ "position": [height.sin(), height, 0.0], "radius": 2.0 });
         let (frames, sent) = (client.frames, Instant::now());
-        client.send(json!({ "kind": "stroke_move", "stroke": 1, "samples": [sample] })).await;
-        client.until("a frame", |client| client.frames > frames || !client.refused.is_empty()).await;
+        let id = client.send(json!({ "kind": "stroke_move", "stroke": 1, "samples": [sample] })).await;
+        // Here and there nothing grows by it.
+        client.until("a frame", |client| client.frames > frames || client.done >= id).await;
         assert!(client.refused.is_empty(), "{:?}", client.refused);
         delays.push(sent.elapsed());
     }
