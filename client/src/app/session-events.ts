@@ -51,7 +51,10 @@ export function messageHandlers(page: SessionTargets): MessageHandlers {
       page.growth.reported();
       page.tools.changed();
     },
-    done: ({ id }) => page.outline.done(id),
+    done: ({ id }) => {
+      page.outline.done(id);
+      page.growth.done(id);
+    },
     parameters: ({ parameters }) => page.growing.receive(parameters),
     programme: ({ programme, by_hand }) => page.programme.receive(programme, by_hand),
     appearance: ({ appearance }) => page.looks.receive(appearance),
@@ -100,6 +103,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
       page.growing.letGo();
       page.looks.letGo();
       page.obstacles.letGo();
+      page.growth.forget();
       page.tools.abandon();
       page.outline.clear();
     },
@@ -123,6 +127,7 @@ export function sessionEvents(page: SessionTargets): SessionEvents {
 function forget(page: SessionTargets): void {
   page.document.value = null;
   page.growing.clear();
+  page.growth.forget();
   page.looks.clear();
   page.programme.receive(null, []);
   page.rows.value = 0;

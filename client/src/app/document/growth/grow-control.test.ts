@@ -25,6 +25,7 @@ function held(bud: number | null = null) {
     submit: (command) => {
       sent.push(command);
       backlog.unsettled += command.kind === "stop" ? 0 : 1;
+      return sent.length;
     },
     ready: () => true,
     newGesture: () => 9,
@@ -55,6 +56,30 @@ it("asks for one step at a time, and stops it when it is released", () => {
   growth.release();
   expect(sent.slice(2)).toEqual([{ kind: "stop" }]);
   expect([growth.isHeld, growth.deflection.value]).toEqual([false, 0]);
+});
+
+it("goes on after a step that came to nothing, once it is told that nothing is left to do", () => {
+  const { sent, backlog, growth, frames } = held();
+  growth.to(-1);
+  frames(0, 16);
+  backlog.unsettled = 0;
+  frames(16, 5000);
+  expect(sent, "nothing was reported of it").toHaveLength(1);
+  growth.done(1);
+  frames(5000, 5016);
+  expect(sent).toHaveLength(2);
+});
+
+it("waits for no step that another server was asked for", () => {
+  const { sent, backlog, growth, frames } = held();
+  growth.to(1);
+  frames(0, 16);
+  growth.release();
+  growth.forget();
+  backlog.unsettled = 0;
+  growth.to(1);
+  frames(16, 32);
+  expect(sent.map(({ kind }) => kind)).toEqual(["grow", "stop", "grow"]);
 });
 
 it("has nothing to stop where nothing is under way, or the tree grows back", () => {

@@ -3,8 +3,8 @@ import type { Command } from "../../../wire/generated";
 import { type Backlog, GrowPacer } from "./grow-pacer";
 
 export interface GrowControlOptions {
-  /** Sends a command, if there is a server to take it. */
-  readonly submit: (command: Command) => void;
+  /** Sends a command and gives its number; 0 if it is not sent. */
+  readonly submit: (command: Command) => number;
   readonly ready: () => boolean;
   /** A number that no other operation of this client has. */
   readonly newGesture: () => number;
@@ -63,6 +63,16 @@ export class GrowControl {
     this.#pacer.reported(this.#backlog());
   }
 
+  /** Nothing is left to do of commands up to this one (`CM11`). */
+  done(command: number): void {
+    this.#pacer.done(command);
+  }
+
+  /** What was asked for is not known to this server, or not under its number. */
+  forget(): void {
+    this.#pacer.forget();
+  }
+
   #backlog(): Backlog {
     const { unsettled, pendingSteps } = this.#options;
     return { unsettled: unsettled(), pendingSteps: pendingSteps() };
@@ -74,10 +84,10 @@ export class GrowControl {
     if (!ready()) {
       return;
     }
-    const command = this.#pacer.tick(now, this.deflection.peek(), this.#backlog());
-    const row = bud();
-    if (command) {
-      submit(command.kind === "grow" && row !== null ? { ...command, bud: row } : command);
+    const step = this.#pacer.tick(now, this.deflection.peek(), this.#backlog());
+    if (step) {
+      const row = bud();
+      this.#pacer.sent(step, submit(step.kind === "grow" && row !== null ? { ...step, bud: row } : step));
     }
   };
 }

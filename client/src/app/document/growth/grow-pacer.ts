@@ -7,8 +7,6 @@ export const FASTEST = 8;
 export const KEY_RATE = 3;
 /** The part of the way around the centre that means rest. */
 const DEAD_ZONE = 0.12;
-/** After so many milliseconds in which the server has nothing to do, a step of which it reported nothing has come to nothing. */
-const SILENCE = 400;
 
 /** What the server has still to do. */
 export interface Backlog {
@@ -35,14 +33,17 @@ export class GrowPacer {
   #owed = 0;
   #time: number | null = null;
   #rate = 0;
-  /** The step asked for that is not known to be done. */
-  #open: "grow" | "ungrow" | null = null;
-  /** Since when the server has had nothing to do. */
-  #idleSince: number | null = null;
+  /** The step asked for that is not known to be done, and the number of its command. */
+  #open: { readonly kind: Command["kind"]; readonly number: number } | null = null;
 
   /** Whether a step of growth was asked for that may still be done. */
   get grows(): boolean {
-    return this.#open === "grow";
+    return this.#open?.kind === "grow";
+  }
+
+  /** A step was sent as the command of this number; 0 if it was not sent. */
+  sent({ kind }: Command, number: number): void {
+    this.#open = number > 0 ? { kind, number } : null;
   }
 
   /** The server reported how things stand, after everything that is answered. */
@@ -50,6 +51,18 @@ export class GrowPacer {
     if (unsettled === 0 && pendingSteps === 0) {
       this.#open = null;
     }
+  }
+
+  /** Nothing is left to do of commands up to this one (`CM11`), also of those that came to nothing. */
+  done(number: number): void {
+    if (this.#open !== null && number >= this.#open.number) {
+      this.#open = null;
+    }
+  }
+
+  /** The server knows nothing of what was asked for. */
+  forget(): void {
+    this.#open = null;
   }
 
   /** The control is taken; all growth until it is released is one operation for undo. */
@@ -74,24 +87,12 @@ export class GrowPacer {
     this.#time = now;
     // Steps that could not be asked for in time are forgone, so that growth stops when the user does.
     this.#owed = Math.min(this.#owed + elapsed * speed, 1);
-    if (!this.#isFree(now, backlog) || this.#owed < 1 - 1e-9) {
+    const { unsettled, pendingSteps } = backlog;
+    const isFree = unsettled === 0 && pendingSteps === 0 && this.#open === null;
+    if (!isFree || this.#owed < 1 - 1e-9) {
       return null;
     }
     this.#owed = 0;
-    this.#idleSince = null;
-    this.#open = rate > 0 ? "grow" : "ungrow";
     return rate > 0 ? { kind: "grow", steps: 1, gesture: this.#gesture } : { kind: "ungrow", steps: 1 };
-  }
-
-  #isFree(now: number, { unsettled, pendingSteps }: Backlog): boolean {
-    if (unsettled > 0 || pendingSteps > 0) {
-      this.#idleSince = null;
-      return false;
-    }
-    this.#idleSince ??= now;
-    if (now - this.#idleSince >= SILENCE) {
-      this.#open = null;
-    }
-    return this.#open === null;
   }
 }
