@@ -18,8 +18,48 @@ const SPILT: f32 = 1.0;
 const LEAST_FILL: f32 = 0.9;
 const MOST_SPILL: f32 = 0.05;
 const SPILLS_MORE: (&str, f32, f32) = ("down", 2.0, 0.065);
+/// From place to place of a finger that is seen all along its way, in internodes.
+const FINE: f32 = 0.5;
 /// Points at which the sweep is looked at.
 const PROBES: u32 = 4000;
+
+/// How a finger goes, in internodes.
+#[derive(Clone, Copy, Debug)]
+pub struct Hand {
+    /// From place to place that the screen tells of, about; the brush goes straight from one to the other.
+    spacing: f32,
+    /// From message to message.
+    pace: f32,
+}
+
+impl Hand {
+    /// Seen all along its way.
+    pub const SLOW: Self = Self { spacing: FINE, pace: 2.0 };
+    /// Seen all along its way, which one message tells as a whole.
+    pub const FAST: Self = Self { spacing: FINE, pace: 1000.0 };
+    /// As fast over a screen, on which the tree is small: it is seen only here and there.
+    pub const SPARSE: Self = Self { spacing: 4.0, pace: 4.0 };
+
+    /// The way that the server is told of.
+    pub fn told(self, path: &[Vec3]) -> Vec<Vec3> {
+        let fine = resampled(path, FINE);
+        let mut told = vec![fine[0]];
+        let mut unseen = 0.0;
+        for pair in fine.windows(2) {
+            unseen += pair[0].distance(pair[1]);
+            if self.spacing <= FINE || unseen >= self.spacing || pair[1] == fine[fine.len() - 1] {
+                told.push(pair[1]);
+                unseen = 0.0;
+            }
+        }
+        told
+    }
+
+    /// How many places a message holds.
+    fn places(self) -> usize {
+        (self.pace / self.spacing).clamp(1.0, 256.0) as usize
+    }
+}
 
 /// How one stroke was followed.
 #[derive(Clone, Copy, Debug)]
@@ -32,17 +72,16 @@ pub struct Followed {
     pub metamers: usize,
 }
 
-/// A trunk and one stroke from its top, by a finger that goes so many internodes from message to message; and how many
-/// rows there were before the stroke.
-pub fn drawn(mut document: Document, path: &[Vec3], radius: f32, pace: f32) -> (Document, usize) {
-    stroke(&mut document, 1, &[Vec3::ZERO, Vec3::Y * shapes::TRUNK], 0.0, 2.0);
+/// A trunk and one stroke from its top; and how many rows there were before the stroke.
+pub fn drawn(mut document: Document, path: &[Vec3], radius: f32, hand: Hand) -> (Document, usize) {
+    stroke(&mut document, 1, &[Vec3::ZERO, Vec3::Y * shapes::TRUNK], 0.0, Hand::SLOW);
     let before = document.plant().metamer_count();
-    stroke(&mut document, 2, path, radius, pace);
+    stroke(&mut document, 2, path, radius, hand);
     (document, before)
 }
 
 /// Draws one stroke.
-pub fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, pace: f32) {
+pub fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, hand: Hand) {
     let mut act = |action: Action| {
         document.apply(&Principal::visitor(), &action.into()).expect("a stroke can be drawn")
     };
@@ -51,8 +90,8 @@ pub fn stroke(document: &mut Document, stroke: u32, path: &[Vec3], radius: f32, 
         position: Position::nearest(position),
         radius: BrushRadius::nearest(radius),
     };
-    // A screen gives many samples; one message holds those since the last.
-    for message in resampled(path, 0.5).chunks((pace / 0.5).clamp(1.0, 256.0) as usize) {
+    // One message holds the places since the last.
+    for message in hand.told(path).chunks(hand.places()) {
         let samples: Vec<StrokeSample> = message.iter().map(sample).collect();
         act(Action::StrokeMove { stroke, samples: samples.try_into().expect("not too many") });
     }
@@ -84,6 +123,7 @@ impl Followed {
         self.arrived && self.fill >= LEAST_FILL && self.spill <= most
     }
 
+    /// `path` is the way that the server was told of.
     pub fn of(document: &Document, before: usize, path: &[Vec3], radius: f32) -> Self {
         let all = nodes(document, 0);
         let path = resampled(path, 0.25);

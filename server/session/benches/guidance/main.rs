@@ -3,13 +3,15 @@
 //!     cargo bench -p espalier-session --bench guidance -- [strokes|lassos] [OPTION VALUE]…
 //!
 //! Options: `--seeds` so many of each; `--only` names of forms, `--radii` and `--heights` in internodes, with commas
-//! between; `--hand slow|fast`, how many internodes the finger goes from message to message.
+//! between; `--hand slow|fast|sparse`, how much of the finger's way is told, and in how many messages.
 
 mod following;
 mod lassos;
 mod overlaps;
 mod shapes;
 mod strokes;
+
+use following::Hand;
 
 /// What is measured.
 #[derive(Clone, Debug)]
@@ -18,8 +20,7 @@ struct Options {
     only: Vec<String>,
     radii: Vec<f32>,
     heights: Vec<f32>,
-    /// Internodes from one message of a stroke to the next.
-    pace: f32,
+    hand: Hand,
 }
 
 impl Options {
@@ -34,7 +35,7 @@ fn main() {
         only: Vec::new(),
         radii: vec![1.0, 1.5, 2.0, 3.0, 6.0, 12.0],
         heights: vec![36.0, 20.0],
-        pace: 2.0,
+        hand: Hand::SLOW,
     };
     let (mut strokes, mut lassos) = (false, false);
     let mut arguments = std::env::args().skip(1);
@@ -48,7 +49,14 @@ fn main() {
             "--only" => options.only = value().split(',').map(str::to_owned).collect(),
             "--radii" => options.radii = numbers(value()),
             "--heights" => options.heights = numbers(value()),
-            "--hand" => options.pace = if value() == "fast" { 1000.0 } else { 2.0 },
+            "--hand" => {
+                options.hand = match value().as_str() {
+                    "slow" => Hand::SLOW,
+                    "fast" => Hand::FAST,
+                    "sparse" => Hand::SPARSE,
+                    other => panic!("there is no hand {other}"),
+                };
+            }
             // Cargo says that this is a bench.
             "--bench" => {}
             other => panic!("there is no {other}"),

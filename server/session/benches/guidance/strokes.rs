@@ -18,8 +18,8 @@ pub fn measure(options: &Options) {
             let followed: Vec<Followed> = (1..=options.seeds)
                 .into_par_iter()
                 .map(|seed| {
-                    let (document, before) = drawn(Document::new(seed), &path, radius, options.pace);
-                    Followed::of(&document, before, &path, radius)
+                    let (document, before) = drawn(Document::new(seed), &path, radius, options.hand);
+                    Followed::of(&document, before, &options.hand.told(&path), radius)
                 })
                 .collect();
             let column = |value: fn(&Followed) -> f32| followed.iter().map(value).collect::<Vec<_>>();

@@ -8,18 +8,15 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::{
-    following::{self, Followed, drawn},
+    following::{self, Followed, Hand, drawn},
     shapes,
 };
 
-/// Internodes from message to message: a slow finger's, and a whole stroke's.
-const SLOW: f32 = 2.0;
-const FAST: f32 = 1000.0;
 /// Radii of the brush.
 const RADII: [f32; 6] = [1.0, 1.5, 2.0, 3.0, 6.0, 12.0];
 
 /// Strokes of these radii from the tops of trunks, each by so many seeds, in documents that begin with one action.
-fn check(names: &[&str], radii: &[f32], seeds: u32, pace: f32, begin: Option<&Action>) {
+fn check(names: &[&str], radii: &[f32], seeds: u32, hand: Hand, begin: Option<&Action>) {
     let paths = shapes::strokes().into_iter().filter(|(name, _)| names.is_empty() || names.contains(name));
     let cases: Vec<_> = paths
         .flat_map(|(name, path)| radii.iter().map(move |&radius| (name, path.clone(), radius)))
@@ -30,8 +27,8 @@ fn check(names: &[&str], radii: &[f32], seeds: u32, pace: f32, begin: Option<&Ac
         if let Some(action) = begin {
             document.apply(&Principal::visitor(), &action.clone().into()).expect("it can be done");
         }
-        let (document, before) = drawn(document, path, *radius, pace);
-        let followed = Followed::of(&document, before, path, *radius);
+        let (document, before) = drawn(document, path, *radius, hand);
+        let followed = Followed::of(&document, before, &hand.told(path), *radius);
         let says = || format!("{name}, radius {radius}, seed {seed}: {followed:?}");
         (!followed.is_good(name, *radius)).then(says)
     };
@@ -41,12 +38,17 @@ fn check(names: &[&str], radii: &[f32], seeds: u32, pace: f32, begin: Option<&Ac
 
 #[test]
 fn cm6_strokes_of_all_forms_fill_what_they_swept_and_no_more() {
-    check(&[], &RADII, 16, SLOW, None);
+    check(&[], &RADII, 16, Hand::SLOW, None);
 }
 
 #[test]
 fn cm6_a_stroke_in_one_message_fills_what_it_swept_as_well() {
-    check(&[], &RADII, 4, FAST, None);
+    check(&[], &RADII, 4, Hand::FAST, None);
+}
+
+#[test]
+fn cm6_a_stroke_of_few_samples_fills_what_it_swept_as_well() {
+    check(&[], &RADII, 4, Hand::SPARSE, None);
 }
 
 #[test]
@@ -57,7 +59,7 @@ fn cm6_what_a_brush_fills_is_not_shed_while_it_lasts() {
             shadow_strength: shadow,
             ..ParametersPatch::default()
         };
-        check(&["line", "level"], &[3.0, 6.0], 2, SLOW, Some(&Action::SetParameters { parameters }));
+        check(&["line", "level"], &[3.0, 6.0], 2, Hand::SLOW, Some(&Action::SetParameters { parameters }));
     }
 }
 
@@ -69,7 +71,7 @@ fn cm6_a_brush_fills_what_it_swept_in_any_species() {
             &["line", "level"],
             &[3.0, 6.0],
             2,
-            SLOW,
+            Hand::SLOW,
             Some(&Action::SetProgramme { programme, keep: false }),
         );
     }
@@ -84,7 +86,7 @@ fn limb_on(slug: &str, age: u32, seed: u32) -> (Document, Vec3) {
     let nodes = following::nodes(&document, 0);
     let top = nodes.into_iter().max_by(|a, b| a.y.total_cmp(&b.y)).expect("a trunk");
     let (from, to) = (top - Vec3::Y, top - Vec3::Y + 17.0 * Vec3::X);
-    following::stroke(&mut document, 1, &[from, to], 3.0, SLOW);
+    following::stroke(&mut document, 1, &[from, to], 3.0, Hand::SLOW);
     (document, to)
 }
 
@@ -126,7 +128,7 @@ fn pg6_a_step_of_a_stroke_sheds_nothing_that_stands() {
     act(&mut document, Action::SetProgramme { programme, keep: false });
     act(&mut document, Action::Grow { steps: Steps::nearest(6), until: None, bud: None });
     let before = following::nodes(&document, 0);
-    following::stroke(&mut document, 1, &[Vec3::Y * 4.0, Vec3::new(9.0, 5.0, 0.0)], 0.0, SLOW);
+    following::stroke(&mut document, 1, &[Vec3::Y * 4.0, Vec3::new(9.0, 5.0, 0.0)], 0.0, Hand::SLOW);
     let after = following::nodes(&document, 0);
     assert!(before.iter().all(|node| after.contains(node)), "{} and {}", before.len(), after.len());
     assert!(after.len() > before.len());
