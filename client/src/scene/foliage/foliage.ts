@@ -70,6 +70,8 @@ export class Foliage {
   detail(fineness: Fineness, box: Box): void {
     this.leaves.detail(fineness, box);
     this.sprigs.detail(fineness, box, this.leaves);
+    this.flowers.detail(fineness);
+    this.fruits.detail(fineness);
   }
 
   /** The meshes that nearly every tree uses. */

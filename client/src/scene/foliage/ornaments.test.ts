@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
-import { ShaderMaterial } from "three";
+import { ShaderMaterial, type Vector4 } from "three";
 import { beforeEach, describe, expect, it } from "vitest";
-import { borneOf } from "../../../test/items";
+import { borneOf, countOf } from "../../../test/items";
 import { sampleTree } from "../../../test/sample-tree";
 import { shaderFunctions } from "../../../test/shader-functions";
 import { DEFAULT_APPEARANCE, type FlowerLook } from "../../wire/generated";
@@ -43,6 +43,17 @@ describe("flowers", () => {
     flowers = new Ornaments(FLOWERS, new ShaderMaterial(), new ShaderMaterial(), uniforms, new Painter());
     flowers.setLook(LOOK);
     sync();
+  });
+
+  it("are fewer in a coarse picture and cover as much", () => {
+    const size = () => (uniforms.uFlowerFinish!.value as Vector4).x;
+    const whole = countOf(flowers.mesh);
+    const most = Math.ceil(whole / 4);
+    flowers.detail({ leaves: most });
+    expect(countOf(flowers.mesh)).toBeLessThanOrEqual(most);
+    expect(size()).toBeCloseTo(2 * LOOK.size);
+    flowers.detail({ leaves: Number.POSITIVE_INFINITY });
+    expect([countOf(flowers.mesh), size()]).toEqual([whole, LOOK.size]);
   });
 
   it("stand where the look has them", () => {

@@ -5,6 +5,7 @@ import { GradualTextures } from "../painting/gradual-textures";
 import type { OrnamentKind, OrnamentSort } from "../painting/ornament-sort";
 import type { Kinds } from "../painting/paint";
 import type { Painter } from "../painting/painter";
+import type { Fineness } from "../rendering/fineness";
 import { Dirty, type TreeTable } from "../table/tree-table";
 import { ORNAMENT_CARDS } from "./leaf-cards";
 import { leafAzimuth, leafRandom } from "./leaves";
@@ -113,6 +114,13 @@ export class Ornaments<Look extends OrnamentLook> {
     const visible = this.kind !== null && this.instances.filled > 0;
     this.mesh.visible = visible;
     this.caster.visible = visible;
+  }
+
+  /** Draws no more than a picture may have of leaves; each is the larger for it, so that as much is covered. */
+  detail({ leaves }: Pick<Fineness, "leaves">): void {
+    const step = Math.max(1, Math.ceil(this.instances.count / leaves));
+    this.instances.thin(step);
+    this.finish.value.x = (this.look?.size ?? 0) * Math.sqrt(step);
   }
 
   /** A restored context has lost the textures. */

@@ -12,7 +12,7 @@ export interface Quality {
   readonly detailed: boolean;
   /** So many times as long as at rest are leaves, on the screen, that give way to sprigs. */
   readonly merging: number;
-  /** Leaves drawn at most, each the larger for it. */
+  /** Leaves drawn at most, each the larger for it; the same of flowers and of fruits. */
   readonly leaves: number;
   /** The same of sprigs. */
   readonly sprigs: number;
