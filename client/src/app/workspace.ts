@@ -12,6 +12,7 @@ import { stepRadius } from "./tools/brush/brush-radius";
 import { stepBack } from "./tools/step-back";
 import { nextKind } from "./tools/symmetry/symmetry";
 import { symmetryText } from "./tools/symmetry/symmetry-text";
+import { SLOWNESS } from "./ui/parts";
 import { PictureLoss } from "./view/picture-loss";
 import { say } from "./words/say";
 
@@ -36,6 +37,7 @@ export function attachWorkspace(studio: Studio, canvas: HTMLCanvasElement): () =
       () => {
         studio.stage.opened.value = true;
       },
+      () => SLOWNESS.load(),
     );
   } catch (error) {
     console.error(error);

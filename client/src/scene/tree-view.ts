@@ -16,6 +16,9 @@ import { Dirty, type TreeTable } from "./table/tree-table";
 import { Bark } from "./wood/bark";
 import { Branches } from "./wood/branches";
 
+/** Metamers of a sketch at most. */
+const SKETCHED = 120_000;
+
 /** The tree as it is drawn: its table on the graphics card, its bark and leaves, or the lines of a draw mode. */
 export class TreeView {
   readonly overlays = new Overlays();
@@ -82,6 +85,26 @@ export class TreeView {
   /** What nearly every tree has, for all it takes on the graphics card to be made before there is one. */
   get essential(): readonly Mesh[] {
     return [...this.branches.essential, ...this.foliage.essential];
+  }
+
+  /** The axes as lines. */
+  get lines(): Mesh {
+    return this.skeleton.mesh;
+  }
+
+  /** Has the axes drawn as lines, however large the tree is; what has changed is still to be taken over after that. */
+  sketch(draw: (lines: Mesh) => void): void {
+    const { table, nodes, skeleton } = this;
+    nodes.reserve(table.rows);
+    for (let row = 0; row < table.rows; row += 1) nodes.write(table, row);
+    nodes.upload();
+    skeleton.show(table, true, SKETCHED);
+    draw(skeleton.mesh);
+    // As long as nothing else has been shown of a row, it does not glide from what it was to what it is.
+    nodes.truncate(0);
+    nodes.uploadWhole();
+    skeleton.changed();
+    skeleton.show(table, false);
   }
 
   /** How far leaves have given way to sprigs, 0 to 1. */

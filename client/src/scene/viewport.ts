@@ -16,6 +16,7 @@ import { Rehearsal } from "./rendering/rehearsal";
 import { RenderLoop, type RenderTime } from "./rendering/render-loop";
 import { RenderPause } from "./rendering/render-pause";
 import { Screen } from "./rendering/screen";
+import type { Sketch } from "./rendering/sketch";
 import type { Sitting } from "./rendering/still-pictures";
 import type { TreeTable } from "./table/tree-table";
 import type { Vec3 } from "./vector";
@@ -26,10 +27,14 @@ const MAX_PIXEL_RATIO = 2;
 const MAX_CARDLESS_RATIO = 1;
 /** Rows of a tree whose picture is sure to be coarse there. */
 const LARGE = 10_000;
+/** What draws such a tree as lines is waited for so long at most, in milliseconds: it may never come. */
+const SKETCHED_BY = 10_000;
 /** Leaves and tips go on easing for this long after the last metamer has grown. */
 const AFTERGROWTH_SECONDS = 0.6;
 /** A line's width in pixels of the page. */
 const LINE = 1.2;
+
+const after = (milliseconds: number) => new Promise<null>((resolve) => setTimeout(resolve, milliseconds, null));
 
 /** The picture on a canvas: what is in it, the camera, and what a finger on it means. Draws only when needed. */
 export class Viewport {
@@ -41,6 +46,8 @@ export class Viewport {
   private readonly loop: RenderLoop;
   private readonly pause: RenderPause;
   private readonly rehearsal: Rehearsal;
+  /** The first sight of a large tree where the processor draws, as it comes; null where nothing is to be sketched any more. */
+  private sketch: Promise<Sketch | null> | Sketch | null = null;
   private readonly resizing: ResizeObserver;
   private readonly unfollow: () => void;
   private readonly eye = new Vector4();
@@ -55,12 +62,13 @@ export class Viewport {
   /** Whether a picture is being made of what the scene is now. */
   private posing = false;
   /** Whether the processor draws. */
-  private readonly cardless: boolean;
+  readonly cardless: boolean;
 
   /**
    * Calls `lossChanged` with true when the picture is lost, and with false when it is back; `moved` when the view has
    * another place or size; `slowed` once it is slow as coarse as it gets, saying whether for want of a graphics card, and
-   * for want of one as soon as a large tree has come; and `shown` with each frame that has a tree in it.
+   * for want of one as soon as a large tree has come; `shown` with each frame that has a tree in it; and `words`
+   * for what a large tree waits for then: that it can be said why it is slow.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -69,6 +77,7 @@ export class Viewport {
     private readonly moved: () => void = () => {},
     private readonly slowed: (cardless: boolean) => void = () => {},
     private readonly shown: () => void = () => {},
+    private readonly words: () => Promise<unknown> = async () => {},
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: false, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
@@ -103,8 +112,11 @@ export class Viewport {
     this.loop.open();
     canvas.addEventListener("webglcontextlost", this.lose);
     canvas.addEventListener("webglcontextrestored", this.restored);
+    if (this.cardless) void this.prepareSketch();
     const essential = [...this.world.essential, ...this.screen.essential];
     this.rehearsal = new Rehearsal(this.renderer, essential, () => this.loop.open());
+    // The processor makes one program after the other: there the sketch goes before them.
+    if (!this.cardless) this.rehearsal.begin();
     this.resizing = new ResizeObserver(() => this.resize());
     this.resizing.observe(canvas);
     this.unfollow = followPixelRatio(() => this.resize());
@@ -335,7 +347,11 @@ export class Viewport {
 
   private readonly draw = ({ began, step, asked }: RenderTime): boolean => {
     // What changes meanwhile is taken over once there is something to draw on.
-    if (this.lost || this.posing || !this.rehearsal.prepare()) return false;
+    if (this.lost || this.posing) return false;
+    const sketched = this.sketched(step);
+    if (sketched !== null) return sketched;
+    if (!this.empty) this.rehearsal.begin();
+    if (!this.rehearsal.prepare()) return false;
     const { control } = this.loop;
     // A finished picture comes over a lesser one without being drawn again, unless something happens meanwhile.
     const fades = asked || this.unsettled || !control.resting ? null : this.screen.fade(this.camera.sight.camera);
@@ -348,7 +364,10 @@ export class Viewport {
     if (growing || moving) control.moved(began);
     if (moving) this.moved();
     if (control.overtaxed) this.slowed(this.cardless);
-    if (!this.empty) this.shown();
+    if (!this.empty) {
+      this.sketch = null;
+      this.shown();
+    }
     if (this.pause.on) return growing || moving;
     const { quality } = control;
     const { camera } = this.camera.aimed();
@@ -373,6 +392,26 @@ export class Viewport {
     this.drawn = quality;
     return growing || moving || over || this.unsettled;
   };
+
+  /** Loads what draws a large tree as lines. */
+  private async prepareSketch(): Promise<void> {
+    const drawn = import("./rendering/sketch").then(({ sketch }) => sketch(this.sitting));
+    const coming = Promise.race([Promise.all([drawn, this.words()]).then(([sketch]) => sketch), after(SKETCHED_BY)]);
+    this.sketch = coming;
+    const made = await coming.catch(() => null);
+    if (this.sketch === coming) this.sketch = made;
+    this.loop.open();
+  }
+
+  /** Draws a large tree as lines if that is its first sight, and says whether it was drawn; null where it is not wanted. */
+  private sketched(step: number): boolean | null {
+    const { sketch } = this;
+    if (sketch === null || this.table.rows <= LARGE || this.pause.on) return null;
+    if (sketch instanceof Promise) return false;
+    this.sketch = null;
+    sketch(step);
+    return true;
+  }
 
   /** Chooses details for a picture of so many pixels in height from where the sight is aimed; says whether some are left. */
   private refine(height: number, samples: number, quality: Quality, distance = this.camera.rig.view.distance): boolean {

@@ -20,6 +20,8 @@ declare global {
     measured: FrameRecord[];
     /** When the first frame that drew a tree ended, in milliseconds since the navigation. */
     firstTree: Promise<number>;
+    /** When the first frame ended that showed one, be it by lines, and when that was drawn if that is waited for. */
+    firstSight: Promise<number>;
     /** What is drawn is counted but not passed on, so that script never waits for the graphics card. */
     blind: boolean;
     /** When the first rows came, in milliseconds since the navigation. */
@@ -30,10 +32,20 @@ declare global {
 /** A tree is seen once so many triangles of it are drawn. */
 export const A_TREE = 50_000;
 
+/** What is counted as a tree, and whether the page waits until the first sight of one is drawn. */
+export interface Watching {
+  readonly aTree: number;
+  readonly waits: boolean;
+}
+
 /** Counts what a page draws and times its script; runs in the page before anything else. */
-export function instrument(aTree: number): void {
+export function instrument({ aTree, waits }: Watching): void {
   const shadowMap = 2048;
   let seen: (at: number) => void = () => {};
+  let sighted: ((at: number) => void) | null = null;
+  window.firstSight = new Promise((resolve) => {
+    sighted = resolve;
+  });
   window.firstTree = new Promise((resolve) => {
     seen = resolve;
   });
@@ -91,6 +103,12 @@ export function instrument(aTree: number): void {
     if (!window.blind) blitFramebuffer.apply(this, blit);
   };
 
+  /** Until all that was asked of WebGL is drawn, which it says only by giving pixels back. */
+  const wait = () => {
+    const gl = document.querySelector<HTMLCanvasElement>("#workspace")!.getContext("webgl2")!;
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+  };
+
   const request = window.requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (callback) =>
     request((time) => {
@@ -106,7 +124,14 @@ export function instrument(aTree: number): void {
       if (frame) {
         frame.script += ended - began;
         frame.at = ended;
-        if (frame.camera.triangles > aTree) seen(ended);
+        const { camera } = frame;
+        if (camera.triangles > aTree && sighted) {
+          if (waits) wait();
+          sighted(performance.now());
+          sighted = null;
+        }
+        // Lines are one call, straight onto the canvas.
+        if (camera.triangles > aTree && camera.calls > 1) seen(ended);
       }
     });
 }

@@ -46,7 +46,28 @@ test("a page without a graphics card says why its picture is coarse, once", asyn
   expect(await line.count(), "who has read it is not told again").toBe(0);
 });
 
-test("a large tree says so as it opens, and its picture comes to rest", async () => {
+/** What a page draws many things into, its canvas or a picture behind it, and whether it says by then why that is coarse. */
+interface Drawing {
+  readonly what: "lines" | "picture";
+  readonly said: boolean;
+}
+
+/** Notes what is drawn; runs in the page before anything else. */
+function noteDrawings(): void {
+  const drawings: Drawing[] = [];
+  const { prototype } = WebGL2RenderingContext;
+  const draw = prototype.drawElementsInstanced;
+  prototype.drawElementsInstanced = function (mode, count, type, offset, instances) {
+    if (instances > 20) {
+      const what = this.getParameter(this.FRAMEBUFFER_BINDING) === null ? "lines" : "picture";
+      drawings.push({ what, said: document.querySelector('[data-slowness="cardless"]') !== null });
+    }
+    draw.call(this, mode, count, type, offset, instances);
+  };
+  Object.assign(globalThis, { drawings });
+}
+
+test("a large tree says so as it opens, is seen as lines first, and its picture comes to rest", async () => {
   const { tablet, address } = await workshop.fresh({ ...WATCHED, detail: 0.2 });
   await workshop.act(address, [{ kind: "grow", steps: 30 }]);
   await tablet.until("it is large", ({ metamers }) => metamers > 10_000);
@@ -54,9 +75,14 @@ test("a large tree says so as it opens, and its picture comes to rest", async ()
     localStorage.setItem("espalier.slowness-read", "false");
     localStorage.setItem("espalier.whole-picture", "false");
   });
+  await tablet.page.addInitScript(noteDrawings);
   await tablet.page.reload();
   await tablet.page.locator('[data-slowness="cardless"]').waitFor();
   await tablet.untilStill();
+  const drawings = await tablet.page.evaluate(() => (globalThis as unknown as { drawings: Drawing[] }).drawings);
+  expect(drawings[0]).toEqual({ what: "lines", said: true });
+  expect(drawings.filter(({ what }) => what === "lines")).toHaveLength(1);
+  expect(drawings.at(-1)?.what).toBe("picture");
 });
 
 /** Asks for the errors of WebGL after every call that may make one from now on. */

@@ -28,6 +28,7 @@ import {
   PREDICTION,
   RECENT,
   SHEETS,
+  SLOWNESS,
   SUN,
   SYMMETRY,
   TIMELINE,
@@ -164,6 +165,7 @@ function Bars({ studio }: { studio: Studio }) {
   const TourCard = usePart(studio, TOUR, studio.tour.step.value !== null);
   const TimelineStrip = usePart(studio, TIMELINE, isWorthShowing(studio.time.timeline.value));
   const Chips = usePart(studio, CHIPS, studio.document.value !== null);
+  const Slowness = usePart(studio, SLOWNESS, studio.stage.cardless.value || studio.slowness.value !== null, true);
   const mayChange = studio.rights.mayChange.value;
   const isFirst = isFirstScreen(studio);
   const RecentTrees = usePart(studio, RECENT, isFirst);
@@ -182,6 +184,7 @@ function Bars({ studio }: { studio: Studio }) {
       {RecentTrees && isFirst && mayChange && <RecentTrees studio={studio} />}
       <div class="chips" role="status">
         {Chips && <Chips studio={studio} />}
+        {Slowness && <Slowness studio={studio} />}
       </div>
       <DrawModeLegend studio={studio} />
     </>

@@ -14,6 +14,15 @@ export interface PartPage {
   readonly reloadOnce: () => void;
 }
 
+/** The styles of everything that is loaded later. */
+export function laterStyles(): Promise<unknown> {
+  return import("./styles/parts");
+}
+
+function laterWordsAndStyles(): Promise<unknown> {
+  return Promise.all([laterWords(), laterStyles()]);
+}
+
 /** A part of the page that is loaded when it is first needed, with its texts and styles, or before that while the page is idle. */
 export class Part<Content> {
   readonly content = signal<Content | null>(null);
@@ -23,7 +32,7 @@ export class Part<Content> {
 
   constructor(
     private readonly fetch: () => Promise<Content>,
-    private readonly words: () => Promise<unknown> = laterWords,
+    private readonly beside: () => Promise<unknown> = laterWordsAndStyles,
     private readonly page: PartPage = { isReplaced, serverAnswers, reload, reloadOnce },
   ) {}
 
@@ -53,7 +62,7 @@ export class Part<Content> {
   async #load(): Promise<void> {
     this.failure.value = null;
     try {
-      const [content] = await Promise.all([this.fetch(), this.words(), import("./styles/parts")]);
+      const [content] = await Promise.all([this.fetch(), this.beside()]);
       this.content.value = content;
     } catch (error) {
       console.warn("A part of the page could not be loaded:", error);

@@ -4,7 +4,7 @@ import type { ToolLater } from "../tools/descriptor";
 import { descriptorOf, laterOfAll, TOOL_NAMES, type ToolName } from "../tools/tools";
 import { laterWordsIn } from "../words/later-words";
 import { type Key, LANGUAGES } from "../words/say";
-import { Part } from "./part";
+import { laterStyles, Part } from "./part";
 import type { StudioView } from "./part-view";
 import type { SheetSize } from "./sheets/sheet";
 
@@ -68,7 +68,7 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
         const [{ helpSheet }, tools] = await Promise.all([import("./sheets/help-sheet"), laterOfAll()]);
         return helpSheet(tools);
       },
-      () => Promise.all(LANGUAGES.map(laterWordsIn)),
+      () => Promise.all([laterStyles(), ...LANGUAGES.map(laterWordsIn)]),
     ),
   },
   settings: {
@@ -88,6 +88,12 @@ export const TOOL_PARTS = Object.fromEntries(
 
 /** What is in progress and can be ended. */
 export const CHIPS = new Part(async () => (await import("./notices/chips")).Chips);
+
+/** Why the picture is coarse. It comes with texts of its own: it is said before a picture that takes long. */
+export const SLOWNESS = new Part(
+  async () => (await import("./notices/slowness-chip")).SlownessChip,
+  () => Promise.resolve(),
+);
 
 /** The line of time, once anything was done. */
 export const TIMELINE = new Part(async () => (await import("./timeline/timeline-strip")).TimelineStrip);

@@ -35,6 +35,8 @@ export class Stage {
   readonly widened = signal(false);
   /** Whether the first tree has been drawn, or none can be: what the picture does without may be loaded from then on. */
   readonly opened = signal(false);
+  /** Whether the picture is drawn by the processor. */
+  readonly cardless = signal(false);
   #options: StageOptions;
   #table: TreeTable;
   #follower: GrowthFollower;
@@ -68,6 +70,7 @@ export class Stage {
   attach(view: Viewport, canvas: HTMLCanvasElement): void {
     this.#view = view;
     this.#canvas = canvas;
+    this.cardless.value = view.cardless;
     if (this.#appearance) {
       view.setAppearance(this.#appearance);
     }

@@ -18,13 +18,4 @@ export const CHIPS = {
   "tools.growing.outline": ["Growing into the outline…", "Wächst in den Umriss…"],
   "tools.growing.stop": ["Stop", "Anhalten"],
   "tools.growing.stop.title": ["Stop growing (Esc)", "Wachstum anhalten (Esc)"],
-  "chips.slow.cardless": [
-    "Without a graphics card the picture is coarse while it moves, and of a large tree also at rest; the settings can change that. If this device has one, turn on hardware acceleration in the browser's settings.",
-    "Ohne Grafikkarte ist das Bild grob, solange es sich bewegt, bei großen Bäumen auch in Ruhe; das lässt sich in den Einstellungen ändern. Hat dieses Gerät eine, dann schalte in den Einstellungen des Browsers die Hardwarebeschleunigung ein.",
-  ],
-  "chips.slow": [
-    "This tree is large for this device: the picture is coarse while it moves.",
-    "Dieser Baum ist groß für dieses Gerät: Das Bild ist grob, solange es sich bewegt.",
-  ],
-  "chips.slow.close": ["Got it", "Verstanden"],
 } as const;

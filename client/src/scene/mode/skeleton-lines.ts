@@ -25,8 +25,8 @@ export class SkeletonLines {
     this.stale = true;
   }
 
-  /** Shows the axes of the table, or nothing. */
-  show(table: TreeTable, shown: boolean): void {
+  /** Shows the axes of the table, or nothing; of more metamers than `most` only every so manieth. */
+  show(table: TreeTable, shown: boolean, most = Number.POSITIVE_INFINITY): void {
     this.mesh.visible = shown && table.rows > 0;
     if (!this.mesh.visible || !this.stale) return;
     this.stale = false;
@@ -42,7 +42,9 @@ export class SkeletonLines {
     }
     this.items.touch(0, Math.max(1, count));
     this.items.upload(count);
-    this.geometry.draw(count);
+    const step = Math.max(1, Math.ceil(count / most));
+    this.items.thin(step);
+    this.geometry.draw(Math.ceil(count / step));
   }
 
   /** A restored context has lost the texture. */

@@ -8,23 +8,28 @@ describe("a rehearsal", () => {
   let cast: Mesh<InstancedBufferGeometry>[];
   let rehearsal: Rehearsal;
   const linked = vi.fn();
+  const compileAsync = vi.fn();
 
   beforeEach(() => {
     vi.resetAllMocks();
     const linking = new Promise<void>((resolve) => {
       link = resolve;
     });
+    compileAsync.mockReturnValue(linking);
     const renderer = {
-      compileAsync: () => linking,
+      compileAsync,
       info: { programs: [program] },
     };
     cast = [0, 1].map(() => new Mesh(new InstancedBufferGeometry()));
     for (const { geometry } of cast) geometry.instanceCount = 0;
     cast[1]!.visible = false;
     rehearsal = new Rehearsal(renderer as unknown as WebGLRenderer, cast, linked);
+    rehearsal.begin();
+    rehearsal.begin();
   });
 
   it("prepares programs without blocking", async () => {
+    expect(compileAsync).toHaveBeenCalledTimes(cast.length);
     expect(rehearsal.prepare()).toBe(false);
     expect(program.getUniforms).not.toHaveBeenCalled();
     link();

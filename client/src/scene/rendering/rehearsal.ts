@@ -11,17 +11,23 @@ export class Rehearsal {
   /** Whether every program is linked; drawing would wait for that. */
   private linked = false;
   private played = false;
+  private begun = false;
 
-  /** `linked` is called when every program is linked. */
+  /** `told` is called when every program is linked. */
   constructor(
     private readonly renderer: WebGLRenderer,
     private readonly cast: readonly Mesh[],
-    linked: () => void,
-  ) {
+    private readonly told: () => void,
+  ) {}
+
+  /** Has the programs made, once. */
+  begin(): void {
+    if (this.begun) return;
+    this.begun = true;
     const camera = new PerspectiveCamera();
-    void Promise.all(cast.map((mesh) => renderer.compileAsync(mesh, camera))).then(() => {
+    void Promise.all(this.cast.map((mesh) => this.renderer.compileAsync(mesh, camera))).then(() => {
       this.linked = true;
-      linked();
+      this.told();
     });
   }
 

@@ -17,7 +17,6 @@ export function Chips({ studio }: { studio: Studio }) {
   return (
     <>
       <GrowthChip studio={studio} />
-      <SlownessChip studio={studio} />
       <TransferChip transfer={studio.exports.transfer} name="export" />
       <TransferChip transfer={studio.exports.picture} name="picture" />
       <TransferChip transfer={studio.obstacles.transfer} name="import" />
@@ -76,29 +75,6 @@ function SymmetryChip({ studio }: { studio: Studio }) {
         title={say("chips.symmetry.end")}
         onClick={() => {
           studio.settings.symmetry.value = { ...symmetry, kind: "off" };
-        }}
-      >
-        <CloseIcon />
-      </button>
-    </p>
-  );
-}
-
-/** Why the picture is coarse, until it has been read. */
-function SlownessChip({ studio }: { studio: Studio }) {
-  const slowness = studio.slowness.value;
-  if (slowness === null || studio.settings.slownessRead.value) {
-    return null;
-  }
-  return (
-    <p class="chip" data-slowness={slowness}>
-      {say(slowness === "cardless" ? "chips.slow.cardless" : "chips.slow")}
-      <button
-        type="button"
-        aria-label={say("chips.slow.close")}
-        title={say("chips.slow.close")}
-        onClick={() => {
-          studio.settings.slownessRead.value = true;
         }}
       >
         <CloseIcon />
