@@ -13,23 +13,23 @@ function store(kept: Record<string, string> = {}): Storage {
   } as unknown as Storage;
 }
 
-/** What somebody may: change trees, begin them, delete them. */
+/** What somebody may: change trees, begin them, have many grown, delete them, let others in for one. */
 function rightsOf(rights: Rights): readonly boolean[] {
-  return [rights.mayChange.peek(), rights.mayBegin, rights.mayDelete];
+  return [rights.mayChange.peek(), rights.mayBegin, rights.mayOrder, rights.mayDelete, rights.mayShare];
 }
 
 it.each([
-  [{ role: "admin" }, [true, true, true]],
-  [{ role: "owner" }, [true, true, true]],
-  [{ role: "editor" }, [true, true, false]],
-  [{ role: "viewer" }, [false, false, false]],
-  [{ role: "owner", tree: "ash" }, [true, false, false]],
-  [{ role: "editor", tree: "ash" }, [true, false, false]],
+  [{ role: "admin" }, [true, true, true, true, true]],
+  [{ role: "owner" }, [true, true, true, true, true]],
+  [{ role: "editor" }, [true, true, true, false, false]],
+  [{ role: "viewer" }, [false, false, false, false, false]],
+  [{ role: "owner", tree: "ash" }, [true, false, false, false, false]],
+  [{ role: "editor", tree: "ash" }, [true, false, false, false, false]],
 ] as const)("AC8: %j is told what they may", async (me, may) => {
   vi.stubGlobal("fetch", async () => new Response(JSON.stringify({ ...me, way: "device" })));
   const kept = {};
   const rights = new Rights(store(kept));
-  expect(rightsOf(rights), "nothing is taken from whoever is not known").toEqual([true, true, true]);
+  expect(rightsOf(rights), "nothing is taken from whoever is not known").toEqual([true, true, true, true, true]);
   await rights.ask();
   expect(rightsOf(rights)).toEqual(may);
   expect(rightsOf(new Rights(store(kept))), "the next page knows it from the start").toEqual(may);

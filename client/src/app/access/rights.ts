@@ -32,6 +32,16 @@ export class Rights {
     return may(this.me.value?.role ?? "owner", "DeleteTree") && this.onlyTree.value === null;
   }
 
+  /** Whether they may let others in for one tree. */
+  get mayShare(): boolean {
+    return may(this.me.value?.role ?? "owner", "ShareTree") && this.onlyTree.value === null;
+  }
+
+  /** Whether they may have trees grown into files. */
+  get mayOrder(): boolean {
+    return may(this.me.value?.role ?? "owner", "GrowTrees") && this.onlyTree.value === null;
+  }
+
   /** Asks the server, once for all who want to know; fails where it does not say, and what was known before stays. */
   ask(): Promise<void> {
     this.#asked ??= askWho()

@@ -42,7 +42,7 @@ export function saveTree(request: SaveTree): Promise<SavedTree> {
 
 /** Saves them as the next version of a tree, if that is at this revision still (`LB2`). */
 export function saveVersion(id: string, request: SaveVersion, revision: number): Promise<TreeVersion> {
-  return ask<TreeVersion>("POST", `${pathOf(id)}/versions`, request, revision);
+  return ask<TreeVersion>("POST", `${pathOf(id)}/versions`, request, { revision });
 }
 
 export function changeTree(id: string, change: ChangeTree): Promise<SavedTree> {

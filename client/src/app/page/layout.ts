@@ -20,6 +20,8 @@ export class Layout {
   readonly section = signal<SectionName>("trees");
   /** The tree of the library that the sheet of versions is about. */
   readonly subject = signal<SavedTree | null>(null);
+  /** The tree of the library that is shared; null for the one on the page. */
+  readonly shared = signal<SavedTree | null>(null);
   readonly panel = signal<PanelName | null>(null);
   /** Whether nothing but the workspace is shown. */
   readonly bare = signal(false);

@@ -19,16 +19,22 @@ export class RequestFailed extends Error {
   }
 }
 
-/**
- * Asks the server with JSON, and gives the JSON of its answer; `undefined` where it has no body. With a `revision` it
- * is refused where what it changes has another one by now (`LB2`).
- */
-export async function ask<Answer>(method: string, path: string, body?: object, revision?: number): Promise<Answer> {
-  const sent = body && {
-    type: "application/json",
-    body: JSON.stringify(body),
-    ...(revision === undefined ? {} : { revision }),
-  };
+/** What a request asks besides. */
+export interface Conditions {
+  /** It is refused where what it changes has another revision by now (`LB2`). */
+  readonly revision?: number;
+  /** It is done once, however often it comes with this key (`IK1`). */
+  readonly key?: string;
+}
+
+/** Asks the server with JSON, and gives the JSON of its answer; `undefined` where it has no body. */
+export async function ask<Answer>(
+  method: string,
+  path: string,
+  body?: object,
+  conditions: Conditions = {},
+): Promise<Answer> {
+  const sent = body && { type: "application/json", body: JSON.stringify(body), ...conditions };
   const response = await askFor(method, path, sent);
   return (await response.json().catch(() => undefined)) as Answer;
 }
@@ -37,7 +43,7 @@ export async function ask<Answer>(method: string, path: string, body?: object, r
 export async function askFor(
   method: string,
   path: string,
-  sent?: { readonly type: string; readonly body: BodyInit; readonly revision?: number },
+  sent?: Conditions & { readonly type: string; readonly body: BodyInit },
   signal?: AbortSignal,
 ): Promise<Response> {
   let response: Response;
@@ -46,6 +52,7 @@ export async function askFor(
       ...principal(),
       ...(sent ? { "content-type": sent.type } : {}),
       ...(sent?.revision === undefined ? {} : { "if-match": `"${sent.revision}"` }),
+      ...(sent?.key === undefined ? {} : { "idempotency-key": `"${sent.key}"` }),
     };
     response = await fetch(path, {
       method,

@@ -51,7 +51,7 @@ export const SHEETS: Readonly<Record<SheetName, SheetPart>> = {
   share: {
     title: "sheets.share",
     height: "9rem",
-    part: new Part(async () => (await import("./sheets/share-sheet")).ShareSheet),
+    part: new Part(async () => (await import("./sheets/share/share-sheet")).ShareSheet),
   },
   download: {
     title: "sheets.download",

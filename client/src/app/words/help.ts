@@ -223,12 +223,12 @@ export const HELP = {
   ],
   "help.topic.share": ["Share", "Teilen"],
   "help.topic.share.text": [
-    "A link by which others see the tree grow and draw along",
-    "Ein Link, mit dem andere den Baum wachsen sehen und mitzeichnen",
+    "A link by which others see the tree grow and draw along; and for a saved tree links that let people in for it alone, to look or to draw, for a day up to a year, as a QR code too, listed and revoked there",
+    "Ein Link, mit dem andere den Baum wachsen sehen und mitzeichnen; und zu einem gespeicherten Baum Links, die Leute nur zu ihm einlassen, zum Ansehen oder Zeichnen, für einen Tag bis ein Jahr, auch als QR-Code, dort aufgelistet und zu widerrufen",
   ],
   "help.topic.share.words": [
-    "link together people invite collaborate multiplayer url send",
-    "Link zusammen Leute einladen gemeinsam schicken Adresse",
+    "link together people invite collaborate multiplayer url send qr code guest revoke",
+    "Link zusammen Leute einladen gemeinsam schicken Adresse QR-Code Gast widerrufen",
   ],
   "help.topic.download": ["Download", "Herunterladen"],
   "help.topic.download.text": [

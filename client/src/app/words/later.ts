@@ -11,6 +11,7 @@ import { FINDING } from "./finding";
 import { HELP } from "./help";
 import { LEAVES } from "./leaves";
 import { LIBRARY } from "./library";
+import { LINKS } from "./links";
 import { PARAMETERS } from "./parameters";
 import { PROBLEMS, REFUSALS } from "./problems";
 import { SCENE } from "./scene";
@@ -40,6 +41,7 @@ export const LATER = {
   ...EXPORTS,
   ...FINDING,
   ...LIBRARY,
+  ...LINKS,
   ...SUN,
   ...SHAPING,
   ...HELP,

@@ -287,6 +287,10 @@ export const PROBLEMS = {
     "Der letzte Teil der Aufzeichnung dieses Baums ist beschädigt, ab Eintrag {entry}. Du siehst den Baum, wie er davor war; der Rest liegt noch auf dem Server.",
   ],
   "problems.impossible": ["That value is not possible.", "Dieser Wert ist nicht möglich."],
+  "problems.too-many.tree": [
+    "This tree has {most} links already; revoke one first.",
+    "Dieser Baum hat schon {most} Links; widerrufe erst einen.",
+  ],
   "problems.too-few.outline": [
     "This outline has too few or too many points. Draw it anew, in one go.",
     "Dieser Umriss hat zu wenige oder zu viele Punkte. Zeichne ihn neu, in einem Zug.",

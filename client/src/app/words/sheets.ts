@@ -70,6 +70,7 @@ export const SHEETS = {
   ],
   "sheets.share.link": ["Link to this tree", "Link zu diesem Baum"],
   "sheets.share.copy": ["Copy link", "Link kopieren"],
+  "sheets.share.send": ["Send…", "Senden…"],
   "sheets.share.copied": ["Link copied", "Link kopiert"],
   "sheets.share.marked": ["Copy the marked link", "Kopiere den markierten Link"],
   "sheets.share.only-here": [
@@ -85,7 +86,7 @@ export const SHEET_TITLES = {
   "sheets.library": ["Library", "Bibliothek"],
   "sheets.versions": ["Versions", "Versionen"],
   "sheets.download": ["Download this tree", "Diesen Baum herunterladen"],
-  "sheets.share": ["Draw together", "Zusammen zeichnen"],
+  "sheets.share": ["Share this tree", "Diesen Baum teilen"],
   "sheets.help": ["How to draw a tree", "So zeichnet man einen Baum"],
   "sheets.settings": ["Settings", "Einstellungen"],
 } as const;

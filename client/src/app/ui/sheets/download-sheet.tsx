@@ -6,6 +6,7 @@ import { ask } from "../../requests/request";
 import type { Studio } from "../../studio";
 import { numberText } from "../../words/number-text";
 import { type Key, say } from "../../words/say";
+import { Segments } from "../controls/segments";
 import { usualName } from "./name-field";
 
 /** Pixels along the longer side of a picture for a large screen. */
@@ -156,30 +157,6 @@ function Options({ format, choice, choose }: OptionsProps) {
         </label>
       ))}
     </>
-  );
-}
-
-interface SegmentsProps {
-  readonly legend: string;
-  readonly name: string;
-  readonly values: readonly string[];
-  readonly chosen: string;
-  readonly text: (value: string) => string;
-  readonly onChoose: (value: string) => void;
-}
-
-/** One of several, below one another. */
-function Segments({ legend, name, values, chosen, text, onChoose }: SegmentsProps) {
-  return (
-    <fieldset class="segments stacked">
-      <legend>{legend}</legend>
-      {values.map((value) => (
-        <label key={value}>
-          <input type="radio" name={name} checked={chosen === value} onChange={() => onChoose(value)} />
-          <span>{text(value)}</span>
-        </label>
-      ))}
-    </fieldset>
   );
 }
 

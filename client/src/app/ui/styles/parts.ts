@@ -13,6 +13,7 @@ import "./sheet-contents.css";
 import "./library.css";
 import "./finding.css";
 import "./collections.css";
+import "./share.css";
 import "./help.css";
 import "./recent.css";
 import "./vain.css";

@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from "preact/hooks";
 import { conditions } from "../../../library/wanted";
-import { SECTION_NAMES } from "../../../page/layout";
+import { SECTION_NAMES, type SheetName } from "../../../page/layout";
 import type { Studio } from "../../../studio";
 import { say } from "../../../words/say";
 import { UnsavedSection } from "../unsaved-section";
@@ -14,6 +14,9 @@ import { SelectionBar } from "./selection-bar";
 import { SpeciesTemplates } from "./species-templates";
 import { DragGhost } from "./tree-drag";
 import { TreeGrid } from "./tree-grid";
+
+/** Sheets about one thing of the library, from which one comes back to it. */
+const ABOUT_ONE: ReadonlySet<SheetName | null> = new Set(["versions", "share"] as const);
 
 /** The library: its trees, templates, and what was deleted, and ways to find them; a tap opens a tree. */
 export function LibrarySheet({ studio }: { studio: Studio }) {
@@ -34,8 +37,8 @@ export function LibrarySheet({ studio }: { studio: Studio }) {
   }, [section, catalogue, isOpen]);
   useEffect(
     () => () => {
-      // Whoever comes back from the versions of a tree finds the section as it was.
-      if (sheet.peek() !== "versions") {
+      // Whoever comes back from a sheet about one thing of it finds the section as it was.
+      if (!ABOUT_ONE.has(sheet.peek())) {
         shown.value = "trees";
       }
     },

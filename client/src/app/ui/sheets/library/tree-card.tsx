@@ -71,6 +71,13 @@ export function TreeCard({ desk, tree }: TreeCardProps) {
       label: say(isTemplate ? "library.unmark" : "library.mark"),
       act: () => void section.mark([tree], !isTemplate),
     }),
+    ...only(rights.mayShare, {
+      label: say("library.share"),
+      act: () => {
+        studio.layout.shared.value = tree;
+        studio.layout.sheet.value = "share";
+      },
+    }),
     ...only(mayDelete, { label: say("library.delete"), act: () => void section.remove([tree]) }),
   ];
   const label = chosen === null ? (isTemplate ? "library.begin-which" : "sheets.library.open") : "library.choose";

@@ -1,0 +1,21 @@
+import type { MadeLink, NewLink, TreeLink } from "../../../wire/generated";
+import { ask } from "../../requests/request";
+
+/** What lets people in for a tree alone, newest first. */
+export function listLinks(tree: string): Promise<readonly TreeLink[]> {
+  return ask<TreeLink[]>("GET", pathOf(tree));
+}
+
+/** Makes a link that lets one device in; its address is in this one answer. */
+export function makeLink(tree: string, link: NewLink): Promise<MadeLink> {
+  return ask<MadeLink>("POST", pathOf(tree), link);
+}
+
+/** Whoever came by it is let in no longer. */
+export async function revokeLink(tree: string, link: string): Promise<void> {
+  await ask<undefined>("DELETE", `${pathOf(tree)}/${encodeURIComponent(link)}`);
+}
+
+function pathOf(tree: string): string {
+  return `/api/v1/trees/${encodeURIComponent(tree)}/links`;
+}

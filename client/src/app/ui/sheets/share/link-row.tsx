@@ -1,0 +1,43 @@
+import { useState } from "preact/hooks";
+import type { TreeLink } from "../../../../wire/generated";
+import { momentText } from "../../../words/date-text";
+import { type Key, say } from "../../../words/say";
+import { ConfirmRow } from "../confirm-row";
+
+interface LinkRowProps {
+  readonly link: TreeLink;
+  readonly onRevoke: () => Promise<void>;
+}
+
+/** Who was invited, since when and until when; and a way to take that back, which is asked about once. */
+export function LinkRow({ link: { name, role, since, until, used }, onRevoke }: LinkRowProps) {
+  const [asks, setAsks] = useState(false);
+  return (
+    <li class="link-row" data-used={used}>
+      <div>
+        <strong>{name}</strong> <span class="quiet">{say(`links.may.${role}` as Key)}</span>
+        <br />
+        <span class="quiet">
+          {say(used ? "links.used" : "links.unused", { since: momentText(since), until: momentText(until) })}
+        </span>
+      </div>
+      {asks ? (
+        <ConfirmRow
+          question={say(used ? "links.revoke.used" : "links.revoke.unused")}
+          act={say("links.revoke")}
+          onAct={onRevoke}
+          onKeep={() => setAsks(false)}
+        />
+      ) : (
+        <button
+          type="button"
+          class="small"
+          aria-label={say("links.revoke.which", { name })}
+          onClick={() => setAsks(true)}
+        >
+          {say("links.revoke")}
+        </button>
+      )}
+    </li>
+  );
+}
