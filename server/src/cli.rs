@@ -14,7 +14,7 @@ use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 use ipnet::IpNet;
 
-use crate::{hosts::HostName, import, recipe::SeedRange};
+use crate::{hosts::HostName, import, import_options::ImportOptions, recipe::SeedRange};
 
 pub use self::{
     people::{
@@ -247,9 +247,8 @@ pub struct Import {
     /// The file: .csv (cylinders of a QSM), .mtg (a multiscale tree graph), .json (a skeleton) or .espalier.
     #[arg(value_parser = parse_import)]
     pub file: ImportFile,
-    /// Metres in one unit of the file, for .csv and .mtg: 0.001 for millimetres.
-    #[arg(long, default_value_t = 1.0, value_name = "METRES", value_parser = parse_unit)]
-    pub unit: f64,
+    #[command(flatten)]
+    pub options: ImportOptions,
     /// Grow on for so many steps.
     #[arg(long, value_name = "STEPS", value_parser = clap::value_parser!(u32).range(1..))]
     pub grow: Option<u32>,
@@ -370,11 +369,6 @@ fn parse_proxies(text: &str) -> Result<IpNet, String> {
         .map_err(|_| "allowed: an address, or a network as in 10.0.0.0/8".to_owned())
 }
 
-fn parse_unit(text: &str) -> Result<f64, String> {
-    let unit = text.parse().ok().filter(|unit: &f64| unit.is_finite() && *unit > 0.0);
-    unit.ok_or_else(|| "it must be a number above 0".to_owned())
-}
-
 fn parse_steps(text: &str) -> Result<Steps, String> {
     let steps = text.parse().ok().and_then(|steps: u32| Steps::try_from(steps).ok());
     steps.ok_or_else(|| format!("allowed: {} to {}", Steps::LEAST.get(), Steps::MOST.get()))
@@ -490,6 +484,8 @@ mod tests {
             ("espalier grow --metamers 9 --export - --format fbx", ErrorKind::ValueValidation),
             ("espalier import tree.glb", ErrorKind::ValueValidation),
             ("espalier import tree.csv --unit 0", ErrorKind::ValueValidation),
+            ("espalier library put tree.csv --unit 0", ErrorKind::ValueValidation),
+            ("espalier library put tree.csv --internode-length 2", ErrorKind::ValueValidation),
             ("espalier library", ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand),
             ("espalier library find", ErrorKind::MissingRequiredArgument),
             ("espalier library export oak oak.fbx", ErrorKind::ValueValidation),

@@ -241,9 +241,9 @@ async fn put(options: &Put) -> Result<(), LibraryError> {
     let note = text::note(&options.note)?;
     let import = import::Import {
         format: options.file.format,
-        unit: options.unit,
+        unit: options.options.metres(),
         seed: 1,
-        parameters: Vec::new(),
+        parameters: vec![options.options.parameters()],
         metamers: DEFAULT_METAMER_BUDGET,
     };
     let bar = Bar::turning("making a tree of the file");

@@ -10,6 +10,7 @@ mod headless;
 mod hosts;
 mod http;
 mod import;
+mod import_options;
 mod jobs;
 mod library;
 mod listener;

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 
 use super::{
-    Database, ImportFile, parse_import, parse_unit,
+    Database, ImportFile, parse_import,
     results::{Export, parse_export, parse_format},
 };
-use crate::{document::FormatRow, export_options::ExportOptions, store::Sort};
+use crate::{document::FormatRow, export_options::ExportOptions, import_options::ImportOptions, store::Sort};
 
 pub(super) const NOTES: &str = "\
 TREE is the identifier of a tree, as `ls` prints it, or its name where no other tree has it.
@@ -136,9 +136,8 @@ pub struct Put {
     /// What is said of it.
     #[arg(long, default_value = "")]
     pub note: String,
-    /// Metres in one unit of the file, for .csv and .mtg.
-    #[arg(long, default_value_t = 1.0, value_name = "METRES", value_parser = parse_unit)]
-    pub unit: f64,
+    #[command(flatten)]
+    pub options: ImportOptions,
     #[command(flatten)]
     pub database: Database,
 }

@@ -152,9 +152,9 @@ pub fn import(options: &cli::Import) -> Result<(), HeadlessError> {
     let budget = options.start.budget.unwrap_or(DEFAULT_METAMER_BUDGET);
     let import = imports::Import {
         format: options.file.format,
-        unit: options.unit,
+        unit: options.options.metres(),
         seed: options.seed,
-        parameters: options.start.parameters.clone(),
+        parameters: [&[options.options.parameters()], &*options.start.parameters].concat(),
         metamers: budget,
     };
     let bar = Bar::turning("making a tree of the file");

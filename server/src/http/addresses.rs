@@ -2,10 +2,7 @@
 
 use std::{borrow::Cow, collections::BTreeMap};
 
-use axum::{
-    extract::State,
-    routing::{MethodRouter, delete, get, patch, post, put},
-};
+use axum::routing::{MethodRouter, delete, get, patch, post, put};
 use espalier_proto::{
     access::{Admitted, AuditEvent, Entrance, ListedUser, LogIn, MadeLink, Me, NewLink, Redeem, TreeLink},
     library::{
@@ -137,23 +134,32 @@ pub(super) fn about_socket() -> About {
 /// Files of any format, each of which takes as long as it takes.
 pub(super) fn downloads() -> Vec<Route> {
     let exports = GlobalConcurrencyLimitLayer::new(MAX_EXPORTS);
-    let take = |row: &'static FormatRow| {
-        let answer = get(move |state: State<Shared>, path: Path<String>, query| {
-            exports::take(state, path, query, row)
-        });
-        let address = format!("GET /api/v1/sessions/{{session}}/tree.{}", row.ending);
-        let about = About::new(format!("Download: {}.", row.what))
+    let download = |row: &'static FormatRow, path: &str, action, what: &str, answer: MethodRouter<Shared>| {
+        let about = About::new(format!("{what}: {}.", row.what))
             .asks::<ExportOptions>()
             .among(row.options)
             .gives_file(row.media_type);
-        route(address, Action::TakeTree, answer.layer(exports.clone()), about).noted(EXPORT)
+        let address = format!("GET {path}/tree.{}", row.ending);
+        route(address, action, answer.layer(exports.clone()), about).noted(EXPORT)
     };
-    FORMATS.iter().map(take).collect()
+    let of_session = |row| {
+        let answer = get(move |state, path: Path<String>, query| exports::take(state, path, query, row));
+        download(row, "/api/v1/sessions/{session}", Action::TakeTree, "Download", answer)
+    };
+    let of_version = |row| {
+        let answer = get(move |state, path: Path<(String, u32)>, query| {
+            exports::take_version(state, path, query, row)
+        });
+        let path = "/api/v1/trees/{tree}/versions/{version}";
+        download(row, path, Action::OpenTree, "Download of a version", answer)
+    };
+    FORMATS.iter().map(of_session).chain(FORMATS.iter().map(of_version)).collect()
 }
 
 /// The rest of the API, but for the socket.
 pub(super) fn routes() -> Vec<Route> {
     let at_once = GlobalConcurrencyLimitLayer::new;
+    let files = uploads(MAX_IMPORTS);
     vec![
         route("POST /api/v1/redeem", None, post(entry::redeem), About::new("Come in by an invitation (AC3); the answer sets a cookie.").takes::<Redeem>().gives::<Admitted>(200)),
         route("GET /api/v1/entry", None, get(entry::entrance), About::new("What one can come in by.").gives::<Entrance>(200)),
@@ -178,7 +184,7 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/schematic", Action::Look, post(schematic::draw).layer(at_once(MAX_SCHEMATICS)), About::new("A small tree that shows what parameters do (SC1).").takes::<ParameterValues>().gives::<Schematic>(200)),
         route("GET /api/v1/trees", Action::ListTrees, get(trees::list), About::new("Trees of the library, page by page (LB7).").asks::<trees::Page>().gives::<TreePage>(200)),
         route("POST /api/v1/trees", Action::SaveTree, post(trees::save), About::new("Save a session as a new tree.").takes::<SaveTree>().gives::<SavedTree>(201)).up_to(MAX_TREE_BODY),
-        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(uploads(MAX_IMPORTS)), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)).up_to(MAX_WOOD_BYTES),
+        route("POST /api/v1/trees/import", Action::SaveTree, post(imports::upload).layer(files.clone()), About::new("Make a tree of a file (IM1).").asks::<imports::Upload>().takes_file("application/octet-stream").gives::<SavedTree>(201)).up_to(MAX_WOOD_BYTES),
         route("GET /api/v1/trees/{tree}", Action::SeeTree, get(trees::find), About::new("One tree; one that was deleted as well, with its `deleted_at`.").gives::<SavedTree>(200)),
         route("PATCH /api/v1/trees/{tree}", Action::ChangeTree, patch(trees::change), About::new("Change what is said of a tree.").takes::<ChangeTree>().gives::<SavedTree>(200).revised()).up_to(MAX_SAID_BODY),
         route("DELETE /api/v1/trees/{tree}", Action::DeleteTree, delete(trees::delete), About::new(format!("Delete a tree; it can be taken back for {KEPT_DAYS} days (LB6).")).gives_nothing().revised()).noted("delete"),
@@ -197,9 +203,11 @@ pub(super) fn routes() -> Vec<Route> {
         route("DELETE /api/v1/collections/{collection}", Action::ChangeCollections, delete(collections::delete), About::new("Delete a collection; what lies in it lies in its parent then.").gives_nothing()),
         route("GET /api/v1/trees/{tree}/versions", Action::SeeTree, get(versions::list), About::new("Versions of a tree, newest first, page by page.").asks::<versions::Page>().gives::<Vec<TreeVersion>>(200)),
         route("POST /api/v1/trees/{tree}/versions", Action::ChangeTree, post(versions::save), About::new("Save a session as the newest version of a tree.").takes::<SaveVersion>().gives::<TreeVersion>(201).revised()).up_to(MAX_TREE_BODY),
+        route("POST /api/v1/trees/{tree}/versions/import", Action::ChangeTree, post(imports::upload_version).layer(files), About::new("Save a file as the newest version of a tree (IM2).").asks::<imports::VersionUpload>().takes_file("application/octet-stream").gives::<TreeVersion>(201).revised()).up_to(MAX_WOOD_BYTES),
         route("PATCH /api/v1/trees/{tree}/versions/{version}", Action::ChangeTree, patch(versions::change), About::new("Change what is said of a version.").takes::<ChangeVersion>().gives::<TreeVersion>(200).revised()).up_to(MAX_SAID_BODY),
         route("POST /api/v1/trees/{tree}/versions/{version}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()).noted("restore"),
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
+        route("GET /api/v1/trees/{tree}/versions/{version}/exports/{ticket}", Action::OpenTree, get(exports::progress_of_version), About::new("How far a file of a version is that is being made (EX3).").gives::<ExportProgress>(200)),
         route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
     ]
 }

@@ -28,7 +28,7 @@ use tokio_util::sync::CancellationToken;
 use super::{
     Shared,
     failure::{Failure, Path, Query},
-    sessions::open,
+    sessions::{open, saved_document, unreadable},
 };
 use crate::{
     document::{FORMATS, FileError, FormatRow, Stored},
@@ -84,12 +84,24 @@ pub(super) async fn formats() -> Json<Vec<ExportFormat>> {
     Json(FORMATS.iter().map(FormatRow::described).collect())
 }
 
-/// How far an export is (`EX3`).
+/// How far an export of a session is (`EX3`).
 pub(super) async fn progress(
     State(shared): State<Shared>,
     Path((_, ticket)): Path<(String, String)>,
 ) -> Result<Json<ExportProgress>, Failure> {
-    let found = shared.progresses.lock().get(&ticket).cloned();
+    progress_of(&shared, &ticket)
+}
+
+/// How far an export of a version is (`EX3`).
+pub(super) async fn progress_of_version(
+    State(shared): State<Shared>,
+    Path((_, _, ticket)): Path<(String, u32, String)>,
+) -> Result<Json<ExportProgress>, Failure> {
+    progress_of(&shared, &ticket)
+}
+
+fn progress_of(shared: &Shared, ticket: &str) -> Result<Json<ExportProgress>, Failure> {
+    let found = shared.progresses.lock().get(ticket).cloned();
     let found = found.ok_or_else(|| {
         Failure::none_such("export", "ticket", "the ticket of an export that is being made")
     })?;
@@ -102,37 +114,76 @@ pub(super) async fn progress(
 pub(super) async fn take(
     State(shared): State<Shared>,
     Path(session): Path<String>,
-    Query(mut options): Query<ExportOptions>,
+    Query(options): Query<ExportOptions>,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
-    options.check(row.options).map_err(|error| not_of(row, &error))?;
-    let (progress, held) = shared.progresses.hold(options.ticket.take())?;
+    let wanted = Wanted::of(&shared, row, options)?;
     let document = open(&shared, &session).await?.read().await?;
-    // Whoever goes away takes this along, and with it what is being made.
-    let stop = CancellationToken::new();
-    let gone = stop.clone().drop_guard();
-    let (made, whether_made) = oneshot::channel();
-    let pool = shared.pool.clone();
-    spawn_blocking(move || {
-        let file = make(&document.bytes, row, &options, &progress, |written| {
-            Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
+    wanted.sent(&shared, &session, document.bytes).await
+}
+
+/// A version of a saved tree as a file (`EX4`).
+pub(super) async fn take_version(
+    State(shared): State<Shared>,
+    Path((tree, number)): Path<(String, u32)>,
+    Query(options): Query<ExportOptions>,
+    row: &'static FormatRow,
+) -> Result<Response, Failure> {
+    let wanted = Wanted::of(&shared, row, options)?;
+    let document = saved_document(&shared, &tree, number).await?;
+    wanted.sent(&shared, &tree, document.bytes).await
+}
+
+/// A file that is asked for.
+struct Wanted {
+    row: &'static FormatRow,
+    options: ExportOptions,
+    progress: Arc<Progress>,
+    held: Option<Held>,
+}
+
+impl Wanted {
+    fn of(shared: &Shared, row: &'static FormatRow, mut options: ExportOptions) -> Result<Self, Failure> {
+        options.check(row.options).map_err(|error| not_of(row, &error))?;
+        let (progress, held) = shared.progresses.hold(options.ticket.take())?;
+        Ok(Self { row, options, progress, held })
+    }
+
+    /// Makes it of the bytes of a document, which is called so, and sends it.
+    async fn sent(
+        self,
+        shared: &Shared,
+        name: &str,
+        bytes: impl AsRef<[u8]> + Send + 'static,
+    ) -> Result<Response, Failure> {
+        let Self { row, options, progress, held } = self;
+        // Whoever goes away takes this along, and with it what is being made.
+        let stop = CancellationToken::new();
+        let gone = stop.clone().drop_guard();
+        let (made, whether_made) = oneshot::channel();
+        let pool = shared.pool.clone();
+        spawn_blocking(move || {
+            let file = make(bytes.as_ref(), row, &options, &progress, |written| {
+                Ok(Spool::new(tempfile::tempfile()?, pool, stop, written))
+            });
+            drop((bytes, held));
+            // Fails when nobody waits any more.
+            drop(made.send(file));
         });
-        drop((document, held));
-        // Fails when nobody waits any more.
-        drop(made.send(file));
-    });
-    let (file, length) = match whether_made.await {
-        Ok(Ok(made)) => made,
-        Ok(Err(error)) => {
-            tracing::error!(session, %error, "a document cannot be exported");
-            return Err(Failure::new(Reason::NotExported, "The tree cannot be exported."));
-        }
-        Err(_) => return Err(crate::pool::Panicked.into()),
-    };
-    let headers = headers(row, &format!("tree.{}", row.ending));
-    let size = [(header::CONTENT_LENGTH, length.to_string())];
-    drop(gone.disarm());
-    Ok((headers, size, body_of(file)).into_response())
+        let (file, length) = match whether_made.await {
+            Ok(Ok(made)) => made,
+            Ok(Err(FileError::Document(error))) => return Err(unreadable(name, &error)),
+            Ok(Err(error)) => {
+                tracing::error!(name, %error, "a document cannot be exported");
+                return Err(Failure::new(Reason::NotExported, "The tree cannot be exported."));
+            }
+            Err(_) => return Err(crate::pool::Panicked.into()),
+        };
+        let headers = headers(row, &format!("tree.{}", row.ending));
+        let size = [(header::CONTENT_LENGTH, length.to_string())];
+        drop(gone.disarm());
+        Ok((headers, size, body_of(file)).into_response())
+    }
 }
 
 /// What is said of a file that is sent.

@@ -1,132 +1,120 @@
-//! Files that become trees of the library.
-
-use std::borrow::Cow;
+//! Files that become trees of the library, or versions of one.
 
 use axum::{Extension, extract::State, http::StatusCode, response::IntoResponse};
-use espalier_proto::{Problem, text::Name};
-use espalier_reading::{Between, Bounded};
-use espalier_session::Principal;
-use espalier_settings::{Kind, ParameterValues, ParametersPatch, Setting};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::{
-    Deserialize, Deserializer,
-    de::{DeserializeSeed, Error},
+use espalier_proto::{
+    Problem,
+    text::{Name, Note},
 };
-use serde_json::Value;
+use espalier_session::Principal;
+use schemars::JsonSchema;
+use serde::Deserialize;
 
 use super::{
     Shared,
-    failure::{Failure, Query},
+    failure::{Failure, Path, Query},
+    revision::Expected,
     trees,
     uploads::File,
     versions::{self, Said},
 };
 use crate::{
     import::{self, Import},
+    import_options::{ImportOptions, InternodeLength, Unit},
     pool::Class,
-    store::{Contents, Saved},
+    store::{Contents, NewVersion, Saved},
 };
 
-/// What the address says of the file.
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(inline)]
-pub(super) struct Upload {
-    /// The name of the tree.
-    name: Name,
-    /// How the name of such a file ends.
-    format: import::Format,
-    /// Metres in one unit of the file.
-    unit: Option<Unit>,
-    /// Metres in one internode.
-    internode_length: Option<InternodeLength>,
-}
-
-/// Metres in a unit.
-#[derive(Clone, Copy, Debug)]
-struct Unit(f64);
-
-impl<'de> Deserialize<'de> for Unit {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        Bounded(Between(f64::MIN_POSITIVE, f64::MAX), &"more than 0").deserialize(deserializer).map(Self)
-    }
-}
-
-impl JsonSchema for Unit {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "Unit".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({ "type": "number", "exclusiveMinimum": 0 })
-    }
-}
-
-/// The parameter of that name.
-#[derive(Clone, Copy, Debug)]
-struct InternodeLength(f32);
-
-impl InternodeLength {
-    fn row() -> Option<(&'static Setting, Between<f32>)> {
-        let row = ParameterValues::ROWS.iter().find(|row| row.name == "internode_length")?;
-        match row.kind {
-            Kind::Number { least, most, .. } => Some((row, Between(least, most))),
-            _ => None,
+/// Declares what an address says of a file, beside fields of its own.
+macro_rules! of_a_file {
+    ($(#[doc = $doc:literal])+ $name:ident { $($(#[doc = $about:literal])+ $field:ident: $type:ty,)* }) => {
+        $(#[doc = $doc])+
+        #[derive(Debug, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        #[schemars(inline)]
+        pub(super) struct $name {
+            $($(#[doc = $about])+ $field: $type,)*
+            /// How the name of such a file ends.
+            format: import::Format,
+            /// Metres in one unit of the file.
+            unit: Option<Unit>,
+            /// Metres in one internode.
+            internode_length: Option<InternodeLength>,
         }
+
+        impl $name {
+            fn import(&self, metamers: u32) -> Import {
+                let &Self { format, unit, internode_length, .. } = self;
+                let options = ImportOptions { unit, internode_length };
+                Import {
+                    format,
+                    unit: options.metres(),
+                    seed: rand::random(),
+                    parameters: vec![options.parameters()],
+                    metamers,
+                }
+            }
+        }
+    };
+}
+
+of_a_file! {
+    /// What the address says of a file that becomes a tree.
+    Upload {
+        /// The name of the tree.
+        name: Name,
     }
 }
 
-impl<'de> Deserialize<'de> for InternodeLength {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let (row, range) = Self::row().ok_or_else(|| D::Error::custom("there is no such parameter"))?;
-        Bounded(range, &row.allowed()).deserialize(deserializer).map(Self)
+of_a_file! {
+    /// What the address says of a file that becomes a version of a tree.
+    VersionUpload {
+        /// What is said of the version: up to 2000 characters.
+        note: Option<Note>,
+        /// How whoever saves it wants to be called: 1 to 80 characters.
+        author: Option<Name>,
     }
 }
 
-impl JsonSchema for InternodeLength {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "InternodeLength".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let range = Self::row().map(|(_, Between(least, most))| {
-            // As they are written, not as the nearest of twice as many digits.
-            [least, most].map(|bound| serde_json::from_str::<Value>(&bound.to_string()).unwrap_or_default())
-        });
-        let [least, most] = range.unwrap_or_default();
-        json_schema!({ "type": "number", "minimum": least, "maximum": most })
-    }
-}
-
+/// A file as a new tree (`IM1`).
 pub(super) async fn upload(
     State(shared): State<Shared>,
     Extension(principal): Extension<Principal>,
     Query(upload): Query<Upload>,
-    File(file, _turn): File,
+    file: File,
 ) -> Result<impl IntoResponse, Failure> {
-    let unit = upload.unit.map_or(1.0, |Unit(metres)| metres);
-    let internode_length = upload.internode_length.map(|InternodeLength(metres)| metres);
-    let parameters = vec![ParametersPatch { internode_length, ..ParametersPatch::default() }];
-    let import = Import {
-        format: upload.format,
-        unit,
-        seed: rand::random(),
-        parameters,
-        metamers: shared.metamer_budget,
-    };
+    let import = upload.import(shared.metamer_budget);
+    let version = made(&shared, &principal, import, file, Said::default()).await?;
+    Ok((StatusCode::CREATED, trees::add(&shared, &principal, upload.name.into(), version).await?))
+}
+
+/// A file as the newest version of a tree (`IM2`).
+pub(super) async fn upload_version(
+    State(shared): State<Shared>,
+    Extension(principal): Extension<Principal>,
+    Path(tree): Path<String>,
+    Expected(expected): Expected,
+    Query(upload): Query<VersionUpload>,
+    file: File,
+) -> Result<impl IntoResponse, Failure> {
+    trees::stored(&shared, &tree).await?;
+    let import = upload.import(shared.metamer_budget);
+    let said = Said::new(upload.author, upload.note);
+    let version = made(&shared, &principal, import, file, said).await?;
+    versions::add(&shared, &tree, expected, version).await
+}
+
+/// What a file holds, as a version to be saved.
+async fn made(
+    shared: &Shared,
+    principal: &Principal,
+    import: Import,
+    File(file, _turn): File,
+    said: Said,
+) -> Result<NewVersion, Failure> {
     let made = shared.pool.run(Class::Whole, principal.name().into(), move |_| {
         let document = import::document(&file, &import).map_err(|error| import.refusal(&error))?;
         Ok::<_, Problem>(Saved::of(&document))
     });
     let saved = made.await??;
-    let version = versions::new(&principal, Said::default(), Contents::New(Box::new(saved)));
-    Ok((StatusCode::CREATED, trees::add(&shared, &principal, upload.name.into(), version).await?))
+    Ok(versions::new(principal, said, Contents::New(Box::new(saved))))
 }

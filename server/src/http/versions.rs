@@ -132,7 +132,8 @@ pub(super) async fn restore(
     add(&shared, &tree, expected, version).await
 }
 
-async fn add(
+/// Makes this the newest version of a tree.
+pub(super) async fn add(
     shared: &Shared,
     tree: &str,
     expected: Option<u64>,

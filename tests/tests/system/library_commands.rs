@@ -5,6 +5,9 @@ use std::{fs, path::Path};
 use espalier_tests::{client::Client, http, program, scratch::Scratch, server::Server};
 use serde_json::{Value, json};
 
+/// A trunk and a branch, as a scanner's program has them.
+const SCAN: &str = include_str!("../../fuzz/seeds/rtwig.csv");
+
 /// Runs `espalier library` on a database; what it printed.
 fn library(database: &Path, arguments: &[&str]) -> String {
     let finished = run(database, arguments);
@@ -97,6 +100,15 @@ async fn trees_are_read_beside_a_server_and_changed_without_one() {
     assert!(server.terminate().success());
     let missing = run(&database, &["restore", &oak, "7"]);
     assert!(missing.code == 1 && missing.stderr.contains("no version 7"), "{}", missing.stderr);
+    let scan = scratch.path("scan.csv");
+    fs::write(&scan, SCAN).expect("the scratch folder can be written");
+    let scan = scan.to_str().expect("a plain name");
+    library(&database, &["put", scan, "--name", "Scan"]);
+    library(&database, &["put", scan, "--to", "Scan", "--internode-length", "0.05"]);
+    library(&database, &["put", scan, "--to", "Scan", "--internode-length", "0.05", "--unit", "0.5"]);
+    let versions = lines(&library(&database, &["versions", "Scan", "--json"]));
+    let metamers: Vec<_> = versions.iter().map(|version| &version["metamers"]).collect();
+    assert_eq!(metamers, [&json!(19), &json!(37), &json!(19)], "half the unit is half the size");
     let unseen = run(&database, &["put", document, "--name", "\u{202e}"]);
     assert_eq!(unseen.code, 2, "{}", unseen.stderr);
 }

@@ -1,5 +1,6 @@
 //! Every refusal of a file names the part at fault and what is allowed there, at every address that takes one.
 
+use axum::{body::Bytes, response::Response};
 use serde_json::{Value, json};
 
 use super::*;
@@ -9,6 +10,7 @@ const QSM: &str = "POST /api/v1/trees/import?name=Oak&format=csv";
 const MTG: &str = "POST /api/v1/trees/import?name=Oak&format=mtg";
 const SKELETON: &str = "POST /api/v1/trees/import?name=Oak&format=json";
 const DOCUMENT: &str = "POST /api/v1/trees/import?name=Oak&format=espalier";
+const VERSION: &str = "POST /api/v1/trees/{tree}/versions/import?format=csv";
 
 /// A trunk and a branch, as a scanner's program has them.
 const SCAN: &str = include_str!("../../../../tests/fuzz/seeds/rtwig.csv");
@@ -71,6 +73,7 @@ fn refused() -> Vec<Refused> {
             "line 2",
             "up to 100 m, as far as 1000 internodes of 0.1 m reach",
         ),
+        tree(VERSION, &SCAN.replace("0.02,0.5", "-0.02,0.5"), "line 3, column 10", "more than 0"),
         tree(MTG, "", "body", "a multiscale tree graph (.mtg)"),
         tree(MTG, "CODE:\tFORM-A\nMTG:\n", "body", "a multiscale tree graph (.mtg)"),
         tree(MTG, SCAN, "line 1", "a multiscale tree graph (.mtg)"),
@@ -104,4 +107,75 @@ async fn every_refused_file_names_the_part_at_fault_and_what_is_allowed() {
             if problem["code"] == "refused" { StatusCode::CONFLICT } else { StatusCode::BAD_REQUEST };
         assert_eq!(status, expected, "{asked}: {problem}");
     }
+}
+
+async fn send(server: &Router, asked: Builder, body: impl Into<Body>) -> Response {
+    server.clone().oneshot(asked.body(body.into()).unwrap()).await.unwrap()
+}
+
+async fn bytes(response: Response) -> Bytes {
+    axum::body::to_bytes(response.into_body(), usize::MAX).await.unwrap()
+}
+
+async fn told(response: Response) -> (StatusCode, Value) {
+    let status = response.status();
+    (status, serde_json::from_slice(&bytes(response).await).unwrap_or_default())
+}
+
+#[tokio::test]
+async fn im2_a_file_becomes_the_newest_version_at_the_revision_that_was_seen() {
+    let (server, _) = server().await;
+    let path = "/api/v1/trees/ash/versions/import?format=csv";
+    let post = |query: &str| request(&Method::POST, &format!("{path}{query}"));
+    let first = send(&server, post("&note=Scanned&author=Ada").header(header::IF_MATCH, "\"1\""), SCAN).await;
+    assert_eq!(first.headers()[header::ETAG], "\"2\"");
+    let (status, version) = told(first).await;
+    let found = ["number", "metamers", "note", "author"].map(|name| &version[name]);
+    assert_eq!(status, StatusCode::CREATED, "{version}");
+    assert_eq!(found, [&json!(2), &json!(19), &json!("Scanned"), &json!("Ada")]);
+
+    let (status, problem) = told(send(&server, post("").header(header::IF_MATCH, "\"1\""), SCAN).await).await;
+    assert_eq!((status, &problem["reason"]), (StatusCode::PRECONDITION_FAILED, &json!("stale")));
+    // Internodes of half the length: twice as many, and one to the branch.
+    let (status, version) = told(send(&server, post("&internode_length=0.05"), SCAN).await).await;
+    assert_eq!(
+        (status, &version["number"], &version["metamers"]),
+        (StatusCode::CREATED, &json!(3), &json!(37))
+    );
+    // In a unit of 10 cm all is ten times smaller than in metres.
+    let (status, version) = told(send(&server, post("&unit=0.1"), SCAN).await).await;
+    assert_eq!((status, &version["number"]), (StatusCode::CREATED, &json!(4)));
+    assert!(version["metamers"].as_u64() < Some(19), "{version}");
+    let nobodys = request(&Method::POST, "/api/v1/trees/elm/versions/import?format=csv");
+    assert_eq!(send(&server, nobodys, SCAN).await.status(), StatusCode::NOT_FOUND);
+}
+
+#[tokio::test]
+async fn ex4_a_version_is_taken_in_every_format() {
+    let (server, _) = server().await;
+    let take = async |path: &str| {
+        send(&server, request(&Method::GET, &format!("/api/v1/trees/ash/versions/{path}")), "").await
+    };
+    for length in ["0.1", "0.05"] {
+        let path = format!("/api/v1/trees/ash/versions/import?format=csv&internode_length={length}");
+        assert_eq!(send(&server, request(&Method::POST, &path), SCAN).await.status(), StatusCode::CREATED);
+    }
+    for row in FORMATS {
+        let query = if row.ending == "ply" { "?points=100" } else { "" };
+        let file = take(&format!("2/tree.{}{query}", row.ending)).await;
+        assert_eq!(file.status(), StatusCode::OK, "{}", row.ending);
+        assert_eq!(file.headers()[header::CONTENT_TYPE], row.media_type);
+        assert!(!bytes(file).await.is_empty(), "{}", row.ending);
+    }
+    let lines =
+        async |path: &str| bytes(take(path).await).await.iter().filter(|&&byte| byte == b'\n').count();
+    assert_eq!([lines("2/tree.csv").await, lines("3/tree.csv").await], [1 + 19, 1 + 37], "each is itself");
+
+    let (status, problem) = told(take("9/tree.csv").await).await;
+    assert_eq!((status, &problem["field"]), (StatusCode::NOT_FOUND, &json!("version")));
+    let (status, problem) = told(take("2/tree.csv?lod=1").await).await;
+    assert_eq!((status, &problem["field"]), (StatusCode::BAD_REQUEST, &json!("lod")));
+    // What is kept of the first one is no document.
+    let (status, problem) = told(take("1/tree.glb").await).await;
+    assert_eq!((status, &problem["reason"]), (StatusCode::CONFLICT, &json!("tree-damaged")));
 }

@@ -119,7 +119,8 @@ async fn what_is_not_there_is_named_by_the_part_of_the_path() {
             // Each on a server of its own, for some of them change what is there.
             let (server, _) = server().await;
             let unknown = if NUMBERS.contains(&part) { "77" } else { "no-such-thing-there" };
-            let asked = filled_with(path, part, unknown);
+            let query = if path.ends_with("/versions/import") { "?format=csv" } else { "" };
+            let asked = filled_with(path, part, unknown) + query;
             let mut body = bodies.get(&*address).cloned().unwrap_or_default();
             if let Some(parent) = body.get_mut("parent") {
                 *parent = json!("");

@@ -69,6 +69,7 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
     let list = "GET /api/v1/trees";
     let versions = "GET /api/v1/trees/{tree}/versions";
     let import = "POST /api/v1/trees/import";
+    let version = "POST /api/v1/trees/{tree}/versions/import";
     let fixed = [
         (list, "limit=x", "limit"),
         (list, "limit=0", "limit"),
@@ -107,6 +108,12 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
         (import, "name=Oak&format=csv&internode_length=x", "internode_length"),
         (import, "name=Oak&format=csv&internode_length=0", "internode_length"),
         (import, "name=Oak&format=csv&internode_length=1e39", "internode_length"),
+        (version, "note=Scanned", "format"),
+        (version, "format=exe", "format"),
+        (version, "format=csv&note=%07", "note"),
+        (version, "format=csv&author=", "author"),
+        (version, "format=csv&unit=-1", "unit"),
+        (version, "format=csv&internode_length=2", "internode_length"),
     ];
     let mut all: Vec<(String, Cow<str>, &str)> =
         fixed.map(|(address, query, field)| (address.to_owned(), query.into(), field)).into();
@@ -114,8 +121,9 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
     for field in ["q", "tags", "author"] {
         all.push((list.to_owned(), format!("{field}={}", "x".repeat(3000)).into(), field));
     }
-    for row in FORMATS {
-        let address = format!("GET /api/v1/sessions/{{session}}/tree.{}", row.ending);
+    let of = ["GET /api/v1/sessions/{session}", "GET /api/v1/trees/{tree}/versions/{version}"];
+    for (of, row) in of.into_iter().flat_map(|of| FORMATS.iter().map(move |row| (of, row))) {
+        let address = format!("{of}/tree.{}", row.ending);
         // Each value is none that its option can have; a format that has no such option says so.
         for (query, field) in [
             ("lod=9", "lod"),
