@@ -100,6 +100,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     let stop = CancellationToken::new();
     let sessions = Sessions::new(Arc::clone(&store), pool.clone(), stop.clone());
     let jobs = Jobs::new(pool.clone(), stop.clone());
+    let under_way = http::UnderWay::new(stop.clone());
     let proxies = http::Proxies::new(&options.trusted_proxies);
     let shared = Shared {
         jobs: jobs.clone(),
@@ -110,7 +111,7 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
         portraits: Portraits::default(),
         hosts: Hosts::new(&options.host_names),
         progresses: http::Progresses::default(),
-        under_way: http::UnderWay::default(),
+        under_way: under_way.clone(),
         addresses: if bound.ip().is_loopback() { Arc::default() } else { announce::addresses(bound).into() },
         proxies: proxies.clone(),
         trusts_local,
@@ -145,7 +146,9 @@ async fn serve(options: &cli::Serve, pool: SimulationPool) -> Result<(), ServeEr
     stop.cancel();
     let ended = async {
         sessions.ended().await;
-        serving.await.and(caring.await).and(watching.await).and(growing.await)
+        let served = serving.await;
+        under_way.ended().await;
+        served.and(caring.await).and(watching.await).and(growing.await)
     };
     match timeout(LAST_WORK, ended).await {
         Ok(Ok(())) => {}

@@ -2,8 +2,9 @@
 
 use std::{
     collections::BTreeSet,
-    io,
-    sync::{Arc, Mutex, PoisonError},
+    io::{self, ErrorKind},
+    panic::AssertUnwindSafe,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::{Duration, SystemTime},
 };
 
@@ -17,9 +18,10 @@ use axum::{
 };
 use espalier_proto::{Problem, Reason};
 use espalier_session::Principal;
-use futures_util::{StreamExt, TryStreamExt, stream};
+use futures_util::{FutureExt, StreamExt, TryStreamExt, stream};
 use sha2::{Digest, Sha256};
 use tokio::time::{Instant, timeout_at};
+use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
     Shared,
@@ -67,22 +69,37 @@ pub(super) struct Repeated;
 
 /// Requests with keys that this server is at.
 #[derive(Clone, Debug, Default)]
-pub struct UnderWay(Arc<Mutex<BTreeSet<AnswerKey>>>);
+pub struct UnderWay {
+    keys: Arc<Mutex<BTreeSet<AnswerKey>>>,
+    work: TaskTracker,
+    stop: CancellationToken,
+}
 
 /// The only request with its key, until it is dropped.
 struct Place(UnderWay, AnswerKey);
 
 impl UnderWay {
+    /// None. From `stop` on, bodies that have not come are waited for no longer.
+    pub fn new(stop: CancellationToken) -> Self {
+        Self { stop, ..Self::default() }
+    }
+
+    /// Waits until each of them has its answer, or its key is free. No others may come meanwhile.
+    pub async fn ended(&self) {
+        self.work.close();
+        self.work.wait().await;
+    }
+
     /// None where there is such a request already.
     fn enter(&self, key: AnswerKey) -> Option<Place> {
-        let is_first = self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(key);
+        let is_first = lock(&self.keys).insert(key);
         is_first.then(|| Place(self.clone(), key))
     }
 }
 
 impl Drop for Place {
     fn drop(&mut self) {
-        self.0.0.lock().unwrap_or_else(PoisonError::into_inner).remove(&self.1);
+        lock(&self.0.keys).remove(&self.1);
     }
 }
 
@@ -102,7 +119,24 @@ pub(super) async fn once(
     let Some(place) = shared.under_way.enter(key) else {
         return refused(Reason::KeyUnderWay, "The request with this key is under way.").into_response();
     };
-    match found(&shared, key).await {
+    // From here on it is of no matter whether whoever asked still waits.
+    let work = shared.under_way.work.clone();
+    let answered = work.spawn(async move {
+        let response = answer(&shared, key, shown, request, next).await;
+        drop(place);
+        response
+    });
+    answered.await.unwrap_or_else(|error| {
+        tracing::error!(%error, "a request with a key failed");
+        failed().into_response()
+    })
+}
+
+/// Does a request, unless one with its key has been done.
+async fn answer(shared: &Shared, key: AnswerKey, shown: Shown, request: Request, next: Next) -> Response {
+    let stop = &shared.under_way.stop;
+    let (request, seen) = watched(request, guard::TIME_LIMIT, stop.clone());
+    match found(shared, key).await {
         Err(failure) => failure.into_response(),
         Ok(Some(Answering::UnderWay)) => {
             let sentence =
@@ -115,18 +149,22 @@ pub(super) async fn once(
             Err(failure) => failure.into_response(),
         },
         Ok(None) => {
-            let (request, seen) = watched(request, guard::TIME_LIMIT);
-            let work = tokio::spawn(async move {
-                let response = keep(&shared, key, shown, &seen, next.run(request).await).await;
-                drop(place);
-                response
+            // A panic frees the key, as every failure of the server does.
+            let done = AssertUnwindSafe(next.run(request)).catch_unwind().await;
+            let mut response = done.unwrap_or_else(|_| {
+                tracing::error!("a request with a key panicked");
+                failed().into_response()
             });
-            work.await.unwrap_or_else(|error| {
-                tracing::error!(%error, "a request with a key failed");
-                Failure::new(Reason::Failed, "The server failed to compute this.").into_response()
-            })
+            if stop.is_cancelled() && !response.status().is_success() && !lock(&seen).is_whole {
+                response = Failure::new(Reason::Stopping, "The server is stopping.").into_response();
+            }
+            keep(shared, key, shown, &seen, response).await
         }
     }
+}
+
+fn failed() -> Failure {
+    Failure::new(Reason::Failed, "The server failed to compute this.")
 }
 
 /// What is known of an earlier request with a key; where there is none, this one is under way from now on.
@@ -177,9 +215,9 @@ fn digest_of_head(request: &Request) -> Sha256 {
     Sha256::new_with_prefix(head)
 }
 
-/// Has the body looked at while it is read, so that no request is held twice. A body that has not come in this time is
-/// cut off, as it is where nobody goes on with a request that is given up.
-fn watched(request: Request, patience: Duration) -> (Request, Arc<Mutex<Seen>>) {
+/// Has the body looked at while it is read, so that no request is held twice. A body that has not come in this time, or
+/// before the server stops, is cut off, as it is where nobody goes on with a request that is given up.
+fn watched(request: Request, patience: Duration, stop: CancellationToken) -> (Request, Arc<Mutex<Seen>>) {
     let (digest, is_whole) = (digest_of_head(&request), request.body().is_end_stream());
     let seen = Arc::new(Mutex::new(Seen { digest, is_whole }));
     if is_whole {
@@ -189,10 +227,11 @@ fn watched(request: Request, patience: Duration) -> (Request, Arc<Mutex<Seen>>) 
     let request = request.map(|body| {
         let end = Instant::now() + patience;
         Body::from_stream(stream::try_unfold(body.into_data_stream(), move |mut bytes| {
-            let seen = Arc::clone(&reading);
+            let (seen, stop) = (Arc::clone(&reading), stop.clone());
             async move {
-                let next = timeout_at(end, bytes.try_next()).await.map_err(io::Error::from)?;
-                let next = next.map_err(io::Error::other)?;
+                let next = stop.run_until_cancelled(timeout_at(end, bytes.try_next())).await;
+                let next = next.ok_or_else(|| io::Error::from(ErrorKind::ConnectionAborted))?;
+                let next = next.map_err(io::Error::from)?.map_err(io::Error::other)?;
                 match &next {
                     Some(some) => lock(&seen).digest.update(some),
                     None => lock(&seen).is_whole = true,
@@ -204,8 +243,8 @@ fn watched(request: Request, patience: Duration) -> (Request, Arc<Mutex<Seen>>) 
     (request, seen)
 }
 
-fn lock(seen: &Mutex<Seen>) -> std::sync::MutexGuard<'_, Seen> {
-    seen.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The hash of a request that comes again.
@@ -309,7 +348,7 @@ mod tests {
             (Body::from("whole"), Duration::from_hours(1), true),
             (Body::from_stream(begun), Duration::ZERO, false),
         ] {
-            let (request, seen) = watched(Request::new(body), patience);
+            let (request, seen) = watched(Request::new(body), patience, CancellationToken::new());
             let read = body::to_bytes(request.into_body(), 10).await;
             assert_eq!((read.is_ok(), lock(&seen).is_whole), (is_whole, is_whole));
         }

@@ -31,6 +31,12 @@ use crate::{
 };
 
 async fn server() -> (Router, Arc<AnyStore>) {
+    let shared = shared().await;
+    let store = Arc::clone(&shared.store);
+    (router(shared), store)
+}
+
+async fn shared() -> Shared {
     let store = Arc::new(AnyStore::Memory(MemoryStore::default()));
     let pool = SimulationPool::new(None).unwrap();
     for (id, at) in [("ash", "2026-05-01T09:00:00.000Z"), ("yew", "2026-05-01T09:00:00.001Z")] {
@@ -46,7 +52,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
     // Nobody does jobs here.
     let jobs = Jobs::new(pool.clone(), CancellationToken::new());
     jobs.add_named(JOB.into(), order(Caller::local())).unwrap();
-    let shared = Shared {
+    Shared {
         jobs,
         sessions: Sessions::new(Arc::clone(&store), pool.clone(), CancellationToken::new()),
         store: Arc::clone(&store),
@@ -65,8 +71,7 @@ async fn server() -> (Router, Arc<AnyStore>) {
         opening: Arc::default(),
         progresses: Progresses::default(),
         under_way: UnderWay::default(),
-    };
-    (router(shared), store)
+    }
 }
 
 /// Where other machines reach the server.

@@ -24,6 +24,7 @@ mod shared_tree;
 mod slow_clients;
 mod species;
 mod startup;
+mod stopping;
 mod upgrades;
 mod users;
 mod versions;

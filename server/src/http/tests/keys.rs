@@ -1,14 +1,18 @@
 //! Requests with keys are done once.
 
-use std::convert::Infallible;
+use std::{
+    convert::Infallible,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
-use axum::response::Response;
+use axum::{Extension, response::Response, routing::post};
+use espalier_session::Principal;
 use futures_util::{FutureExt, StreamExt, stream};
 use tokio::sync::oneshot;
 
 use super::*;
 use crate::{
-    http::keys::{KEY, answer_key},
+    http::keys::{KEY, Shown, answer_key, once},
     jobs::WAITING_OF_ONE,
     store::Answers,
 };
@@ -172,17 +176,92 @@ async fn ik3_refusals_are_repeated_and_what_is_to_be_tried_again_is_not() {
     assert_eq!(told(send(&server, grow("more"), body).await).await, taken);
 
     // What a killed server leaves.
-    let key = answer_key(&Caller::local(), &espalier_session::Principal::visitor(), "left");
+    let key = answer_key(&Caller::local(), &Principal::visitor(), "left");
     store.begin_answer(key, &crate::time::now(), "2026").await.unwrap();
     let left = told(send(&server, asked(COPIES, "left"), ELM).await).await;
     assert_eq!((left.0, left.1), (409, json!("outcome-unknown")));
     store
-        .begin_answer(
-            answer_key(&Caller::local(), &espalier_session::Principal::visitor(), "old"),
-            "2026",
-            "2026",
-        )
+        .begin_answer(answer_key(&Caller::local(), &Principal::visitor(), "old"), "2026", "2026")
         .await
         .unwrap();
     assert_eq!(send(&server, asked(COPIES, "old"), ELM).await.status(), StatusCode::CREATED, "after a day");
+}
+
+/// A server with one address, which takes keys.
+fn alone<F: Future<Output = &'static str> + Send + 'static>(
+    shared: &Shared,
+    answer: impl Fn() -> F + Clone + Send + Sync + 'static,
+) -> Router {
+    let keyed = Keyed { shared: shared.clone(), shown: Shown::Again };
+    let answer = post(answer).layer::<_, Infallible>(from_fn_with_state(keyed, once));
+    let caller =
+        ServiceBuilder::new().layer(Extension(Caller::local())).layer(Extension(Principal::visitor()));
+    Router::new().route("/", answer.layer(caller))
+}
+
+#[tokio::test]
+async fn ik3_a_panic_frees_its_key() {
+    let shared = shared().await;
+    let times = Arc::new(AtomicU32::new(0));
+    let counted = Arc::clone(&times);
+    let server = alone(&shared, move || {
+        let before = counted.fetch_add(1, Ordering::Relaxed);
+        async move {
+            assert_ne!(before, 0, "the first one fails");
+            "done"
+        }
+    });
+    let failed = told(send(&server, asked("/", "one"), "").await).await;
+    assert_eq!((failed.0, failed.1), (503, json!("failed")));
+    for _ in 0..2 {
+        assert_eq!(send(&server, asked("/", "one"), "").await.status(), StatusCode::OK);
+    }
+    assert_eq!(times.load(Ordering::Relaxed), 2, "the third was answered with what the second was");
+}
+
+#[tokio::test]
+async fn ik3_a_server_that_stops_waits_for_what_it_does_also_where_nobody_else_does() {
+    let shared = shared().await;
+    let go_on = Arc::new(tokio::sync::Notify::new());
+    let waiting = Arc::clone(&go_on);
+    let server = alone(&shared, move || {
+        let waiting = Arc::clone(&waiting);
+        async move {
+            waiting.notified().await;
+            "done"
+        }
+    });
+    let gone = server.clone().oneshot(asked("/", "one").body(Body::empty()).unwrap()).now_or_never();
+    assert!(gone.is_none(), "it was given up while it was under way");
+    let mut ended = std::pin::pin!(shared.under_way.ended());
+    for _ in 0..100 {
+        tokio::task::yield_now().await;
+        assert!(ended.as_mut().now_or_never().is_none());
+    }
+    go_on.notify_one();
+    ended.await;
+    let again = alone(&shared, || async { "another" });
+    let answer = send(&again, asked("/", "one"), "").await;
+    assert_eq!(axum::body::to_bytes(answer.into_body(), 100).await.unwrap(), "done");
+}
+
+#[tokio::test]
+async fn ik3_a_server_that_stops_frees_the_keys_of_what_has_not_come() {
+    let stop = CancellationToken::new();
+    let shared = Shared { under_way: UnderWay::new(stop.clone()), ..shared().await };
+    let server = router(shared.clone());
+    let begun = stream::once(async { Ok::<_, Infallible>(r#"{"name":"#) }).chain(stream::pending());
+    let slow = asked(COPIES, "one").body(Body::from_stream(begun)).unwrap();
+    let slow = tokio::spawn(server.clone().oneshot(slow));
+    tokio::task::yield_now().await;
+    while told(send(&server, asked(COPIES, "one"), ELM).await).await.1 != json!("key-under-way") {
+        tokio::task::yield_now().await;
+    }
+    stop.cancel();
+    shared.under_way.ended().await;
+    let refused = told(slow.await.unwrap().unwrap()).await;
+    assert_eq!((refused.0, refused.1), (503, json!("stopping")));
+    let next = router(Shared { under_way: UnderWay::default(), ..shared });
+    assert_eq!(send(&next, asked(COPIES, "one"), ELM).await.status(), StatusCode::CREATED);
+    assert_eq!(trees(&next).await, 3);
 }
