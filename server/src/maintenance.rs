@@ -94,7 +94,7 @@ async fn once(store: &AnyStore, unsaved: Duration, now: SystemTime) -> Result<()
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::store::{AnswerKey, Deletion, MemoryStore, NewSession, TreeChange, tree};
+    use crate::store::{AnswerKey, Deletion, MemoryStore, MostAnswers, NewSession, TreeChange, tree};
 
     const UNSAVED: Duration = Duration::from_hours(90 * 24);
 
@@ -134,7 +134,7 @@ mod tests {
         let store = AnyStore::Memory(MemoryStore::default());
         let key = |byte| AnswerKey { caller: [1; 32], key: [byte; 32] };
         for (byte, at) in [(1, "2026-05-30T11:59:59.999Z"), (2, "2026-05-30T12:00:00.000Z")] {
-            assert!(store.begin_answer(key(byte), at, "2026").await.unwrap());
+            assert!(store.begin_answer(key(byte), at, "2026", MostAnswers::default()).await.unwrap());
         }
         let now = humantime::parse_rfc3339("2026-05-31T12:00:00Z").unwrap();
         once(&store, UNSAVED, now).await.unwrap();

@@ -30,7 +30,7 @@ use super::{
 };
 use crate::{
     access::{Caller, SecretHash, hash},
-    store::{Answer, AnswerKey, Answering, Answers},
+    store::{Answer, AnswerKey, Answering, Answers, MostAnswers},
     time::written,
 };
 
@@ -171,7 +171,8 @@ fn failed() -> Failure {
 async fn found(shared: &Shared, key: AnswerKey) -> Result<Option<Answering>, Failure> {
     let now = SystemTime::now();
     loop {
-        if shared.store.begin_answer(key, &written(now), &written(now - KEPT)).await? {
+        let most = MostAnswers::default();
+        if shared.store.begin_answer(key, &written(now), &written(now - KEPT), most).await? {
             return Ok(None);
         }
         // It may have gone in between, for those of one caller are bounded.

@@ -3,16 +3,32 @@
 use super::StoreError;
 use crate::access::SecretHash;
 
-/// Answers kept of one caller at most; of more, the oldest are forgotten.
-pub const MOST_OF_ONE: u64 = 5_000;
-/// Answers kept of all callers at most; of more, the oldest are forgotten.
-pub const MOST_OF_ALL: u64 = 50_000;
+/// Answers kept at most; of more, the oldest are forgotten.
+#[derive(Clone, Copy, Debug)]
+pub struct MostAnswers {
+    /// Of one caller.
+    pub of_one: u64,
+    /// Of all callers.
+    pub of_all: u64,
+}
+
+impl Default for MostAnswers {
+    fn default() -> Self {
+        Self { of_one: 5_000, of_all: 50_000 }
+    }
+}
 
 /// Keeps answers by the keys of their requests.
 pub trait Answers {
     /// Notes that a request with a key is under way, unless there is one with that key which began after `since`; whether
     /// there was none.
-    async fn begin_answer(&self, key: AnswerKey, at: &str, since: &str) -> Result<bool, StoreError>;
+    async fn begin_answer(
+        &self,
+        key: AnswerKey,
+        at: &str,
+        since: &str,
+        most: MostAnswers,
+    ) -> Result<bool, StoreError>;
 
     /// What is known of the request with a key.
     async fn answer(&self, key: AnswerKey) -> Result<Option<Answering>, StoreError>;

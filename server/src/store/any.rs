@@ -9,9 +9,9 @@ use espalier_session::JournalEntry;
 use super::MemoryStore;
 use super::{
     Answer, AnswerKey, Answering, Answers, Audit, Collection, CollectionChange, Damage, Event, Finding,
-    Lease, Library, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes, Picture,
-    SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree, StoredVersion, TreeChange,
-    TreeDocument, TreeQuery, User, UserChange, Users,
+    Lease, Library, MostAnswers, NewSession, NewSnapshot, NewTree, NewVersion, Noted, Pass, PassKind, Passes,
+    Picture, SessionTree, SqliteStore, Store, StoreError, StoredSession, StoredTree, StoredVersion,
+    TreeChange, TreeDocument, TreeQuery, User, UserChange, Users,
 };
 use crate::access::SecretHash;
 
@@ -258,8 +258,14 @@ impl Audit for AnyStore {
 }
 
 impl Answers for AnyStore {
-    async fn begin_answer(&self, key: AnswerKey, at: &str, since: &str) -> Result<bool, StoreError> {
-        delegate!(self.begin_answer(key, at, since))
+    async fn begin_answer(
+        &self,
+        key: AnswerKey,
+        at: &str,
+        since: &str,
+        most: MostAnswers,
+    ) -> Result<bool, StoreError> {
+        delegate!(self.begin_answer(key, at, since, most))
     }
 
     async fn answer(&self, key: AnswerKey) -> Result<Option<Answering>, StoreError> {

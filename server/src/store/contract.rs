@@ -12,7 +12,9 @@ use std::{collections::BTreeSet, ops::RangeInclusive};
 use espalier_proto::Notice;
 use espalier_session::{JournalEntry, Principal};
 
-use self::answers::{an_answer_is_kept_for_one_request, answers_of_one_caller_are_bounded};
+use self::answers::{
+    an_answer_is_kept_for_one_request, answers_of_all_callers_are_bounded, answers_of_one_caller_are_bounded,
+};
 use self::audit::{events_are_listed_newest_first, events_that_come_again_are_counted};
 use self::finding::{
     collections_lie_in_each_other, every_order_goes_page_by_page, filters_hold_at_once,
@@ -108,6 +110,7 @@ pub(super) async fn all<S: Breakable, G>(make: impl AsyncFn() -> (S, G)) {
         events_that_come_again_are_counted,
         an_answer_is_kept_for_one_request,
         answers_of_one_caller_are_bounded,
+        answers_of_all_callers_are_bounded,
         a_closed_store_takes_nothing,
     );
 }

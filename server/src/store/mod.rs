@@ -25,7 +25,7 @@ use espalier_proto::Notice;
 use espalier_session::JournalEntry;
 
 pub use self::{
-    answers::{Answer, AnswerKey, Answering, Answers, MOST_OF_ALL, MOST_OF_ONE},
+    answers::{Answer, AnswerKey, Answering, Answers, MostAnswers},
     any::AnyStore,
     audit::{Audit, DONE, EXPORT, Event, MOST_EVENTS, Noted},
     finding::{Collection, CollectionChange, Finding, Sort, TreePlace, TreeQuery},

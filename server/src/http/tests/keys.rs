@@ -14,7 +14,7 @@ use super::*;
 use crate::{
     http::keys::{KEY, Shown, answer_key, once},
     jobs::WAITING_OF_ONE,
-    store::Answers,
+    store::{Answers, MostAnswers},
 };
 
 const COPIES: &str = "/api/v1/trees/ash/copies";
@@ -177,11 +177,16 @@ async fn ik3_refusals_are_repeated_and_what_is_to_be_tried_again_is_not() {
 
     // What a killed server leaves.
     let key = answer_key(&Caller::local(), &Principal::visitor(), "left");
-    store.begin_answer(key, &crate::time::now(), "2026").await.unwrap();
+    store.begin_answer(key, &crate::time::now(), "2026", MostAnswers::default()).await.unwrap();
     let left = told(send(&server, asked(COPIES, "left"), ELM).await).await;
     assert_eq!((left.0, left.1), (409, json!("outcome-unknown")));
     store
-        .begin_answer(answer_key(&Caller::local(), &Principal::visitor(), "old"), "2026", "2026")
+        .begin_answer(
+            answer_key(&Caller::local(), &Principal::visitor(), "old"),
+            "2026",
+            "2026",
+            MostAnswers::default(),
+        )
         .await
         .unwrap();
     assert_eq!(send(&server, asked(COPIES, "old"), ELM).await.status(), StatusCode::CREATED, "after a day");

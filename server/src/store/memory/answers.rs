@@ -1,7 +1,7 @@
 //! Answers to requests with keys, in the model.
 
 use super::{
-    super::{Answer, AnswerKey, Answering, Answers, MOST_OF_ALL, MOST_OF_ONE, StoreError},
+    super::{Answer, AnswerKey, Answering, Answers, MostAnswers, StoreError},
     MemoryStore,
 };
 
@@ -14,7 +14,13 @@ pub(super) struct Begun {
 }
 
 impl Answers for MemoryStore {
-    async fn begin_answer(&self, key: AnswerKey, at: &str, since: &str) -> Result<bool, StoreError> {
+    async fn begin_answer(
+        &self,
+        key: AnswerKey,
+        at: &str,
+        since: &str,
+        most: MostAnswers,
+    ) -> Result<bool, StoreError> {
         let mut kept = self.writing()?;
         kept.answers.retain(|begun| begun.key != key || *begun.at >= *since);
         if kept.answers.iter().any(|begun| begun.key == key) {
@@ -22,11 +28,11 @@ impl Answers for MemoryStore {
         }
         kept.answers.push(Begun { key, at: at.to_owned(), answering: Answering::UnderWay });
         let of_one = kept.answers.iter().filter(|begun| begun.key.caller == key.caller).count() as u64;
-        if of_one > MOST_OF_ONE {
+        if of_one > most.of_one {
             let oldest = kept.answers.iter().position(|begun| begun.key.caller == key.caller);
             oldest.map(|oldest| kept.answers.remove(oldest));
         }
-        let too_many = kept.answers.len().saturating_sub(MOST_OF_ALL as usize);
+        let too_many = kept.answers.len().saturating_sub(most.of_all as usize);
         kept.answers.drain(..too_many);
         Ok(true)
     }

@@ -3,22 +3,28 @@
 use sqlx::sqlite::SqliteConnection;
 
 use super::{
-    super::{Answer, AnswerKey, Answering, Answers, MOST_OF_ALL, MOST_OF_ONE, StoreError},
+    super::{Answer, AnswerKey, Answering, Answers, MostAnswers, StoreError},
     SqliteStore,
     writer::Write,
 };
 
 #[derive(Debug)]
 pub(super) enum AnswerWrite {
-    Begin { key: AnswerKey, at: String, since: String },
+    Begin { key: AnswerKey, at: String, since: String, most: MostAnswers },
     Keep(AnswerKey, Answer),
     Forget(AnswerKey),
     Purge(String),
 }
 
 impl Answers for SqliteStore {
-    async fn begin_answer(&self, key: AnswerKey, at: &str, since: &str) -> Result<bool, StoreError> {
-        let write = AnswerWrite::Begin { key, at: at.to_owned(), since: since.to_owned() };
+    async fn begin_answer(
+        &self,
+        key: AnswerKey,
+        at: &str,
+        since: &str,
+        most: MostAnswers,
+    ) -> Result<bool, StoreError> {
+        let write = AnswerWrite::Begin { key, at: at.to_owned(), since: since.to_owned(), most };
         Ok(self.writer.write(Write::Answer(write)).await? > 0)
     }
 
@@ -56,7 +62,7 @@ fn read(row: Row) -> Result<Answering, StoreError> {
 impl AnswerWrite {
     pub(super) async fn apply(&self, connection: &mut SqliteConnection) -> Result<u64, StoreError> {
         match self {
-            Self::Begin { key, at, since } => {
+            Self::Begin { key, at, since, most } => {
                 let old = sqlx::query("DELETE FROM answers WHERE key = ? AND at < ?");
                 old.bind(key.key.to_vec()).bind(since).execute(&mut *connection).await?;
                 let begun = sqlx::query(
@@ -71,8 +77,8 @@ impl AnswerWrite {
                     "DELETE FROM answers WHERE id <= ?1 OR caller = ?2 AND id <=
                      (SELECT id FROM answers WHERE caller = ?2 ORDER BY id DESC LIMIT 1 OFFSET ?3)",
                 );
-                let oldest = begun.last_insert_rowid() - MOST_OF_ALL as i64;
-                let forgotten = forgotten.bind(oldest).bind(key.caller.to_vec()).bind(MOST_OF_ONE as i64);
+                let oldest = begun.last_insert_rowid() - most.of_all as i64;
+                let forgotten = forgotten.bind(oldest).bind(key.caller.to_vec()).bind(most.of_one as i64);
                 forgotten.execute(connection).await?;
                 Ok(1)
             }
