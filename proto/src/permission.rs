@@ -42,8 +42,10 @@ table! {
     Look: Viewer, Guests;
     /// Comes into the session of a tree, or begins one. Which tree it may be is asked by itself ([`Action::OpenTree`]).
     EnterSession: Viewer, Guests;
-    /// Grows trees from seeds into files, as a job, and asks for jobs of one's own.
+    /// Grows trees from seeds into files, as a job.
     GrowTrees: Editor, Library;
+    /// Lists jobs of one's own, takes what they made, and gives them up.
+    OwnJobs: Viewer, Library;
     /// Begins a session that belongs to no tree.
     BeginSession: Editor, Library;
     /// Asks for a session by its name.

@@ -6,6 +6,7 @@ mod place;
 mod queue;
 
 use std::{
+    cmp::Reverse,
     collections::BTreeMap,
     env, io,
     sync::{Arc, Mutex, MutexGuard, PoisonError},
@@ -61,6 +62,29 @@ struct Table {
     waiting: Queue,
     /// Made for the first job.
     place: Option<Place>,
+    /// How many were ordered so far.
+    ordered: u64,
+}
+
+/// A job, its name, and how many come before it.
+#[derive(Clone, Debug)]
+pub struct Listed {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub job: Arc<Job>,
+    /// How many begin before it.
+    pub ahead: usize,
+}
+
+impl Table {
+    /// The jobs that wait, in the order in which they begin.
+    fn in_order(&self) -> Vec<&str> {
+        let is_waiting =
+            |name: &&str| self.jobs.get(*name).is_some_and(|job| job.lock().state == State::Waiting);
+        let left = |name: &str| self.jobs.get(name).map_or(0, |job| job.left());
+        self.waiting.in_order(left).into_iter().filter(is_waiting).collect()
+    }
 }
 
 /// Why an order is not taken.
@@ -134,7 +158,9 @@ impl Jobs {
             None => Place::new_in(&env::temp_dir())?,
         };
         let folder = table.place.insert(place).folder()?;
-        table.jobs.insert(name.clone(), Arc::new(Job::new(order, folder, &self.0.stop)));
+        table.ordered += 1;
+        let job = Job::new(order, table.ordered, folder, &self.0.stop);
+        table.jobs.insert(name.clone(), Arc::new(job));
         table.waiting.add(person, name);
         self.0.added.notify_one();
         Ok(())
@@ -144,13 +170,26 @@ impl Jobs {
     pub fn find(&self, name: &str, caller: &Caller) -> Option<(Arc<Job>, usize)> {
         let table = self.table();
         let job = table.jobs.get(name).filter(|job| caller.has_what_is_of(&job.order.by)).cloned()?;
-        let is_waiting =
-            |name: &&str| table.jobs.get(*name).is_some_and(|job| job.lock().state == State::Waiting);
-        let left = |name: &str| table.jobs.get(name).map_or(0, |job| job.left());
-        let ahead =
-            table.waiting.in_order(left).into_iter().filter(is_waiting).position(|other| other == name);
-        let ahead = ahead.unwrap_or(0);
+        let ahead = table.in_order().into_iter().position(|other| other == name).unwrap_or(0);
         Some((job, ahead))
+    }
+
+    /// So many of this caller's jobs, newest first; those before a number, if one is given.
+    pub fn list(&self, caller: &Caller, limit: usize, before: Option<u64>) -> Vec<Listed> {
+        let table = self.table();
+        let is_asked_for = |(_, job): &(&String, &Arc<Job>)| {
+            before.is_none_or(|before| job.number < before) && caller.has_what_is_of(&job.order.by)
+        };
+        let mut found: Vec<_> = table.jobs.iter().filter(is_asked_for).collect();
+        found.sort_unstable_by_key(|(_, job)| Reverse(job.number));
+        found.truncate(limit);
+        let ahead: BTreeMap<&str, usize> = table.in_order().into_iter().zip(0..).collect();
+        let listed = found.into_iter().map(|(name, job)| Listed {
+            name: name.clone(),
+            job: Arc::clone(job),
+            ahead: ahead.get(&**name).copied().unwrap_or(0),
+        });
+        listed.collect()
     }
 
     /// Ends a job, and takes its files away; false if there is none of this name that is this caller's.
@@ -361,6 +400,31 @@ mod tests {
         assert_eq!(last.progress().grown.len(), 1);
         let others = names.iter().enumerate().filter(|(index, _)| *index != 2);
         assert!(others.into_iter().all(|(_, name)| has_ended(&find(&jobs, name).unwrap().0)));
+    }
+
+    #[test]
+    fn jb8_jobs_are_listed_newest_first_page_by_page() {
+        let jobs = jobs();
+        let names: Vec<_> = (0..5).map(|_| added(&jobs, order(&[1], 1))).collect();
+        let others = added(&jobs, order_of("Bo", &[1]));
+        let list = |caller: &Caller, limit, before| jobs.list(caller, limit, before);
+        let bo = Caller::logged_in("Bo", Role::Viewer);
+        assert_eq!(list(&bo, 9, None).iter().map(|one| &one.name).collect::<Vec<_>>(), [&others]);
+        let (mut seen, mut before) = (Vec::new(), None);
+        loop {
+            let page = list(&Caller::local(), 2, before);
+            let Some(last) = page.last() else { break };
+            before = Some(last.job.number);
+            seen.extend(page.iter().map(|one| one.name.clone()));
+            // Neither what comes meanwhile nor what goes moves the pages.
+            added(&jobs, order(&[1], 1));
+            jobs.give_up(&names[3], &Caller::local());
+        }
+        let expected = [&others, &names[4], &names[2], &names[1], &names[0]];
+        assert_eq!(seen.iter().collect::<Vec<_>>(), expected, "administrators see those of all");
+        for Listed { name, ahead, .. } in list(&Caller::local(), 99, None) {
+            assert_eq!(find(&jobs, &name).map(|(_, ahead)| ahead), Some(ahead), "{name}");
+        }
     }
 
     #[tokio::test]

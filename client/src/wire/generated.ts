@@ -78,6 +78,7 @@ export const LEAST_ROLES = {
   Look: "viewer",
   EnterSession: "viewer",
   GrowTrees: "editor",
+  OwnJobs: "viewer",
   BeginSession: "editor",
   SeeSession: "viewer",
   JoinSession: "viewer",

@@ -1,5 +1,7 @@
 //! Jobs: trees that are grown on request (`JB`).
 
+mod list;
+
 use std::{borrow::Cow, collections::BTreeSet, fmt};
 
 use axum::{
@@ -20,6 +22,7 @@ use serde::{
 };
 use serde_json::Value;
 
+pub(super) use self::list::{JobPage, Page, list};
 use super::{
     Shared,
     exports::{self, not_of},
@@ -267,6 +270,17 @@ struct FailedTree {
     problem: Problem,
 }
 
+impl From<jobs::State> for JobState {
+    fn from(state: jobs::State) -> Self {
+        match state {
+            jobs::State::Waiting => Self::Waiting,
+            jobs::State::Growing => Self::Growing,
+            jobs::State::Done => Self::Done,
+            jobs::State::Failed => Self::Failed,
+        }
+    }
+}
+
 impl JobNow {
     fn of(id: String, job: &Job, ahead: usize) -> Self {
         let jobs::Progress { state, grown, failed, problem, seed, .. } = job.progress();
@@ -279,12 +293,7 @@ impl JobNow {
             address: address(seed),
         });
         Self {
-            state: match state {
-                jobs::State::Waiting => JobState::Waiting,
-                jobs::State::Growing => JobState::Growing,
-                jobs::State::Done => JobState::Done,
-                jobs::State::Failed => JobState::Failed,
-            },
+            state: state.into(),
             ahead,
             done: grown.len() + failed.len(),
             all: job.order.seeds.len(),

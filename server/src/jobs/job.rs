@@ -26,6 +26,7 @@ use crate::{
     pool::{Class, Person, SimulationPool},
     recipe::{Gardener, GrowError, Recipe},
     spool::Spool,
+    time::now,
 };
 
 /// What is to be grown, and written.
@@ -98,6 +99,10 @@ impl Progress {
 pub struct Job {
     /// What was asked for.
     pub order: Order,
+    /// Later ones have larger numbers.
+    pub number: u64,
+    /// When it was ordered.
+    pub ordered_at: String,
     given_up: CancellationToken,
     progress: Mutex<Progress>,
     /// Taken where the job is given up.
@@ -112,9 +117,11 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 
 impl Job {
     /// A job that waits. Its files lie in the folder; it is given up with `stop`.
-    pub(super) fn new(order: Order, folder: TempDir, stop: &CancellationToken) -> Self {
+    pub(super) fn new(order: Order, number: u64, folder: TempDir, stop: &CancellationToken) -> Self {
         Self {
             order,
+            number,
+            ordered_at: now(),
             given_up: stop.child_token(),
             progress: Mutex::new(Progress {
                 state: State::Waiting,

@@ -24,3 +24,44 @@ async fn jb5_a_job_is_there_for_whoever_ordered_it() {
     assert_eq!(by(&own, Method::DELETE, address).await, StatusCode::NO_CONTENT);
     assert_eq!(by(&own, Method::GET, address).await, StatusCode::NOT_FOUND);
 }
+
+/// Whoever may grow no more trees still has what they ordered.
+#[tokio::test]
+async fn jb8_own_jobs_are_listed_taken_and_given_up_also_by_viewers() {
+    let shared = shared().await;
+    let token = token(&shared.store, Role::Viewer, None).await;
+    let asked = request_of(&token, &Method::GET, "/").body(()).unwrap();
+    let by = Caller::of(asked.headers(), None, false, &*shared.store).await.unwrap();
+    for name in ["first", "second", "third"] {
+        shared.jobs.add_named(name.into(), order(by.clone())).unwrap();
+    }
+    let server = router(shared);
+    let list = async |asked: Builder| {
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::OK);
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        let page: Value = serde_json::from_slice(&bytes).unwrap();
+        let ids = page["jobs"].as_array().unwrap().iter().map(|job| job["id"].as_str().unwrap().to_owned());
+        (ids.collect::<Vec<_>>(), page["next"].as_u64(), page["jobs"][0].clone())
+    };
+    let own = |query: &str| request_of(&token, &Method::GET, &format!("/api/v1/jobs{query}"));
+    let (ids, next, first) = list(own("?limit=2")).await;
+    assert_eq!(ids, ["third", "second"]);
+    assert_eq!(first["address"], "/api/v1/jobs/third");
+    assert_eq!(
+        (&first["state"], &first["all"], &first["format"]),
+        (&json!("waiting"), &json!(1), &json!("glb"))
+    );
+    let (ids, next, _) = list(own(&format!("?limit=2&before={}", next.unwrap()))).await;
+    assert_eq!((ids, next), (vec!["first".to_owned()], None));
+    let (ids, ..) = list(request(&Method::GET, "/api/v1/jobs")).await;
+    assert_eq!(ids, ["third", "second", "first", JOB], "administrators see all");
+
+    let by = |method, path: &'static str| status(&server, request_of(&token, &method, path), "");
+    assert_eq!(by(Method::GET, "/api/v1/jobs/first").await, StatusCode::OK);
+    assert_eq!(by(Method::GET, "/api/v1/jobs/first/results/1").await, StatusCode::NOT_FOUND);
+    assert_eq!(by(Method::DELETE, "/api/v1/jobs/first").await, StatusCode::NO_CONTENT);
+    assert_eq!(by(Method::GET, "/api/v1/jobs/a-job").await, StatusCode::NOT_FOUND);
+    let grow = request_of(&token, &Method::POST, "/api/v1/grow");
+    assert_eq!(status(&server, grow, r#"{"template":"oak","format":"mtg"}"#).await, StatusCode::FORBIDDEN);
+}

@@ -97,6 +97,8 @@ fn queries() -> Vec<(String, Cow<'static, str>, &'static str)> {
         (versions, "before=-1", "before"),
         ("GET /api/v1/audit", "limit=0", "limit"),
         ("GET /api/v1/audit", "before=-1", "before"),
+        ("GET /api/v1/jobs", "limit=201", "limit"),
+        ("GET /api/v1/jobs", "before=-1", "before"),
         (import, "format=csv", "name"),
         (import, "name=Oak", "format"),
         (import, "name=%07&format=csv", "name"),
