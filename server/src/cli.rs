@@ -454,6 +454,7 @@ mod tests {
         assert!(parse_species("scots-pin").unwrap_err().ends_with("`scots-pine`"));
         assert!(parse_species("triffid").unwrap_err().contains("espalier species"));
         assert_eq!("1-50".parse(), Ok(SeedRange(1..=50)));
+        assert_eq!("7".parse(), Ok(SeedRange(7..=7)));
     }
 
     #[test]
@@ -465,7 +466,7 @@ mod tests {
             ("espalier grow --metamers 0", ErrorKind::ValueValidation),
             ("espalier grow --steps 1001", ErrorKind::ValueValidation),
             ("espalier grow --species triffid", ErrorKind::ValueValidation),
-            ("espalier grow --species oak --seeds 3", ErrorKind::ValueValidation),
+            ("espalier grow --species oak --seeds 3-", ErrorKind::ValueValidation),
             ("espalier grow --species oak --seeds 3-1", ErrorKind::ValueValidation),
             ("espalier grow --species oak --seeds 1-3 --seed 2", ErrorKind::ArgumentConflict),
             ("espalier species --json --sheet a.png", ErrorKind::ArgumentConflict),

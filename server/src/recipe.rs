@@ -53,7 +53,7 @@ impl From<Problem> for GrowError {
     }
 }
 
-/// Seeds one after the other, as in 1-50.
+/// Seeds one after the other, as in 1-50, or one alone.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SeedRange(pub RangeInclusive<u32>);
 
@@ -61,8 +61,13 @@ impl FromStr for SeedRange {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let ends = text.split_once('-').and_then(|(from, to)| Some((from.parse().ok()?, to.parse().ok()?)));
-        let (from, to): (u32, u32) = ends.ok_or("write them as FROM-TO, such as 1-50")?;
+        let seed = |text: &str| {
+            let is_number = text.bytes().all(|byte| byte.is_ascii_digit());
+            text.parse::<u32>().ok().filter(|_| is_number)
+        };
+        let (from, to) = text.split_once('-').unwrap_or((text, text));
+        let ends = seed(from).zip(seed(to));
+        let (from, to) = ends.ok_or("write them as FROM-TO, such as 1-50, or one as it is")?;
         if from <= to { Ok(Self(from..=to)) } else { Err(format!("{from} comes after {to}")) }
     }
 }

@@ -12,6 +12,9 @@ use serde::{
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ByName<T>(pub(crate) T);
 
+/// How serde ends what it says of a value that is no variant of an enum.
+const NO_NAME: &str = "string or map";
+
 /// A visitor of what must be an object.
 struct Object<V>(V);
 
@@ -78,7 +81,14 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for ByName<D> {
         variants: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, D::Error> {
-        self.0.deserialize_enum(name, variants, ByName(visitor))
+        // Of what is neither a name nor an object, serde says that it should be one, and not which names there are.
+        self.0.deserialize_enum(name, variants, ByName(visitor)).map_err(|error| {
+            let text = error.to_string();
+            match text.strip_suffix(NO_NAME).filter(|_| !variants.is_empty()) {
+                Some(found) => D::Error::custom(format!("{found}{}", variants.join(", "))),
+                None => error,
+            }
+        })
     }
 
     fn is_human_readable(&self) -> bool {

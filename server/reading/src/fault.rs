@@ -189,7 +189,6 @@ pub fn plain(expected: &str) -> String {
         "a boolean" => "true, false".into(),
         "a string" => "a text".into(),
         "a sequence" => "a list".into(),
-        "string or map" => "a name".into(),
         other if other.starts_with("struct ") => "an object".into(),
         other => other.trim_start_matches("one of ").replace("` or `", ", ").replace('`', ""),
     }

@@ -97,6 +97,34 @@ mod tests {
     }
 
     #[derive(Debug, Deserialize)]
+    #[serde(rename_all = "snake_case")]
+    enum Side {
+        Left,
+        Right,
+    }
+
+    #[derive(Debug, Deserialize)]
+    struct Leaf {
+        #[serde(rename = "side")]
+        _side: Side,
+    }
+
+    /// Whether a name is missing or is none, it is told which names there are.
+    #[test]
+    fn a_name_that_is_none_is_told_all_names() {
+        for (value, what) in [
+            (serde_json::json!({ "side": "top" }), "is top"),
+            (serde_json::json!({ "side": null }), "cannot be read: invalid type: null"),
+            (serde_json::json!({ "side": 5 }), "cannot be read: invalid type: integer `5`"),
+            (serde_json::json!({ "side": [] }), "cannot be read: invalid type: sequence"),
+        ] {
+            let refusal = from_value::<Leaf>(&value).unwrap_err().refusal();
+            assert_eq!((&*refusal.field, &*refusal.what), ("side", what));
+            assert_eq!(refusal.allowed.as_deref(), Some("left, right"), "{value}");
+        }
+    }
+
+    #[derive(Debug, Deserialize)]
     struct Metamer {
         #[serde(rename = "parent")]
         _parent: Option<u32>,

@@ -56,7 +56,7 @@ pub(super) struct GrowTrees {
     /// Looks to set.
     #[serde(default)]
     appearance: AppearancePatch,
-    /// Up to 1000 different seeds: a list, or a text as "1-50"; 1 if left out.
+    /// Up to 1000 different seeds: a list, or a text as "1-50" or "7"; 1 if left out.
     #[serde(default)]
     seeds: WantedSeeds,
     /// Steps to grow on for.
@@ -126,7 +126,7 @@ impl Default for WantedSeeds {
 
 impl WantedSeeds {
     fn allowed() -> String {
-        format!("a list of 1 to {MOST_SEEDS} different seeds, or a text as 1-50")
+        format!("a list of 1 to {MOST_SEEDS} different seeds, or a text as 1-50 or 7")
     }
 
     fn read(value: &Value) -> Result<Self, NotAllowed> {
@@ -185,7 +185,7 @@ impl JsonSchema for WantedSeeds {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({ "anyOf": [
-            { "type": "string", "pattern": "^[0-9]+-[0-9]+$" },
+            { "type": "string", "pattern": "^[0-9]+(-[0-9]+)?$" },
             {
                 "type": "array",
                 "items": { "type": "integer", "minimum": 0, "maximum": u32::MAX },

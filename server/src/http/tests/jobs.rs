@@ -65,3 +65,16 @@ async fn jb8_own_jobs_are_listed_taken_and_given_up_also_by_viewers() {
     let grow = request_of(&token, &Method::POST, "/api/v1/grow");
     assert_eq!(status(&server, grow, r#"{"template":"oak","format":"mtg"}"#).await, StatusCode::FORBIDDEN);
 }
+
+#[tokio::test]
+async fn jb1_seeds_are_a_list_or_a_text() {
+    let (server, _) = server().await;
+    for (seeds, all) in [(json!([3, 9]), 2), (json!("2-4"), 3), (json!("7"), 1)] {
+        let body = json!({ "template": "oak", "format": "mtg", "seeds": seeds }).to_string();
+        let order = request(&Method::POST, "/api/v1/grow").header(header::CONTENT_TYPE, "application/json");
+        let answer = server.clone().oneshot(order.body(Body::from(body)).unwrap()).await.unwrap();
+        assert_eq!(answer.status(), StatusCode::ACCEPTED, "{seeds}");
+        let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+        assert_eq!(serde_json::from_slice::<Value>(&bytes).unwrap()["all"], all, "{seeds}");
+    }
+}

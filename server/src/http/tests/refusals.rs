@@ -301,7 +301,9 @@ async fn what_cannot_be_read_is_told_the_range_that_holds() {
     let grow = json!({ "template": "oak", "format": "glb" });
     let endings: Vec<_> = FORMATS.iter().map(|row| row.ending).collect();
     let (trees, jobs) = ("POST /api/v1/trees", "POST /api/v1/grow");
-    let seeds = "a list of 1 to 1000 different seeds, or a text as 1-50";
+    let seeds = "a list of 1 to 1000 different seeds, or a text as 1-50 or 7";
+    let (links, link) = ("POST /api/v1/trees/{tree}/links", json!({ "role": "viewer" }));
+    let roles = "viewer, editor";
     for (address, body, name, wrong, field, allowed) in [
         (trees, &tree, "name", None, "name", "1 to 80 characters"),
         (trees, &tree, "name", Some(json!(5)), "name", "1 to 80 characters"),
@@ -315,6 +317,12 @@ async fn what_cannot_be_read_is_told_the_range_that_holds() {
         (jobs, &grow, "format", None, "format", &endings.join(", ")),
         (jobs, &grow, "format", Some(json!(5)), "format", &endings.join(", ")),
         (jobs, &grow, "format", Some(json!("exe")), "format", &endings.join(", ")),
+        (links, &link, "role", None, "role", roles),
+        (links, &link, "role", Some(json!(5)), "role", roles),
+        (links, &link, "role", Some(json!("owner")), "role", roles),
+        (jobs, &grow, "seeds", Some(json!("+1")), "seeds", seeds),
+        (jobs, &grow, "seeds", Some(json!("")), "seeds", seeds),
+        (jobs, &grow, "seeds", Some(json!(7)), "seeds", seeds),
         (jobs, &grow, "seeds", Some(json!([1, 1])), "seeds[1]", "another seed"),
         (jobs, &grow, "seeds", Some(json!([1, -1])), "seeds[1]", "0 to 4294967295"),
         (jobs, &grow, "seeds", Some(json!([])), "seeds", seeds),
