@@ -15,7 +15,7 @@ use std::{
 
 use espalier_proto::{
     ClientMessage, FrameKind, Notice, PlacedObstacle, Problem, Programme, Reason, ServerMessage, Timeline,
-    Unreadable, WidthConstraint,
+    Unreadable, WidthConstraint, reading,
     version::{CloseCode, MAX_MESSAGE_BYTES},
 };
 use espalier_settings::{Appearance, ParameterValues};
@@ -369,7 +369,9 @@ impl Session {
                     .at("type", "a control message, as text");
                 self.send(client, &ServerMessage::Problem { problem });
             }
-            Some(_) => self.close(client, CloseCode::HelloExpected, "the first message must be a hello"),
+            Some(_) => {
+                self.close_without_hello(client, &reading::unexpected("message", "binary", "a hello"));
+            }
             None => {}
         }
     }

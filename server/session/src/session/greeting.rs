@@ -1,7 +1,7 @@
 //! Clients that connect, resume and leave (`HS`, `RS1`).
 
 use espalier_proto::{
-    ClientMessage, Resume, ServerMessage, Unreadable,
+    ClientMessage, Problem, Resume, ServerMessage, Unreadable,
     frame::CHUNK_ROWS,
     reading,
     version::{CloseCode, PROTOCOL_VERSION},
@@ -20,9 +20,6 @@ use crate::{
 
 /// How long a client may take for its hello, in milliseconds (`HS1`).
 const HELLO_MS: u64 = 10_000;
-/// Why any other first message closes.
-const NO_HELLO: &str = "the first message must be a hello";
-
 impl Session {
     pub(super) fn connect(&mut self, client: ClientId, access: Access) {
         self.forget(client);
@@ -42,14 +39,19 @@ impl Session {
                     self.close(client, CloseCode::HelloExpected, &problem.in_close());
                 }
             },
-            Ok(_) => self.close(client, CloseCode::HelloExpected, NO_HELLO),
+            Ok(_) => self.close_without_hello(client, &no_hello(text)),
             Err(Unreadable { problem, .. }) => match hello(text) {
                 // The hello of another version may look different in all but its number.
                 Some(Some(version)) if version != u64::from(PROTOCOL_VERSION) => self.close_version(client),
                 Some(_) => self.close(client, CloseCode::HelloExpected, &problem.in_close()),
-                None => self.close(client, CloseCode::HelloExpected, NO_HELLO),
+                None => self.close_without_hello(client, &no_hello(text)),
             },
         }
+    }
+
+    /// Closes a client that has said something else first.
+    pub(super) fn close_without_hello(&mut self, client: ClientId, problem: &Problem) {
+        self.close(client, CloseCode::HelloExpected, &problem.in_close());
     }
 
     fn close_version(&mut self, client: ClientId) {
@@ -123,6 +125,19 @@ impl Session {
 
 fn is_consistent(resume: &Resume) -> bool {
     (resume.rows as usize).div_ceil(CHUNK_ROWS) == resume.generations.len()
+}
+
+/// What is wrong with a first message that is no hello.
+fn no_hello(text: &str) -> Problem {
+    let value = serde_json::from_str::<Value>(text);
+    let kind = value.as_ref().map(|value| value.as_object().map(|fields| fields.get("type")));
+    match kind {
+        Err(_) => reading::unexpected("message", "no JSON", "a hello"),
+        Ok(None) => reading::unexpected("message", "no object", "a hello"),
+        Ok(Some(None)) => reading::unexpected("type", "missing", "hello"),
+        Ok(Some(Some(Value::String(kind)))) => reading::unexpected("type", kind, "hello"),
+        Ok(Some(Some(other))) => reading::unexpected("type", &other.to_string(), "hello"),
+    }
 }
 
 /// Of a hello that cannot be read, the version that it states, if it states any; nothing of other messages.

@@ -38,8 +38,11 @@ fn hs1_the_close_names_the_field_at_fault() {
             "malformed: client is short; allowed: 8 to 64 letters, digits, - and _",
         ),
         (json!({ "type": "hello", "protocol": 1, "client": long }), "malformed: client is xxx"),
-        (json!({ "type": "ping", "nonce": 1 }), "the first message must be a hello"),
-        (json!("growl"), "the first message must be a hello"),
+        (json!({ "type": "ping", "nonce": 1 }), "malformed: type is ping; allowed: hello"),
+        (json!({ "type": "growl" }), "malformed: type is growl; allowed: hello"),
+        (json!({ "nope": 1 }), "malformed: type is missing; allowed: hello"),
+        (json!({ "type": 5 }), "malformed: type is 5; allowed: hello"),
+        (json!("growl"), "malformed: message is no object; allowed: a hello"),
     ] {
         let mut world = World::new();
         let client = world.connect();
