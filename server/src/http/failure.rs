@@ -230,6 +230,23 @@ impl MostBytes {
     pub(super) const fn bytes(self) -> usize {
         self.0
     }
+
+    /// The most for the body of this request.
+    pub(super) fn of(request: &Request) -> Self {
+        request.extensions().get().copied().unwrap_or_default()
+    }
+
+    /// Whether a request says that its body has more, so that nobody need wait for it.
+    pub(super) fn are_exceeded(self, headers: &HeaderMap) -> bool {
+        let said = headers.get(header::CONTENT_LENGTH).and_then(|said| said.to_str().ok());
+        said.and_then(|said| said.parse::<u64>().ok()).is_some_and(|said| said > self.0 as u64)
+    }
+
+    /// The problem with a body that has more.
+    pub(super) fn exceeded(self) -> Problem {
+        let problem = Problem::new(Reason::LargeRequest, format!("The request is larger than {self}."));
+        problem.at(BODY, self.to_string())
+    }
 }
 
 impl fmt::Display for MostBytes {
@@ -253,11 +270,13 @@ pub(super) const BODY: &str = "body";
 
 /// The bytes of a body.
 async fn arrived<S: Send + Sync>(request: Request, state: &S) -> Result<Bytes, Failure> {
-    let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
+    let most = MostBytes::of(&request);
+    if most.are_exceeded(request.headers()) {
+        return Err(most.exceeded().into());
+    }
     Bytes::from_request(request, state).await.map_err(|rejection| {
         let problem = if rejection.status() == StatusCode::PAYLOAD_TOO_LARGE {
-            let problem = Problem::new(Reason::LargeRequest, format!("The request is larger than {most}."));
-            problem.at(BODY, most.to_string())
+            most.exceeded()
         } else {
             Problem::new(Reason::Malformed, "The request did not arrive whole.").at(BODY, "a whole request")
         };

@@ -251,7 +251,10 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// The hash of a request that comes again.
 async fn digest(request: Request) -> Result<SecretHash, Failure> {
     let mut digest = digest_of_head(&request);
-    let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
+    let most = MostBytes::of(&request);
+    if most.are_exceeded(request.headers()) {
+        return Err(most.exceeded().into());
+    }
     let cut_off = |_| {
         Problem::new(Reason::Malformed, "The request did not arrive whole.").at("body", "a whole request")
     };
@@ -260,8 +263,7 @@ async fn digest(request: Request) -> Result<SecretHash, Failure> {
         let some = some.map_err(cut_off)?;
         length += some.len();
         if length > most.bytes() {
-            let problem = Problem::new(Reason::LargeRequest, format!("The request is larger than {most}."));
-            return Err(problem.at("body", most.to_string()).into());
+            return Err(most.exceeded().into());
         }
         digest.update(some);
     }

@@ -77,9 +77,12 @@ impl<S: Send + Sync> FromRequest<S> for File {
 
 impl Uploads {
     async fn take(self, from: IpAddr, request: Request) -> Result<File, Failure> {
+        let most = MostBytes::of(&request);
+        if most.are_exceeded(request.headers()) {
+            return Err(too_large(most));
+        }
         let place = self.arriving.take(from);
         let place = place.ok_or_else(|| Failure::too_often(BODY, "Too many files arrive already.", AGAIN))?;
-        let most = request.extensions().get::<MostBytes>().copied().unwrap_or_default();
         let file = self.arrive(request, most).await?;
         drop(place);
         let turn = self.reading.acquire_owned().await;

@@ -86,9 +86,14 @@ fn refused() -> Vec<Refused> {
     ]
 }
 
-/// Addresses whose files are tried.
+/// Addresses whose files are tried, with their queries.
+pub(super) fn queries() -> impl Iterator<Item = &'static str> {
+    refused().into_iter().map(|(address, ..)| address)
+}
+
+/// The same without them.
 pub(super) fn addresses() -> impl Iterator<Item = &'static str> {
-    refused().into_iter().map(|(address, ..)| address.split('?').next().unwrap())
+    queries().map(|address| address.split('?').next().unwrap())
 }
 
 #[tokio::test]

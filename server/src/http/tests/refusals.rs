@@ -1,9 +1,10 @@
 //! Every refusal names the field and what is allowed there, at every address that reads a body or a query.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, convert::Infallible};
 
-use axum::http::header;
+use axum::{body::Bytes, http::header};
 use espalier_settings::ParameterValues;
+use futures_util::stream;
 use serde_json::{Value, json};
 
 use super::*;
@@ -243,6 +244,32 @@ async fn a_body_that_is_too_large_is_told_the_limit() {
         assert_eq!((status, &problem["field"]), (StatusCode::BAD_REQUEST, &json!("body")), "{address}");
         assert!(allowed.starts_with("an object"), "{address}: {problem}");
         assert!(body.to_string().len() < limit, "{address}");
+    }
+}
+
+/// Nobody waits for what is too large before it has come.
+#[tokio::test]
+async fn a_body_that_is_said_to_be_too_large_is_refused_before_it_comes() {
+    let (server, _) = server().await;
+    let bodies = bodies().into_iter().map(|(address, ..)| address);
+    let files = files::queries().map(|address| (address, "large-file"));
+    for (address, reason) in bodies.map(|address| (address, "large-request")).chain(files) {
+        for key in [None, Some("one")] {
+            let asked = request(&method_of(address), &filled(path_of(address)));
+            let asked = key.into_iter().fold(asked, |asked, key| asked.header("idempotency-key", key));
+            let asked = asked.header(header::CONTENT_TYPE, "application/json");
+            let asked = asked.header(header::CONTENT_LENGTH, 1_u64 << 30);
+            let body = Body::from_stream(stream::pending::<Result<Bytes, Infallible>>());
+            let answer = server.clone().oneshot(asked.body(body).unwrap()).await.unwrap();
+            assert_eq!(answer.status(), StatusCode::PAYLOAD_TOO_LARGE, "{address}");
+            let bytes = axum::body::to_bytes(answer.into_body(), usize::MAX).await.unwrap();
+            let problem: Value = serde_json::from_slice(&bytes).unwrap();
+            assert_eq!(
+                (&problem["reason"], &problem["field"]),
+                (&json!(reason), &json!("body")),
+                "{address}"
+            );
+        }
     }
 }
 
