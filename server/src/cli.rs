@@ -14,7 +14,7 @@ use espalier_session::MAX_METAMER_BUDGET;
 use espalier_settings::{ParameterValues, ParametersPatch};
 use ipnet::IpNet;
 
-use crate::{hosts::HostName, import, import_options::ImportOptions, recipe::SeedRange};
+use crate::{hosts::HostName, import, import_options::ImportOptions, recipe::SeedRange, similar::similar};
 
 pub use self::{
     people::{
@@ -402,14 +402,6 @@ fn unknown_parameter(name: &str) -> String {
     }
 }
 
-/// The name most like another one, unless they could hardly be mixed up.
-fn similar<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    /// Names less alike than this are no slip; 1 is the same name.
-    const ALIKE: f64 = 0.8;
-    let likeness = |known: &&str| strsim::jaro_winkler(name, known);
-    names.max_by(|a, b| likeness(a).total_cmp(&likeness(b))).filter(|known| likeness(known) > ALIKE)
-}
-
 #[cfg(test)]
 mod tests {
     use clap::{CommandFactory, error::ErrorKind};
@@ -453,6 +445,8 @@ mod tests {
     fn a_name_that_was_mistyped_is_told_a_similar_one() {
         assert!(parse_species("scots-pin").unwrap_err().ends_with("`scots-pine`"));
         assert!(parse_species("triffid").unwrap_err().contains("espalier species"));
+        assert!(parse_species("oka").unwrap_err().ends_with("`oak`"));
+        assert!(parse_import("a.cvs").unwrap_err().starts_with("unknown format `cvs`: did you mean `csv`?"));
         assert_eq!("1-50".parse(), Ok(SeedRange(1..=50)));
         assert_eq!("7".parse(), Ok(SeedRange(7..=7)));
     }

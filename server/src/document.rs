@@ -241,6 +241,11 @@ const SHARES: &[(&str, [f64; 2])] =
     &[(option::QUANTISED, [0.58, 0.58]), (option::COMPRESSED, [0.5, 0.5]), (option::INSTANCED, [1.0, 0.08])];
 
 impl FormatRow {
+    /// How the names of files of each format end.
+    pub fn endings() -> impl Iterator<Item = &'static str> {
+        FORMATS.iter().map(|row| row.ending)
+    }
+
     /// Whether its files are text, for people to read.
     pub fn is_text(&self) -> bool {
         matches!(self.format, Format::Usda | Format::Skeleton | Format::Mtg | Format::Qsm)

@@ -13,7 +13,10 @@ use serde::{
     de::{Error, Visitor},
 };
 
-use crate::live::OpenError;
+use crate::{
+    live::OpenError,
+    similar::{asked_for, similar},
+};
 
 /// A file format that a tree is made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,7 +72,10 @@ pub fn format_of(ending: &str) -> Result<Format, String> {
     let found = FORMATS.iter().find(|(_, known, _)| known.eq_ignore_ascii_case(ending));
     found.map(|&(format, ..)| format).ok_or_else(|| {
         let all: Vec<_> = FORMATS.iter().map(|(format, ..)| format.description()).collect();
-        format!("a file must be one of: {}", all.join(", "))
+        let meant = similar(ending, endings())
+            .map(|known| format!("unknown format `{ending}`: did you mean `{known}`? "))
+            .unwrap_or_default();
+        format!("{meant}a file must be one of: {}", all.join(", "))
     })
 }
 
@@ -86,7 +92,10 @@ impl<'de> Deserialize<'de> for Format {
             }
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Format, E> {
-                format_of(text).map_err(|_| E::custom(NotAllowed::new(text, endings().join(", "))))
+                format_of(text).map_err(|_| {
+                    let found = format!("{text}{}", asked_for(text, endings()));
+                    E::custom(NotAllowed::new(found, endings().join(", ")))
+                })
             }
         }
 

@@ -21,6 +21,7 @@ use crate::{
     import, name,
     output::{OutputError, Target},
     progress::Bar,
+    similar::asked_for,
     store::{
         Contents, Library, LibraryFile, Missing, NewTree, NewVersion, OpenError, Picture, Saved, SqliteStore,
         Store, StoreError, StoredTree, StoredVersion, TreeDocument, TreeQuery,
@@ -44,8 +45,8 @@ pub enum LibraryError {
     #[error("The library cannot be used: {}.", .0.in_words())]
     Store(#[from] StoreError),
     /// No tree has this identifier or name.
-    #[error("There is no tree {0:?} in the library; `espalier library ls` lists all.")]
-    NoTree(String),
+    #[error("There is no tree {0:?} in the library{1}; `espalier library ls` lists all.")]
+    NoTree(String, String),
     /// Several trees have this name.
     #[error(
         "{count} trees are called {name:?}; give the identifier of one, as `espalier library ls` prints it."
@@ -323,10 +324,13 @@ async fn found(file: &LibraryFile, wanted: &str) -> Result<StoredTree, LibraryEr
     if let Some(tree) = trees.iter().find(|tree| tree.id == wanted) {
         return Ok(tree.clone());
     }
-    let mut named: Vec<StoredTree> = trees.into_iter().filter(|tree| tree.name == wanted).collect();
+    let mut named: Vec<StoredTree> = trees.iter().filter(|tree| tree.name == wanted).cloned().collect();
     match (named.len(), named.pop()) {
         (1, Some(tree)) => Ok(tree),
-        (0, _) | (_, None) => Err(LibraryError::NoTree(wanted.to_owned())),
+        (0, _) | (_, None) => {
+            let meant = asked_for(wanted, trees.iter().flat_map(|tree| [&*tree.name, &*tree.id]));
+            Err(LibraryError::NoTree(wanted.to_owned(), meant))
+        }
         (count, _) => Err(LibraryError::Ambiguous { name: wanted.to_owned(), count }),
     }
 }

@@ -27,6 +27,7 @@ mod portrait;
 mod progress;
 mod recipe;
 mod serve;
+mod similar;
 mod spool;
 mod store;
 mod text;

@@ -8,6 +8,7 @@ use crate::{
     document::{FORMATS, FormatRow},
     export_options::ExportOptions,
     output::{STDOUT, Target},
+    similar::similar,
 };
 
 /// What comes out, and with how many threads.
@@ -76,14 +77,24 @@ pub(super) fn parse_export(path: &str) -> Result<Export, String> {
     let ends = |row: &&FormatRow| {
         name.strip_suffix(row.ending).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
     };
-    let row =
-        FORMATS.iter().find(ends).ok_or_else(|| format!("the name must end in one of: {}", endings()))?;
+    let row = FORMATS.iter().find(ends).ok_or_else(|| {
+        let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
+        format!("{}the name must end in one of: {}", unknown(ending), endings())
+    })?;
     Ok(Export { path, row: Some(row) })
 }
 
 pub(super) fn parse_format(ending: &str) -> Result<&'static FormatRow, String> {
-    let found = FORMATS.iter().find(|row| row.ending == ending.trim_start_matches('.'));
-    found.ok_or_else(|| format!("it must be one of: {}", endings()))
+    let ending = ending.trim_start_matches('.');
+    let found = FORMATS.iter().find(|row| row.ending == ending);
+    found.ok_or_else(|| format!("{}it must be one of: {}", unknown(ending), endings()))
+}
+
+/// Which format may have been meant by another ending.
+fn unknown(ending: &str) -> String {
+    similar(ending, FormatRow::endings())
+        .map(|known| format!("unknown format `{ending}`: did you mean `{known}`? "))
+        .unwrap_or_default()
 }
 
 fn export_help() -> String {
@@ -134,6 +145,9 @@ mod tests {
         assert_eq!(stdout.target(None).map(|target| target.row.format), Err(NoFormat));
         let target = stdout.target(Some(parse_format("mtg").unwrap())).unwrap();
         assert_eq!((target.row.format, target.is_stdout()), (Format::Mtg, true));
-        assert!(parse_format("fbx").unwrap_err().contains(".glb"));
+        assert!(parse_format("fbx").unwrap_err().starts_with("it must be one of: .glb"));
+        let told = "unknown format `gltf`: did you mean `glb`? ";
+        assert!(parse_format("gltf").unwrap_err().starts_with(told));
+        assert!(parse_export("tree.gltf").unwrap_err().starts_with(told));
     }
 }

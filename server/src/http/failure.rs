@@ -9,7 +9,7 @@ use axum::{
         self, DefaultBodyLimit, FromRequest, FromRequestParts, Request, path::ErrorKind,
         rejection::PathRejection,
     },
-    http::{HeaderMap, HeaderValue, StatusCode, header, request::Parts},
+    http::{HeaderMap, HeaderValue, StatusCode, Uri, header, request::Parts},
     middleware::Next,
     response::{IntoResponse, Response},
 };
@@ -18,8 +18,10 @@ use serde::{Deserialize, de::DeserializeOwned};
 
 use crate::{
     access::{self, Unknown},
+    document::FormatRow,
     live::{Ended, OpenError},
     pool::Panicked,
+    similar::asked_for,
     store::{Missing, StoreError},
 };
 
@@ -365,8 +367,12 @@ pub(super) async fn legible(_: Path<Vec<(String, String)>>, request: Request, ne
     next.run(request).await
 }
 
-pub(super) async fn unknown_route() -> Failure {
-    Failure::no_address()
+pub(super) async fn unknown_route(address: Uri) -> Failure {
+    let file = address.path().rsplit('/').next().and_then(|file| file.strip_prefix("tree."));
+    let Some(ending) = file else { return Failure::no_address() };
+    let sentence = format!("There is no such format{}.", asked_for(ending, FormatRow::endings()));
+    let all: Vec<_> = FormatRow::endings().map(|ending| format!("tree.{ending}")).collect();
+    Problem::new(Reason::NoneSuch, sentence).at("path", all.join(", ")).into()
 }
 
 #[cfg(test)]

@@ -37,7 +37,8 @@ use crate::{
     jobs::{self, Job, NotTaken, Order},
     pool::Class,
     recipe::{Recipe, SeedRange},
-    store::Library,
+    similar::{asked_for, similar},
+    store::{Library, StoredTree, TreeQuery},
 };
 
 /// Seeds of one job.
@@ -87,8 +88,11 @@ impl<'de> Deserialize<'de> for Ending {
             }
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Ending, E> {
-                let found = FORMATS.iter().find(|row| row.ending == text).map(Ending);
-                found.ok_or_else(|| E::custom(NotAllowed::new(text, endings().join(", "))))
+                let row = FORMATS.iter().find(|row| row.ending == text).map(Ending);
+                row.ok_or_else(|| {
+                    let found = format!("{text}{}", asked_for(text, endings()));
+                    E::custom(NotAllowed::new(found, endings().join(", ")))
+                })
             }
         }
 
@@ -111,7 +115,7 @@ impl JsonSchema for Ending {
 }
 
 fn endings() -> Vec<&'static str> {
-    FORMATS.iter().map(|row| row.ending).collect()
+    FormatRow::endings().collect()
 }
 
 /// Seeds, each once.
@@ -359,10 +363,7 @@ async fn recipe_of(
     }
     shared.ask(caller, Action::OpenTree, Named::Tree(template)).await?;
     let tree = shared.store.tree(template).await?.filter(|tree| tree.deleted_at.is_none());
-    let tree = tree.ok_or_else(|| {
-        let problem = Problem::new(Reason::NoTree, "There is no such species or saved tree.");
-        problem.at("template", "the name of a species, or of a saved tree")
-    })?;
+    let Some(tree) = tree else { return Err(no_template(shared, template).await?) };
     let saved = sessions::saved_document(shared, template, tree.head.number).await?;
     let read = shared.pool.run(Class::Whole, template.into(), move |_| {
         let document = Document::from_bytes(&saved.bytes)?;
@@ -370,6 +371,25 @@ async fn recipe_of(
     });
     let (script, species) = read.await?.map_err(|error| sessions::unreadable(template, &error))?;
     Ok((Recipe { script, ..Recipe::default() }, species.as_deref().and_then(species::find)))
+}
+
+/// Trees that are looked through for one that may have been meant: the newest.
+const LOOKED_THROUGH: u32 = 500;
+
+/// What whoever names no template is told: also which species, or which saved tree by its name, they may have meant.
+async fn no_template(shared: &Shared, template: &str) -> Result<Failure, Failure> {
+    let trees = TreeQuery { limit: LOOKED_THROUGH, ..TreeQuery::default() };
+    let trees = shared.store.trees(&trees).await?;
+    let known = species::all().iter().map(|species| species.slug);
+    let known = known.chain(trees.iter().flat_map(|tree| [&*tree.id, &*tree.name]));
+    let meant = similar(template, known).map(|meant| {
+        let tree = trees.iter().find(|tree| tree.id == meant || tree.name == meant);
+        let named = tree.map(|StoredTree { id, name, .. }| format!("{id}, which is called {name:?}"));
+        format!("; did you mean {}?", named.as_deref().unwrap_or(meant))
+    });
+    let meant = meant.unwrap_or_else(|| ".".to_owned());
+    let problem = Problem::new(Reason::NoTree, format!("There is no such species or saved tree{meant}"));
+    Ok(problem.at("template", "the name of a species, or the identifier of a saved tree").into())
 }
 
 fn no_job() -> Failure {

@@ -110,6 +110,26 @@ async fn an_address_that_is_none_says_so_to_every_method() {
 }
 
 #[tokio::test]
+async fn what_was_mistyped_is_told_what_may_have_been_meant() {
+    let (server, _) = server().await;
+    let grow = |body: Value| ("POST", "/api/v1/grow", body);
+    for ((method, path, body), said) in [
+        (("GET", "/api/v1/sessions/oak/tree.gltf", Value::Null), "(did you mean glb?)"),
+        (("GET", "/api/v1/trees/ash/versions/1/tree.mgt", Value::Null), "(did you mean mtg?)"),
+        (("GET", "/api/v1/sessions/oak/tree.fbx", Value::Null), "There is no such format."),
+        (("POST", "/api/v1/trees/import?name=Oak&format=cvs", Value::Null), "cvs (did you mean csv?)"),
+        (grow(json!({ "template": "oak", "format": "gltf" })), "format is gltf (did you mean glb?)"),
+        (grow(json!({ "template": "scots-pien", "format": "glb" })), "; did you mean scots-pine?"),
+        (grow(json!({ "template": "ewy", "format": "glb" })), "; did you mean yew, which is called"),
+        (grow(json!({ "template": "triffid", "format": "glb" })), "There is no such species or saved tree."),
+    ] {
+        let answer = ask(&server, &method.parse().unwrap(), path, &body, None).await;
+        let message = answer.problem["message"].as_str().unwrap();
+        assert!(message.contains(said), "{method} {path} {body}: {message}");
+    }
+}
+
+#[tokio::test]
 async fn what_is_not_there_is_named_by_the_part_of_the_path() {
     let bodies: BTreeMap<&str, Value> =
         bodies().into_iter().map(|(address, _, body)| (address, body)).collect();
