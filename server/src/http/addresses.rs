@@ -138,17 +138,18 @@ pub(super) fn downloads() -> Vec<Route> {
         let about = About::new(format!("{what}: {}.", row.what))
             .asks::<ExportOptions>()
             .among(row.options)
-            .gives_file(row.media_type);
+            .gives_parts(row.media_type);
         let address = format!("GET {path}/tree.{}", row.ending);
         route(address, action, answer.layer(exports.clone()), about).noted(EXPORT)
     };
     let of_session = |row| {
-        let answer = get(move |state, path: Path<String>, query| exports::take(state, path, query, row));
+        let answer =
+            get(move |state, path: Path<String>, query, asked| exports::take(state, path, query, asked, row));
         download(row, "/api/v1/sessions/{session}", Action::TakeTree, "Download", answer)
     };
     let of_version = |row| {
-        let answer = get(move |state, path: Path<(String, u32)>, query| {
-            exports::take_version(state, path, query, row)
+        let answer = get(move |state, path: Path<(String, u32)>, query, asked| {
+            exports::take_version(state, path, query, asked, row)
         });
         let path = "/api/v1/trees/{tree}/versions/{version}";
         download(row, path, Action::OpenTree, "Download of a version", answer)
@@ -174,9 +175,9 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/sessions", Action::EnterSession, post(sessions::create), About::new("Begin a session, or come into the one of a tree: 200 where it is there already (LB3).").takes::<NewSession>().gives::<SessionCreated>(201).gives::<SessionCreated>(200)),
         route("GET /api/v1/sessions/{session}", Action::SeeSession, get(sessions::find), About::new("Whether there is such a session.").gives::<SessionCreated>(200)),
         route("POST /api/v1/sessions/{session}/obstacles", Action::EditSession, post(obstacles::upload).layer(uploads(MAX_UPLOADS)), About::new("Place a glTF model as an obstacle.").takes_file("model/gltf-binary").gives::<PlacedObstacle>(201)).up_to(MAX_GLB_BYTES),
-        route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_file("application/octet-stream")),
+        route("GET /api/v1/sessions/{session}/obstacles/{obstacle}", Action::SeeObstacle, get(obstacles::mesh), About::new("The mesh of an obstacle (OB5).").gives_parts("application/octet-stream")),
         route("GET /api/v1/species", Action::Look, get(species::list), About::new("All species, in the order of a picker. Picking one is a `set_programme` with its `programme` and a `set_appearance` with the sections of its `appearance` but the background, both with one gesture.").gives::<Vec<Species>>(200)),
-        route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_file("image/png")),
+        route("GET /api/v1/species/{slug}/picture", Action::Look, get(species::picture).layer(at_once(MAX_PICTURES)), About::new("A tree of that species, with an `ETag`.").gives_parts("image/png")),
         route("POST /api/v1/grow", Action::GrowTrees, post(jobs::grow), About::new("Grow a tree for each of many seeds into files, as a job (JB1).").takes::<jobs::GrowTrees>().gives::<jobs::JobNow>(202)).up_to(MAX_SAID_BODY),
         route("GET /api/v1/jobs", Action::OwnJobs, get(jobs::list), About::new("One's own jobs, newest first, page by page (JB8).").asks::<jobs::Page>().gives::<jobs::JobPage>(200)),
         route("GET /api/v1/jobs/{job}", Action::OwnJobs, get(jobs::find), About::new("How far a job is, and its files so far (JB2).").gives::<jobs::JobNow>(200)),
@@ -209,6 +210,6 @@ pub(super) fn routes() -> Vec<Route> {
         route("POST /api/v1/trees/{tree}/versions/{version}/restore", Action::ChangeTree, post(versions::restore), About::new("What was saved then becomes the newest version, which has the next number.").takes::<RestoreVersion>().gives::<TreeVersion>(201).revised()).noted("restore"),
         route("GET /api/v1/trees/{tree}/versions/{version}/document", Action::OpenTree, get(versions::document), About::new("The document of a version ([docs/document.md](../docs/document.md)).").gives_parts("application/octet-stream")).noted(EXPORT),
         route("GET /api/v1/trees/{tree}/versions/{version}/exports/{ticket}", Action::OpenTree, get(exports::progress_of_version), About::new("How far a file of a version is that is being made (EX3).").gives::<ExportProgress>(200)),
-        route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_file("image/*")),
+        route("GET /api/v1/trees/{tree}/versions/{version}/thumbnail", Action::SeeTree, get(versions::thumbnail), About::new("The picture of a version.").gives_parts("image/*")),
     ]
 }

@@ -14,8 +14,8 @@ use axum::{
     Json,
     body::{Body, Bytes},
     extract::State,
-    http::{HeaderName, header},
-    response::{IntoResponse, Response},
+    http::{HeaderMap, HeaderName, header},
+    response::Response,
 };
 use espalier_proto::{
     Problem, Reason,
@@ -28,6 +28,7 @@ use tokio_util::sync::CancellationToken;
 use super::{
     Shared,
     failure::{Failure, Path, Query},
+    ranges,
     sessions::{open, saved_document, unreadable},
 };
 use crate::{
@@ -115,11 +116,12 @@ pub(super) async fn take(
     State(shared): State<Shared>,
     Path(session): Path<String>,
     Query(options): Query<ExportOptions>,
+    asked: HeaderMap,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
     let document = open(&shared, &session).await?.read().await?;
-    wanted.sent(&shared, &session, document.bytes).await
+    wanted.sent(&shared, &session, document.bytes, &asked).await
 }
 
 /// A version of a saved tree as a file (`EX4`).
@@ -127,11 +129,12 @@ pub(super) async fn take_version(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
     Query(options): Query<ExportOptions>,
+    asked: HeaderMap,
     row: &'static FormatRow,
 ) -> Result<Response, Failure> {
     let wanted = Wanted::of(&shared, row, options)?;
     let document = saved_document(&shared, &tree, number).await?;
-    wanted.sent(&shared, &tree, document.bytes).await
+    wanted.sent(&shared, &tree, document.bytes, &asked).await
 }
 
 /// A file that is asked for.
@@ -155,8 +158,13 @@ impl Wanted {
         shared: &Shared,
         name: &str,
         bytes: impl AsRef<[u8]> + Send + 'static,
+        asked: &HeaderMap,
     ) -> Result<Response, Failure> {
         let Self { row, options, progress, held } = self;
+        // The same program makes the same file of the same document.
+        let said = format!("{options:?}");
+        let program = env!("CARGO_PKG_VERSION");
+        let tag = ranges::tag(&[program.as_bytes(), row.ending.as_bytes(), said.as_bytes(), bytes.as_ref()]);
         // Whoever goes away takes this along, and with it what is being made.
         let stop = CancellationToken::new();
         let gone = stop.clone().drop_guard();
@@ -180,9 +188,8 @@ impl Wanted {
             Err(_) => return Err(crate::pool::Panicked.into()),
         };
         let headers = headers(row, &format!("tree.{}", row.ending));
-        let size = [(header::CONTENT_LENGTH, length.to_string())];
         drop(gone.disarm());
-        Ok((headers, size, body_of(file)).into_response())
+        ranges::answer(asked, headers, &tag, file, length)
     }
 }
 

@@ -3,7 +3,7 @@
 use axum::{
     Extension, Json,
     extract::State,
-    http::{StatusCode, header},
+    http::{HeaderMap, StatusCode, header},
     response::{IntoResponse, Response},
 };
 use espalier_import::{ImportError, Limits};
@@ -18,7 +18,7 @@ use crate::pool::Class;
 use super::{
     Shared,
     failure::{Failure, Path},
-    sessions,
+    ranges, sessions,
     uploads::File,
 };
 
@@ -51,12 +51,13 @@ pub(super) async fn upload(
 pub(super) async fn mesh(
     State(shared): State<Shared>,
     Path((session, obstacle)): Path<(String, u32)>,
+    asked: HeaderMap,
 ) -> Result<Response, Failure> {
     let session = sessions::open(&shared, &session).await?;
     let mesh = session.mesh(obstacle).await?;
     let mesh =
         mesh.ok_or_else(|| Failure::none_such("mesh", "obstacle", "the id of an obstacle that is a mesh"))?;
-    Ok(([(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes()).into_response())
+    ranges::answer_with(&asked, [(header::CONTENT_TYPE, "application/octet-stream")], mesh.to_bytes())
 }
 
 /// What a file must be to be read at all.

@@ -1,7 +1,7 @@
-//! Parts of files that are kept whole (`RG1`).
+//! Files that are downloaded, whole or in parts (`RG1`).
 
 use std::{
-    io::{Read, Seek, SeekFrom},
+    io::{Cursor, Read, Seek, SeekFrom},
     ops::Range,
 };
 
@@ -14,17 +14,33 @@ use espalier_proto::{
     Problem, Reason,
     ranges::{Beyond, part},
 };
+use sha2::{Digest, Sha256};
 
 use super::{exports, failure::Failure};
+
+/// Bytes of the hash in a tag.
+const TAG_BYTES: usize = 16;
+
+/// The `ETag` of a file that is the same wherever these are.
+pub(super) fn tag(parts: &[&[u8]]) -> String {
+    let mut hash = Sha256::new();
+    for part in parts {
+        hash.update((part.len() as u64).to_le_bytes());
+        hash.update(part);
+    }
+    let hash: String = hash.finalize().iter().take(TAG_BYTES).map(|byte| format!("{byte:02x}")).collect();
+    format!("\"{hash}\"")
+}
 
 /// Answers with a file of so many bytes, or with the part of it that is asked for.
 pub(super) fn answer(
     asked: &HeaderMap,
     said: impl IntoResponseParts,
+    tag: &str,
     mut file: impl Read + Seek + Send + 'static,
     length: u64,
 ) -> Result<Response, Failure> {
-    let Ok(part) = wanted(asked, length) else { return Ok(beyond(length)) };
+    let Ok(part) = wanted(asked, tag, length) else { return Ok(beyond(length)) };
     let status = if part.is_some() { StatusCode::PARTIAL_CONTENT } else { StatusCode::OK };
     let place = part
         .clone()
@@ -34,9 +50,22 @@ pub(super) fn answer(
         tracing::error!(%error, "a file that is kept cannot be read");
         Failure::new(Reason::NotExported, "The file cannot be read.")
     })?;
-    let size =
-        [(header::ACCEPT_RANGES, "bytes".to_owned()), (header::CONTENT_LENGTH, (end - start).to_string())];
+    let size = [
+        (header::ACCEPT_RANGES, "bytes".to_owned()),
+        (header::CONTENT_LENGTH, (end - start).to_string()),
+        (header::ETAG, tag.to_owned()),
+    ];
     Ok((status, said, size, place, exports::body_of(file.take(end - start))).into_response())
+}
+
+/// The same with bytes, which tell their tag.
+pub(super) fn answer_with(
+    asked: &HeaderMap,
+    said: impl IntoResponseParts,
+    bytes: Vec<u8>,
+) -> Result<Response, Failure> {
+    let (tag, length) = (tag(&[&bytes]), bytes.len() as u64);
+    answer(asked, said, &tag, Cursor::new(bytes), length)
 }
 
 fn beyond(length: u64) -> Response {
@@ -49,28 +78,31 @@ fn beyond(length: u64) -> Response {
     (StatusCode::RANGE_NOT_SATISFIABLE, place, Json(problem)).into_response()
 }
 
-/// The part that the request asks for; a condition (`If-Range`) asks for the whole.
-fn wanted(asked: &HeaderMap, length: u64) -> Result<Option<Range<u64>>, Beyond> {
-    let range = asked.get(header::RANGE).filter(|_| !asked.contains_key(header::IF_RANGE));
+/// The part that the request asks for; the whole where it is for another file than the one of this tag (`If-Range`).
+fn wanted(asked: &HeaderMap, tag: &str, length: u64) -> Result<Option<Range<u64>>, Beyond> {
+    let is_of_this = asked.get_all(header::IF_RANGE).iter().all(|other| other == tag);
+    let range = asked.get(header::RANGE).filter(|_| is_of_this);
     range.and_then(|range| range.to_str().ok()).map_or(Ok(None), |range| part(range, length))
 }
 
 #[cfg(test)]
 mod tests {
-    use std::io::Cursor;
-
     use super::*;
 
     #[test]
-    fn rg1_a_condition_asks_for_the_whole() {
+    fn rg1_a_part_of_another_file_is_not_sent() {
         let asked = |more: &[(header::HeaderName, &str)]| {
             let more = more.iter().map(|(name, value)| (name.clone(), value.parse().unwrap()));
-            wanted(&HeaderMap::from_iter(more), 10)
+            wanted(&HeaderMap::from_iter(more), "\"x\"", 10)
         };
         let range = (header::RANGE, "bytes=0-3");
         assert_eq!(asked(&[]), Ok(None));
         assert_eq!(asked(std::slice::from_ref(&range)), Ok(Some(0..4)));
-        assert_eq!(asked(&[range, (header::IF_RANGE, "\"x\"")]), Ok(None));
+        let condition = |tag| asked(&[range.clone(), (header::IF_RANGE, tag)]);
+        assert_eq!(condition("\"x\""), Ok(Some(0..4)));
+        for other in ["\"y\"", "W/\"x\"", "Sat, 23 May 2026 10:00:00 GMT", "x"] {
+            assert_eq!(condition(other), Ok(None), "{other}");
+        }
         assert_eq!(asked(&[(header::RANGE, "bytes=10-")]), Err(Beyond));
     }
 
@@ -84,6 +116,7 @@ mod tests {
             let answer = answer(
                 &HeaderMap::from_iter(asked),
                 [(header::CONTENT_TYPE, "text/plain")],
+                "\"x\"",
                 Cursor::new("0123456789"),
                 10,
             )
@@ -91,6 +124,7 @@ mod tests {
             let headers = answer.headers();
             assert_eq!(answer.status(), status);
             assert_eq!(headers[header::ACCEPT_RANGES], "bytes");
+            assert_eq!(headers[header::ETAG], "\"x\"");
             assert_eq!(headers.get(header::CONTENT_RANGE).map(|place| place.to_str().unwrap()), place);
             assert_eq!(headers[header::CONTENT_LENGTH], text.len().to_string());
             let body = axum::body::to_bytes(answer.into_body(), 100).await.unwrap();
@@ -98,7 +132,7 @@ mod tests {
         }
         let asked = HeaderMap::from_iter([(header::RANGE, "bytes=10-".parse().unwrap())]);
         let said = [(header::CONTENT_TYPE, "text/plain")];
-        let refused = answer(&asked, said, Cursor::new("0123456789"), 10).unwrap();
+        let refused = answer(&asked, said, "\"x\"", Cursor::new("0123456789"), 10).unwrap();
         assert_eq!(refused.status(), StatusCode::RANGE_NOT_SATISFIABLE);
         assert_eq!(refused.headers()[header::CONTENT_RANGE], "bytes */10");
     }

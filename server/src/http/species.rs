@@ -1,5 +1,7 @@
 //! The species a picker offers, with their pictures.
 
+use std::io::Cursor;
+
 use axum::{
     Json,
     extract::State,
@@ -13,6 +15,7 @@ use espalier_session::wire_species;
 use super::{
     Shared,
     failure::{Failure, Path},
+    ranges,
 };
 
 /// A picture changes only as the program does, and a client that asks again gets 304 at once.
@@ -40,6 +43,7 @@ pub(super) async fn picture(
     if is_known {
         return Ok((StatusCode::NOT_MODIFIED, headers).into_response());
     }
-    let content_type = [(header::CONTENT_TYPE, "image/png")];
-    Ok((headers, content_type, print.png.to_vec()).into_response())
+    let said = [(header::CONTENT_TYPE, "image/png"), (header::CACHE_CONTROL, CACHE)];
+    let (png, length) = (Cursor::new(print.png.to_vec()), print.png.len() as u64);
+    ranges::answer(&asked, said, &print.tag, png, length)
 }

@@ -220,6 +220,40 @@ async fn rg1_a_document_is_sent_in_parts() {
     assert_eq!(ask(Some("bytes=1000000-")).await.0, StatusCode::RANGE_NOT_SATISFIABLE);
 }
 
+/// What is downloaded has a tag, by which the rest of it is asked for, and which another file does not have.
+#[tokio::test]
+async fn rg1_every_download_goes_on_where_it_was_cut_off() {
+    let (server, _) = server().await;
+    let import = request(&Method::POST, "/api/v1/trees/ash/versions/import?format=csv");
+    let tree = include_str!("../../../tests/fuzz/seeds/rtwig.csv");
+    assert_eq!(status(&server, import, tree).await, StatusCode::CREATED);
+    let get = async |path: &str, more: &[(HeaderName, &str)]| {
+        let asked =
+            more.iter().fold(request(&Method::GET, path), |asked, (name, value)| asked.header(name, *value));
+        let answer = server.clone().oneshot(asked.body(Body::empty()).unwrap()).await.unwrap();
+        let (head, body) = answer.into_parts();
+        let tag = head.headers.get(header::ETAG).map(|tag| tag.to_str().unwrap().to_owned());
+        (head.status, tag.unwrap_or_default(), axum::body::to_bytes(body, usize::MAX).await.unwrap())
+    };
+    let mut seen = BTreeSet::new();
+    for path in [
+        "/api/v1/trees/ash/versions/2/document",
+        "/api/v1/trees/ash/versions/2/tree.csv",
+        "/api/v1/trees/ash/versions/2/tree.glb",
+        "/api/v1/trees/ash/versions/2/tree.glb?lod=2",
+        "/api/v1/species/oak/picture",
+    ] {
+        let (status, tag, whole) = get(path, &[]).await;
+        assert_eq!(status, StatusCode::OK, "{path}");
+        assert!(tag.len() > 2 && tag.starts_with('"') && seen.insert(tag.clone()), "{path}: {tag}");
+        let range = (header::RANGE, "bytes=10-");
+        let rest = get(path, &[range.clone(), (header::IF_RANGE, &tag)]).await;
+        assert_eq!(rest, (StatusCode::PARTIAL_CONTENT, tag.clone(), whole.slice(10..)), "{path}");
+        let other = get(path, &[range, (header::IF_RANGE, "\"of another\"")]).await;
+        assert_eq!(other, (StatusCode::OK, tag, whole), "{path}");
+    }
+}
+
 #[tokio::test]
 async fn ac7_whoever_guesses_waits() {
     let (server, _) = server().await;

@@ -1,7 +1,5 @@
 //! The library: versions of a tree.
 
-use std::io::Cursor;
-
 use axum::{
     Extension, Json,
     extract::State,
@@ -174,20 +172,20 @@ pub(super) async fn document(
         (header::CONTENT_DISPOSITION, "attachment; filename=\"tree.espalier\""),
         FOR_GOOD,
     ];
-    let length = document.bytes.len() as u64;
-    ranges::answer(&asked, said, Cursor::new(document.bytes), length)
+    ranges::answer_with(&asked, said, document.bytes)
 }
 
 pub(super) async fn thumbnail(
     State(shared): State<Shared>,
     Path((tree, number)): Path<(String, u32)>,
-) -> Result<impl IntoResponse, Failure> {
+    asked: HeaderMap,
+) -> Result<Response, Failure> {
     let Some(picture) = shared.store.thumbnail(&tree, number).await? else {
         trees::stored(&shared, &tree).await?;
         return Err(Failure::none_such("picture", "version", "the number of a version that has a picture"));
     };
     let headers = [(header::CONTENT_TYPE, picture.media_type), (FOR_GOOD.0, FOR_GOOD.1.to_owned())];
-    Ok((headers, picture.bytes))
+    ranges::answer_with(&asked, headers, picture.bytes)
 }
 
 /// Where the picture of a version is, if it has one.
